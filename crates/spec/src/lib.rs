@@ -1,2 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Configuration, validation and every derived number of a Foveate design
+//! Configuration, validation and every derived number of a Foveate design.
+//!
+//! A [`Config`] is what a user writes; [`Config::validate`] turns it into a [`Design`], which is
+//! immutable and answers every question about itself: grid, score widths, latencies, port lists,
+//! fingerprint. Nothing downstream validates again or derives a width again. This crate does no
+//! I/O.
+
+mod config;
+mod decimal;
+mod design;
+mod error;
+mod feature;
+mod fingerprint;
+mod keys;
+mod parse;
+mod port;
+mod preset;
+mod reciprocal;
+mod timing;
+mod width;
+
+pub use config::{
+    Combine, Config, DecisionConfig, DenoiseConfig, FeatureKind, Filter, FrameConfig,
+    HardwareConfig, Irrelevant, Neighborhood, Organization, Payload, Reference, RegionConfig,
+    RenderConfig, SpatialConfig, TemporalConfig, Thresholds,
+};
+pub use decimal::Decimal;
+pub use design::{Design, Temporal};
+pub use error::SpecError;
+pub use feature::{Mean, SpatialFeature, Variance};
+pub use port::{Direction, Port, PortRole};
+pub use preset::{PRESETS, Preset};
+pub use reciprocal::Reciprocal;
+pub use timing::Timing;
+pub use width::{bits_for, mad_score_max};

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The configuration file as serde types: one struct per table, one default per key.
+//!
+//! The defaults are the paper's design. Unknown keys are refused before serde sees them, by
+//! [`crate::keys`], so that the message can name the nearest known key.
+
+use crate::Decimal;
+use serde::{Deserialize, Serialize};
+
+/// A whole configuration, as written in a file; see [`Config::validate`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Config {
+    /// Size and depth of a frame.
+    pub frame: FrameConfig,
+    /// Size of a region and what its windows see at its border.
+    pub region: RegionConfig,
+    /// The filter in front of every score.
+    pub denoise: DenoiseConfig,
+    /// One to four spatial features, each at most once.
+    pub spatial: Vec<SpatialConfig>,
+    /// How the votes of several features become SRS.
+    pub decision: DecisionConfig,
+    /// The temporal score and its reference.
+    pub temporal: TemporalConfig,
+    /// What becomes of a region on the screen.
+    pub render: RenderConfig,
+    /// How the array is built.
+    pub hardware: HardwareConfig,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            frame: FrameConfig::default(),
+            region: RegionConfig::default(),
+            denoise: DenoiseConfig::default(),
+            spatial: vec![SpatialConfig::new(FeatureKind::Edge)],
+            decision: DecisionConfig::default(),
+            temporal: TemporalConfig::default(),
+            render: RenderConfig::default(),
+            hardware: HardwareConfig::default(),
+        }
+    }
+}
+
+/// `[frame]`: size in pixels and bits per pixel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FrameConfig {
+    /// Width in pixels, 1..=16384; left out it is 224, or the input's when simulating.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<u32>,
+    /// Height in pixels, 1..=16384; left out it is 224, or the input's when simulating.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height: Option<u32>,
+    /// Bits per pixel P, 1..=16.
+    pub pixel_bits: u32,
+}
+
+impl Default for FrameConfig {
+    fn default() -> Self {
+        Self { width: None, height: None, pixel_bits: 8 }
+    }
+}
+
+/// `[region]`: side length N and neighborhood.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RegionConfig {
+    /// Side of a region N in pixels, 2..=64.
+    pub size: u32,
+    /// What a window sees beyond the region's border.
+    pub neighborhood: Neighborhood,
+}
+
+impl Default for RegionConfig {
+    fn default() -> Self {
+        Self { size: 8, neighborhood: Neighborhood::Isolated }
+    }
+}
+
+/// `[denoise]`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DenoiseConfig {
+    /// The filter.
+    pub filter: Filter,
+}
+
+/// `[[spatial]]`: one feature and its thresholds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpatialConfig {
+    /// Which feature.
+    pub feature: FeatureKind,
+    /// Per-pixel threshold of `edge` (default 100) and `corner` (default 20), in grey levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<u32>,
+    /// Per-region threshold: hits for `edge` and `corner` (default 5), grey levels for `mad`
+    /// (default 5), squared grey levels for `variance` (default 50); the last two may be decimal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_score: Option<Decimal>,
+    /// Fraction bits of the mean of `mad`, 0..=ceil(log2 n); 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_fraction_bits: Option<u32>,
+}
+
+impl SpatialConfig {
+    /// The feature with every threshold left at its default.
+    #[must_use]
+    pub fn new(feature: FeatureKind) -> Self {
+        Self { feature, level: None, min_score: None, mean_fraction_bits: None }
+    }
+}
+
+/// `[decision]`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DecisionConfig {
+    /// How the votes of several features are combined.
+    pub combine: Combine,
+}
+
+/// `[temporal]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TemporalConfig {
+    /// A pixel has changed when it differs by more than this many grey levels.
+    pub level: u32,
+    /// TRS is 1 when at least this many pixels have changed, 0..=n.
+    pub min_count: u32,
+    /// What a frame is compared with.
+    pub reference: Reference,
+}
+
+impl Default for TemporalConfig {
+    fn default() -> Self {
+        Self { level: 8, min_count: 5, reference: Reference::Previous }
+    }
+}
+
+/// `[render]`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RenderConfig {
+    /// What is shown where SRS is 0.
+    pub irrelevant: Irrelevant,
+    /// Which pixels an active region forwards.
+    pub payload: Payload,
+}
+
+/// `[hardware]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct HardwareConfig {
+    /// The structure of the array.
+    pub organization: Organization,
+    /// Regions per lane of the serial organization; 1 for `pipelined`.
+    pub fold: u32,
+    /// Whether thresholds are inputs of the core or constants in it.
+    pub thresholds: Thresholds,
+}
+
+impl Default for HardwareConfig {
+    fn default() -> Self {
+        Self { organization: Organization::Pipelined, fold: 1, thresholds: Thresholds::Runtime }
+    }
+}
+
+/// A key whose value is one of a few names.
+macro_rules! choice {
+    ($(#[$outer:meta])* $name:ident { $($(#[$inner:meta])* $variant:ident = $text:literal),+ $(,)? }) => {
+        $(#[$outer])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        pub enum $name { $($(#[$inner])* #[serde(rename = $text)] $variant),+ }
+
+        impl $name {
+            /// Every value, in the order of the documentation.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
+
+            /// The value as it is written in a configuration.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $text),+ }
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.pad(self.name())
+            }
+        }
+    };
+}
+
+choice! {
+    /// What a window sees beyond the border of its region.
+    Neighborhood {
+        /// The region's own border pixel, repeated.
+        Isolated = "isolated",
+        /// The real neighbors; only the frame's border repeats.
+        Shared = "shared",
+    }
+}
+choice! {
+    /// The filter in front of every score.
+    #[derive(Default)]
+    Filter {
+        /// No filter.
+        None = "none",
+        /// The fifth of the nine sorted values of a 3x3 window.
+        #[default]
+        Median3x3 = "median3x3",
+    }
+}
+choice! {
+    /// A spatial feature.
+    FeatureKind {
+        /// 3x3 Sobel: pixels with |Gx| + |Gy| > level.
+        Edge = "edge",
+        /// FAST 5/8: pixels with 5 contiguous neighbors all brighter or all darker by > level.
+        Corner = "corner",
+        /// Mean absolute deviation from the region's mean.
+        Mad = "mad",
+        /// Variance of the region.
+        Variance = "variance",
+    }
+}
+choice! {
+    /// How the votes of several features become SRS.
+    #[derive(Default)]
+    Combine {
+        /// One vote is enough.
+        #[default]
+        Any = "any",
+        /// Every feature must vote.
+        All = "all",
+    }
+}
+choice! {
+    /// What the temporal score compares a frame with.
+    Reference {
+        /// The previous frame.
+        Previous = "previous",
+        /// The region as it was when it was last active.
+        LastSent = "last-sent",
+    }
+}
+choice! {
+    /// What is shown where SRS is 0.
+    #[derive(Default)]
+    Irrelevant {
+        /// Zero.
+        #[default]
+        Zero = "zero",
+        /// The previous rendered pixels.
+        Hold = "hold",
+    }
+}
+choice! {
+    /// Which pixels an active region forwards.
+    #[derive(Default)]
+    Payload {
+        /// The pixels that were scored.
+        #[default]
+        Denoised = "denoised",
+        /// The pixels as they came in.
+        Raw = "raw",
+    }
+}
+choice! {
+    /// The structure of the array.
+    Organization {
+        /// One RPU per region, one pixel per clock.
+        Pipelined = "pipelined",
+        /// Small lanes under one sequencer.
+        Serial = "serial",
+    }
+}
+choice! {
+    /// Where the thresholds of a core come from.
+    Thresholds {
+        /// Input ports.
+        Runtime = "runtime",
+        /// Constants of the design.
+        Constant = "constant",
+    }
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A spatial feature with its thresholds as integers and its widths. Adding a feature starts here.
+
+use std::fmt::Display;
+
+use crate::width::{edge_magnitude_max, variance_score_max};
+use crate::{Decimal, FeatureKind, Reciprocal, SpatialConfig, SpecError, bits_for, mad_score_max};
+
+/// One feature of a design.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SpatialFeature {
+    kind: FeatureKind,
+    level: Option<u32>,
+    level_bits: u32,
+    min_score: u64,
+    score_max: u64,
+    mean: Option<Mean>,
+    variance: Option<Variance>,
+}
+
+/// How the mean of `mad` is formed: `floor((2^f * sum + floor(n/2)) / n)`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mean {
+    /// Fraction bits f of the mean.
+    pub fraction_bits: u32,
+    /// Bits of the sum of a region's pixels.
+    pub sum_bits: u32,
+    /// Bits of the mean, in units of `2^-f` grey levels.
+    pub mean_bits: u32,
+    /// Bits of the dividend `2^f * sum + floor(n/2)`.
+    pub dividend_bits: u32,
+    /// The division by n.
+    pub reciprocal: Reciprocal,
+}
+
+/// The accumulators of `variance`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variance {
+    /// Bits of the sum of a region's pixels.
+    pub sum_bits: u32,
+    /// Bits of the sum of their squares.
+    pub square_sum_bits: u32,
+    /// Bits of `n * sum(x^2)`, the minuend of the score.
+    pub product_bits: u32,
+}
+
+impl SpatialFeature {
+    /// The feature of entry `index`, for regions of `n` pixels up to `pixel_max`.
+    pub(crate) fn resolve(
+        config: &SpatialConfig,
+        index: usize,
+        n: u64,
+        pixel_max: u32,
+    ) -> Result<Self, SpecError> {
+        let entry = Entry { config, index };
+        let max = u64::from(pixel_max);
+        let fraction_bits = entry.fraction_bits(n)?;
+        let mean = (config.feature == FeatureKind::Mad).then(|| Mean::new(n, max, fraction_bits));
+        let variance = (config.feature == FeatureKind::Variance).then(|| Variance::new(n, max));
+        let (default_score, unit, score_max) = match config.feature {
+            FeatureKind::Edge | FeatureKind::Corner => (5, 1, n),
+            FeatureKind::Mad => (5, n << fraction_bits, mad_score_max(n, max, fraction_bits)),
+            FeatureKind::Variance => (50, n * n, variance_score_max(n, max)),
+        };
+        let (level, level_max) = match config.feature {
+            FeatureKind::Edge => (Some(entry.level(100, edge_magnitude_max(max))?), 6 * max),
+            FeatureKind::Corner => (Some(entry.level(20, max)?), max),
+            FeatureKind::Mad | FeatureKind::Variance => (entry.no_level()?, 0),
+        };
+        Ok(Self {
+            kind: config.feature,
+            level,
+            level_bits: bits_for(level_max),
+            min_score: entry.min_score(default_score, unit, score_max)?,
+            score_max,
+            mean,
+            variance,
+        })
+    }
+
+    /// Which feature.
+    #[must_use]
+    pub fn kind(&self) -> FeatureKind {
+        self.kind
+    }
+
+    /// The per-pixel threshold, for `edge` and `corner`.
+    #[must_use]
+    pub fn level(&self) -> Option<u32> {
+        self.level
+    }
+
+    /// Bits of the per-pixel threshold.
+    #[must_use]
+    pub fn level_bits(&self) -> u32 {
+        self.level_bits
+    }
+
+    /// The per-region threshold in units of the score: the feature votes when score >= this.
+    #[must_use]
+    pub fn min_score(&self) -> u64 {
+        self.min_score
+    }
+
+    /// The largest score that any region can have.
+    #[must_use]
+    pub fn score_max(&self) -> u64 {
+        self.score_max
+    }
+
+    /// Bits of the score and of its threshold.
+    #[must_use]
+    pub fn score_bits(&self) -> u32 {
+        bits_for(self.score_max)
+    }
+
+    /// The mean, for `mad`.
+    #[must_use]
+    pub fn mean(&self) -> Option<&Mean> {
+        self.mean.as_ref()
+    }
+
+    /// The accumulators, for `variance`.
+    #[must_use]
+    pub fn variance(&self) -> Option<&Variance> {
+        self.variance.as_ref()
+    }
+}
+
+impl FeatureKind {
+    /// Whether the feature looks at 3x3 windows.
+    #[must_use]
+    pub fn has_window(self) -> bool {
+        match self {
+            Self::Edge | Self::Corner => true,
+            Self::Mad | Self::Variance => false,
+        }
+    }
+
+    /// Whether the score needs the region a second time, once its mean is known.
+    #[must_use]
+    pub fn has_second_pass(self) -> bool {
+        match self {
+            Self::Mad => true,
+            Self::Edge | Self::Corner | Self::Variance => false,
+        }
+    }
+
+    /// Clocks from the step of the last pixel until the score is final.
+    pub(crate) fn score_latency(self) -> u32 {
+        match self {
+            Self::Edge | Self::Corner => 1,
+            Self::Mad | Self::Variance => 2,
+        }
+    }
+}
+
+impl Mean {
+    fn new(n: u64, pixel_max: u64, fraction_bits: u32) -> Self {
+        let dividend_max = ((n * pixel_max) << fraction_bits) + n / 2;
+        Self {
+            fraction_bits,
+            sum_bits: bits_for(n * pixel_max),
+            mean_bits: bits_for(dividend_max / n),
+            dividend_bits: bits_for(dividend_max),
+            reciprocal: Reciprocal::new(n, dividend_max),
+        }
+    }
+}
+
+impl Variance {
+    fn new(n: u64, pixel_max: u64) -> Self {
+        Self {
+            sum_bits: bits_for(n * pixel_max),
+            square_sum_bits: bits_for(n * pixel_max * pixel_max),
+            product_bits: bits_for(n * n * pixel_max * pixel_max),
+        }
+    }
+}
+
+/// One entry of `[[spatial]]`, to name its keys in errors.
+struct Entry<'a> {
+    config: &'a SpatialConfig,
+    index: usize,
+}
+
+impl Entry<'_> {
+    fn key(&self, name: &str) -> String {
+        format!("spatial[{}].{name}", self.index)
+    }
+
+    fn level(&self, default: u32, max: u64) -> Result<u32, SpecError> {
+        let level = self.config.level.unwrap_or(default);
+        if u64::from(level) > max {
+            return Err(self.out_of_range("level", &level, &format!("0..={max}")));
+        }
+        Ok(level)
+    }
+
+    fn no_level(&self) -> Result<Option<u32>, SpecError> {
+        match self.config.level {
+            None => Ok(None),
+            Some(level) => Err(self.does_not_apply("level", level)),
+        }
+    }
+
+    fn fraction_bits(&self, n: u64) -> Result<u32, SpecError> {
+        let max = crate::width::ceil_log2(n);
+        match (self.config.mean_fraction_bits, self.config.feature) {
+            (None, _) => Ok(0),
+            (Some(bits), FeatureKind::Mad) if bits <= max => Ok(bits),
+            (Some(bits), FeatureKind::Mad) => Err(self.out_of_range(
+                "mean_fraction_bits",
+                &bits,
+                &format!("0..={max}, with regions of {n} pixels,"),
+            )),
+            (Some(bits), _) => Err(self.does_not_apply("mean_fraction_bits", bits)),
+        }
+    }
+
+    /// The integer threshold; `unit` score units are one unit of the configuration.
+    fn min_score(&self, default: u64, unit: u64, score_max: u64) -> Result<u64, SpecError> {
+        let minimum = self.config.min_score.unwrap_or(Decimal::whole(default));
+        let counts = self.config.feature.has_window();
+        if counts && minimum.as_whole().is_none() {
+            return Err(SpecError::Type {
+                key: self.key("min_score"),
+                problem: format!("{minimum} is no whole number; it counts pixels"),
+            });
+        }
+        u64::try_from(minimum.ceil_times(unit)).ok().filter(|&score| score <= score_max).ok_or_else(
+            || {
+                let max = largest_threshold(score_max, unit);
+                self.out_of_range("min_score", &minimum, &format!("0..={max}"))
+            },
+        )
+    }
+
+    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str) -> SpecError {
+        let feature = self.config.feature;
+        SpecError::Range {
+            key: self.key(key),
+            value: value.to_string(),
+            valid: format!("{valid} for `{feature}`"),
+        }
+    }
+
+    fn does_not_apply(&self, key: &str, value: u32) -> SpecError {
+        SpecError::Combination {
+            key: self.key(key),
+            value: value.to_string(),
+            with: format!("feature = \"{}\"", self.config.feature),
+            remedy: "leave the key out".to_owned(),
+        }
+    }
+}
+
+/// `score_max / unit` as people read it, rounded down to four digits after the point.
+fn largest_threshold(score_max: u64, unit: u64) -> String {
+    let scaled = u128::from(score_max) * 10_000 / u128::from(unit);
+    let text = format!("{}.{:04}", scaled / 10_000, scaled % 10_000);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Reads a configuration from TOML text and `KEY=VALUE` overrides.
+
+use crate::{Config, SpecError, keys};
+use serde::Deserialize;
+use toml::{Table, Value};
+
+impl Config {
+    /// Reads a configuration; keys that are left out have their defaults.
+    ///
+    /// # Errors
+    /// When the text is no TOML, has an unknown key, or a value of the wrong type. Ranges are
+    /// checked by [`Config::validate`].
+    pub fn from_toml(text: &str) -> Result<Self, SpecError> {
+        Self::from_toml_with(text, &[] as &[&str])
+    }
+
+    /// Reads a configuration and applies `overrides` in order, each `dotted.key=TOML_VALUE`, with
+    /// an index for the array of features: `region.size=16`, `spatial.0.level=50`. A value that is
+    /// no TOML is taken as a string, so that quotes can be left out.
+    ///
+    /// # Errors
+    /// As [`Config::from_toml`]; also for an override that is not of that form.
+    pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, SpecError> {
+        let mut table: Table =
+            text.parse().map_err(|e: toml::de::Error| SpecError::Syntax(one_line(&e)))?;
+        for text in overrides {
+            apply(&mut table, text.as_ref())?;
+        }
+        keys::refuse_unknown(&table)?;
+        serde_path_to_error::deserialize(Value::Table(table)).map_err(|e| SpecError::Type {
+            key: e.path().to_string(),
+            problem: e.inner().message().to_owned(),
+        })
+    }
+
+    /// The configuration as a TOML file.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).unwrap_or_default()
+    }
+}
+
+/// The message of a syntax error with its place, without the drawing of the source line.
+fn one_line(error: &toml::de::Error) -> String {
+    let drawn = error.to_string();
+    let place = drawn.lines().next().unwrap_or_default().replace("TOML parse error ", "");
+    format!("{} ({place})", error.message().replace('\n', "; "))
+}
+
+fn apply(table: &mut Table, text: &str) -> Result<(), SpecError> {
+    let problem = |problem: String| SpecError::Override { text: text.to_owned(), problem };
+    let (path, value) = text
+        .split_once('=')
+        .ok_or_else(|| problem("expected KEY=VALUE, for example region.size=16".to_owned()))?;
+    let steps: Vec<&str> = path.trim().split('.').collect();
+    if steps.iter().any(|step| step.is_empty()) {
+        return Err(problem(format!("`{path}` is not a dotted key")));
+    }
+    *place(table, &steps).map_err(problem)? = literal(value.trim());
+    Ok(())
+}
+
+/// Follows a dotted path, making the tables that are missing, and returns where the value goes.
+fn place<'a>(table: &'a mut Table, steps: &[&str]) -> Result<&'a mut Value, String> {
+    let (first, rest) = steps.split_first().ok_or("the key is empty")?;
+    let mut here = table.entry(*first).or_insert_with(|| match (*first, rest.is_empty()) {
+        // `spatial.0.level` on a file without features means the default feature.
+        ("spatial", false) => default_features(),
+        _ => Value::Table(Table::new()),
+    });
+    for step in rest {
+        here = match here {
+            Value::Table(inner) => inner.entry(*step).or_insert_with(|| Value::Table(Table::new())),
+            Value::Array(items) => {
+                let count = items.len();
+                step.parse::<usize>().ok().and_then(|index| items.get_mut(index)).ok_or_else(
+                    || format!("`{step}` is not an index into `{first}`, which has {count} entries counted from 0"),
+                )?
+            }
+            _ => return Err(format!("`{step}` is inside a value that is not a table")),
+        };
+    }
+    Ok(here)
+}
+
+fn default_features() -> Value {
+    Value::try_from(&Config::default().spatial).unwrap_or_else(|_| Value::Array(Vec::new()))
+}
+
+fn literal(text: &str) -> Value {
+    #[derive(Deserialize)]
+    struct Wrapped {
+        value: Value,
+    }
+    toml::from_str::<Wrapped>(&format!("value = {text}"))
+        .map_or_else(|_| Value::String(text.to_owned()), |wrapped| wrapped.value)
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Named configurations to start from.
+
+use crate::{Config, SpecError};
+
+/// A named configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it is for, in one line.
+    pub summary: &'static str,
+    /// The keys that differ from the defaults, as TOML.
+    pub toml: &'static str,
+}
+
+/// Every preset; the first is the default.
+pub const PRESETS: &[Preset] = &[
+    Preset {
+        name: "paper",
+        summary: "the paper's design: 8x8 regions, median, edges, previous frame as reference",
+        toml: "",
+    },
+    Preset {
+        name: "bare",
+        summary: "edges without denoising: the ground of the paper's area table",
+        toml: "[denoise]\nfilter = \"none\"\n",
+    },
+    Preset {
+        name: "corner",
+        summary: "corners (FAST 5/8) instead of edges",
+        toml: "[[spatial]]\nfeature = \"corner\"\nlevel = 20\nmin_score = 2\n",
+    },
+    Preset {
+        name: "mad",
+        summary: "mean absolute deviation instead of edges, exact mean",
+        toml: "[[spatial]]\nfeature = \"mad\"\nmin_score = 5\nmean_fraction_bits = 6\n",
+    },
+    Preset {
+        name: "steady",
+        summary: "the paper's scores with a reference that cannot drift: last-sent pixels, held",
+        toml: "[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"hold\"\n",
+    },
+    Preset {
+        name: "seamless",
+        summary: "windows that see across region borders: equal to whole-frame processing",
+        toml: "[region]\nneighborhood = \"shared\"\n",
+    },
+];
+
+impl Preset {
+    /// The preset of that name.
+    ///
+    /// # Errors
+    /// When there is none; the message lists those that exist.
+    pub fn find(name: &str) -> Result<&'static Self, SpecError> {
+        PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| SpecError::UnknownPreset {
+            name: name.to_owned(),
+            known: PRESETS.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// Its configuration.
+    ///
+    /// # Errors
+    /// Never for the presets of this crate, which a test proves.
+    pub fn config(&self) -> Result<Config, SpecError> {
+        Config::from_toml(self.toml)
+    }
+}
