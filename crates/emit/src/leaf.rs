@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The hand-written leaf modules, and which of them a design needs.
+
+use foveate_spec::{Design, FeatureKind, Filter, Neighborhood, Reference};
+
+/// A hand-written module of `rtl/`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Leaf {
+    /// Name of the module and, with `.v`, of its file.
+    pub name: &'static str,
+    /// Its text.
+    pub contents: &'static str,
+    /// The leaves that it instantiates.
+    pub uses: &'static [&'static str],
+}
+
+macro_rules! leaves {
+    ($($name:literal => [$($uses:literal),*]),+ $(,)?) => {
+        /// Every leaf, each after those that it instantiates.
+        pub const LEAVES: &[Leaf] = &[$(Leaf {
+            name: $name,
+            contents: include_str!(concat!("../../../rtl/", $name, ".v")),
+            uses: &[$($uses),*],
+        }),+];
+    };
+}
+
+leaves! {
+    "line_delay" => [],
+    "window_isolated" => [],
+    "window_shared" => [],
+    "window_column" => ["line_delay"],
+    "median3x3" => [],
+    "magnitude_above" => [],
+    "edge_detector" => ["magnitude_above"],
+    "corner_detector" => [],
+    "position_counter" => [],
+    "frame_progress" => [],
+    "frame_store" => [],
+    "last_sent" => ["frame_store"],
+    "change_detector" => ["magnitude_above"],
+    "hit_counter" => [],
+    "candidate_count" => [],
+    "region_sum" => [],
+    "region_mean" => [],
+    "deviation_sum" => [],
+    "variance_score" => [],
+    "score_hold" => [],
+    "vote" => [],
+    "decision" => [],
+}
+
+/// The leaves that the RPU of `design` is made of, in compile order.
+pub(crate) fn of(design: &Design) -> impl Iterator<Item = &'static Leaf> {
+    let direct = instantiated(design);
+    LEAVES.iter().filter(move |leaf| {
+        let inside =
+            LEAVES.iter().filter(|l| direct.contains(&l.name)).any(|l| l.uses.contains(&leaf.name));
+        inside || direct.contains(&leaf.name)
+    })
+}
+
+/// The leaves that `rpu.v` instantiates itself.
+fn instantiated(design: &Design) -> Vec<&'static str> {
+    let mut names =
+        vec!["frame_progress", "frame_store", "change_detector", "hit_counter", "vote", "decision"];
+    let mut need = |condition: bool, leaves: &[&'static str]| {
+        if condition {
+            names.extend(leaves);
+        }
+    };
+    let denoise = design.filter() != Filter::None;
+    let window = design.has_feature_window();
+    need(denoise, &["median3x3"]);
+    need(design.keeps_raw(), &["line_delay"]);
+    if denoise || window {
+        need(true, &["window_column"]);
+        match design.neighborhood() {
+            Neighborhood::Isolated => need(true, &["window_isolated"]),
+            Neighborhood::Shared => need(true, &["window_shared"]),
+        }
+    }
+    need(!window, &["position_counter"]);
+    for feature in design.features() {
+        match feature.kind() {
+            FeatureKind::Edge => need(true, &["edge_detector"]),
+            FeatureKind::Corner => need(true, &["corner_detector"]),
+            FeatureKind::Mad => {
+                need(true, &["region_sum", "region_mean", "deviation_sum", "score_hold"]);
+            }
+            FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
+        }
+    }
+    let last_sent = design.temporal().reference == Reference::LastSent;
+    need(last_sent, &["last_sent"]);
+    need(last_sent && design.has_second_pass(), &["candidate_count"]);
+    names
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fills `rcm.v`.
+
+use crate::banner;
+use crate::verilog::{PortLine, text_of};
+use askama::Template;
+use foveate_spec::{Design, Port, PortRole};
+
+#[derive(Template)]
+#[template(path = "rcm.v")]
+struct Rcm {
+    banner: String,
+    columns: u32,
+    rows: u32,
+    ports: Vec<PortLine>,
+    pins: Vec<Pin>,
+}
+
+/// A port of the RPU and what the array connects it to.
+struct Pin {
+    name: String,
+    connection: String,
+}
+
+pub(crate) fn render(design: &Design) -> String {
+    let ports = design.rcm_ports();
+    let pins = design.rpu_ports().iter().map(|port| pin(port, &ports)).collect();
+    let view = Rcm {
+        banner: banner(design),
+        columns: design.columns(),
+        rows: design.rows(),
+        ports: PortLine::all(&ports),
+        pins,
+    };
+    text_of(&view)
+}
+
+fn pin(port: &Port, rcm_ports: &[Port]) -> Pin {
+    let name = port.name.clone();
+    let lanes = rcm_ports.iter().find(|outer| outer.name == name).map_or(1, |outer| outer.lanes);
+    let connection = match port.role {
+        PortRole::DecisionValid => "decision_valid[REGION]".to_owned(),
+        PortRole::Border => {
+            "{row == ROWS - 1, row == 0, column == COLUMNS - 1, column == 0}".to_owned()
+        }
+        _ if lanes == 1 => name.clone(),
+        _ if port.width == 1 => format!("{name}[REGION]"),
+        _ => format!("{name}[REGION*{0}+:{0}]", port.width),
+    };
+    Pin { name, connection }
+}

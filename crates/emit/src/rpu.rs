@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fills `rpu.v`: every number and name of the template is worked out here, from the design.
+
+use crate::banner;
+use crate::verilog::PortLine;
+use crate::verilog::text_of;
+use askama::Template;
+use foveate_spec::{
+    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PortRole, Reference,
+    SpatialFeature, Thresholds, bits_for,
+};
+
+#[derive(Template)]
+#[template(path = "rpu.v")]
+struct Rpu {
+    banner: String,
+    summary: String,
+    latency: String,
+    ports: Vec<PortLine>,
+    constants: Vec<Constant>,
+    // Geometry.
+    n: u32,
+    p: u32,
+    pixels: u32,
+    slot_bits: u32,
+    count_bits: u32,
+    stream_side: u32,
+    stream_side_bits: u32,
+    stream_pixels: u32,
+    median_slot_bits: u32,
+    window_side: u32,
+    window_side_bits: u32,
+    // What there is.
+    shared: bool,
+    border: bool,
+    median: bool,
+    window: bool,
+    keeps_raw: bool,
+    keeps_second: bool,
+    tail_delay: bool,
+    second_pass: bool,
+    last_sent: bool,
+    blanks: u32,
+    // Scores.
+    windowed: Vec<Windowed>,
+    sums: bool,
+    sum_bits: u32,
+    mad: Option<Mad>,
+    variance: Option<VarianceWidths>,
+    references: Vec<Candidate>,
+    temporal_level: String,
+    scores: Vec<Score>,
+    votes: Vec<String>,
+    all: u32,
+    decided_pixel: &'static str,
+    forward_pixel: &'static str,
+    unused: Vec<&'static str>,
+}
+
+/// A threshold that is built in.
+struct Constant {
+    name: String,
+    width: u32,
+    value: u64,
+}
+
+/// A feature that counts hits of a window.
+struct Windowed {
+    name: &'static str,
+    level: String,
+    /// Parameters of its detector beside the width of a pixel.
+    parameters: String,
+}
+
+struct Mad {
+    fraction: u32,
+    mean_bits: u32,
+    dividend_bits: u32,
+    factor: u64,
+    factor_bits: u32,
+    shift: u32,
+    score_bits: u32,
+}
+
+struct VarianceWidths {
+    square_sum_bits: u32,
+    product_bits: u32,
+    score_bits: u32,
+}
+
+/// Something that the temporal score may have to compare with.
+struct Candidate {
+    name: &'static str,
+    /// The condition under which every pixel counts as changed, with `||` behind it.
+    missing: &'static str,
+}
+
+/// A score on its way to its port and its vote.
+struct Score {
+    name: String,
+    width: u32,
+    minimum: String,
+    /// Whether it waits for a feature with a second pass.
+    held: bool,
+}
+
+pub(crate) fn render(design: &Design) -> String {
+    text_of(&view(design))
+}
+
+fn view(design: &Design) -> Rpu {
+    let second_pass = design.has_second_pass();
+    let last_sent = design.temporal().reference == Reference::LastSent;
+    let keeps_raw = design.keeps_raw();
+    let shared = design.neighborhood() == Neighborhood::Shared;
+    let features = design.features();
+    let sum_bits = bits_for(u64::from(design.region_pixels()) * u64::from(design.pixel_max()));
+    let window_side = window_side(design);
+    let median_side = design.stream_side() - if shared { 2 } else { 0 };
+    let side_bits = |side: u32| bits_for(u64::from(side) - 1);
+    Rpu {
+        banner: banner(design),
+        summary: summary(design),
+        latency: latency(design),
+        ports: PortLine::all(&design.rpu_ports()),
+        constants: constants(design),
+        n: design.region_size(),
+        p: design.pixel_bits(),
+        pixels: design.region_pixels(),
+        slot_bits: design.slot_bits(),
+        count_bits: design.count_bits(),
+        stream_side: design.stream_side(),
+        stream_side_bits: side_bits(design.stream_side()),
+        stream_pixels: design.stream_pixels(),
+        median_slot_bits: bits_for(u64::from(median_side * median_side) - 1),
+        window_side,
+        window_side_bits: side_bits(window_side),
+        shared,
+        border: design.needs_border(),
+        median: design.filter() != Filter::None,
+        window: design.has_feature_window(),
+        keeps_raw,
+        keeps_second: second_pass && (last_sent || !keeps_raw),
+        tail_delay: design.timing().tail_delay > 0,
+        second_pass,
+        last_sent,
+        blanks: u32::from(design.irrelevant() == Irrelevant::Zero),
+        windowed: features.iter().filter_map(|f| windowed(design, f)).collect(),
+        sums: features.iter().any(|f| f.mean().is_some() || f.variance().is_some()),
+        sum_bits,
+        mad: design.feature(FeatureKind::Mad).and_then(mad),
+        variance: design.feature(FeatureKind::Variance).and_then(variance),
+        references: candidates(last_sent, second_pass),
+        temporal_level: signal(design, PortRole::TemporalLevel),
+        scores: scores(design),
+        votes: features.iter().map(|f| format!("{}_score", f.kind())).collect(),
+        all: u32::from(design.combine() == Combine::All),
+        decided_pixel: if second_pass { "second_pixel" } else { "previous_pixel" },
+        forward_pixel: match (second_pass, keeps_raw) {
+            (false, false) => "previous_pixel",
+            (false, true) => "previous_raw",
+            (true, false) => "second_pixel",
+            (true, true) => "second_raw",
+        },
+        unused: unused(last_sent, second_pass),
+    }
+}
+
+/// Side of the stream that the feature window takes.
+fn window_side(design: &Design) -> u32 {
+    let behind_median = design.filter() != Filter::None;
+    match design.neighborhood() {
+        Neighborhood::Isolated => design.region_size(),
+        Neighborhood::Shared if behind_median => design.stream_side() - 2,
+        Neighborhood::Shared => design.stream_side(),
+    }
+}
+
+fn summary(design: &Design) -> String {
+    let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
+    format!(
+        "{} ({}), temporal against {}; {} neighborhood, filter {}",
+        names.join(", "),
+        design.combine(),
+        design.temporal().reference,
+        design.neighborhood(),
+        design.filter()
+    )
+}
+
+fn latency(design: &Design) -> String {
+    let timing = design.timing();
+    let of = if timing.decision_frames == 0 { "its frame" } else { "the frame after it" };
+    format!(
+        "a decision is valid {} clocks after the edge that takes the last pixel of {of}",
+        timing.decision_latency
+    )
+}
+
+/// The input port of a threshold, or the constant that takes its place.
+fn signal(design: &Design, role: PortRole) -> String {
+    match design.thresholds() {
+        Thresholds::Runtime => design
+            .rpu_ports()
+            .into_iter()
+            .find(|port| port.role == role)
+            .map_or_else(String::new, |port| port.name),
+        Thresholds::Constant => constant_name(role),
+    }
+}
+
+fn constant_name(role: PortRole) -> String {
+    let upper = |kind: FeatureKind| kind.name().to_uppercase();
+    match role {
+        PortRole::Level(kind) => format!("{}_LEVEL", upper(kind)),
+        PortRole::MinScore(kind) => format!("{}_MIN", upper(kind)),
+        PortRole::TemporalLevel => "TEMPORAL_LEVEL".to_owned(),
+        PortRole::TemporalMinCount => "TEMPORAL_MIN".to_owned(),
+        _ => String::new(),
+    }
+}
+
+fn constants(design: &Design) -> Vec<Constant> {
+    if design.thresholds() == Thresholds::Runtime {
+        return Vec::new();
+    }
+    let mut list = Vec::new();
+    let mut add = |role, width, value| {
+        list.push(Constant { name: constant_name(role), width, value });
+    };
+    for feature in design.features() {
+        if let Some(level) = feature.level() {
+            add(PortRole::Level(feature.kind()), feature.level_bits(), level.into());
+        }
+        add(PortRole::MinScore(feature.kind()), feature.score_bits(), feature.min_score());
+    }
+    let temporal = design.temporal();
+    add(PortRole::TemporalLevel, design.pixel_bits(), temporal.level.into());
+    add(PortRole::TemporalMinCount, design.count_bits(), temporal.min_count.into());
+    list
+}
+
+fn windowed(design: &Design, feature: &SpatialFeature) -> Option<Windowed> {
+    let kind = feature.kind();
+    let parameters = match kind {
+        FeatureKind::Edge => format!(", .LEVEL_BITS({})", feature.level_bits()),
+        FeatureKind::Corner => String::new(),
+        FeatureKind::Mad | FeatureKind::Variance => return None,
+    };
+    let level = signal(design, PortRole::Level(kind));
+    Some(Windowed { name: kind.name(), level, parameters })
+}
+
+fn mad(feature: &SpatialFeature) -> Option<Mad> {
+    feature.mean().map(|mean| Mad {
+        fraction: mean.fraction_bits,
+        mean_bits: mean.mean_bits,
+        dividend_bits: mean.dividend_bits,
+        factor: mean.reciprocal.multiplier(),
+        factor_bits: bits_for(mean.reciprocal.multiplier()),
+        shift: mean.reciprocal.shift(),
+        score_bits: feature.score_bits(),
+    })
+}
+
+fn variance(feature: &SpatialFeature) -> Option<VarianceWidths> {
+    feature.variance().map(|widths| VarianceWidths {
+        square_sum_bits: widths.square_sum_bits,
+        product_bits: widths.product_bits,
+        score_bits: feature.score_bits(),
+    })
+}
+
+/// With a second pass the decision of the previous frame comes too late to choose between the
+/// previous frame and what was sent before, so both are counted.
+fn candidates(last_sent: bool, second_pass: bool) -> Vec<Candidate> {
+    match (last_sent, second_pass) {
+        (false, _) => vec![Candidate { name: "previous", missing: "!stored || " }],
+        (true, false) => vec![Candidate { name: "sent", missing: "!sent_valid || " }],
+        (true, true) => vec![
+            Candidate { name: "previous", missing: "" },
+            Candidate { name: "sent", missing: "" },
+        ],
+    }
+}
+
+fn scores(design: &Design) -> Vec<Score> {
+    let second_pass = design.has_second_pass();
+    let mut list: Vec<_> = design
+        .features()
+        .iter()
+        .map(|feature| Score {
+            name: format!("{}_score", feature.kind()),
+            width: feature.score_bits(),
+            minimum: signal(design, PortRole::MinScore(feature.kind())),
+            held: second_pass && !feature.kind().has_second_pass(),
+        })
+        .collect();
+    list.push(Score {
+        name: "temporal_count".to_owned(),
+        width: design.count_bits(),
+        minimum: signal(design, PortRole::TemporalMinCount),
+        held: second_pass,
+    });
+    list
+}
+
+/// Flags that this design has no use for.
+fn unused(last_sent: bool, second_pass: bool) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    if !second_pass {
+        names.push("second");
+    }
+    if last_sent && !second_pass {
+        names.push("stored");
+    }
+    names
+}

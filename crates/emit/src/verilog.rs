@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The Verilog of a design, in compile order.
+
+use crate::{SourceFile, leaf, rcm, rpu};
+use askama::Template;
+use foveate_spec::{Design, Direction, Port};
+
+/// Which module is on top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Top {
+    /// One regional processing unit, module `rpu`.
+    Rpu,
+    /// The whole array, module `rcm`.
+    Rcm,
+}
+
+impl Top {
+    /// Name of the module.
+    #[must_use]
+    pub fn module(self) -> &'static str {
+        match self {
+            Self::Rpu => "rpu",
+            Self::Rcm => "rcm",
+        }
+    }
+
+    /// Its ports.
+    #[must_use]
+    pub fn ports(self, design: &Design) -> Vec<Port> {
+        match self {
+            Self::Rpu => design.rpu_ports(),
+            Self::Rcm => design.rcm_ports(),
+        }
+    }
+}
+
+/// The modules that `top` is made of, each after those it instantiates.
+#[must_use]
+pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
+    let file =
+        |name: &str, contents: String| SourceFile { path: format!("rtl/{name}.v"), contents };
+    let mut files: Vec<_> =
+        leaf::of(design).map(|leaf| file(leaf.name, leaf.contents.to_owned())).collect();
+    files.push(file("rpu", rpu::render(design)));
+    match top {
+        Top::Rpu => {}
+        Top::Rcm => files.push(file("rcm", rcm::render(design))),
+    }
+    files
+}
+
+/// A filled template, ending in the newline that askama drops.
+pub(crate) fn text_of(view: &impl Template) -> String {
+    let text = view.render();
+    text.map_or_else(|e| unreachable!("a template only fails when writing does: {e}"), |t| t + "\n")
+}
+
+/// A port as a line of a module header.
+pub(crate) struct PortLine {
+    pub(crate) declaration: String,
+    pub(crate) doc: String,
+}
+
+impl PortLine {
+    /// The lines for `ports`, aligned.
+    pub(crate) fn all(ports: &[Port]) -> Vec<Self> {
+        let ranges: Vec<_> = ports.iter().map(range).collect();
+        let width = ranges.iter().map(String::len).max().unwrap_or(0);
+        let line = |(port, range): (&Port, &String)| Self {
+            declaration: format!("{} wire {range:width$} {}", direction(port), port.name),
+            doc: port.doc.clone(),
+        };
+        ports.iter().zip(&ranges).map(line).collect()
+    }
+}
+
+fn direction(port: &Port) -> &'static str {
+    match port.direction {
+        Direction::Input => "input ",
+        Direction::Output => "output",
+    }
+}
+
+/// `[7:0]`; nothing for a single bit.
+fn range(port: &Port) -> String {
+    if port.bits() == 1 { String::new() } else { format!("[{}:0]", port.bits() - 1) }
+}

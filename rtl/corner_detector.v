@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// FAST 5/8: hit when at least 5 contiguous of the 8 neighbors are all brighter than the center by
+// more than level, or all darker by more than level.
+`default_nettype none
+
+module corner_detector #(
+    parameter WIDTH = 8  // bits of a pixel
+) (
+    input  wire             clk_i,
+    input  wire             advance_i,
+    input  wire             left_i,    // the incoming column is the first of its row
+    input  wire             right_i,   // the center is the last of its row
+    input  wire [WIDTH-1:0] upper_i,   // the incoming column
+    input  wire [WIDTH-1:0] middle_i,
+    input  wire [WIDTH-1:0] lower_i,
+    input  wire [WIDTH-1:0] level_i,
+    output wire             hit_o      // of the center, with the incoming column on its right
+);
+
+    localparam COLUMN = 3 * WIDTH;
+
+    wire [COLUMN-1:0] incoming = {lower_i, middle_i, upper_i};
+    reg  [COLUMN-1:0] center_q;
+    reg  [COLUMN-1:0] left_q;
+
+    always @(posedge clk_i) begin
+        if (advance_i) begin
+            center_q <= incoming;
+            left_q   <= left_i ? incoming : center_q;
+        end
+    end
+
+    wire [COLUMN-1:0] right = right_i ? center_q : incoming;
+    wire [ WIDTH-1:0] center = center_q[WIDTH+:WIDTH];
+
+    // Clockwise from the upper left neighbor, which is in the lowest bits.
+    wire [8*WIDTH-1:0] ring = {
+        left_q[WIDTH+:WIDTH],
+        left_q[2*WIDTH+:WIDTH],
+        center_q[2*WIDTH+:WIDTH],
+        right[2*WIDTH+:WIDTH],
+        right[WIDTH+:WIDTH],
+        right[0+:WIDTH],
+        center_q[0+:WIDTH],
+        left_q[0+:WIDTH]
+    };
+
+    wire [WIDTH:0] brighter_than = {1'b0, center} + {1'b0, level_i};
+    wire [7:0] brighter;
+    wire [7:0] darker;
+    wire [7:0] bright_run;
+    wire [7:0] dark_run;
+
+    genvar i;
+    generate
+        for (i = 0; i < 8; i = i + 1) begin : g_ring
+            wire [WIDTH:0] neighbor = {1'b0, ring[i*WIDTH+:WIDTH]};
+            assign brighter[i]   = neighbor > brighter_than;
+            assign darker[i]     = neighbor + {1'b0, level_i} < {1'b0, center};
+            assign bright_run[i] = brighter[i] && brighter[(i+1)%8] && brighter[(i+2)%8]
+                                   && brighter[(i+3)%8] && brighter[(i+4)%8];
+            assign dark_run[i]   = darker[i] && darker[(i+1)%8] && darker[(i+2)%8]
+                                   && darker[(i+3)%8] && darker[(i+4)%8];
+        end
+    endgenerate
+
+    assign hit_o = |bright_run || |dark_run;
+
+endmodule
+
+`default_nettype wire

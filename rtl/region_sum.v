@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Adds up the values of a frame, one per step.
+`default_nettype none
+
+module region_sum #(
+    parameter WIDTH = 8,    // bits of a value
+    parameter SUM_BITS = 14 // bits of the sum
+) (
+    input  wire                clk_i,
+    input  wire                rst_i,
+    input  wire                step_i,
+    input  wire                last_i,   // it is the last of the frame
+    input  wire [   WIDTH-1:0] value_i,
+    output reg                 done_o,   // the sum is that of a whole frame
+    output reg  [SUM_BITS-1:0] sum_o
+);
+
+    wire [SUM_BITS-1:0] value = {{(SUM_BITS - WIDTH) {1'b0}}, value_i};
+
+    always @(posedge clk_i) begin
+        if (rst_i) begin
+            done_o <= 1'b0;
+            sum_o  <= {SUM_BITS{1'b0}};
+        end else begin
+            done_o <= step_i && last_i;
+            if (step_i) sum_o <= (done_o ? {SUM_BITS{1'b0}} : sum_o) + value;
+            else if (done_o) sum_o <= {SUM_BITS{1'b0}};
+        end
+    end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// {= banner =}
+//
+// Relevance computation module: {= columns =} x {= rows =} regional processing units, region row * {= columns =} + column
+// in the lane of that number. All take their pixels at the same clocks and decide together.
+`default_nettype none
+
+module rcm (
+{%- for port in ports %}
+    {= port.declaration =}{% if !loop.last %},{% endif %}  // {= port.doc =}
+{%- endfor %}
+);
+
+    localparam COLUMNS = {= columns =};
+    localparam ROWS = {= rows =};
+
+    wire [COLUMNS*ROWS-1:0] decision_valid;
+
+    genvar row, column;
+    generate
+        for (row = 0; row < ROWS; row = row + 1) begin : g_row
+            for (column = 0; column < COLUMNS; column = column + 1) begin : g_column
+                localparam REGION = row * COLUMNS + column;
+
+                rpu u_rpu (
+{%- for pin in pins %}
+                    .{= pin.name =}({= pin.connection =}){% if !loop.last %},{% endif %}
+{%- endfor %}
+                );
+            end
+        end
+    endgenerate
+
+    // Every unit says the same.
+    assign decision_valid_o = decision_valid[0];
+    wire unused_decision_valid = |decision_valid;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// {= banner =}
+//
+// Regional processing unit: one {= n =}x{= n =} region of {= p =}-bit pixels, {= stream_pixels =} pixels per frame.
+//   scores   {= summary =}
+//   latency  {= latency =}
+//
+// Ports change at the rising edge of clk_i. Thresholds are read when they are used: keep them still
+// while a frame is under way.
+`default_nettype none
+
+module rpu (
+{%- for port in ports %}
+    {= port.declaration =}{% if !loop.last %},{% endif %}  // {= port.doc =}
+{%- endfor %}
+);
+{%- for constant in constants %}
+    localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
+{%- endfor %}
+{%- if median %}
+
+    // Denoise.
+    wire raw_advance, raw_step, raw_top, raw_bottom, raw_left, raw_right;
+    wire [{= p - 1 =}:0] raw_upper, raw_middle, raw_lower, raw_center;
+    wire [{= median_slot_bits - 1 =}:0] unused_raw_slot;
+    wire unused_raw_last;
+    wire clean_valid;
+    wire [{= p - 1 =}:0] clean_pixel;
+    {%- if shared %}
+
+    window_shared #(.SIDE({= stream_side =}), .SIDE_BITS({= stream_side_bits =}), .SLOT_BITS({= median_slot_bits =})) u_raw_window (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .border_i(4'b0000),
+        .advance_o(raw_advance), .step_o(raw_step), .slot_o(unused_raw_slot), .last_o(unused_raw_last),
+        .top_o(raw_top), .bottom_o(raw_bottom), .left_o(raw_left), .right_o(raw_right)
+    );
+    {%- else %}
+
+    window_isolated #(.SIDE({= n =}), .SLOT_BITS({= slot_bits =})) u_raw_window (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i),
+        .advance_o(raw_advance), .step_o(raw_step), .slot_o(unused_raw_slot), .last_o(unused_raw_last),
+        .top_o(raw_top), .bottom_o(raw_bottom), .left_o(raw_left), .right_o(raw_right)
+    );
+    {%- endif %}
+
+    window_column #(.WIDTH({= p =}), .SIDE({= stream_side =})) u_raw_column (
+        .clk_i(clk_i), .advance_i(raw_advance), .top_i(raw_top), .bottom_i(raw_bottom), .pixel_i(pixel_i),
+        .upper_o(raw_upper), .middle_o(raw_middle), .lower_o(raw_lower), .center_o(raw_center)
+    );
+
+    median3x3 #(.WIDTH({= p =})) u_median (
+        .clk_i(clk_i), .rst_i(rst_i), .advance_i(raw_advance), .step_i(raw_step),
+        .left_i(raw_left), .right_i(raw_right),
+        .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower),
+        .valid_o(clean_valid), .median_o(clean_pixel)
+    );
+    {%- if keeps_raw %}
+
+    // The raw center keeps step with the median.
+    wire [{= p - 1 =}:0] clean_raw;
+    line_delay #(.WIDTH({= p =}), .DEPTH(2)) u_clean_raw (
+        .clk_i(clk_i), .advance_i(1'b1), .data_i(raw_center), .data_o(clean_raw)
+    );
+    {%- else %}
+    wire unused_raw_center = |raw_center;
+    {%- endif %}
+{%- else %}
+
+    wire clean_valid = valid_i;
+    wire [{= p - 1 =}:0] clean_pixel = pixel_i;
+{%- endif %}
+{%- if window %}
+
+    // Windows of the features.
+    wire window_advance, window_top, window_bottom, window_left, window_right;
+    wire [{= p - 1 =}:0] window_upper, window_middle, window_lower;
+{%- endif %}
+    wire front_step, front_last;
+    wire [{= slot_bits - 1 =}:0] front_slot;
+    wire [{= p - 1 =}:0] front_pixel;
+{%- if keeps_raw %}
+    wire [{= p - 1 =}:0] front_raw;
+{%- endif %}
+{%- if window %}
+    {%- if shared %}
+
+    window_shared #(.SIDE({= window_side =}), .SIDE_BITS({= window_side_bits =}), .SLOT_BITS({= slot_bits =})) u_window (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(clean_valid), .border_i({% if border %}border_i{% else %}4'b0000{% endif %}),
+        .advance_o(window_advance), .step_o(front_step), .slot_o(front_slot), .last_o(front_last),
+        .top_o(window_top), .bottom_o(window_bottom), .left_o(window_left), .right_o(window_right)
+    );
+    {%- else %}
+
+    window_isolated #(.SIDE({= n =}), .SLOT_BITS({= slot_bits =})) u_window (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(clean_valid),
+        .advance_o(window_advance), .step_o(front_step), .slot_o(front_slot), .last_o(front_last),
+        .top_o(window_top), .bottom_o(window_bottom), .left_o(window_left), .right_o(window_right)
+    );
+    {%- endif %}
+
+    window_column #(.WIDTH({= p =}), .SIDE({= window_side =})) u_column (
+        .clk_i(clk_i), .advance_i(window_advance), .top_i(window_top), .bottom_i(window_bottom),
+        .pixel_i(clean_pixel), .upper_o(window_upper), .middle_o(window_middle),
+        .lower_o(window_lower), .center_o(front_pixel)
+    );
+    {%- if keeps_raw %}
+
+    line_delay #(.WIDTH({= p =}), .DEPTH({= window_side + 1 =})) u_front_raw (
+        .clk_i(clk_i), .advance_i(window_advance), .data_i(clean_raw), .data_o(front_raw)
+    );
+    {%- endif %}
+{%- else %}
+    assign front_step = clean_valid;
+    assign front_pixel = clean_pixel;
+    {%- if keeps_raw %}
+    assign front_raw = clean_raw;
+    {%- endif %}
+
+    position_counter #(.PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_position (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .slot_o(front_slot), .last_o(front_last)
+    );
+{%- endif %}
+{%- for feature in windowed %}
+
+    wire {= feature.name =}_hit;
+    {= feature.name =}_detector #(.WIDTH({= p =}){= feature.parameters =}) u_{= feature.name =} (
+        .clk_i(clk_i), .advance_i(window_advance), .left_i(window_left), .right_i(window_right),
+        .upper_i(window_upper), .middle_i(window_middle), .lower_i(window_lower),
+        .level_i({= feature.level =}), .hit_o({= feature.name =}_hit)
+    );
+{%- endfor %}
+{%- if sums %}
+
+    // Sums of the region, complete a clock before the tail.
+    wire sum_done;
+    wire [{= sum_bits - 1 =}:0] pixel_sum;
+    region_sum #(.WIDTH({= p =}), .SUM_BITS({= sum_bits =})) u_pixel_sum (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .last_i(front_last),
+        .value_i(front_pixel), .done_o(sum_done), .sum_o(pixel_sum)
+    );
+{%- endif %}
+{%- if tail_delay %}
+
+    // The tail runs a clock behind, so that every score is final at once.
+    reg tail_step, tail_last;
+    reg [{= slot_bits - 1 =}:0] tail_slot = {= slot_bits =}'d0;  // initial value: keeps it out of the store's port
+    reg [{= p - 1 =}:0] tail_pixel;
+    {%- if keeps_raw %}
+    reg [{= p - 1 =}:0] tail_raw;
+    {%- endif %}
+    {%- for feature in windowed %}
+    reg tail_{= feature.name =}_hit;
+    {%- endfor %}
+    always @(posedge clk_i) begin
+        tail_step <= front_step && !rst_i;
+        tail_last <= front_last;
+        tail_slot <= front_slot;
+        tail_pixel <= front_pixel;
+        {%- if keeps_raw %}
+        tail_raw <= front_raw;
+        {%- endif %}
+        {%- for feature in windowed %}
+        tail_{= feature.name =}_hit <= {= feature.name =}_hit;
+        {%- endfor %}
+    end
+{%- else %}
+
+    wire tail_step = front_step;
+    wire tail_last = front_last;
+    wire [{= slot_bits - 1 =}:0] tail_slot = front_slot;
+    wire [{= p - 1 =}:0] tail_pixel = front_pixel;
+    {%- if keeps_raw %}
+    wire [{= p - 1 =}:0] tail_raw = front_raw;
+    {%- endif %}
+    {%- for feature in windowed %}
+    wire tail_{= feature.name =}_hit = {= feature.name =}_hit;
+    {%- endfor %}
+{%- endif %}
+
+    wire done, stored, second;
+    frame_progress u_progress (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .last_i(tail_last),
+        .done_o(done), .stored_o(stored), .second_o(second)
+    );
+    wire decided = {% if second_pass %}done && second{% else %}done{% endif %};
+    assign decision_valid_o = decided;
+    wire srs, forward;
+
+    // The frames before this one, read as they are overwritten.
+    wire [{= p - 1 =}:0] previous_pixel;
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_previous (
+        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(tail_pixel), .data_o(previous_pixel)
+    );
+{%- if keeps_second %}
+    wire [{= p - 1 =}:0] second_pixel;
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_second (
+        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(previous_pixel), .data_o(second_pixel)
+    );
+{%- endif %}
+{%- if keeps_raw %}
+    wire [{= p - 1 =}:0] previous_raw;
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_previous_raw (
+        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(tail_raw), .data_o(previous_raw)
+    );
+    {%- if second_pass %}
+    wire [{= p - 1 =}:0] second_raw;
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_second_raw (
+        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(previous_raw), .data_o(second_raw)
+    );
+    {%- endif %}
+{%- endif %}
+
+    // Temporal score.
+{%- if last_sent %}
+    wire [{= p - 1 =}:0] sent_pixel;
+    wire sent_valid;
+    last_sent #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =}), .BLANKS({= blanks =})) u_last_sent (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .slot_i(tail_slot), .decided_i(decided),
+        .srs_i(srs), .forward_i(forward), .pixel_i({= decided_pixel =}),
+        .reference_o(sent_pixel), .valid_o(sent_valid)
+    );
+{%- endif %}
+{%- for reference in references %}
+    wire {= reference.name =}_changed;
+    change_detector #(.WIDTH({= p =})) u_{= reference.name =}_change (
+        .pixel_i(tail_pixel), .reference_i({= reference.name =}_pixel), .level_i({= temporal_level =}),
+        .hit_o({= reference.name =}_changed)
+    );
+    wire [{= count_bits - 1 =}:0] {= reference.name =}_count;
+    hit_counter #(.WIDTH({= count_bits =})) u_{= reference.name =}_count (
+        .clk_i(clk_i), .rst_i(rst_i), .restart_i(done),
+        .hit_i(tail_step && ({= reference.missing =}{= reference.name =}_changed)), .count_o({= reference.name =}_count)
+    );
+{%- endfor %}
+{%- if references.len() > 1 %}
+    wire [{= count_bits - 1 =}:0] temporal_count;
+    candidate_count #(.WIDTH({= count_bits =}), .PIXELS({= pixels =})) u_temporal_count (
+        .previous_sent_i(forward), .valid_i(sent_valid),
+        .previous_count_i(previous_count), .kept_count_i(sent_count), .count_o(temporal_count)
+    );
+{%- else %}
+    wire [{= count_bits - 1 =}:0] temporal_count = {= references[0].name =}_count;
+{%- endif %}
+
+    // Spatial scores.
+{%- for feature in windowed %}
+    wire [{= count_bits - 1 =}:0] {= feature.name =}_score;
+    hit_counter #(.WIDTH({= count_bits =})) u_{= feature.name =}_count (
+        .clk_i(clk_i), .rst_i(rst_i), .restart_i(done), .hit_i(tail_step && tail_{= feature.name =}_hit),
+        .count_o({= feature.name =}_score)
+    );
+{%- endfor %}
+{%- if let Some(variance) = variance %}
+    wire [{= 2 * p - 1 =}:0] square = front_pixel * front_pixel;
+    wire [{= variance.square_sum_bits - 1 =}:0] square_sum;
+    wire square_done;
+    region_sum #(.WIDTH({= 2 * p =}), .SUM_BITS({= variance.square_sum_bits =})) u_square_sum (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .last_i(front_last),
+        .value_i(square), .done_o(square_done), .sum_o(square_sum)
+    );
+    wire [{= variance.score_bits - 1 =}:0] variance_score;
+    variance_score #(
+        .PIXELS({= pixels =}), .SUM_BITS({= sum_bits =}), .SQUARE_SUM_BITS({= variance.square_sum_bits =}),
+        .PRODUCT_BITS({= variance.product_bits =}), .SCORE_BITS({= variance.score_bits =})
+    ) u_variance (
+        .clk_i(clk_i), .rst_i(rst_i), .done_i(square_done), .sum_i(pixel_sum), .square_sum_i(square_sum),
+        .score_o(variance_score)
+    );
+    {%- if mad.is_none() %}
+    wire unused_sum_done = sum_done;
+    {%- endif %}
+{%- endif %}
+{%- if let Some(mad) = mad %}
+    wire [{= mad.mean_bits - 1 =}:0] mean;
+    region_mean #(
+        .SUM_BITS({= sum_bits =}), .FRACTION({= mad.fraction =}), .DIVIDEND_BITS({= mad.dividend_bits =}),
+        .MEAN_BITS({= mad.mean_bits =}), .FACTOR_BITS({= mad.factor_bits =}),
+        .HALF({= mad.dividend_bits =}'d{= pixels / 2 =}), .FACTOR({= mad.factor_bits =}'d{= mad.factor =}), .SHIFT({= mad.shift =})
+    ) u_mean (
+        .clk_i(clk_i), .done_i(sum_done), .sum_i(pixel_sum), .mean_o(mean)
+    );
+    wire [{= mad.score_bits - 1 =}:0] mad_score;
+    deviation_sum #(
+        .WIDTH({= p =}), .FRACTION({= mad.fraction =}), .MEAN_BITS({= mad.mean_bits =}), .SUM_BITS({= mad.score_bits =})
+    ) u_deviation (
+        .clk_i(clk_i), .rst_i(rst_i), .enable_i(stored), .restart_i(done), .step_i(tail_step),
+        .pixel_i(previous_pixel), .mean_i(mean), .sum_o(mad_score)
+    );
+{%- endif %}
+
+    // Decision.
+{%- for score in scores %}
+    {%- if score.held %}
+    score_hold #(.WIDTH({= score.width =})) u_{= score.name =}_hold (
+        .clk_i(clk_i), .rst_i(rst_i), .load_i(done), .score_i({= score.name =}), .score_o({= score.name =}_o)
+    );
+    {%- else %}
+    assign {= score.name =}_o = {= score.name =};
+    {%- endif %}
+    wire {= score.name =}_vote;
+    vote #(.WIDTH({= score.width =})) u_{= score.name =}_vote (
+        .score_i({= score.name =}_o), .minimum_i({= score.minimum =}), .vote_o({= score.name =}_vote)
+    );
+{%- endfor %}
+    decision #(.FEATURES({= votes.len() =}), .ALL({= all =})) u_decision (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(decided),
+        .votes_i({ {%- for vote in votes %}{% if !loop.first %}, {% endif %}{= vote =}_vote{% endfor -%} }), .trs_i(temporal_count_vote),
+        .srs_o(srs), .trs_o(trs_o), .active_o(active_o), .forward_o(forward)
+    );
+    assign srs_o = srs;
+
+    // Forward.
+    reg forward_valid_q;
+    reg [{= p - 1 =}:0] forward_pixel_q;
+    always @(posedge clk_i) begin
+        if (rst_i || !tail_step || !forward) begin
+            forward_valid_q <= 1'b0;
+            forward_pixel_q <= {= p =}'d0;
+        end else begin
+            forward_valid_q <= 1'b1;
+            forward_pixel_q <= {= forward_pixel =};
+        end
+    end
+    assign forward_valid_o = forward_valid_q;
+    assign forward_pixel_o = forward_pixel_q;
+{%- for name in unused %}
+    wire unused_{= name =} = {= name =};
+{%- endfor %}
+
+endmodule
+
+`default_nettype wire

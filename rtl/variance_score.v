@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// pixels * (sum of squares) - (sum)^2, which is pixels^2 times the variance.
+`default_nettype none
+
+module variance_score #(
+    parameter PIXELS = 64,            // pixels of a region
+    parameter SUM_BITS = 14,          // bits of the sum
+    parameter SQUARE_SUM_BITS = 22,   // bits of the sum of squares
+    parameter PRODUCT_BITS = 28,      // bits of pixels * (sum of squares)
+    parameter SCORE_BITS = 26         // bits of the score
+) (
+    input  wire                       clk_i,
+    input  wire                       rst_i,
+    input  wire                       done_i,  // the sums are those of a whole frame
+    input  wire [       SUM_BITS-1:0] sum_i,
+    input  wire [SQUARE_SUM_BITS-1:0] square_sum_i,
+    output reg  [     SCORE_BITS-1:0] score_o  // of the last whole frame
+);
+
+    localparam [PRODUCT_BITS-1:0] FACTOR = PIXELS;
+
+    wire [PRODUCT_BITS-1:0] sum = {{(PRODUCT_BITS - SUM_BITS) {1'b0}}, sum_i};
+    wire [PRODUCT_BITS-1:0] square_sum =
+        {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_i};
+    // The difference is smaller than either product.
+    /* verilator lint_off UNUSEDSIGNAL */
+    wire [PRODUCT_BITS-1:0] score = FACTOR * square_sum - sum * sum;
+    /* verilator lint_on UNUSEDSIGNAL */
+
+    always @(posedge clk_i) begin
+        if (rst_i) score_o <= {SCORE_BITS{1'b0}};
+        else if (done_i) score_o <= score[SCORE_BITS-1:0];
+    end
+
+endmodule
+
+`default_nettype wire

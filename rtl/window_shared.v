@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Control of a 3x3 window over a region that comes with its halo: SIDE x SIDE pixels in, the
+// (SIDE-2) x (SIDE-2) centers that have all their neighbors out. Nothing to flush.
+//
+// `border_i` names the sides where the halo lies outside the frame. There the window must see the
+// region's own border pixels repeated; elsewhere nothing is clamped.
+`default_nettype none
+
+module window_shared #(
+    parameter SIDE = 10,      // pixels of a row of the stream, at least 4
+    parameter SIDE_BITS = 4,  // ceil(log2(SIDE))
+    parameter SLOT_BITS = 6   // ceil(log2((SIDE-2) * (SIDE-2)))
+) (
+    input  wire                 clk_i,
+    input  wire                 rst_i,
+    input  wire                 valid_i,    // a pixel comes in
+    input  wire [          3:0] border_i,   // sides outside the frame: {bottom, top, right, left}
+    output wire                 advance_o,  // lines and columns move at this edge
+    output wire                 step_o,     // with it a center is complete
+    output wire [SLOT_BITS-1:0] slot_o,     // a number of its own for each center of a region
+    output wire                 last_o,     // it is the last of the frame
+    output wire                 top_o,      // the incoming column lacks its upper pixel
+    output wire                 bottom_o,   // ... its lower pixel
+    output wire                 left_o,     // the incoming column stands for its left neighbor too
+    output wire                 right_o     // the center's column stands for its right neighbor too
+);
+
+    localparam [SIDE_BITS-1:0] LAST = SIDE - 1;
+    localparam [SIDE_BITS-1:0] FIRST_CENTER = 1;
+
+    reg [SIDE_BITS-1:0] column_q;  // of the incoming pixel
+    reg [SIDE_BITS-1:0] row_q;
+    // The initial value keeps synthesis from moving this register into the store's address port,
+    // which would cost the store a second port.
+    reg [SLOT_BITS-1:0] slot_q = {SLOT_BITS{1'b0}};
+
+    wire last_column = column_q == LAST;
+    wire last_row = row_q == LAST;
+
+    assign advance_o = valid_i;
+    assign step_o = valid_i && row_q > FIRST_CENTER && column_q > FIRST_CENTER;
+    assign slot_o = slot_q;
+    assign last_o = last_row && last_column;
+
+    always @(posedge clk_i) begin
+        if (rst_i) begin
+            column_q <= {SIDE_BITS{1'b0}};
+            row_q    <= {SIDE_BITS{1'b0}};
+            slot_q   <= {SLOT_BITS{1'b0}};
+        end else if (valid_i) begin
+            column_q <= last_column ? {SIDE_BITS{1'b0}} : column_q + 1'b1;
+            if (last_column) row_q <= last_row ? {SIDE_BITS{1'b0}} : row_q + 1'b1;
+            if (step_o) slot_q <= last_o ? {SLOT_BITS{1'b0}} : slot_q + 1'b1;
+        end
+    end
+
+    assign left_o   = border_i[0] && column_q == FIRST_CENTER;
+    assign right_o  = border_i[1] && last_column;
+    assign top_o    = border_i[2] && row_q == FIRST_CENTER + 1'b1;
+    assign bottom_o = border_i[3] && last_row;
+
+endmodule
+
+`default_nettype wire
