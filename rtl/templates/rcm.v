@@ -7,7 +7,7 @@
 
 module rcm (
 {%- for port in ports %}
-    {= port.declaration =}{% if !loop.last %},{% endif %}  // {= port.doc =}
+    {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
 );
 

@@ -11,7 +11,7 @@
 
 module rpu (
 {%- for port in ports %}
-    {= port.declaration =}{% if !loop.last %},{% endif %}  // {= port.doc =}
+    {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
 );
 {%- for constant in constants %}
@@ -309,19 +309,10 @@ module rpu (
     assign srs_o = srs;
 
     // Forward.
-    reg forward_valid_q;
-    reg [{= p - 1 =}:0] forward_pixel_q;
-    always @(posedge clk_i) begin
-        if (rst_i || !tail_step || !forward) begin
-            forward_valid_q <= 1'b0;
-            forward_pixel_q <= {= p =}'d0;
-        end else begin
-            forward_valid_q <= 1'b1;
-            forward_pixel_q <= {= forward_pixel =};
-        end
-    end
-    assign forward_valid_o = forward_valid_q;
-    assign forward_pixel_o = forward_pixel_q;
+    forward_gate #(.WIDTH({= p =})) u_forward (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .forward_i(forward), .pixel_i({= forward_pixel =}),
+        .valid_o(forward_valid_o), .pixel_o(forward_pixel_o)
+    );
 {%- for name in unused %}
     wire unused_{= name =} = {= name =};
 {%- endfor %}

@@ -1,11 +1,155 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The files of a core beside its Verilog.
+//! The files of a core beside its Verilog: file lists, FuseSoC, constraints, Vivado, README.
 
-use crate::{SourceFile, Top, verilog};
-use foveate_spec::Design;
+use crate::verilog::text_of;
+use crate::{SourceFile, Top, banner, latency, verilog};
+use askama::Template;
+use foveate_spec::{Design, Direction, Port, PortRole, Thresholds};
 
-/// Every file of the core of `design`.
+#[derive(Template)]
+#[template(path = "fusesoc.core")]
+struct FuseSoc<'a> {
+    banner: String,
+    version: &'static str,
+    columns: u32,
+    rows: u32,
+    n: u32,
+    files: Vec<&'a str>,
+}
+
+#[derive(Template)]
+#[template(path = "README.md")]
+struct Readme {
+    banner: String,
+    width: u32,
+    height: u32,
+    p: u32,
+    n: u32,
+    columns: u32,
+    rows: u32,
+    regions: u32,
+    scores: String,
+    combine: &'static str,
+    reference: &'static str,
+    neighborhood: &'static str,
+    filter: &'static str,
+    stream_side: u32,
+    stream_pixels: u32,
+    halo: u32,
+    latency: String,
+    forward: &'static str,
+    border: bool,
+    runtime: bool,
+    rcm_ports: Vec<PortRow>,
+    thresholds: Vec<ThresholdRow>,
+}
+
+struct PortRow {
+    name: String,
+    direction: &'static str,
+    bits: String,
+    doc: String,
+}
+
+struct ThresholdRow {
+    name: String,
+    value: u64,
+}
+
+/// Every file of the core of `design` but its replay bench, whose vectors come from the model.
 #[must_use]
 pub fn core(design: &Design) -> Vec<SourceFile> {
-    verilog(design, Top::Rcm)
+    let mut files = verilog(design, Top::Rcm);
+    let paths: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
+    let beside = [
+        ("rpu.f", file_list(&verilog(design, Top::Rpu))),
+        ("rcm.f", file_list(&files)),
+        ("foveate_rcm.core", text_of(&fusesoc(design, paths))),
+        ("constraints/ooc.xdc", include_str!("../../../constraints/ooc.xdc").to_owned()),
+        ("vivado_ooc.tcl", include_str!("../../../scripts/vivado_ooc.tcl").to_owned()),
+        ("design.toml", design_toml(design)),
+        ("README.md", text_of(&readme(design))),
+    ];
+    files.extend(beside.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }));
+    files
+}
+
+fn file_list(files: &[SourceFile]) -> String {
+    files.iter().map(|file| format!("{}\n", file.path)).collect()
+}
+
+fn design_toml(design: &Design) -> String {
+    format!("# {}\n\n{}", banner(design), design.config().to_toml())
+}
+
+fn fusesoc<'a>(design: &Design, files: Vec<&'a str>) -> FuseSoc<'a> {
+    FuseSoc {
+        banner: banner(design),
+        version: env!("CARGO_PKG_VERSION"),
+        columns: design.columns(),
+        rows: design.rows(),
+        n: design.region_size(),
+        files,
+    }
+}
+
+fn readme(design: &Design) -> Readme {
+    let timing = design.timing();
+    let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
+    Readme {
+        banner: banner(design),
+        width: design.width(),
+        height: design.height(),
+        p: design.pixel_bits(),
+        n: design.region_size(),
+        columns: design.columns(),
+        rows: design.rows(),
+        regions: design.regions(),
+        scores: names.join(", "),
+        combine: design.combine().name(),
+        reference: design.temporal().reference.name(),
+        neighborhood: design.neighborhood().name(),
+        filter: design.filter().name(),
+        stream_side: design.stream_side(),
+        stream_pixels: design.stream_pixels(),
+        halo: design.halo(),
+        latency: latency(design),
+        forward: if timing.forward_frames == 1 {
+            "the next frame"
+        } else {
+            "the next frame but one"
+        },
+        border: design.needs_border(),
+        runtime: design.thresholds() == Thresholds::Runtime,
+        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
+    }
+}
+
+fn port_row(port: &Port) -> PortRow {
+    PortRow {
+        name: port.name.clone(),
+        direction: match port.direction {
+            Direction::Input => "in",
+            Direction::Output => "out",
+        },
+        bits: match port.lanes {
+            1 => port.width.to_string(),
+            lanes => format!("{lanes} x {}", port.width),
+        },
+        doc: port.doc.clone(),
+    }
+}
+
+/// The configured value of a threshold input.
+fn threshold(design: &Design, port: &Port) -> Option<ThresholdRow> {
+    let feature = |kind| design.feature(kind);
+    let value = match port.role {
+        PortRole::Level(kind) => feature(kind)?.level()?.into(),
+        PortRole::MinScore(kind) => feature(kind)?.min_score(),
+        PortRole::TemporalLevel => design.temporal().level.into(),
+        PortRole::TemporalMinCount => design.temporal().min_count.into(),
+        _ => return None,
+    };
+    Some(ThresholdRow { name: port.name.clone(), value })
 }

@@ -48,6 +48,7 @@ leaves! {
     "score_hold" => [],
     "vote" => [],
     "decision" => [],
+    "forward_gate" => [],
 }
 
 /// The leaves that the RPU of `design` is made of, in compile order.
@@ -62,8 +63,15 @@ pub(crate) fn of(design: &Design) -> impl Iterator<Item = &'static Leaf> {
 
 /// The leaves that `rpu.v` instantiates itself.
 fn instantiated(design: &Design) -> Vec<&'static str> {
-    let mut names =
-        vec!["frame_progress", "frame_store", "change_detector", "hit_counter", "vote", "decision"];
+    let mut names = vec![
+        "frame_progress",
+        "frame_store",
+        "change_detector",
+        "hit_counter",
+        "vote",
+        "decision",
+        "forward_gate",
+    ];
     let mut need = |condition: bool, leaves: &[&'static str]| {
         if condition {
             names.extend(leaves);

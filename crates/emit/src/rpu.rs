@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `rpu.v`: every number and name of the template is worked out here, from the design.
 
-use crate::banner;
 use crate::verilog::PortLine;
 use crate::verilog::text_of;
+use crate::{banner, latency};
 use askama::Template;
 use foveate_spec::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PortRole, Reference,
@@ -185,15 +185,6 @@ fn summary(design: &Design) -> String {
         design.temporal().reference,
         design.neighborhood(),
         design.filter()
-    )
-}
-
-fn latency(design: &Design) -> String {
-    let timing = design.timing();
-    let of = if timing.decision_frames == 0 { "its frame" } else { "the frame after it" };
-    format!(
-        "a decision is valid {} clocks after the edge that takes the last pixel of {of}",
-        timing.decision_latency
     )
 }
 

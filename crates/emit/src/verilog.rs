@@ -62,15 +62,23 @@ pub(crate) struct PortLine {
 }
 
 impl PortLine {
-    /// The lines for `ports`, aligned.
+    /// The lines for `ports`, aligned; every one but the last ends in a comma.
     pub(crate) fn all(ports: &[Port]) -> Vec<Self> {
+        let widest = |texts: &[String]| texts.iter().map(String::len).max().unwrap_or(0);
         let ranges: Vec<_> = ports.iter().map(range).collect();
-        let width = ranges.iter().map(String::len).max().unwrap_or(0);
-        let line = |(port, range): (&Port, &String)| Self {
-            declaration: format!("{} wire {range:width$} {}", direction(port), port.name),
+        let mut names: Vec<_> = ports.iter().map(|port| format!("{},", port.name)).collect();
+        if let Some(last) = names.last_mut() {
+            last.pop();
+        }
+        let (range_width, name_width) = (widest(&ranges), widest(&names));
+        let line = |((port, range), name): ((&Port, &String), &String)| Self {
+            declaration: format!(
+                "{} wire {range:range_width$} {name:name_width$}",
+                direction(port)
+            ),
             doc: port.doc.clone(),
         };
-        ports.iter().zip(&ranges).map(line).collect()
+        ports.iter().zip(&ranges).zip(&names).map(line).collect()
     }
 }
 

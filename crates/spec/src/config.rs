@@ -112,6 +112,22 @@ impl SpatialConfig {
     pub fn new(feature: FeatureKind) -> Self {
         Self { feature, level: None, min_score: None, mean_fraction_bits: None }
     }
+
+    /// The entry with every key that applies to its feature filled in.
+    pub(crate) fn with_defaults(&self) -> Self {
+        let (level, min_score, fraction) = match self.feature {
+            FeatureKind::Edge => (Some(100), 5, None),
+            FeatureKind::Corner => (Some(20), 5, None),
+            FeatureKind::Mad => (None, 5, Some(0)),
+            FeatureKind::Variance => (None, 50, None),
+        };
+        Self {
+            feature: self.feature,
+            level: self.level.or(level),
+            min_score: self.min_score.or(Some(Decimal::whole(min_score))),
+            mean_fraction_bits: self.mean_fraction_bits.or(fraction),
+        }
+    }
 }
 
 /// `[decision]`.

@@ -4,7 +4,7 @@
 use crate::width::ceil_log2;
 use crate::{
     Combine, Config, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
-    Reference, SpatialFeature, SpecError, Thresholds, Timing, bits_for, fingerprint,
+    Reference, SpatialConfig, SpatialFeature, SpecError, Thresholds, Timing, bits_for, fingerprint,
 };
 
 /// Frame size where the configuration leaves it out.
@@ -51,10 +51,10 @@ impl Config {
         in_range("temporal.min_count", self.temporal.min_count, 0, n)?;
         self.check_hardware()?;
         self.check_features()?;
-        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), pixel_max);
-        let features = self.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
-
         let mut config = self.clone();
+        config.spatial = self.spatial.iter().map(SpatialConfig::with_defaults).collect();
+        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), pixel_max);
+        let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
         let temporal = Temporal {
             level: self.temporal.level,
@@ -149,7 +149,7 @@ fn in_range(key: &str, value: u32, min: u32, max: u32) -> Result<(), SpecError> 
 
 /// What the configuration says.
 impl Design {
-    /// The configuration, with the frame size filled in.
+    /// The configuration with every key filled in.
     #[must_use]
     pub fn config(&self) -> &Config {
         &self.config

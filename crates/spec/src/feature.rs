@@ -45,7 +45,7 @@ pub struct Variance {
 }
 
 impl SpatialFeature {
-    /// The feature of entry `index`, for regions of `n` pixels up to `pixel_max`.
+    /// The feature of entry `index`, defaults filled in, for regions of `n` pixels up to `pixel_max`.
     pub(crate) fn resolve(
         config: &SpatialConfig,
         index: usize,
@@ -57,21 +57,21 @@ impl SpatialFeature {
         let fraction_bits = entry.fraction_bits(n)?;
         let mean = (config.feature == FeatureKind::Mad).then(|| Mean::new(n, max, fraction_bits));
         let variance = (config.feature == FeatureKind::Variance).then(|| Variance::new(n, max));
-        let (default_score, unit, score_max) = match config.feature {
-            FeatureKind::Edge | FeatureKind::Corner => (5, 1, n),
-            FeatureKind::Mad => (5, n << fraction_bits, mad_score_max(n, max, fraction_bits)),
-            FeatureKind::Variance => (50, n * n, variance_score_max(n, max)),
+        let (unit, score_max) = match config.feature {
+            FeatureKind::Edge | FeatureKind::Corner => (1, n),
+            FeatureKind::Mad => (n << fraction_bits, mad_score_max(n, max, fraction_bits)),
+            FeatureKind::Variance => (n * n, variance_score_max(n, max)),
         };
-        let (level, level_max) = match config.feature {
-            FeatureKind::Edge => (Some(entry.level(100, edge_magnitude_max(max))?), 6 * max),
-            FeatureKind::Corner => (Some(entry.level(20, max)?), max),
-            FeatureKind::Mad | FeatureKind::Variance => (entry.no_level()?, 0),
+        let level_max = match config.feature {
+            FeatureKind::Edge => Some(edge_magnitude_max(max)),
+            FeatureKind::Corner => Some(max),
+            FeatureKind::Mad | FeatureKind::Variance => None,
         };
         Ok(Self {
             kind: config.feature,
-            level,
-            level_bits: bits_for(level_max),
-            min_score: entry.min_score(default_score, unit, score_max)?,
+            level: entry.level(level_max)?,
+            level_bits: bits_for(level_max.unwrap_or(0)),
+            min_score: entry.min_score(unit, score_max)?,
             score_max,
             mean,
             variance,
@@ -189,18 +189,14 @@ impl Entry<'_> {
         format!("spatial[{}].{name}", self.index)
     }
 
-    fn level(&self, default: u32, max: u64) -> Result<u32, SpecError> {
-        let level = self.config.level.unwrap_or(default);
-        if u64::from(level) > max {
-            return Err(self.out_of_range("level", &level, &format!("0..={max}")));
-        }
-        Ok(level)
-    }
-
-    fn no_level(&self) -> Result<Option<u32>, SpecError> {
-        match self.config.level {
-            None => Ok(None),
-            Some(level) => Err(self.does_not_apply("level", level)),
+    fn level(&self, max: Option<u64>) -> Result<Option<u32>, SpecError> {
+        match (self.config.level, max) {
+            (None, _) => Ok(None),
+            (Some(level), None) => Err(self.does_not_apply("level", level)),
+            (Some(level), Some(max)) if u64::from(level) <= max => Ok(Some(level)),
+            (Some(level), Some(max)) => {
+                Err(self.out_of_range("level", &level, &format!("0..={max}")))
+            }
         }
     }
 
@@ -219,8 +215,8 @@ impl Entry<'_> {
     }
 
     /// The integer threshold; `unit` score units are one unit of the configuration.
-    fn min_score(&self, default: u64, unit: u64, score_max: u64) -> Result<u64, SpecError> {
-        let minimum = self.config.min_score.unwrap_or(Decimal::whole(default));
+    fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, SpecError> {
+        let minimum = self.config.min_score.unwrap_or(Decimal::whole(0));
         let counts = self.config.feature.has_window();
         if counts && minimum.as_whole().is_none() {
             return Err(SpecError::Type {
