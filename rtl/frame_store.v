@@ -2,7 +2,8 @@
 // One region of pixels in distributed RAM with a single port: what is read is what the same step
 // overwrites, the pixel of one frame ago. It is reference, second pass and output buffer at once.
 //
-// Banks of 256 words, the largest single-port primitive that synthesis maps reliably.
+// Banks of 256 words, the largest single-port primitive that synthesis maps reliably; a last one of
+// at most 128 words is made smaller.
 `default_nettype none
 
 module frame_store #(
@@ -37,14 +38,19 @@ module frame_store #(
 
             genvar i;
             for (i = 0; i < BANKS; i = i + 1) begin : g_bank
+                localparam REST = PIXELS - 256 * i;
+                localparam DEPTH = REST > 128 ? 256 : REST;
+                localparam ADDRESS_BITS = $clog2(DEPTH);
+
                 (* ram_style = "distributed" *)
-                reg [WIDTH-1:0] pixels_q[0:255];
+                reg [WIDTH-1:0] pixels_q[0:DEPTH-1];
+                wire [ADDRESS_BITS-1:0] address = slot_i[ADDRESS_BITS-1:0];
 
                 always @(posedge clk_i) begin
-                    if (write_i && bank == i) pixels_q[slot_i[7:0]] <= data_i;
+                    if (write_i && bank == i) pixels_q[address] <= data_i;
                 end
 
-                assign words[i*WIDTH+:WIDTH] = pixels_q[slot_i[7:0]];
+                assign words[i*WIDTH+:WIDTH] = pixels_q[address];
             end
         end
     endgenerate

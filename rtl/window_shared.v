@@ -25,7 +25,7 @@ module window_shared #(
     output wire                 right_o     // the center's column stands for its right neighbor too
 );
 
-    localparam [SIDE_BITS-1:0] LAST = SIDE - 1;
+    localparam LAST = SIDE - 1;
     localparam [SIDE_BITS-1:0] FIRST_CENTER = 1;
 
     reg [SIDE_BITS-1:0] column_q;  // of the incoming pixel
@@ -34,8 +34,8 @@ module window_shared #(
     // which would cost the store a second port.
     reg [SLOT_BITS-1:0] slot_q = {SLOT_BITS{1'b0}};
 
-    wire last_column = column_q == LAST;
-    wire last_row = row_q == LAST;
+    wire last_column = column_q == LAST[SIDE_BITS-1:0];
+    wire last_row = row_q == LAST[SIDE_BITS-1:0];
 
     assign advance_o = valid_i;
     assign step_o = valid_i && row_q > FIRST_CENTER && column_q > FIRST_CENTER;
