@@ -1,2 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds, checks and runs the external tools, and caches what they build
+//! Finds, checks and runs the external tools, and caches what they build.
+//!
+//! Everything goes through a [`Toolchain`], which finds each [`Tool`] once, refuses versions that are
+//! too old, and runs [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all that went
+//! into them. The modules [`verilator`], [`iverilog`] and [`yosys`] know one tool each.
+
+pub mod cache;
+mod error;
+mod files;
+mod host;
+mod invocation;
+pub mod iverilog;
+mod key;
+mod process;
+pub mod testing;
+mod tool;
+mod toolchain;
+pub mod verilator;
+pub mod yosys;
+
+pub use cache::Cache;
+pub use error::ToolError;
+pub use files::Source;
+pub use host::{Host, SystemHost};
+pub use invocation::{Input, Invocation, Output};
+pub use key::{Key, KeyBuilder, sha256_hex};
+pub use tool::{Tool, Version};
+pub use toolchain::{Located, Toolchain};

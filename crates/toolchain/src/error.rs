@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can go wrong with an external tool, and what to do about it.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use thiserror::Error;
+
+use crate::tool::{Tool, Version};
+
+/// An external tool is missing, too old, or did not do its work.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ToolError {
+    /// The tool is not in `PATH`.
+    #[error(
+        "{tool} is not installed; install it with `apt-get install {}`, or set {} to its path",
+        tool.package(),
+        tool.variable()
+    )]
+    Missing {
+        /// The tool that was looked for.
+        tool: Tool,
+    },
+
+    /// The environment variable names something that cannot be run.
+    #[error(
+        "{} is set to `{}`, which is not an executable file; correct it, or unset it to use {tool} from PATH",
+        tool.variable(),
+        path.display()
+    )]
+    NotExecutable {
+        /// The tool that was looked for.
+        tool: Tool,
+        /// The value of the variable.
+        path: PathBuf,
+    },
+
+    /// The tool is older than the oldest version that works.
+    #[error(
+        "{tool} {found} at `{}` is too old, {needed} or newer is needed; \
+         install a newer {}, or set {} to its path",
+        path.display(),
+        tool.package(),
+        tool.variable()
+    )]
+    TooOld {
+        /// The tool.
+        tool: Tool,
+        /// Where it was found.
+        path: PathBuf,
+        /// The version it reports.
+        found: Version,
+        /// The oldest version that works.
+        needed: Version,
+    },
+
+    /// The tool ran, but its version could not be told.
+    #[error(
+        "`{}` does not report a version of {tool}, it says: {said}; set {} to a working {tool}",
+        path.display(),
+        tool.variable()
+    )]
+    UnknownVersion {
+        /// The tool.
+        tool: Tool,
+        /// Where it was found.
+        path: PathBuf,
+        /// The start of what it printed.
+        said: String,
+    },
+
+    /// The command ended with a failure.
+    #[error("`{command}` failed ({status}){}\n{tail}", kept(log.as_deref()))]
+    Failed {
+        /// The command line.
+        command: String,
+        /// Exit code or signal.
+        status: String,
+        /// The end of the log.
+        tail: String,
+        /// The complete log.
+        full: String,
+        /// Where the complete log was kept, if it was.
+        log: Option<PathBuf>,
+    },
+
+    /// A header of a library that Verilator's run time uses is not installed.
+    #[error(
+        "Verilator's run time needs `{header}`, which is not installed; \
+         install it with `apt-get install {package}`"
+    )]
+    MissingHeader {
+        /// The header.
+        header: &'static str,
+        /// The Debian package that contains it.
+        package: &'static str,
+    },
+
+    /// The command was stopped because it took too long.
+    #[error("`{command}` was stopped after {} s without finishing", limit.as_secs_f64())]
+    TimedOut {
+        /// The command line.
+        command: String,
+        /// The time it was given.
+        limit: Duration,
+    },
+
+    /// The command succeeded, but a file that it should have written is not there.
+    #[error("`{command}` succeeded but did not write `{file}`\n{tail}")]
+    NoOutput {
+        /// The command line.
+        command: String,
+        /// The name of the missing file.
+        file: String,
+        /// The end of the log.
+        tail: String,
+    },
+
+    /// A source has a name that would leave the folder it is written to.
+    #[error("source name `{name}` is not valid; use a relative path without `..`")]
+    BadName {
+        /// The name.
+        name: String,
+    },
+
+    /// No folder for the cache can be derived from the environment.
+    #[error("no place for the build cache; set FOVEATE_CACHE to a folder, or to `off`")]
+    NoCache,
+
+    /// A file or process could not be used.
+    #[error("cannot {action} `{}`: {source}", path.display())]
+    Io {
+        /// What was tried, such as "write".
+        action: &'static str,
+        /// The file, folder or program.
+        path: PathBuf,
+        /// The reason.
+        source: std::io::Error,
+    },
+}
+
+impl ToolError {
+    /// For `map_err`: names the file and what was tried with it.
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        move |source| Self::Io { action, path: path.to_owned(), source }
+    }
+}
+
+fn kept(log: Option<&Path>) -> String {
+    log.map_or_else(|| ":".to_owned(), |path| format!(", complete log in `{}`:", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_say_what_to_do() {
+        let missing = ToolError::Missing { tool: Tool::Yosys }.to_string();
+        assert!(missing.contains("apt-get install yosys"), "{missing}");
+        assert!(missing.contains("FOVEATE_YOSYS"), "{missing}");
+        let old = ToolError::TooOld {
+            tool: Tool::Verilator,
+            path: "/usr/bin/verilator".into(),
+            found: Version::find("4.038").unwrap(),
+            needed: Tool::Verilator.minimum(),
+        };
+        let text = old.to_string();
+        assert!(text.contains("4.038") && text.contains("5.006"), "{text}");
+    }
+}

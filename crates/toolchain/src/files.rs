@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sources on their way to a tool's folder, and the part of a log worth showing.
+
+use std::fs;
+use std::path::{Component, Path};
+
+use crate::error::ToolError;
+
+/// A source file as name (relative to the folder of the tool) and contents.
+pub type Source = (String, String);
+
+const EXCERPT_LINES: usize = 20;
+
+/// Writes one file and the folders above it.
+pub(crate) fn write(dir: &Path, name: &str, contents: &[u8]) -> Result<(), ToolError> {
+    let inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    if name.is_empty() || !inside {
+        return Err(ToolError::BadName { name: name.to_owned() });
+    }
+    let path = dir.join(name);
+    if let Some(parent) = path.parent() {
+        fs::create_dir_all(parent).map_err(ToolError::io("create", parent))?;
+    }
+    fs::write(&path, contents).map_err(ToolError::io("write", &path))
+}
+
+/// Writes all sources under `dir`.
+pub(crate) fn write_sources(dir: &Path, sources: &[Source]) -> Result<(), ToolError> {
+    sources.iter().try_for_each(|(name, contents)| write(dir, name, contents.as_bytes()))
+}
+
+/// The last lines of a log, after the first error when that lies further up.
+pub(crate) fn log_excerpt(log: &str) -> String {
+    let lines: Vec<&str> = log.lines().collect();
+    let start = lines.len().saturating_sub(EXCERPT_LINES);
+    let tail = lines[start..].join("\n");
+    let is_error = |line: &&&str| line.to_ascii_lowercase().contains("error");
+    match lines[..start].iter().find(is_error) {
+        Some(first) => format!("{first}\n...\n{tail}"),
+        None => tail,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_stay_inside() {
+        let dir = tempfile::tempdir().unwrap();
+        for name in ["../x.v", "/tmp/x.v", "", "a/../../x.v"] {
+            let error = write(dir.path(), name, b"").unwrap_err();
+            assert!(matches!(error, ToolError::BadName { .. }), "{name}");
+        }
+        write(dir.path(), "rtl/x.v", b"x").unwrap();
+        assert!(dir.path().join("rtl/x.v").is_file());
+    }
+
+    #[test]
+    fn excerpts_keep_the_first_error() {
+        let mut lines = vec!["noise".to_owned(), "x.v:1: error: here".to_owned()];
+        lines.extend((0..40).map(|i| format!("line {i}")));
+        let excerpt = log_excerpt(&lines.join("\n"));
+        assert!(excerpt.starts_with("x.v:1: error: here\n...\nline 20\n"), "{excerpt}");
+        assert!(excerpt.ends_with("line 39"), "{excerpt}");
+        assert_eq!(log_excerpt("a\nb\n"), "a\nb");
+    }
+}

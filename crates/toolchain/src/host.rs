@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The machine as the toolchain sees it: a trait, so that logic is tested without any tool.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use crate::error::ToolError;
+use crate::invocation::{Invocation, Output};
+use crate::process;
+
+/// Environment, files and processes of a machine.
+pub trait Host: Send + Sync {
+    /// The value of an environment variable.
+    fn variable(&self, name: &str) -> Option<OsString>;
+
+    /// Whether the path is a file that can be run.
+    fn is_executable(&self, path: &Path) -> bool;
+
+    /// Runs a program to its end, whatever its exit code.
+    ///
+    /// # Errors
+    /// When the program cannot be started, its files cannot be used, or time is over.
+    fn run(&self, invocation: &Invocation) -> Result<Output, ToolError>;
+}
+
+/// The machine this program runs on.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct SystemHost;
+
+impl Host for SystemHost {
+    fn variable(&self, name: &str) -> Option<OsString> {
+        std::env::var_os(name)
+    }
+
+    fn is_executable(&self, path: &Path) -> bool {
+        std::fs::metadata(path).is_ok_and(|meta| meta.is_file() && may_run(&meta))
+    }
+
+    fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
+        process::run(invocation)
+    }
+}
+
+#[cfg(unix)]
+fn may_run(meta: &std::fs::Metadata) -> bool {
+    use std::os::unix::fs::PermissionsExt as _;
+    meta.permissions().mode() & 0o111 != 0
+}
+
+#[cfg(not(unix))]
+fn may_run(_: &std::fs::Metadata) -> bool {
+    true
+}

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One run of a program: what goes in, and what came out.
+
+use std::ffi::{OsStr, OsString};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::error::ToolError;
+use crate::files::log_excerpt;
+
+/// What a program reads from its standard input.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum Input {
+    /// Nothing.
+    #[default]
+    Empty,
+    /// These bytes.
+    Bytes(Vec<u8>),
+    /// The contents of a file.
+    File(PathBuf),
+}
+
+/// A program with everything it needs to run. Nothing happens until a
+/// [`Host`](crate::Host) or a [`Toolchain`](crate::Toolchain) runs it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Invocation {
+    pub(crate) program: PathBuf,
+    pub(crate) args: Vec<OsString>,
+    pub(crate) env: Vec<(OsString, OsString)>,
+    pub(crate) dir: Option<PathBuf>,
+    pub(crate) input: Input,
+    pub(crate) stdout: Option<PathBuf>,
+    pub(crate) merge: bool,
+    pub(crate) timeout: Option<Duration>,
+}
+
+impl Invocation {
+    /// A program without arguments, input or time limit, in the current folder.
+    #[must_use]
+    pub fn new(program: impl Into<PathBuf>) -> Self {
+        Self {
+            program: program.into(),
+            args: Vec::new(),
+            env: Vec::new(),
+            dir: None,
+            input: Input::Empty,
+            stdout: None,
+            merge: false,
+            timeout: None,
+        }
+    }
+
+    /// Adds one argument.
+    #[must_use]
+    pub fn arg(mut self, arg: impl Into<OsString>) -> Self {
+        self.args.push(arg.into());
+        self
+    }
+
+    /// Adds several arguments.
+    #[must_use]
+    pub fn args<I>(mut self, args: I) -> Self
+    where
+        I: IntoIterator,
+        I::Item: Into<OsString>,
+    {
+        self.args.extend(args.into_iter().map(Into::into));
+        self
+    }
+
+    /// Sets an environment variable.
+    #[must_use]
+    pub fn env(mut self, name: impl Into<OsString>, value: impl Into<OsString>) -> Self {
+        self.env.push((name.into(), value.into()));
+        self
+    }
+
+    /// Runs in this folder.
+    #[must_use]
+    pub fn dir(mut self, dir: impl Into<PathBuf>) -> Self {
+        self.dir = Some(dir.into());
+        self
+    }
+
+    /// Feeds bytes to the standard input.
+    #[must_use]
+    pub fn stdin_bytes(mut self, bytes: impl Into<Vec<u8>>) -> Self {
+        self.input = Input::Bytes(bytes.into());
+        self
+    }
+
+    /// Feeds a file to the standard input.
+    #[must_use]
+    pub fn stdin_file(mut self, path: impl Into<PathBuf>) -> Self {
+        self.input = Input::File(path.into());
+        self
+    }
+
+    /// Sends the standard output to a file; [`Output::stdout`] is then empty.
+    #[must_use]
+    pub fn stdout_file(mut self, path: impl Into<PathBuf>) -> Self {
+        self.stdout = Some(path.into());
+        self
+    }
+
+    /// Puts errors into the standard output, in the order in which they are written.
+    #[must_use]
+    pub fn merge_stderr(mut self) -> Self {
+        self.merge = true;
+        self
+    }
+
+    /// Stops the program, and all that it started, after this time.
+    #[must_use]
+    pub fn timeout(mut self, limit: Duration) -> Self {
+        self.timeout = Some(limit);
+        self
+    }
+
+    /// The program that will run.
+    #[must_use]
+    pub fn program(&self) -> &Path {
+        &self.program
+    }
+
+    /// The arguments, for mocks that decide by them.
+    #[must_use]
+    pub fn arguments(&self) -> Vec<String> {
+        self.args.iter().map(|arg| arg.to_string_lossy().into_owned()).collect()
+    }
+
+    /// The folder in which the program will run, if one was set.
+    #[must_use]
+    pub fn directory(&self) -> Option<&Path> {
+        self.dir.as_deref()
+    }
+
+    /// What the program will read.
+    #[must_use]
+    pub fn input(&self) -> &Input {
+        &self.input
+    }
+
+    /// The command line as a shell would take it.
+    #[must_use]
+    pub fn command_line(&self) -> String {
+        let mut line = quoted(self.program.as_os_str());
+        for arg in &self.args {
+            // Writing to a string cannot fail.
+            let _ = write!(line, " {}", quoted(arg));
+        }
+        line
+    }
+}
+
+/// What a finished program left behind.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Output {
+    /// The exit code; `None` when a signal ended the program.
+    pub code: Option<i32>,
+    /// Exit code or signal in words.
+    pub status: String,
+    /// The standard output, unless it went to a file.
+    pub stdout: Vec<u8>,
+    /// The standard error, unless it was merged into the standard output.
+    pub stderr: Vec<u8>,
+}
+
+impl Output {
+    /// A successful end with this standard output, for mocks.
+    #[must_use]
+    pub fn success(stdout: impl Into<Vec<u8>>) -> Self {
+        Self {
+            code: Some(0),
+            status: "exit status: 0".into(),
+            stdout: stdout.into(),
+            stderr: vec![],
+        }
+    }
+
+    /// A failure with this exit code and standard error, for mocks.
+    #[must_use]
+    pub fn failure(code: i32, stderr: impl Into<Vec<u8>>) -> Self {
+        let status = format!("exit status: {code}");
+        Self { code: Some(code), status, stdout: vec![], stderr: stderr.into() }
+    }
+
+    /// Whether the exit code is zero.
+    #[must_use]
+    pub fn is_success(&self) -> bool {
+        self.code == Some(0)
+    }
+
+    /// Standard output and standard error as text.
+    #[must_use]
+    pub fn log(&self) -> String {
+        let mut log = String::from_utf8_lossy(&self.stdout).into_owned();
+        log.push_str(&String::from_utf8_lossy(&self.stderr));
+        log
+    }
+
+    /// Makes an exit code other than zero an error with the end of the log.
+    ///
+    /// # Errors
+    /// [`ToolError::Failed`] that names the command of `invocation`.
+    pub fn checked(self, invocation: &Invocation) -> Result<Self, ToolError> {
+        if self.is_success() {
+            return Ok(self);
+        }
+        let full = self.log();
+        Err(ToolError::Failed {
+            command: invocation.command_line(),
+            status: self.status,
+            tail: log_excerpt(&full),
+            full,
+            log: None,
+        })
+    }
+}
+
+fn quoted(word: &OsStr) -> String {
+    let word = word.to_string_lossy();
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.into_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn command_lines_can_be_pasted() {
+        let invocation = Invocation::new("yosys").args(["-p", "read it's"]).arg("");
+        assert_eq!(invocation.command_line(), r"yosys -p 'read it'\''s' ''");
+    }
+
+    #[test]
+    fn failures_carry_command_code_and_log() {
+        let error = Output::failure(3, "bad\n").checked(&Invocation::new("tool")).unwrap_err();
+        assert_eq!(error.to_string(), "`tool` failed (exit status: 3):\nbad");
+    }
+}

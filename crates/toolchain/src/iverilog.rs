@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compiles and runs Verilog with Icarus: four-state, so that an X which reset leaves shows.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::cache::Cache;
+use crate::error::ToolError;
+use crate::files::{self, Source, log_excerpt};
+use crate::invocation::{Invocation, Output};
+use crate::key::Key;
+use crate::tool::Tool;
+use crate::toolchain::Toolchain;
+
+const PROGRAM: &str = "simulation.vvp";
+const LIMIT: Duration = Duration::from_secs(600);
+
+/// A simulation to compile.
+#[derive(Debug, Clone, Default)]
+pub struct IverilogJob {
+    /// The Verilog files, bench included; headers may be among them if they end in `.vh`.
+    pub sources: Vec<Source>,
+    /// The top module.
+    pub top: String,
+    /// Whether any warning of `-Wall` is an error.
+    pub strict: bool,
+    /// Macros as `NAME` or `NAME=VALUE`.
+    pub defines: Vec<String>,
+}
+
+impl IverilogJob {
+    fn flags(&self) -> Vec<String> {
+        let mut flags = ["-g2005", "-Wall", "-I.", "-s", &self.top].map(str::to_owned).to_vec();
+        flags.extend(self.defines.iter().map(|define| format!("-D{define}")));
+        flags
+    }
+
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.sources.iter().map(|(name, _)| name.as_str()).filter(|name| !name.ends_with(".vh"))
+    }
+}
+
+/// Compiles the simulation, or finds it in the cache, and returns the program for [`run`].
+///
+/// # Errors
+/// When Icarus is missing or refuses the sources.
+pub fn compile(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    job: &IverilogJob,
+) -> Result<PathBuf, ToolError> {
+    let key = Key::builder("iverilog")
+        .field("version", toolchain.find(Tool::Iverilog)?.banner)
+        .list("flags", &job.flags())
+        .field("strict", job.strict.to_string())
+        .sources(&job.sources)
+        .finish();
+    cache.get_or_build(&key, PROGRAM, |dir| {
+        let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
+        files::write_sources(work.path(), &job.sources)?;
+        let invocation = toolchain
+            .invocation(Tool::Iverilog)?
+            .args(job.flags())
+            .arg("-o")
+            .arg(dir.join(PROGRAM))
+            .args(job.names())
+            .dir(work.path())
+            .merge_stderr()
+            .timeout(LIMIT);
+        let output = toolchain.run_checked(&invocation)?;
+        refuse_warnings(job.strict, &invocation, &output)
+    })
+}
+
+fn refuse_warnings(
+    strict: bool,
+    invocation: &Invocation,
+    output: &Output,
+) -> Result<(), ToolError> {
+    let full = output.log();
+    if !strict || full.trim().is_empty() {
+        return Ok(());
+    }
+    Err(ToolError::Failed {
+        command: invocation.command_line(),
+        status: "warnings count as errors".to_owned(),
+        tail: log_excerpt(&full),
+        full,
+        log: None,
+    })
+}
+
+/// Prepares a run of a compiled simulation in a folder; `args` are plusargs such as `+vectors=FILE`.
+/// Add input or a time limit, then give it to [`Toolchain::run`].
+///
+/// # Errors
+/// When Icarus is missing.
+pub fn invocation(
+    toolchain: &Toolchain,
+    program: &Path,
+    args: &[String],
+    dir: &Path,
+) -> Result<Invocation, ToolError> {
+    Ok(toolchain.invocation(Tool::Vvp)?.arg("-n").arg(program).args(args).dir(dir))
+}
+
+/// Runs a compiled simulation in a folder, whatever its exit code.
+///
+/// # Errors
+/// When Icarus is missing or the run takes longer than `limit`.
+pub fn run(
+    toolchain: &Toolchain,
+    program: &Path,
+    args: &[String],
+    dir: &Path,
+    limit: Duration,
+) -> Result<Output, ToolError> {
+    toolchain.run(&invocation(toolchain, program, args, dir)?.timeout(limit))
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cache keys: the hash of everything that a build depends on.
+
+use std::fmt::{self, Write as _};
+
+use sha2::{Digest as _, Sha256};
+
+use crate::files::Source;
+
+/// The name of a cache entry: what made it, and the hash of all that went into it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Key(String);
+
+impl Key {
+    /// Starts a key for one kind of build, such as `verilator`.
+    #[must_use]
+    pub fn builder(kind: &str) -> KeyBuilder {
+        KeyBuilder { kind: kind.to_owned(), hash: Sha256::new() }
+    }
+
+    /// The key as the name of a folder.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// Collects what a build depends on. Every field is hashed with its name and length, so that no two
+/// sequences of fields run into one another.
+#[derive(Debug, Clone)]
+pub struct KeyBuilder {
+    kind: String,
+    hash: Sha256,
+}
+
+impl KeyBuilder {
+    /// Adds a named value: a version, a file name with its contents.
+    #[must_use]
+    pub fn field(mut self, name: &str, value: impl AsRef<[u8]>) -> Self {
+        for part in [name.as_bytes(), value.as_ref()] {
+            self.hash.update(part.len().to_string());
+            self.hash.update(b":");
+            self.hash.update(part);
+        }
+        self
+    }
+
+    /// Adds a list of values under one name.
+    #[must_use]
+    pub fn list<S: AsRef<str>>(self, name: &str, values: &[S]) -> Self {
+        let counted = self.field(name, values.len().to_string());
+        values.iter().fold(counted, |key, value| key.field(name, value.as_ref()))
+    }
+
+    /// Adds names and contents of source files.
+    #[must_use]
+    pub fn sources(self, sources: &[Source]) -> Self {
+        let counted = self.field("sources", sources.len().to_string());
+        sources.iter().fold(counted, |key, (name, contents)| key.field(name, contents))
+    }
+
+    /// Ends the key.
+    #[must_use]
+    pub fn finish(self) -> Key {
+        Key(format!("{}-{}", self.kind, hex(&self.hash.finalize())))
+    }
+}
+
+/// The SHA-256 of some bytes, in hexadecimal digits.
+#[must_use]
+pub fn sha256_hex(bytes: impl AsRef<[u8]>) -> String {
+    hex(&Sha256::digest(bytes.as_ref()))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hashes_are_sha256() {
+        let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+        assert_eq!(sha256_hex(""), empty);
+    }
+
+    #[test]
+    fn fields_do_not_run_together() {
+        let key = |fields: &[(&str, &str)]| {
+            let start = Key::builder("t");
+            fields.iter().fold(start, |key, (name, value)| key.field(name, value)).finish()
+        };
+        assert_ne!(key(&[("a", "bc")]), key(&[("ab", "c")]));
+        assert_ne!(key(&[("a", "b"), ("c", "d")]), key(&[("a", "b1:c1:d")]));
+        assert_eq!(key(&[("a", "b")]), key(&[("a", "b")]));
+        assert!(key(&[]).as_str().starts_with("t-"));
+    }
+}

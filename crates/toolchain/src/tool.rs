@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The external tools: what each is called, how old it may be, and how to install it.
+
+use std::fmt;
+
+/// An external program that the project can use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Tool {
+    /// Verilator, which turns Verilog into C++.
+    Verilator,
+    /// The compiler of Icarus Verilog.
+    Iverilog,
+    /// The run time of Icarus Verilog.
+    Vvp,
+    /// Yosys, the synthesizer.
+    Yosys,
+    /// The C++ compiler that builds what Verilator writes.
+    Cxx,
+    /// ffmpeg, which reads and writes video.
+    Ffmpeg,
+}
+
+impl Tool {
+    /// Every tool.
+    pub const ALL: [Self; 6] =
+        [Self::Verilator, Self::Iverilog, Self::Vvp, Self::Yosys, Self::Cxx, Self::Ffmpeg];
+
+    /// The name of the executable that is looked up in `PATH`.
+    #[must_use]
+    pub const fn executable(self) -> &'static str {
+        match self {
+            Self::Verilator => "verilator",
+            Self::Iverilog => "iverilog",
+            Self::Vvp => "vvp",
+            Self::Yosys => "yosys",
+            Self::Cxx => "g++",
+            Self::Ffmpeg => "ffmpeg",
+        }
+    }
+
+    /// The oldest version that is known to work.
+    #[must_use]
+    pub const fn minimum(self) -> Version {
+        match self {
+            Self::Verilator => Version::new("5.006", 5, 6),
+            Self::Iverilog | Self::Vvp => Version::new("11.0", 11, 0),
+            Self::Yosys => Version::new("0.23", 0, 23),
+            Self::Cxx => Version::new("9.0", 9, 0),
+            Self::Ffmpeg => Version::new("4.0", 4, 0),
+        }
+    }
+
+    /// The environment variable that names another executable to use.
+    #[must_use]
+    pub const fn variable(self) -> &'static str {
+        match self {
+            Self::Verilator => "FOVEATE_VERILATOR",
+            Self::Iverilog => "FOVEATE_IVERILOG",
+            Self::Vvp => "FOVEATE_VVP",
+            Self::Yosys => "FOVEATE_YOSYS",
+            Self::Cxx => "FOVEATE_CXX",
+            Self::Ffmpeg => "FOVEATE_FFMPEG",
+        }
+    }
+
+    /// The Debian package that contains the tool.
+    #[must_use]
+    pub const fn package(self) -> &'static str {
+        match self {
+            Self::Verilator => "verilator",
+            Self::Iverilog | Self::Vvp => "iverilog",
+            Self::Yosys => "yosys",
+            Self::Cxx => "g++",
+            Self::Ffmpeg => "ffmpeg",
+        }
+    }
+
+    /// The argument that makes the tool print its version.
+    pub(crate) const fn version_flag(self) -> &'static str {
+        match self {
+            Self::Verilator | Self::Cxx => "--version",
+            Self::Iverilog | Self::Vvp | Self::Yosys => "-V",
+            Self::Ffmpeg => "-version",
+        }
+    }
+}
+
+impl fmt::Display for Tool {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.executable())
+    }
+}
+
+/// A version as `major.minor`, with the tool's own spelling for messages (`5.006`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Version {
+    text: std::borrow::Cow<'static, str>,
+    numbers: (u32, u32),
+}
+
+impl Version {
+    const fn new(text: &'static str, major: u32, minor: u32) -> Self {
+        Self { text: std::borrow::Cow::Borrowed(text), numbers: (major, minor) }
+    }
+
+    /// Finds the first `number.number` in what a tool prints about itself.
+    #[must_use]
+    pub fn find(text: &str) -> Option<Self> {
+        text.split(|c: char| !(c.is_ascii_digit() || c == '.')).find_map(Self::from_word)
+    }
+
+    fn from_word(word: &str) -> Option<Self> {
+        let mut parts = word.split('.');
+        let major = parts.next()?.parse().ok()?;
+        let minor = parts.next()?.parse().ok()?;
+        Some(Self { text: word.trim_end_matches('.').to_owned().into(), numbers: (major, minor) })
+    }
+
+    /// Whether this version is not older than `other`.
+    #[must_use]
+    pub fn at_least(&self, other: &Self) -> bool {
+        self.numbers >= other.numbers
+    }
+}
+
+impl fmt::Display for Version {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_are_found_in_banners() {
+        for (banner, text) in [
+            ("Verilator 5.006 2023-01-22 rev (Debian 5.006-3)", "5.006"),
+            ("Yosys 0.23 (git sha1 7ce5011c24b)", "0.23"),
+            ("Yosys 0.70+12 (git sha1 1234567, clang++ 18.1.2)", "0.70"),
+            ("Icarus Verilog runtime version 11.0 (stable) ()", "11.0"),
+            ("g++ (Debian 12.2.0-14+deb12u1) 12.2.0", "12.2.0"),
+            ("ffmpeg version n6.0 Copyright (c)", "6.0"),
+        ] {
+            assert_eq!(Version::find(banner).map(|v| v.to_string()).as_deref(), Some(text));
+        }
+        assert_eq!(Version::find("no number 64 here"), None);
+    }
+
+    #[test]
+    fn versions_are_compared_as_numbers() {
+        let version = |text| Version::find(text).unwrap();
+        assert!(version("0.23").at_least(&version("0.9")));
+        assert!(version("5.048").at_least(&Tool::Verilator.minimum()));
+        assert!(!version("4.228").at_least(&Tool::Verilator.minimum()));
+    }
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Finds each tool once and refuses those that are too old.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use crate::error::ToolError;
+use crate::host::{Host, SystemHost};
+use crate::invocation::{Invocation, Output};
+use crate::tool::{Tool, Version};
+
+const VERSION_LIMIT: Duration = Duration::from_secs(600);
+
+/// A tool that was found and is new enough.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Located {
+    /// The executable.
+    pub path: PathBuf,
+    /// Its version; `None` for a build between releases, which has none.
+    pub version: Option<Version>,
+    /// The first line of what it prints about itself; part of every cache key.
+    pub banner: String,
+}
+
+/// The external tools of a machine. Cheap to clone; clones share what was found.
+#[derive(Clone)]
+pub struct Toolchain {
+    host: Arc<dyn Host>,
+    found: Arc<Mutex<HashMap<Tool, Located>>>,
+}
+
+impl Default for Toolchain {
+    fn default() -> Self {
+        Self::system()
+    }
+}
+
+impl fmt::Debug for Toolchain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Toolchain").finish_non_exhaustive()
+    }
+}
+
+impl Toolchain {
+    /// The tools of this machine.
+    #[must_use]
+    pub fn system() -> Self {
+        Self::with_host(SystemHost)
+    }
+
+    /// The tools of another machine, such as a mock.
+    #[must_use]
+    pub fn with_host(host: impl Host + 'static) -> Self {
+        Self { host: Arc::new(host), found: Arc::default() }
+    }
+
+    /// Finds a tool by its environment variable or in `PATH`, and checks its version.
+    ///
+    /// # Errors
+    /// When it is missing, cannot be run, or is too old.
+    pub fn find(&self, tool: Tool) -> Result<Located, ToolError> {
+        let known = self.found.lock().unwrap_or_else(PoisonError::into_inner).get(&tool).cloned();
+        if let Some(located) = known {
+            return Ok(located);
+        }
+        let located = self.identify(tool, self.locate(tool)?)?;
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        found.insert(tool, located.clone());
+        Ok(located)
+    }
+
+    /// An invocation of a tool that was found and checked.
+    ///
+    /// # Errors
+    /// As [`Toolchain::find`].
+    pub fn invocation(&self, tool: Tool) -> Result<Invocation, ToolError> {
+        Ok(Invocation::new(self.find(tool)?.path))
+    }
+
+    /// Runs a program to its end, whatever its exit code.
+    ///
+    /// # Errors
+    /// When it cannot be started or time is over.
+    pub fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
+        self.host.run(invocation)
+    }
+
+    /// Runs a program whose exit code must be zero.
+    ///
+    /// # Errors
+    /// As [`Toolchain::run`], and [`ToolError::Failed`] with the end of the log.
+    pub fn run_checked(&self, invocation: &Invocation) -> Result<Output, ToolError> {
+        self.run(invocation)?.checked(invocation)
+    }
+
+    fn locate(&self, tool: Tool) -> Result<PathBuf, ToolError> {
+        if let Some(value) = self.host.variable(tool.variable()).filter(|v| !v.is_empty()) {
+            let path = PathBuf::from(value);
+            let named = if path.components().count() == 1 { self.in_path(&path) } else { None };
+            let path = named.unwrap_or(path);
+            return if self.host.is_executable(&path) {
+                Ok(absolute(path))
+            } else {
+                Err(ToolError::NotExecutable { tool, path })
+            };
+        }
+        self.in_path(tool.executable().as_ref()).ok_or(ToolError::Missing { tool })
+    }
+
+    fn in_path(&self, name: &std::path::Path) -> Option<PathBuf> {
+        let path = self.host.variable("PATH")?;
+        let mut candidates = std::env::split_paths(&path).map(|dir| dir.join(name));
+        candidates.find(|candidate| self.host.is_executable(candidate)).map(absolute)
+    }
+
+    fn identify(&self, tool: Tool, path: PathBuf) -> Result<Located, ToolError> {
+        let ask = Invocation::new(&path).arg(tool.version_flag()).timeout(VERSION_LIMIT);
+        let output = self.run(&ask)?;
+        // vvp prints its version as an error; iverilog prints errors beside its version.
+        let text = if output.stdout.is_empty() { &output.stderr } else { &output.stdout };
+        let text = String::from_utf8_lossy(text);
+        let banner = text.lines().next().unwrap_or_default().trim().to_owned();
+        let version = Version::find(&banner);
+        let needed = tool.minimum();
+        match &version {
+            Some(found) if !found.at_least(&needed) => {
+                return Err(ToolError::TooOld { tool, path, found: found.clone(), needed });
+            }
+            None if !is_development_build(tool, &banner) => {
+                let said = output.log().lines().next().unwrap_or("nothing").to_owned();
+                return Err(ToolError::UnknownVersion { tool, path, said });
+            }
+            _ => {}
+        }
+        Ok(Located { path, version, banner })
+    }
+}
+
+/// Builds between releases, which have no version to compare: they are new enough.
+fn is_development_build(tool: Tool, banner: &str) -> bool {
+    match tool {
+        Tool::Ffmpeg => banner.starts_with("ffmpeg version N-"),
+        Tool::Verilator => banner.contains("rev vUNKNOWN-built"),
+        Tool::Iverilog | Tool::Vvp | Tool::Yosys | Tool::Cxx => false,
+    }
+}
+
+/// Tools run in folders of their own, so that a relative path would lose its meaning.
+fn absolute(path: PathBuf) -> PathBuf {
+    std::path::absolute(&path).unwrap_or(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::MockHost;
+
+    #[test]
+    fn a_tool_in_path_is_found_once() {
+        let host = MockHost::new().tool("/opt/bin/yosys", "Yosys 0.23 (git sha1 7ce5011c24b)\n");
+        let log = host.log();
+        let toolchain = Toolchain::with_host(host);
+        let located = toolchain.find(Tool::Yosys).unwrap();
+        assert_eq!(located.path, PathBuf::from("/opt/bin/yosys"));
+        assert_eq!(located.banner, "Yosys 0.23 (git sha1 7ce5011c24b)");
+        assert_eq!(toolchain.clone().find(Tool::Yosys).unwrap(), located);
+        assert_eq!(log.commands(), ["/opt/bin/yosys -V"]);
+    }
+
+    #[test]
+    fn a_missing_tool_says_how_to_install_it() {
+        let error = Toolchain::with_host(MockHost::new()).find(Tool::Verilator).unwrap_err();
+        assert!(matches!(error, ToolError::Missing { tool: Tool::Verilator }));
+    }
+
+    #[test]
+    fn the_variable_wins_over_path() {
+        let host = MockHost::new()
+            .tool("/opt/bin/yosys", "Yosys 0.23\n")
+            .tool("/home/me/yosys", "Yosys 0.70\n")
+            .variable("FOVEATE_YOSYS", "/home/me/yosys");
+        let located = Toolchain::with_host(host).find(Tool::Yosys).unwrap();
+        assert_eq!(located.path, PathBuf::from("/home/me/yosys"));
+    }
+
+    #[test]
+    fn a_variable_that_names_nothing_is_an_error() {
+        let host = MockHost::new()
+            .tool("/opt/bin/yosys", "Yosys 0.23\n")
+            .variable("FOVEATE_YOSYS", "/home/me/yosis");
+        let error = Toolchain::with_host(host).find(Tool::Yosys).unwrap_err();
+        assert!(error.to_string().starts_with("FOVEATE_YOSYS is set to `/home/me/yosis`"));
+    }
+
+    #[test]
+    fn old_and_unreadable_versions_are_refused() {
+        let find = |banner: &str| {
+            let host = MockHost::new().tool("/opt/bin/verilator", banner);
+            Toolchain::with_host(host).find(Tool::Verilator)
+        };
+        assert!(matches!(find("Verilator 4.038 2020-07-11\n"), Err(ToolError::TooOld { .. })));
+        assert!(matches!(find("Segmentation fault\n"), Err(ToolError::UnknownVersion { .. })));
+        assert!(find("Verilator 5.048 2026-01-01\n").is_ok());
+    }
+
+    #[test]
+    fn builds_between_releases_are_taken() {
+        let host = MockHost::new()
+            .tool("/opt/bin/ffmpeg", "ffmpeg version N-1234-gabcdef\n")
+            .tool("/opt/bin/verilator", " rev vUNKNOWN-built20260516-4e853d8\n");
+        let toolchain = Toolchain::with_host(host);
+        assert_eq!(toolchain.find(Tool::Ffmpeg).unwrap().version, None);
+        assert_eq!(toolchain.find(Tool::Verilator).unwrap().version, None);
+    }
+}

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compiles and links what Verilator wrote.
+//!
+//! Every C++ file of a model includes the same large headers. Small models are therefore compiled as
+//! one file that includes the others, large ones as several of them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::thread;
+
+use super::{EXECUTABLE, LIMIT, MAIN, makefile::Makefile, tools_key};
+use crate::cache::Cache;
+use crate::error::ToolError;
+use crate::files;
+use crate::invocation::Invocation;
+use crate::tool::Tool;
+use crate::toolchain::Toolchain;
+
+/// Bytes of generated C++ that one compiler run takes at most, if files are not larger themselves.
+const BUNDLE: u64 = 256 << 10;
+const COMPILERS: usize = 2;
+const RUN_TIME_FLAG: &str = "-O2";
+/// Libraries for waves that the package of Verilator does not bring along.
+const HEADERS: [(&str, &str); 2] = [("zlib.h", "zlib1g-dev"), ("lz4.h", "liblz4-dev")];
+const SLOW_FLAG: &str = "-O0";
+
+/// A C++ compiler set up for Verilator's headers.
+pub(super) struct Compiler<'a> {
+    toolchain: &'a Toolchain,
+    include: PathBuf,
+    flags: Vec<String>,
+}
+
+/// One run of the compiler.
+struct Unit {
+    source: PathBuf,
+    object: PathBuf,
+    flag: &'static str,
+}
+
+impl<'a> Compiler<'a> {
+    pub(super) fn new(
+        toolchain: &'a Toolchain,
+        include: PathBuf,
+        trace: bool,
+    ) -> Result<Self, ToolError> {
+        toolchain.find(Tool::Cxx)?;
+        Ok(Self { toolchain, include, flags: flags(trace) })
+    }
+
+    /// The objects of Verilator's run time, compiled when they are needed for the first time.
+    pub(super) fn run_time(
+        &self,
+        cache: &Cache,
+        makefile: &Makefile,
+    ) -> Result<Vec<PathBuf>, ToolError> {
+        in_parallel(&makefile.run_time, |name| {
+            let key = tools_key("verilated", self.toolchain)?
+                .list("flags", &self.flags)
+                .field("include", self.include.as_os_str().as_encoded_bytes())
+                .field("file", name)
+                .finish();
+            let object = format!("{name}.o");
+            cache.get_or_build(&key, &object, |dir| {
+                let source = self.include.join(format!("{name}.cpp"));
+                self.compile(dir, &Unit { source, object: dir.join(&object), flag: RUN_TIME_FLAG })
+            })
+        })
+    }
+
+    /// The objects of the model and of its main.
+    pub(super) fn model(
+        &self,
+        dir: &Path,
+        makefile: &Makefile,
+        flag: &'static str,
+    ) -> Result<Vec<PathBuf>, ToolError> {
+        let unit = |name: &str, flag| Unit {
+            source: dir.join(name),
+            object: dir.join(name).with_extension("o"),
+            flag,
+        };
+        let mut units = Vec::new();
+        for name in bundle(dir, "fast", &makefile.fast)? {
+            units.push(unit(&name, flag));
+        }
+        units.push(unit(MAIN, flag));
+        for name in bundle(dir, "slow", &makefile.slow)? {
+            units.push(unit(&name, SLOW_FLAG));
+        }
+        in_parallel(&units, |unit| self.compile(dir, unit).map(|()| unit.object.clone()))
+    }
+
+    /// Links the executable.
+    pub(super) fn link(
+        &self,
+        dir: &Path,
+        objects: &[PathBuf],
+        makefile: &Makefile,
+    ) -> Result<PathBuf, ToolError> {
+        let executable = dir.join(EXECUTABLE);
+        let invocation = self
+            .command(dir)?
+            .arg("-o")
+            .arg(&executable)
+            .args(objects)
+            .args(["-pthread", "-latomic"])
+            .args(&makefile.libraries);
+        self.toolchain.run_checked(&invocation)?;
+        Ok(executable)
+    }
+
+    fn compile(&self, dir: &Path, unit: &Unit) -> Result<(), ToolError> {
+        let invocation = self
+            .command(dir)?
+            .args(&self.flags)
+            .arg(unit.flag)
+            .arg("-I.")
+            .arg("-isystem")
+            .arg(&self.include)
+            .arg("-isystem")
+            .arg(self.include.join("vltstd"))
+            .arg("-c")
+            .arg(&unit.source)
+            .arg("-o")
+            .arg(&unit.object);
+        self.toolchain.run_checked(&invocation).map(drop).map_err(explain)
+    }
+
+    fn command(&self, dir: &Path) -> Result<Invocation, ToolError> {
+        Ok(self.toolchain.invocation(Tool::Cxx)?.dir(dir).merge_stderr().timeout(LIMIT))
+    }
+}
+
+/// Says how to install a header that the compiler did not find.
+fn explain(error: ToolError) -> ToolError {
+    let ToolError::Failed { full, .. } = &error else { return error };
+    let missing = |(header, _): &&(&str, &str)| {
+        full.contains(&format!("{header}: No such file")) // gcc
+            || full.contains(&format!("'{header}' file not found")) // clang
+    };
+    match HEADERS.iter().find(missing) {
+        Some(&(header, package)) => ToolError::MissingHeader { header, package },
+        None => error,
+    }
+}
+
+/// What Verilator's headers want, with or without waves.
+pub(super) fn flags(trace: bool) -> Vec<String> {
+    let trace = u8::from(trace);
+    let fixed = ["-std=gnu++17", "-w", "-pthread", "-DVERILATOR=1", "-DVL_TIME_CONTEXT"];
+    let mut flags: Vec<String> = fixed.map(str::to_owned).into();
+    flags.extend(["COVERAGE", "SC", "TRACE_VCD", "TIMING"].map(|name| format!("-DVM_{name}=0")));
+    flags.extend(["TRACE", "TRACE_FST"].map(|name| format!("-DVM_{name}={trace}")));
+    flags
+}
+
+/// Writes files that include the generated ones, each up to a certain size; returns their names.
+fn bundle(dir: &Path, kind: &str, names: &[String]) -> Result<Vec<String>, ToolError> {
+    let mut bundles: Vec<(u64, String)> = Vec::new();
+    for name in names {
+        let path = dir.join(format!("{name}.cpp"));
+        let size = fs::metadata(&path).map_err(ToolError::io("read", &path))?.len();
+        let include = format!("#include \"{name}.cpp\"\n");
+        match bundles.last_mut() {
+            Some((total, text)) if *total + size <= BUNDLE => {
+                *total += size;
+                text.push_str(&include);
+            }
+            _ => bundles.push((size, include)),
+        }
+    }
+    let write = |(index, (_, text)): (usize, &(u64, String))| {
+        let name = format!("foveate_{kind}_{index}.cpp");
+        files::write(dir, &name, text.as_bytes()).map(|()| name)
+    };
+    bundles.iter().enumerate().map(write).collect()
+}
+
+/// Does `work` for every item, a few at a time; results are in order, the first error wins.
+fn in_parallel<T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(&T) -> Result<R, ToolError> + Sync,
+) -> Result<Vec<R>, ToolError> {
+    let queue = Mutex::new(items.iter().enumerate());
+    let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let worker = || {
+        let mut done = Vec::new();
+        while let Some((index, item)) = next() {
+            done.push((index, work(item)?));
+        }
+        Ok(done)
+    };
+    let mut results = Vec::new();
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..COMPILERS).map(|_| scope.spawn(worker)).collect();
+        for handle in workers {
+            match handle.join() {
+                Ok(done) => results.extend(done?),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        Ok::<(), ToolError>(())
+    })?;
+    results.sort_by_key(|(index, _)| *index);
+    Ok(results.into_iter().map(|(_, result)| result).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_is_done_in_order() {
+        let items: Vec<usize> = (0..100).collect();
+        assert_eq!(in_parallel(&items, |i| Ok(i * 2)).unwrap()[99], 198);
+        let error = in_parallel(&items, |i| if *i == 7 { Err(ToolError::NoCache) } else { Ok(()) });
+        assert!(matches!(error, Err(ToolError::NoCache)));
+    }
+
+    #[test]
+    fn small_files_share_a_bundle() {
+        let dir = tempfile::tempdir().unwrap();
+        let large = "x".repeat(300 << 10);
+        for (name, text) in [("a", "1"), ("b", "2"), ("c", large.as_str()), ("d", "3")] {
+            fs::write(dir.path().join(format!("{name}.cpp")), text).unwrap();
+        }
+        let names = ["a", "b", "c", "d"].map(str::to_owned);
+        let bundles = bundle(dir.path(), "fast", &names).unwrap();
+        assert_eq!(bundles.len(), 3);
+        let first = fs::read_to_string(dir.path().join(&bundles[0])).unwrap();
+        assert_eq!(first, "#include \"a.cpp\"\n#include \"b.cpp\"\n");
+    }
+}

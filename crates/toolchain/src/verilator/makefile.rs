@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Reads from Verilator's makefiles which files it wrote, and which parts of its run time and which
+//! libraries they need. That differs between versions, so that it is asked and not assumed.
+
+use std::path::Path;
+
+use crate::error::ToolError;
+
+/// The lists that Verilator writes for its own makefile.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Makefile {
+    /// Generated files that run often, without `.cpp`.
+    pub(super) fast: Vec<String>,
+    /// Generated files that run once.
+    pub(super) slow: Vec<String>,
+    /// Parts of the run time.
+    pub(super) run_time: Vec<String>,
+    /// Flags for the linker.
+    pub(super) libraries: Vec<String>,
+}
+
+impl Makefile {
+    pub(super) fn read(dir: &Path, prefix: &str) -> Result<Self, ToolError> {
+        let read = |name: String| {
+            let path = dir.join(name);
+            std::fs::read_to_string(&path).map_err(ToolError::io("read", &path))
+        };
+        Ok(Self::parse(&read(format!("{prefix}_classes.mk"))?, &read(format!("{prefix}.mk"))?))
+    }
+
+    fn parse(classes: &str, main: &str) -> Self {
+        let both = |a, b| [list(classes, a), list(classes, b)].concat();
+        Self {
+            fast: both("VM_CLASSES_FAST", "VM_SUPPORT_FAST"),
+            slow: both("VM_CLASSES_SLOW", "VM_SUPPORT_SLOW"),
+            run_time: both("VM_GLOBAL_FAST", "VM_GLOBAL_SLOW"),
+            libraries: list(main, "VM_USER_LDLIBS"),
+        }
+    }
+}
+
+/// The words assigned to a variable, over continued lines.
+fn list(makefile: &str, variable: &str) -> Vec<String> {
+    let joined = makefile.replace("\\\n", " ");
+    let assigned = joined.lines().filter_map(|line| {
+        let rest = line.strip_prefix(variable)?.trim_start();
+        rest.strip_prefix("+=").or_else(|| rest.strip_prefix('='))
+    });
+    assigned.flat_map(str::split_whitespace).map(str::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_are_read_over_lines() {
+        let classes = "VM_TRACE = 1\nVM_CLASSES_FAST += \\\n\tVtop \\\n\tVtop__0 \\\n\n\
+                       VM_CLASSES_SLOW += \\\n\tVtop__Slow \\\n\n\
+                       VM_SUPPORT_FAST += \\\n\tVtop__Trace \\\n\n\
+                       VM_GLOBAL_FAST += \\\n\tverilated \\\n\tverilated_threads \\\n\n\
+                       VM_GLOBAL_SLOW += \\\n\n";
+        let makefile = Makefile::parse(classes, "VM_USER_LDLIBS = \\\n\t-lz \\\n\n");
+        assert_eq!(makefile.fast, ["Vtop", "Vtop__0", "Vtop__Trace"]);
+        assert_eq!(makefile.slow, ["Vtop__Slow"]);
+        assert_eq!(makefile.run_time, ["verilated", "verilated_threads"]);
+        assert_eq!(makefile.libraries, ["-lz"]);
+    }
+}

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Builds a simulator from Verilog and a C++ main, with Verilator and a C++ compiler.
+//!
+//! Verilator's own makefile compiles its run time anew for every model, which takes longer than a
+//! small model itself. Here the run time is compiled once into the cache; each model compiles its own
+//! files only, with two compilers side by side.
+
+mod compile;
+mod makefile;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::cache::Cache;
+use crate::error::ToolError;
+use crate::files::{self, Source};
+use crate::invocation::Invocation;
+use crate::key::{Key, KeyBuilder};
+use crate::tool::Tool;
+use crate::toolchain::Toolchain;
+use compile::Compiler;
+use makefile::Makefile;
+
+const EXECUTABLE: &str = "simulator";
+const WAIVERS: &str = "waivers.vlt";
+const MAIN: &str = "foveate_main.cpp";
+const LIMIT: Duration = Duration::from_secs(1800);
+
+/// How much the C++ compiler optimizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Optimize {
+    /// `-O1`: quick to build, for short runs.
+    #[default]
+    Build,
+    /// `-O3`: quick to run, for long runs.
+    Run,
+}
+
+impl Optimize {
+    const fn flag(self) -> &'static str {
+        match self {
+            Self::Build => "-O1",
+            Self::Run => "-O3",
+        }
+    }
+}
+
+/// What Verilator does about questionable Verilog.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Lint {
+    /// Every warning of `-Wall` is an error.
+    #[default]
+    Strict,
+    /// Warnings are not looked for; only what is no Verilog fails.
+    Lenient,
+}
+
+impl Lint {
+    const fn flags(self) -> &'static [&'static str] {
+        match self {
+            Self::Strict => &["-Wall"],
+            Self::Lenient => &["-Wno-fatal", "-Wno-lint", "-Wno-style"],
+        }
+    }
+}
+
+/// A simulator to build.
+#[derive(Debug, Clone, Default)]
+pub struct VerilatorJob {
+    /// The Verilog files; headers for `` `include `` may be among them if they end in `.vh`.
+    pub sources: Vec<Source>,
+    /// The top module. The C++ class is `V` and this name, its header `V<top>.h`.
+    pub top: String,
+    /// The C++ source with `main`.
+    pub cpp_main: String,
+    /// A Verilator configuration: lint waivers, `no_inline`.
+    pub vlt: Option<String>,
+    /// Whether the model can write FST waves.
+    pub trace: bool,
+    /// How much the C++ compiler optimizes.
+    pub optimize: Optimize,
+    /// What to do about questionable Verilog.
+    pub lint: Lint,
+    /// Further arguments for Verilator, such as `--assert`.
+    pub extra_args: Vec<String>,
+}
+
+/// Builds the simulator, or finds it in the cache, and returns its executable.
+///
+/// # Errors
+/// When a tool is missing, or Verilator or the compiler refuses the sources.
+pub fn build(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    job: &VerilatorJob,
+) -> Result<PathBuf, ToolError> {
+    let key = job.key(toolchain)?;
+    cache.get_or_build(&key, EXECUTABLE, |dir| {
+        let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
+        let built = build_in(toolchain, cache, job, work.path())?;
+        let kept = dir.join(EXECUTABLE);
+        fs::rename(&built, &kept).map_err(ToolError::io("write", &kept))
+    })
+}
+
+/// Runs Verilator's lint over the sources.
+///
+/// # Errors
+/// When Verilator is missing, or finds anything.
+pub fn lint(
+    toolchain: &Toolchain,
+    sources: &[Source],
+    top: &str,
+    vlt: Option<&str>,
+) -> Result<(), ToolError> {
+    let dir =
+        tempfile::tempdir().map_err(ToolError::io("create a folder in", Path::new("/tmp")))?;
+    let args = ["--lint-only", "--no-timing", "-Wall", "--top-module", top];
+    let invocation = toolchain.invocation(Tool::Verilator)?.args(args);
+    let invocation = with_sources(invocation, dir.path(), sources, vlt)?;
+    toolchain.run_checked(&invocation).map(drop)
+}
+
+impl VerilatorJob {
+    fn key(&self, toolchain: &Toolchain) -> Result<Key, ToolError> {
+        let key = tools_key("verilator", toolchain)?
+            .list("flags", &self.flags())
+            .list("compiler flags", &compile::flags(self.trace))
+            .field("optimize", self.optimize.flag())
+            .field("main", &self.cpp_main)
+            .field("vlt", self.vlt.as_deref().unwrap_or_default());
+        Ok(key.sources(&self.sources).finish())
+    }
+
+    fn flags(&self) -> Vec<String> {
+        let mut flags = vec!["--cc", "--no-timing", "-O3", "--output-split", "20000"];
+        flags.extend(["--Mdir", ".", "--top-module", &self.top]);
+        flags.extend(self.lint.flags());
+        if self.trace {
+            flags.push("--trace-fst");
+        }
+        let mut flags: Vec<String> = flags.into_iter().map(str::to_owned).collect();
+        flags.extend(["--prefix".to_owned(), self.prefix()]);
+        flags.extend(self.extra_args.iter().cloned());
+        flags
+    }
+
+    fn prefix(&self) -> String {
+        format!("V{}", self.top)
+    }
+}
+
+fn build_in(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    job: &VerilatorJob,
+    dir: &Path,
+) -> Result<PathBuf, ToolError> {
+    let verilate = toolchain.invocation(Tool::Verilator)?.args(job.flags());
+    let verilate = with_sources(verilate, dir, &job.sources, job.vlt.as_deref())?;
+    toolchain.run_checked(&verilate)?;
+    files::write(dir, MAIN, job.cpp_main.as_bytes())?;
+    let makefile = Makefile::read(dir, &job.prefix())?;
+    let compiler = Compiler::new(toolchain, include_dir(toolchain)?, job.trace)?;
+    let mut objects = compiler.run_time(cache, &makefile)?;
+    objects.extend(compiler.model(dir, &makefile, job.optimize.flag())?);
+    compiler.link(dir, &objects, &makefile)
+}
+
+/// The sources in `dir`, and their names as arguments; headers are found, not named.
+fn with_sources(
+    invocation: Invocation,
+    dir: &Path,
+    sources: &[Source],
+    vlt: Option<&str>,
+) -> Result<Invocation, ToolError> {
+    files::write_sources(dir, sources)?;
+    let mut invocation = invocation.dir(dir).merge_stderr().timeout(LIMIT);
+    if let Some(vlt) = vlt {
+        files::write(dir, WAIVERS, vlt.as_bytes())?;
+        invocation = invocation.arg(WAIVERS);
+    }
+    let names = sources.iter().map(|(name, _)| name).filter(|name| !name.ends_with(".vh"));
+    Ok(invocation.args(names))
+}
+
+/// The folder of Verilator's headers and run time.
+fn include_dir(toolchain: &Toolchain) -> Result<PathBuf, ToolError> {
+    let ask = toolchain.invocation(Tool::Verilator)?.args(["--getenv", "VERILATOR_ROOT"]);
+    let output = toolchain.run_checked(&ask.timeout(LIMIT))?;
+    let root = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    Ok(Path::new(&root).join("include"))
+}
+
+/// A key that depends on the versions of Verilator and the compiler.
+fn tools_key(kind: &str, toolchain: &Toolchain) -> Result<KeyBuilder, ToolError> {
+    let verilator = toolchain.find(Tool::Verilator)?;
+    let compiler = toolchain.find(Tool::Cxx)?;
+    Ok(Key::builder(kind)
+        .field("verilator", verilator.banner)
+        .field("path", verilator.path.as_os_str().as_encoded_bytes())
+        .field("compiler", compiler.banner))
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs a Yosys script over sources from memory, and keeps its log and the files it wrote.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use crate::cache::Cache;
+use crate::error::ToolError;
+use crate::files::{self, Source, log_excerpt};
+use crate::key::Key;
+use crate::tool::Tool;
+use crate::toolchain::Toolchain;
+
+const SCRIPT: &str = "script.ys";
+const LOG: &str = "yosys.log";
+const LIMIT: Duration = Duration::from_secs(1800);
+
+/// A script to run.
+#[derive(Debug, Clone, Default)]
+pub struct YosysJob {
+    /// The Verilog files; the script reads them by these names.
+    pub sources: Vec<Source>,
+    /// The commands, one on a line.
+    pub script: String,
+    /// The files that the script writes and that are wanted; names without folders.
+    pub outputs: Vec<String>,
+}
+
+/// What a script left.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct YosysRun {
+    /// Everything that Yosys printed.
+    pub log: String,
+    /// The wanted files by name.
+    pub files: BTreeMap<String, Vec<u8>>,
+}
+
+/// Runs the script, or finds its results in the cache.
+///
+/// # Errors
+/// When Yosys is missing, the script fails, or a wanted file was not written.
+pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<YosysRun, ToolError> {
+    let key = Key::builder("yosys")
+        .field("version", toolchain.find(Tool::Yosys)?.banner)
+        .field("script", &job.script)
+        .list("outputs", &job.outputs)
+        .sources(&job.sources)
+        .finish();
+    let log = cache.get_or_build(&key, LOG, |dir| run_in(toolchain, job, dir))?;
+    let dir = log.parent().unwrap_or(Path::new("."));
+    let read = |name: &str| {
+        let path = dir.join(name);
+        fs::read(&path).map_err(ToolError::io("read", &path))
+    };
+    let mut files = BTreeMap::new();
+    for name in &job.outputs {
+        files.insert(name.clone(), read(name)?);
+    }
+    Ok(YosysRun { log: String::from_utf8_lossy(&read(LOG)?).into_owned(), files })
+}
+
+fn run_in(toolchain: &Toolchain, job: &YosysJob, dir: &Path) -> Result<(), ToolError> {
+    let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
+    files::write_sources(work.path(), &job.sources)?;
+    files::write(work.path(), SCRIPT, job.script.as_bytes())?;
+    let invocation = toolchain
+        .invocation(Tool::Yosys)?
+        .args(["-Q", "-T", "-s", SCRIPT])
+        .dir(work.path())
+        .merge_stderr()
+        .timeout(LIMIT);
+    let output = toolchain.run_checked(&invocation)?;
+    files::write(dir, LOG, &output.stdout)?;
+    for name in &job.outputs {
+        let written = work.path().join(name);
+        if !written.is_file() {
+            return Err(ToolError::NoOutput {
+                command: invocation.command_line(),
+                file: name.clone(),
+                tail: log_excerpt(&output.log()),
+            });
+        }
+        let kept = dir.join(name);
+        fs::rename(&written, &kept).map_err(ToolError::io("write", &kept))?;
+    }
+    Ok(())
+}
