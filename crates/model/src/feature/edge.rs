@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `edge`: pixels whose 3x3 Sobel magnitude `|Gx| + |Gy|` is above a level.
+
+use foveate_spec::Design;
+
+use crate::Frame;
+use crate::window::{RegionView, Window};
+
+/// `|Gx| + |Gy|` of the center.
+///
+/// ```text
+///      -1  0 +1          -1 -2 -1
+/// Gx:  -2  0 +2     Gy:   0  0  0
+///      -1  0 +1          +1 +2 +1
+/// ```
+#[must_use]
+pub fn magnitude(window: &Window) -> u32 {
+    let [nw, n, ne, w, _, e, sw, s, se] = window.map(i32::from);
+    let gx = (ne + 2 * e + se) - (nw + 2 * w + sw);
+    let gy = (sw + 2 * s + se) - (nw + 2 * n + ne);
+    gx.unsigned_abs() + gy.unsigned_abs()
+}
+
+/// The magnitude of every pixel of a region of a denoised padded frame, row by row; a pixel is a
+/// hit when its magnitude is above the level.
+///
+/// # Panics
+/// When the frame is not as large as the design's padded frame, or has no such region.
+#[must_use]
+pub fn edge_magnitudes(design: &Design, denoised: &Frame, region: u32) -> Vec<u32> {
+    RegionView::new(design, denoised, region).windows().map(|window| magnitude(&window)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_a_diagonal_and_the_maximum() {
+        assert_eq!(magnitude(&[0, 0, 9, 0, 0, 9, 0, 0, 9]), 36);
+        assert_eq!(magnitude(&[9, 0, 0, 9, 0, 0, 9, 0, 0]), 36);
+        assert_eq!(magnitude(&[0, 0, 0, 0, 0, 9, 0, 9, 9]), 54);
+        assert_eq!(magnitude(&[0, 0, 0, 0, 7, 65535, 0, 65535, 65535]), 6 * 65535);
+        assert_eq!(magnitude(&[4, 4, 4, 4, 0, 4, 4, 4, 4]), 0);
+    }
+}

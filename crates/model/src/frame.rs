@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A frame: width x height luma pixels of some bits, row by row.
+
+use foveate_spec::Design;
+
+use crate::ModelError;
+use crate::number::index;
+
+/// Pixels of one frame; every value is known to fit into the frame's bits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    width: u32,
+    height: u32,
+    bits: u32,
+    pixels: Vec<u16>,
+}
+
+impl Frame {
+    /// A frame from its pixels, row by row.
+    ///
+    /// # Errors
+    /// When a side is zero, `bits` is not in `1..=16`, the number of pixels is not
+    /// `width * height`, or a pixel does not fit into `bits` bits.
+    pub fn new(width: u32, height: u32, bits: u32, pixels: Vec<u16>) -> Result<Self, ModelError> {
+        if width == 0 || height == 0 {
+            return Err(ModelError::EmptyFrame { width, height });
+        }
+        if !(1..=16).contains(&bits) {
+            return Err(ModelError::PixelBits { bits });
+        }
+        let needed = u64::from(width) * u64::from(height);
+        if u64::try_from(pixels.len()) != Ok(needed) {
+            let given = pixels.len();
+            return Err(ModelError::FrameLength { width, height, needed, given });
+        }
+        let frame = Self { width, height, bits, pixels };
+        match frame.first_too_large() {
+            None => Ok(frame),
+            Some((x, y, value, max)) => Err(ModelError::PixelRange { x, y, value, bits, max }),
+        }
+    }
+
+    /// A frame whose pixels are all `value`.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn filled(width: u32, height: u32, bits: u32, value: u16) -> Result<Self, ModelError> {
+        Self::from_fn(width, height, bits, |_, _| value)
+    }
+
+    /// A frame whose pixel at column `x` and row `y` is `f(x, y)`.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn from_fn(
+        width: u32,
+        height: u32,
+        bits: u32,
+        mut f: impl FnMut(u32, u32) -> u16,
+    ) -> Result<Self, ModelError> {
+        let mut pixels = Vec::new();
+        for y in 0..height {
+            pixels.extend((0..width).map(|x| f(x, y)));
+        }
+        Self::new(width, height, bits, pixels)
+    }
+
+    /// A black frame as large as a whole number of the design's regions.
+    pub(crate) fn black_padded(design: &Design) -> Self {
+        let side = design.region_size();
+        Self::black(design.columns() * side, design.rows() * side, design.pixel_bits())
+    }
+
+    /// A black frame of a size that a design has vouched for.
+    pub(crate) fn black(width: u32, height: u32, bits: u32) -> Self {
+        Self { width, height, bits, pixels: vec![0; index(width) * index(height)] }
+    }
+
+    /// Width in pixels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Bits per pixel.
+    #[must_use]
+    pub fn bits(&self) -> u32 {
+        self.bits
+    }
+
+    /// Every pixel, row by row.
+    #[must_use]
+    pub fn pixels(&self) -> &[u16] {
+        &self.pixels
+    }
+
+    /// The pixel at column `x` and row `y`.
+    ///
+    /// # Panics
+    /// When that is outside of the frame.
+    #[must_use]
+    pub fn get(&self, x: u32, y: u32) -> u16 {
+        self.row(y)[index(x)]
+    }
+
+    /// The pixel of the frame that is nearest to column `x` and row `y`.
+    #[must_use]
+    pub fn clamped(&self, x: i64, y: i64) -> u16 {
+        let nearest = |at: i64, size: u32| {
+            u32::try_from(at.clamp(0, i64::from(size) - 1)).unwrap_or_default()
+        };
+        self.get(nearest(x, self.width), nearest(y, self.height))
+    }
+
+    /// One row.
+    ///
+    /// # Panics
+    /// When it is outside of the frame.
+    #[must_use]
+    pub fn row(&self, y: u32) -> &[u16] {
+        &self.pixels[index(y) * index(self.width)..][..index(self.width)]
+    }
+
+    /// One row, to be written by code that keeps to the frame's bits.
+    pub(crate) fn row_mut(&mut self, y: u32) -> &mut [u16] {
+        &mut self.pixels[index(y) * index(self.width)..][..index(self.width)]
+    }
+
+    /// Size and depth as an error message names them.
+    pub(crate) fn kind(&self) -> String {
+        format!("{}x{} pixels of {} bits", self.width, self.height, self.bits)
+    }
+
+    /// Column, row, value and the largest valid value.
+    fn first_too_large(&self) -> Option<(u32, u32, u16, u16)> {
+        let max = u16::MAX >> (16 - self.bits);
+        (0..self.height).find_map(|y| {
+            let too_large = |(x, &value): (u32, &u16)| (value > max).then_some((x, y, value, max));
+            (0..self.width).zip(self.row(y)).find_map(too_large)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_frame_is_refused_by_name() {
+        assert_eq!(Frame::filled(0, 3, 8, 0), Err(ModelError::EmptyFrame { width: 0, height: 3 }));
+        assert_eq!(Frame::filled(1, 1, 17, 0), Err(ModelError::PixelBits { bits: 17 }));
+        assert_eq!(Frame::filled(1, 1, 0, 0), Err(ModelError::PixelBits { bits: 0 }));
+        let message = Frame::new(3, 2, 8, vec![0; 5]).unwrap_err().to_string();
+        assert_eq!(message, "a frame of 3x2 needs 6 pixels, 5 were given");
+        let message = Frame::new(2, 2, 3, vec![7, 0, 8, 0]).unwrap_err().to_string();
+        assert_eq!(message, "pixel (0, 1) is 8; the largest value of 3 bits is 7");
+        assert!(Frame::filled(2, 2, 16, u16::MAX).is_ok());
+        assert!(Frame::filled(2, 2, 1, 1).is_ok());
+    }
+
+    #[test]
+    fn positions_outside_hold_the_nearest_pixel() {
+        let frame = Frame::from_fn(3, 2, 8, |x, y| u16::try_from(10 * y + x).unwrap()).unwrap();
+        assert_eq!((frame.get(2, 1), frame.row(1)), (12, &[10, 11, 12][..]));
+        assert_eq!(
+            [(-1, -9), (7, -1), (1, 9), (9, 9)].map(|(x, y)| frame.clamped(x, y)),
+            [0, 2, 11, 12]
+        );
+    }
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The pipelined organization, clock by clock: what every output port shows after every edge.
+//!
+//! One [`PipelinedRpu::step`] is one rising edge of the clock. The blocks are those of
+//! `docs/timing.md`, one file each:
+//!
+//! ```text
+//! valid_i    +--------+   2   +---------+  d=0,1  +------------------------------------+
+//! pixel_i -->| median |--||-->| feature |---|---->| tail: counts, second pass, store,  |--> outputs
+//!            | window |       | window  |         | temporal score, decision, forward  |
+//!            +--------+       +---------+         +------------------------------------+
+//! ```
+//!
+//! A stage that the design does not need is not there. At an edge a stage takes one pixel, or none.
+
+mod decide;
+mod isolated;
+mod median;
+mod moments;
+mod pixel;
+mod plan;
+mod rcm;
+mod rpu;
+mod scores;
+mod shared;
+mod store;
+mod tail;
+mod temporal;
+mod thresholds;
+mod window;
+
+pub use rcm::PipelinedRcm;
+pub use rpu::{PipelinedRpu, RpuInput, RpuOutput};
+pub use thresholds::Thresholds;

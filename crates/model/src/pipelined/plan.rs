@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The parameters of the blocks, taken from the design once.
+
+use foveate_spec::{
+    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+};
+
+use super::Thresholds;
+use crate::number::index;
+
+/// Most features that a design can have.
+pub(super) const FEATURES: usize = 4;
+
+/// What the blocks of one RPU need to know of the design.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    /// Side of a region N.
+    pub(super) side: usize,
+    /// Pixels of a region n.
+    pub(super) pixels: usize,
+    pub(super) neighborhood: Neighborhood,
+    /// Side of the square of pixels that comes in.
+    pub(super) stream_side: usize,
+    pub(super) filter: Filter,
+    pub(super) has_feature_window: bool,
+    pub(super) needs_border: bool,
+    /// Whether a register stands between the last window and the tail.
+    pub(super) delayed_tail: bool,
+    /// The features in the order of the design.
+    pub(super) features: [Option<FeatureKind>; FEATURES],
+    /// Fraction bits of the mean, where there is `mad`.
+    pub(super) fraction_bits: u32,
+    /// Whether the decision waits for one more frame.
+    pub(super) second_pass: bool,
+    pub(super) combine: Combine,
+    pub(super) reference: Reference,
+    pub(super) irrelevant: Irrelevant,
+    pub(super) payload: Payload,
+    /// The thresholds, where they are constants of the core.
+    constants: Option<Thresholds>,
+}
+
+impl Plan {
+    pub(super) fn of(design: &Design) -> Self {
+        let mut features = [None; FEATURES];
+        for (place, feature) in features.iter_mut().zip(design.features()) {
+            *place = Some(feature.kind());
+        }
+        let mean = design.features().iter().find_map(|feature| feature.mean());
+        Self {
+            side: index(design.region_size()),
+            pixels: index(design.region_pixels()),
+            neighborhood: design.neighborhood(),
+            stream_side: index(design.stream_side()),
+            filter: design.filter(),
+            has_feature_window: design.has_feature_window(),
+            needs_border: design.needs_border(),
+            delayed_tail: features.into_iter().flatten().any(is_late),
+            features,
+            fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
+            second_pass: design.has_second_pass(),
+            combine: design.combine(),
+            reference: design.temporal().reference,
+            irrelevant: design.irrelevant(),
+            payload: design.payload(),
+            constants: match design.thresholds() {
+                foveate_spec::Thresholds::Runtime => None,
+                foveate_spec::Thresholds::Constant => Some(Thresholds::of(design)),
+            },
+        }
+    }
+
+    /// The thresholds that the core sees: its inputs, or its constants where it has no such inputs.
+    pub(super) fn seen<'a>(&'a self, applied: &'a Thresholds) -> &'a Thresholds {
+        self.constants.as_ref().unwrap_or(applied)
+    }
+}
+
+/// Whether a feature makes the tail one clock late.
+fn is_late(kind: FeatureKind) -> bool {
+    match kind {
+        FeatureKind::Edge | FeatureKind::Corner => false,
+        FeatureKind::Mad | FeatureKind::Variance => true,
+    }
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The RCM: one RPU per region, all in step.
+
+use foveate_spec::Design;
+
+use super::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
+use crate::number::index;
+use crate::region_border;
+
+/// The cycle-level model of an RCM, as after a reset when new.
+#[derive(Clone, Debug)]
+pub struct PipelinedRcm {
+    lanes: Vec<Lane>,
+    outputs: Vec<RpuOutput>,
+}
+
+#[derive(Clone, Debug)]
+struct Lane {
+    rpu: PipelinedRpu,
+    border: u8,
+}
+
+impl PipelinedRcm {
+    /// The RCM of the design.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
+        let rpu = PipelinedRpu::new(design);
+        let lane = |region| Lane { rpu: rpu.clone(), border: region_border(design, region) };
+        Self {
+            lanes: (0..design.regions()).map(lane).collect(),
+            outputs: vec![RpuOutput::default(); index(design.regions())],
+        }
+    }
+
+    /// One rising edge: the pixel of region i in lane i of `pixels`, its outputs in lane i of what
+    /// is returned.
+    ///
+    /// # Panics
+    /// When there is not one pixel per region.
+    pub fn step(
+        &mut self,
+        reset: bool,
+        valid: bool,
+        pixels: &[u16],
+        thresholds: &Thresholds,
+    ) -> &[RpuOutput] {
+        assert_eq!(pixels.len(), self.lanes.len(), "one pixel per region is needed");
+        for ((lane, &pixel), output) in self.lanes.iter_mut().zip(pixels).zip(&mut self.outputs) {
+            let input = RpuInput { reset, valid, pixel, border: lane.border };
+            *output = lane.rpu.step(&input, thresholds);
+        }
+        &self.outputs
+    }
+}

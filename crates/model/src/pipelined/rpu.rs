@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One RPU: the stages in a row.
+
+use foveate_spec::Design;
+
+use super::Thresholds;
+use super::median::MedianStage;
+use super::pixel::{Pixel, Step};
+use super::plan::{FEATURES, Plan};
+use super::tail::Tail;
+use super::window::{Center, WindowStage};
+use crate::feature::is_hit;
+
+/// What is applied to the inputs of an RPU at one edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RpuInput {
+    /// `rst_i`.
+    pub reset: bool,
+    /// `valid_i`.
+    pub valid: bool,
+    /// `pixel_i`.
+    pub pixel: u16,
+    /// `border_i`: {bottom, top, right, left}, left in bit 0; without meaning where the design
+    /// has no such port.
+    pub border: u8,
+}
+
+/// What the outputs of an RPU show after an edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RpuOutput {
+    /// `decision_valid_o`.
+    pub decision_valid: bool,
+    /// `srs_o`.
+    pub srs: bool,
+    /// `trs_o`.
+    pub trs: bool,
+    /// `active_o`.
+    pub active: bool,
+    /// The score ports, by number of the feature in the design; 0 where there is none.
+    pub scores: [u64; 4],
+    /// `temporal_count_o`.
+    pub temporal_count: u32,
+    /// `forward_valid_o`.
+    pub forward_valid: bool,
+    /// `forward_pixel_o`.
+    pub forward_pixel: u16,
+}
+
+/// The cycle-level model of one RPU, as after a reset when new.
+#[derive(Clone, Debug)]
+pub struct PipelinedRpu {
+    plan: Plan,
+    median: Option<MedianStage>,
+    feature: Option<WindowStage>,
+    /// The register in front of the tail, where there is one.
+    delayed: Option<Step>,
+    tail: Tail,
+}
+
+impl PipelinedRpu {
+    /// An RPU of the design.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
+        let plan = Plan::of(design);
+        let denoises = match plan.filter {
+            foveate_spec::Filter::None => false,
+            foveate_spec::Filter::Median3x3 => true,
+        };
+        // A shared median window gives a square that is smaller by its own halo.
+        let feature_side = plan.side + (plan.stream_side - plan.side).min(2);
+        Self {
+            median: denoises.then(|| MedianStage::new(&plan)),
+            feature: plan.has_feature_window.then(|| WindowStage::new(&plan, feature_side)),
+            delayed: None,
+            tail: Tail::new(&plan),
+            plan,
+        }
+    }
+
+    /// One rising edge; returns what every output shows after it with these inputs still applied.
+    pub fn step(&mut self, input: &RpuInput, thresholds: &Thresholds) -> RpuOutput {
+        let plan = self.plan;
+        let thresholds = plan.seen(thresholds);
+        if input.reset {
+            self.reset();
+        } else {
+            let pixel = input.valid.then(|| Pixel::incoming(input.pixel));
+            let step = self.step_windows(pixel, input.border, thresholds);
+            let tail_step =
+                if plan.delayed_tail { std::mem::replace(&mut self.delayed, step) } else { step };
+            self.tail.step(tail_step, thresholds);
+        }
+        self.tail.output(thresholds)
+    }
+
+    fn step_windows(
+        &mut self,
+        pixel: Option<Pixel>,
+        border: u8,
+        thresholds: &Thresholds,
+    ) -> Option<Step> {
+        let denoised = match &mut self.median {
+            Some(median) => median.step(pixel),
+            None => pixel,
+        };
+        match &mut self.feature {
+            Some(feature) => {
+                let border = if self.plan.needs_border { border } else { 0 };
+                let center = feature.step(denoised, border)?;
+                Some(Step { pixel: center.pixel, hits: self.hits(&center, thresholds) })
+            }
+            None => denoised.map(|pixel| Step { pixel, hits: [false; FEATURES] }),
+        }
+    }
+
+    /// Hits of a center, with the levels of the edge at which it steps.
+    fn hits(&self, center: &Center, thresholds: &Thresholds) -> [bool; FEATURES] {
+        let mut hits = [false; FEATURES];
+        for ((hit, kind), level) in hits.iter_mut().zip(self.plan.features).zip(thresholds.level) {
+            *hit = kind.is_some_and(|kind| is_hit(kind, &center.window, level));
+        }
+        hits
+    }
+
+    fn reset(&mut self) {
+        if let Some(median) = &mut self.median {
+            median.reset();
+        }
+        if let Some(feature) = &mut self.feature {
+            feature.reset();
+        }
+        self.delayed = None;
+        self.tail.reset();
+    }
+}

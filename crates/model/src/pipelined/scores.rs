@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scores: what counts as it runs, and the registers that hold it for one more frame with `mad`.
+//!
+//! ```text
+//!                         done(t)              done(t+1)
+//! counter           ..  final(t)  0/1 ..      final(t+1)  0/1 ..
+//! hold register     ..      -     final(t) .. final(t)    final(t+1) ..
+//! mad accumulator   ..      -     |x-mu(t)| ..  mad(t)    |x-mu(t+1)| ..
+//! ```
+
+use foveate_spec::FeatureKind;
+
+use super::moments::Moments;
+use super::pixel::Step;
+use super::plan::{FEATURES, Plan};
+use crate::feature::mad;
+
+/// The spatial scores of one RPU, by number of the feature.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scores {
+    hits: [u64; FEATURES],
+    moments: Moments,
+    /// Second pass of `mad`, over the frame before.
+    deviations: u64,
+    held: [u64; FEATURES],
+}
+
+impl Scores {
+    /// A tail step; `before` is the pixel at this position in the frame before, if there is one.
+    pub(super) fn step(
+        &mut self,
+        plan: &Plan,
+        step: &Step,
+        before: Option<u16>,
+        last: bool,
+        n: u64,
+    ) {
+        for (count, hit) in self.hits.iter_mut().zip(step.hits) {
+            *count += crate::number::hit(hit);
+        }
+        if let Some(before) = before {
+            self.deviations += mad::deviation(before, self.moments.mean, plan.fraction_bits);
+        }
+        self.moments.step(plan, step.pixel.scored, last, n);
+    }
+
+    /// The edge after done.
+    pub(super) fn finish(&mut self, plan: &Plan) {
+        self.held = self.running(plan);
+        self.hits = [0; FEATURES];
+        self.deviations = 0;
+    }
+
+    /// What the score ports show.
+    pub(super) fn shown(&self, plan: &Plan) -> [u64; FEATURES] {
+        let running = self.running(plan);
+        if !plan.second_pass {
+            return running;
+        }
+        let mut shown = self.held;
+        for ((score, running), kind) in shown.iter_mut().zip(running).zip(plan.features) {
+            if kind.is_some_and(FeatureKind::has_second_pass) {
+                *score = running;
+            }
+        }
+        shown
+    }
+
+    /// Every score where it is formed.
+    fn running(&self, plan: &Plan) -> [u64; FEATURES] {
+        let mut scores = [0; FEATURES];
+        for ((score, hits), kind) in scores.iter_mut().zip(self.hits).zip(plan.features) {
+            *score = match kind {
+                None => 0,
+                Some(FeatureKind::Edge | FeatureKind::Corner) => hits,
+                Some(FeatureKind::Mad) => self.deviations,
+                Some(FeatureKind::Variance) => self.moments.variance,
+            };
+        }
+        scores
+    }
+}

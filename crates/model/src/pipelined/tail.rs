@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The tail: positions, scores, temporal score, decision, forwarding.
+//!
+//! ```text
+//! n = 4, no mad
+//! edge              0   1   2   3   4   5   6   7   8
+//! tail step        a0  a1  a2  a3   -  b0  b1  b2  b3
+//! done (after)      0   0   0   1   0   0   0   0   1
+//! decision valid    0   0   0   1   0   0   0   0   1     frame a, frame b
+//! active register   0   0   0   0   A   A   A   A   A     taken at the edge after done
+//! forward (after)   -   -   -   -   -  a0  a1  a2  a3     if frame a was active
+//! ```
+//!
+//! With `mad` the decision after edge 8 is that of frame a, and its pixels leave with frame c.
+
+use foveate_spec::Payload;
+
+use super::decide::Decision;
+use super::pixel::Step;
+use super::plan::Plan;
+use super::scores::Scores;
+use super::store::Store;
+use super::temporal::TemporalScore;
+use super::{RpuOutput, Thresholds};
+
+/// Everything behind the windows.
+#[derive(Clone, Debug)]
+pub(super) struct Tail {
+    plan: Plan,
+    store: Store,
+    registers: Registers,
+}
+
+/// What a reset clears: all but the store.
+#[derive(Clone, Debug, Default)]
+struct Registers {
+    /// Position of the next tail step, 0..n.
+    position: usize,
+    /// The last edge was the last tail step of a frame.
+    done: bool,
+    scores: Scores,
+    temporal: TemporalScore,
+    /// With a second pass: the temporal count of the frame before.
+    held_count: u32,
+    /// The last frame that was decided is active.
+    active: bool,
+    forward: Option<u16>,
+}
+
+impl Tail {
+    pub(super) fn new(plan: &Plan) -> Self {
+        Self { plan: *plan, store: Store::new(plan), registers: Registers::default() }
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.registers = Registers::default();
+    }
+
+    /// One edge.
+    pub(super) fn step(&mut self, step: Option<Step>, thresholds: &Thresholds) {
+        if self.registers.done {
+            self.finish(thresholds);
+        }
+        self.registers.done = false;
+        self.registers.forward = None;
+        if let Some(step) = step {
+            self.take(&step, thresholds);
+        }
+    }
+
+    /// The edge that ends the clock of a decision: what was combinational becomes state, before the
+    /// tail step of the next frame that this edge may be, too.
+    fn finish(&mut self, thresholds: &Thresholds) {
+        let decision = self.decision(thresholds);
+        let n = self.count_of_all();
+        let registers = &mut self.registers;
+        registers.held_count = registers.temporal.settled(&self.plan, decision, n);
+        registers.temporal.finish(&self.plan, decision);
+        registers.scores.finish(&self.plan);
+        registers.active = decision.is_some_and(Decision::active);
+        if registers.active {
+            self.store.send_decided(&self.plan);
+        }
+        self.store.rotate();
+    }
+
+    /// A tail step.
+    fn take(&mut self, step: &Step, thresholds: &Thresholds) {
+        let n = u64::from(self.count_of_all());
+        let Self { plan, store, registers } = self;
+        let position = registers.position;
+        let last = position + 1 == plan.pixels;
+        let before = registers.temporal.has_previous.then(|| store.previous(position));
+
+        registers.forward = registers.active.then(|| {
+            let pixel = store.leaving(plan, position);
+            match plan.payload {
+                Payload::Denoised => pixel.scored,
+                Payload::Raw => pixel.raw,
+            }
+        });
+        registers.temporal.step(store, position, step.pixel.scored, thresholds.temporal_level);
+        registers.scores.step(plan, step, before, last, n);
+        store.write(position, step.pixel);
+        registers.position = if last { 0 } else { position + 1 };
+        registers.done = last;
+    }
+
+    /// The decision of this clock, if there is one.
+    fn decision(&self, thresholds: &Thresholds) -> Option<Decision> {
+        // With a second pass the first frame that is done only starts the second pass.
+        let valid =
+            self.registers.done && (!self.plan.second_pass || self.registers.temporal.has_previous);
+        valid.then(|| {
+            let scores = self.registers.scores.shown(&self.plan);
+            Decision::of(&self.plan, &scores, self.temporal_count(), thresholds)
+        })
+    }
+
+    fn temporal_count(&self) -> u32 {
+        if self.plan.second_pass {
+            self.registers.held_count
+        } else {
+            self.registers.temporal.running(&self.plan)
+        }
+    }
+
+    /// n as a count of pixels.
+    fn count_of_all(&self) -> u32 {
+        u32::try_from(self.plan.pixels).unwrap_or(u32::MAX)
+    }
+
+    /// What the ports show.
+    pub(super) fn output(&self, thresholds: &Thresholds) -> RpuOutput {
+        let decision = self.decision(thresholds);
+        RpuOutput {
+            decision_valid: decision.is_some(),
+            srs: decision.is_some_and(|decision| decision.srs),
+            trs: decision.is_some_and(|decision| decision.trs),
+            active: decision.is_some_and(Decision::active),
+            scores: self.registers.scores.shown(&self.plan),
+            temporal_count: self.temporal_count(),
+            forward_valid: self.registers.forward.is_some(),
+            forward_pixel: self.registers.forward.unwrap_or_default(),
+        }
+    }
+}

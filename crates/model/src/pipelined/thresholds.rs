@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The threshold inputs of a core.
+
+use foveate_spec::Design;
+
+/// What is applied to the threshold inputs in one clock. Features are numbered in the order of the
+/// design; places that it does not use are ignored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Thresholds {
+    /// Per-pixel thresholds of `edge` and `corner`.
+    pub level: [u32; 4],
+    /// Per-region thresholds in units of the scores.
+    pub min_score: [u64; 4],
+    /// A pixel has changed above this difference.
+    pub temporal_level: u32,
+    /// TRS from this count on.
+    pub temporal_min_count: u32,
+}
+
+impl Thresholds {
+    /// The thresholds that the design was configured with.
+    #[must_use]
+    pub fn of(design: &Design) -> Self {
+        let temporal = design.temporal();
+        let mut thresholds = Self {
+            level: [0; 4],
+            min_score: [0; 4],
+            temporal_level: temporal.level,
+            temporal_min_count: temporal.min_count,
+        };
+        let places = thresholds.level.iter_mut().zip(&mut thresholds.min_score);
+        for (feature, (level, min_score)) in design.features().iter().zip(places) {
+            *level = feature.level().unwrap_or_default();
+            *min_score = feature.min_score();
+        }
+        thresholds
+    }
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Where a region lies in the padded frame, and the padding itself.
+
+use foveate_spec::Design;
+
+use crate::number::index;
+use crate::{Frame, ModelError};
+
+/// The square of pixels of one region, in coordinates of the padded frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Area {
+    pub(crate) left: u32,
+    pub(crate) top: u32,
+    pub(crate) side: u32,
+}
+
+impl Area {
+    /// The place of region `region`; regions are numbered row by row.
+    pub(crate) fn of(design: &Design, region: u32) -> Self {
+        let side = design.region_size();
+        let (column, row) = (region % design.columns(), region / design.columns());
+        Self { left: column * side, top: row * side, side }
+    }
+
+    /// Rows of the frame that the region reaches.
+    pub(crate) fn rows(self) -> std::ops::Range<u32> {
+        self.top..self.top + self.side
+    }
+
+    /// Columns of the frame that the region reaches.
+    pub(crate) fn columns(self) -> std::ops::Range<u32> {
+        self.left..self.left + self.side
+    }
+
+    /// Every position, row by row.
+    pub(crate) fn positions(self) -> impl Iterator<Item = (u32, u32)> {
+        self.rows().flat_map(move |y| self.columns().map(move |x| (x, y)))
+    }
+
+    /// The part of row `y` of a frame that belongs to the region.
+    pub(crate) fn row(self, frame: &Frame, y: u32) -> &[u16] {
+        &frame.row(y)[index(self.left)..][..index(self.side)]
+    }
+
+    /// Every pixel, row by row.
+    pub(crate) fn pixels(self, frame: &Frame) -> impl Iterator<Item = u16> {
+        self.rows().flat_map(move |y| self.row(frame, y).iter().copied())
+    }
+
+    /// Copies the region from one frame to another of the same size.
+    pub(crate) fn copy(self, from: &Frame, to: &mut Frame) {
+        for y in self.rows() {
+            self.row_mut(to, y).copy_from_slice(self.row(from, y));
+        }
+    }
+
+    /// Makes the region black.
+    pub(crate) fn blank(self, frame: &mut Frame) {
+        for y in self.rows() {
+            self.row_mut(frame, y).fill(0);
+        }
+    }
+
+    fn row_mut(self, frame: &mut Frame, y: u32) -> &mut [u16] {
+        &mut frame.row_mut(y)[index(self.left)..][..index(self.side)]
+    }
+}
+
+/// The pixels of one region of a padded frame, row by row, appended to `out`.
+///
+/// # Panics
+/// When the frame is not as large as the design's padded frame, or has no such region.
+pub fn region_pixels(design: &Design, padded: &Frame, region: u32, out: &mut Vec<u16>) {
+    out.extend(Area::of(design, region).pixels(padded));
+}
+
+/// The frame, made as large as a whole number of regions by repeating its last column and row.
+///
+/// # Errors
+/// When the frame is not of the design's size and depth.
+pub fn pad(design: &Design, frame: &Frame) -> Result<Frame, ModelError> {
+    check_kind(design, frame)?;
+    let mut padded = Frame::black_padded(design);
+    pad_into(frame, &mut padded);
+    Ok(padded)
+}
+
+/// Refuses a frame that is not of the design's size and depth.
+pub(crate) fn check_kind(design: &Design, frame: &Frame) -> Result<(), ModelError> {
+    let expected = (design.width(), design.height(), design.pixel_bits());
+    if (frame.width(), frame.height(), frame.bits()) == expected {
+        return Ok(());
+    }
+    let (width, height, bits) = expected;
+    let expected = format!("{width}x{height} pixels of {bits} bits");
+    Err(ModelError::FrameKind { given: frame.kind(), expected })
+}
+
+/// Fills a padded frame.
+pub(crate) fn pad_into(frame: &Frame, padded: &mut Frame) {
+    for y in 0..padded.height() {
+        let source = frame.row(y.min(frame.height() - 1));
+        let (own, padding) = padded.row_mut(y).split_at_mut(source.len());
+        own.copy_from_slice(source);
+        padding.fill(source.last().copied().unwrap_or_default());
+    }
+}
+
+/// Cuts the padding off again.
+pub(crate) fn crop_into(padded: &Frame, frame: &mut Frame) {
+    for y in 0..frame.height() {
+        let row = frame.row_mut(y);
+        let width = row.len();
+        row.copy_from_slice(&padded.row(y)[..width]);
+    }
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The temporal score: how many pixels differ from the region's reference, and what the reference
+//! is.
+
+use foveate_spec::{Design, Reference};
+
+use crate::number::{count, index};
+use crate::region::Area;
+use crate::{Action, Frame};
+
+/// `|now - reference|` of every pixel of a region of two padded frames, row by row; a pixel has
+/// changed when this is above the level.
+///
+/// # Panics
+/// When a frame is not as large as the design's padded frame, or has no such region.
+#[must_use]
+pub fn temporal_differences(
+    design: &Design,
+    now: &Frame,
+    reference: &Frame,
+    region: u32,
+) -> Vec<u32> {
+    differences(Area::of(design, region), now, reference).collect()
+}
+
+fn differences(area: Area, now: &Frame, reference: &Frame) -> impl Iterator<Item = u32> {
+    let pairs = area.pixels(now).zip(area.pixels(reference));
+    pairs.map(|(now, reference)| now.abs_diff(reference).into())
+}
+
+/// The reference of every region: its denoised pixels as they once were.
+#[derive(Clone, Debug)]
+pub(crate) struct References {
+    frame: Frame,
+    valid: Vec<bool>,
+}
+
+impl References {
+    /// No region has a reference yet.
+    pub(crate) fn none(design: &Design) -> Self {
+        Self { frame: Frame::black_padded(design), valid: vec![false; index(design.regions())] }
+    }
+
+    /// Changed pixels of a region; all of them where there is no valid reference.
+    pub(crate) fn count(&self, design: &Design, denoised: &Frame, region: u32) -> u32 {
+        if !self.valid[index(region)] {
+            return design.region_pixels();
+        }
+        let level = design.temporal().level;
+        let differences = differences(Area::of(design, region), denoised, &self.frame);
+        count(differences.map(|difference| difference > level))
+    }
+
+    /// What the next frame will be compared with, now that this frame's action is known.
+    pub(crate) fn update(
+        &mut self,
+        design: &Design,
+        denoised: &Frame,
+        region: u32,
+        action: Action,
+    ) {
+        let keep = match (design.temporal().reference, action) {
+            (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => false,
+            (Reference::LastSent, Action::Hold) => true,
+            (Reference::LastSent, Action::Blank) => {
+                // What was sent is no longer on the screen.
+                self.valid[index(region)] = false;
+                true
+            }
+        };
+        if !keep {
+            Area::of(design, region).copy(denoised, &mut self.frame);
+            self.valid[index(region)] = true;
+        }
+    }
+}

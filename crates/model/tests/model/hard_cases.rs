@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cases at the edge of a range, with the expected numbers written out.
+
+use foveate_model::feature::{corner_strengths, edge_magnitudes};
+use foveate_model::{
+    Camera, Frame, ModelError, PipelinedRcm, denoise::denoise, pad, region_border, region_stream,
+    temporal_differences,
+};
+use foveate_spec::{Config, Design};
+
+use crate::recipe::{FeatureRecipe, Recipe};
+use crate::{functional_properties, pipelined_properties};
+
+fn design(toml: &str) -> Design {
+    Config::from_toml(toml).unwrap().validate().unwrap()
+}
+
+fn score(toml: &str, frame: &Frame) -> u64 {
+    let size = format!(
+        "[frame]\nwidth = {}\nheight = {}\npixel_bits = {}\n[denoise]\nfilter = \"none\"\n",
+        frame.width(),
+        frame.height(),
+        frame.bits()
+    );
+    Camera::new(&design(&format!("{size}{toml}"))).step(frame).unwrap().scores[0][0]
+}
+
+#[test]
+fn ramps_on_below_and_above_the_level() {
+    // Slope 3: |Gx| is 8 * 3 inside of an isolated region and 4 * 3 in its border columns.
+    let ramp = Frame::from_fn(8, 8, 8, |x, _| 3 * x as u16).unwrap();
+    let edges =
+        |level: u32| score(&format!("[[spatial]]\nfeature = \"edge\"\nlevel = {level}"), &ramp);
+    assert_eq!([11, 12, 23, 24, 25].map(edges), [64, 48, 48, 0, 0]);
+    // A peak of 9 above a flat ground is darker all around by 9, and one corner for each level below.
+    let peak = Frame::from_fn(8, 8, 8, |x, y| 50 + 9 * u16::from((x, y) == (4, 4))).unwrap();
+    let corners =
+        |level: u32| score(&format!("[[spatial]]\nfeature = \"corner\"\nlevel = {level}"), &peak);
+    assert_eq!([0, 8, 9, 10].map(corners), [1, 1, 0, 0]);
+}
+
+#[test]
+fn means_that_end_in_one_half_round_up() {
+    let frame = Frame::new(2, 2, 8, vec![1, 1, 0, 0]).unwrap();
+    let mad = |bits: u32| {
+        let feature =
+            format!("[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = {bits}\nmin_score = 0");
+        score(&format!("[region]\nsize = 2\n[temporal]\nmin_count = 0\n{feature}"), &frame)
+    };
+    assert_eq!([0, 1, 2].map(mad), [2, 4, 8]);
+    let frame = Frame::new(2, 2, 8, vec![2, 1, 0, 3]).unwrap(); // 1.5
+    let toml = "[region]\nsize = 2\n[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"mad\"";
+    assert_eq!(score(toml, &frame), 4);
+}
+
+#[test]
+fn shared_regions_of_any_size_equal_the_whole_frame() {
+    let frame = Frame::from_fn(30, 30, 8, |x, y| ((x * x * 7 + y * 31 + x * y * 5) % 256) as u16);
+    let frame = frame.unwrap();
+    let maps = |side: u32, neighborhood: &str| {
+        let design = design(&format!(
+            "[frame]\nwidth = 30\nheight = 30\n[region]\nsize = {side}\nneighborhood = \"{neighborhood}\"\n\
+             [temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0"
+        ));
+        let denoised = denoise(&design, &pad(&design, &frame).unwrap());
+        let mut edges = vec![0; 900];
+        let mut corners = vec![None; 900];
+        for region in 0..design.regions() {
+            let (left, top) = (region % design.columns() * side, region / design.columns() * side);
+            let magnitudes = edge_magnitudes(&design, &denoised, region);
+            let strengths = corner_strengths(&design, &denoised, region);
+            for (i, (magnitude, strength)) in magnitudes.into_iter().zip(strengths).enumerate() {
+                let (x, y) = (left + i as u32 % side, top + i as u32 / side);
+                edges[(y * 30 + x) as usize] = magnitude;
+                corners[(y * 30 + x) as usize] = strength;
+            }
+        }
+        (denoised, edges, corners)
+    };
+    let whole = maps(30, "isolated");
+    for side in [2, 3, 5, 6, 10, 15, 30] {
+        assert_eq!(maps(side, "shared"), whole, "{side}");
+    }
+    assert_ne!(maps(10, "isolated").0, whole.0);
+    assert_ne!(maps(10, "isolated").1, whole.1);
+}
+
+#[test]
+fn per_pixel_helpers_say_where_each_hit_ends() {
+    let design = design("[frame]\nwidth = 8\nheight = 8\n[denoise]\nfilter = \"none\"");
+    let peak = Frame::from_fn(8, 8, 8, |x, y| 50 + 9 * u16::from((x, y) == (4, 4))).unwrap();
+    let flat = Frame::filled(8, 8, 8, 52).unwrap();
+    let strengths = corner_strengths(&design, &peak, 0);
+    assert_eq!((strengths[36], strengths[35], strengths[0]), (Some(8), None, None));
+    let magnitudes = edge_magnitudes(&design, &peak, 0);
+    assert_eq!((magnitudes[36], magnitudes[35], magnitudes[27]), (0, 18, 18));
+    let differences = temporal_differences(&design, &peak, &flat, 0);
+    assert_eq!((differences[36], differences[0], differences.len()), (7, 2, 64));
+}
+
+#[test]
+fn streams_and_borders_of_a_ragged_shared_frame() {
+    let shared = design(
+        "[frame]\nwidth = 3\nheight = 2\n[region]\nsize = 2\nneighborhood = \"shared\"\n\
+         [denoise]\nfilter = \"none\"\n[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0",
+    );
+    let frame = Frame::new(3, 2, 8, vec![1, 2, 3, 4, 5, 6]).unwrap();
+    let stream = |region| {
+        let mut out = Vec::new();
+        region_stream(&shared, &frame, region, &mut out);
+        out
+    };
+    assert_eq!(stream(0), [1, 1, 2, 3, 1, 1, 2, 3, 4, 4, 5, 6, 4, 4, 5, 6]);
+    assert_eq!(stream(1), [2, 3, 3, 3, 2, 3, 3, 3, 5, 6, 6, 6, 5, 6, 6, 6]);
+    assert_eq!([0, 1].map(|region| region_border(&shared, region)), [0b1101, 0b1110]);
+    let grid = design("[frame]\nwidth = 24\nheight = 24");
+    assert_eq!(region_border(&grid, 4), 0);
+    assert_eq!([0, 2, 6, 8].map(|r| region_border(&grid, r)), [0b0101, 0b0110, 0b1001, 0b1010]);
+}
+
+#[test]
+fn a_frame_of_another_kind_is_refused_and_changes_nothing() {
+    let mut camera = Camera::new(&design("[frame]\nwidth = 8\nheight = 8"));
+    let error = camera.step(&Frame::filled(8, 9, 8, 0).unwrap()).unwrap_err();
+    assert!(matches!(error, ModelError::FrameKind { .. }));
+    assert_eq!(
+        error.to_string(),
+        "a frame of 8x9 pixels of 8 bits was given to a design for 8x8 pixels of 8 bits; \
+         give it frames of that kind"
+    );
+    assert!(camera.step(&Frame::filled(8, 8, 9, 0).unwrap()).is_err());
+    assert!(camera.step(&Frame::filled(8, 8, 8, 0).unwrap()).unwrap().trs[0], "still the first");
+}
+
+/// Black, white, checkerboards, single pixels in each corner of a region, ramps.
+fn hard_frames(recipe: &Recipe) -> Vec<Frame> {
+    let (width, height) = (recipe.width as u32, recipe.height as u32);
+    let (max, side) = (recipe.pixel_max() as u16, recipe.side as u32);
+    let paint =
+        |f: &dyn Fn(u32, u32) -> u16| Frame::from_fn(width, height, recipe.bits, f).unwrap();
+    let at_corner =
+        |x: u32, y: u32| [0, side - 1].contains(&(x % side)) && [0, side - 1].contains(&(y % side));
+    vec![
+        paint(&|_, _| 0),
+        paint(&|_, _| max),
+        paint(&|x, y| if (x + y) % 2 == 0 { max } else { 0 }),
+        paint(&|x, y| if (x + y) % 2 == 1 { max } else { 0 }),
+        paint(&|x, y| if at_corner(x, y) { max } else { 0 }),
+        paint(&|x, y| if at_corner(x, y) { 0 } else { max }),
+        paint(&|x, y| ((x + 2 * y) % (u32::from(max) + 1)) as u16),
+    ]
+}
+
+fn everything(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: bool) -> Recipe {
+    let max = (1i64 << bits) - 1;
+    let feature =
+        |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 1 };
+    Recipe {
+        width: size.0,
+        height: size.1,
+        bits,
+        side,
+        shared,
+        median: (side + i64::from(bits)) % 3 != 0,
+        features: vec![
+            feature("variance", 0, 100 * max * max),
+            feature("corner", max / 2, 1000),
+            feature("mad", 0, 250 * max),
+            feature("edge", 2 * max, 1000 * side),
+        ],
+        all_must_vote: false,
+        temporal_level: max / 2,
+        temporal_min: side * side / 2,
+        last_sent,
+        blank_irrelevant: bits.is_multiple_of(4),
+        raw_payload: side % 2 == 1,
+        constant: false,
+    }
+}
+
+#[test]
+fn hard_frames_at_the_ends_of_every_range() {
+    for side in [2, 3, 5, 7] {
+        for bits in [1, 10, 12, 16] {
+            for (shared, last_sent) in [(false, true), (true, false), (true, true)] {
+                for size in [(1, 1), (side, side + 1), (2 * side, side - 1)] {
+                    let recipe = everything(side, bits, size, shared, last_sent);
+                    let frames = hard_frames(&recipe);
+                    functional_properties::check(&recipe, &frames);
+                    let mut rcm = PipelinedRcm::new(&recipe.design());
+                    pipelined_properties::check_dense(&recipe, &mut rcm, &frames);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_largest_region() {
+    for shared in [false, true] {
+        let recipe = everything(64, 16, (65, 40), shared, shared);
+        let frames = hard_frames(&recipe);
+        functional_properties::check(&recipe, &frames[1..]);
+        let recipe = everything(64, 16, (64, 64), shared, shared);
+        let mut rcm = PipelinedRcm::new(&recipe.design());
+        pipelined_properties::check_dense(&recipe, &mut rcm, &hard_frames(&recipe)[2..5]);
+    }
+}

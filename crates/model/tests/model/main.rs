@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The models against an oracle that shares no line with them, against each other, and against the
+//! waveforms of `docs/timing.md`.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "the oracle is plain arithmetic on small numbers"
+)]
+
+mod frames;
+mod functional_properties;
+mod hard_cases;
+mod oracle;
+mod pipelined_properties;
+mod recipe;
+mod schedule;
+mod temporal_behavior;
+mod thresholds_in_time;
+mod waveforms;
+mod yardstick;

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The contract, computed naively: whole frames, nothing incremental, everything looked up in the
+//! complete history. Shares nothing with the library but the type that carries a frame.
+
+use foveate_model::Frame;
+
+use crate::recipe::{FeatureRecipe, Recipe};
+
+pub(crate) type Image = Vec<Vec<i64>>;
+
+/// What is known of one frame. Regions are numbered row by row; maps hold n values per region.
+pub(crate) struct Seen {
+    pub(crate) padded: Image,
+    pub(crate) denoised: Image,
+    pub(crate) regions: Vec<SeenRegion>,
+    pub(crate) rendered: Image,
+}
+
+pub(crate) struct SeenRegion {
+    /// By feature and pixel: hits, or deviations from the mean for `mad`.
+    pub(crate) terms: Vec<Vec<i64>>,
+    pub(crate) scores: Vec<i64>,
+    pub(crate) temporal_hits: Vec<bool>,
+    pub(crate) temporal_count: i64,
+    pub(crate) srs: bool,
+    pub(crate) trs: bool,
+    pub(crate) payload: Vec<i64>,
+    pub(crate) active: bool,
+}
+
+/// The history of every frame of a film.
+pub(crate) fn watch(recipe: &Recipe, film: &[Frame]) -> Vec<Seen> {
+    let mut history: Vec<Seen> = Vec::new();
+    for frame in film {
+        let seen = look(recipe, &history, frame);
+        history.push(seen);
+        let now = history.len() - 1;
+        let rendered = render(recipe, &history);
+        history[now].rendered = rendered;
+    }
+    history
+}
+
+fn look(recipe: &Recipe, history: &[Seen], frame: &Frame) -> Seen {
+    let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
+    let padded: Image =
+        (0..height).map(|y| (0..width).map(|x| frame.clamped(x, y).into()).collect()).collect();
+    let mut denoised = padded.clone();
+    if recipe.median {
+        for y in 0..height {
+            for x in 0..width {
+                let mut nine: Vec<i64> = Vec::new();
+                for (dx, dy) in square() {
+                    nine.push(neighbor(recipe, &padded, (x, y), (dx, dy)));
+                }
+                nine.sort_unstable();
+                denoised[y as usize][x as usize] = nine[4];
+            }
+        }
+    }
+    let payload = if recipe.raw_payload { &padded } else { &denoised };
+    let regions = (0..recipe.columns() * recipe.rows())
+        .map(|region| look_at_region(recipe, history, &denoised, payload, region))
+        .collect();
+    Seen { padded, denoised, regions, rendered: Vec::new() }
+}
+
+fn square() -> impl Iterator<Item = (i64, i64)> {
+    (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy)))
+}
+
+/// The pixel beside (x, y), as the neighborhood of that pixel's region has it.
+fn neighbor(recipe: &Recipe, image: &Image, (x, y): (i64, i64), (dx, dy): (i64, i64)) -> i64 {
+    let (mut nx, mut ny) = (x + dx, y + dy);
+    if !recipe.shared && nx.div_euclid(recipe.side) != x / recipe.side {
+        nx = x;
+    }
+    if !recipe.shared && ny.div_euclid(recipe.side) != y / recipe.side {
+        ny = y;
+    }
+    nx = nx.max(0).min(image[0].len() as i64 - 1);
+    ny = ny.max(0).min(image.len() as i64 - 1);
+    image[ny as usize][nx as usize]
+}
+
+/// Positions of a region, row by row.
+fn positions(recipe: &Recipe, region: i64) -> Vec<(i64, i64)> {
+    let (left, top) = (region % recipe.columns(), region / recipe.columns());
+    (0..recipe.n())
+        .map(|i| (left * recipe.side + i % recipe.side, top * recipe.side + i / recipe.side))
+        .collect()
+}
+
+pub(crate) fn cut(recipe: &Recipe, image: &Image, region: i64) -> Vec<i64> {
+    positions(recipe, region).iter().map(|&(x, y)| image[y as usize][x as usize]).collect()
+}
+
+fn look_at_region(
+    recipe: &Recipe,
+    history: &[Seen],
+    denoised: &Image,
+    payload: &Image,
+    region: i64,
+) -> SeenRegion {
+    let pixels = cut(recipe, denoised, region);
+    let terms: Vec<Vec<i64>> =
+        recipe.features.iter().map(|f| terms(recipe, f, denoised, region)).collect();
+    let mut scores = Vec::new();
+    let mut votes = Vec::new();
+    for (feature, terms) in recipe.features.iter().zip(&terms) {
+        let score: i64 = match feature.name {
+            "variance" => scaled_variance(&pixels),
+            _ => terms.iter().sum(),
+        };
+        let unit: i128 = match feature.name {
+            "mad" => i128::from(recipe.n()) << feature.fraction_bits,
+            "variance" => i128::from(recipe.n() * recipe.n()),
+            _ => 1,
+        };
+        votes.push(i128::from(score) * 1000 >= i128::from(feature.min_milli) * unit);
+        scores.push(score);
+    }
+    let needed = if recipe.all_must_vote { votes.len() } else { 1 };
+    let srs = votes.iter().filter(|&&vote| vote).count() >= needed;
+
+    let temporal_hits: Vec<bool> = match reference(recipe, history, region) {
+        None => vec![true; pixels.len()],
+        Some(frame) => {
+            let reference = cut(recipe, &history[frame].denoised, region);
+            let pairs = pixels.iter().zip(&reference);
+            pairs.map(|(a, b)| (a - b).abs() > recipe.temporal_level).collect()
+        }
+    };
+    let temporal_count = temporal_hits.iter().filter(|&&hit| hit).count() as i64;
+    let trs = temporal_count >= recipe.temporal_min;
+    let payload = cut(recipe, payload, region);
+    let active = srs && trs;
+    SeenRegion { terms, scores, temporal_hits, temporal_count, srs, trs, payload, active }
+}
+
+fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64) -> Vec<i64> {
+    let places = positions(recipe, region);
+    let at = |place: (i64, i64), offset| neighbor(recipe, denoised, place, offset);
+    let hits = |hit: &dyn Fn((i64, i64)) -> bool| places.iter().map(|&p| hit(p).into()).collect();
+    match feature.name {
+        "edge" => hits(&|place| {
+            let weighted = |weight: &dyn Fn(i64, i64) -> i64| -> i64 {
+                square().map(|(dx, dy)| weight(dx, dy) * at(place, (dx, dy))).sum()
+            };
+            let gx = weighted(&|dx, dy| dx * (2 - dy.abs()));
+            let gy = weighted(&|dx, dy| dy * (2 - dx.abs()));
+            gx.abs() + gy.abs() > feature.level
+        }),
+        "corner" => hits(&|place| {
+            let ring = [(-1, -1), (0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0)];
+            let center = at(place, (0, 0));
+            (0..8).any(|start| {
+                let mut arc = Vec::new();
+                for step in 0..5 {
+                    arc.push(at(place, ring[(start + step) % 8]));
+                }
+                arc.iter().all(|&pixel| pixel > center + feature.level)
+                    || arc.iter().all(|&pixel| pixel < center - feature.level)
+            })
+        }),
+        "mad" => {
+            let pixels = cut(recipe, denoised, region);
+            let scale = 1i64 << feature.fraction_bits;
+            let mean = (pixels.iter().sum::<i64>() * scale + recipe.n() / 2) / recipe.n();
+            pixels.iter().map(|pixel| (pixel * scale - mean).abs()).collect()
+        }
+        _ => vec![0; places.len()],
+    }
+}
+
+/// `n^2 sigma^2` by way of the deviations: `sum((n x - sum)^2) / n`.
+fn scaled_variance(pixels: &[i64]) -> i64 {
+    let n = pixels.len() as i128;
+    let sum: i128 = pixels.iter().map(|&pixel| i128::from(pixel)).sum();
+    let squares: i128 = pixels.iter().map(|&pixel| (n * i128::from(pixel) - sum).pow(2)).sum();
+    assert_eq!(squares % n, 0);
+    (squares / n) as i64
+}
+
+/// The frame that the next one is compared with in this region.
+fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
+    if !recipe.last_sent {
+        return history.len().checked_sub(1);
+    }
+    for (frame, seen) in history.iter().enumerate().rev() {
+        let region = &seen.regions[region as usize];
+        if region.active {
+            return Some(frame);
+        }
+        if recipe.blank_irrelevant && !region.srs {
+            return None;
+        }
+    }
+    None
+}
+
+/// The screen after the last frame of the history.
+fn render(recipe: &Recipe, history: &[Seen]) -> Image {
+    let pixel = |x: i64, y: i64| {
+        let region = (y / recipe.side * recipe.columns() + x / recipe.side) as usize;
+        for seen in history.iter().rev() {
+            let image = if recipe.raw_payload { &seen.padded } else { &seen.denoised };
+            if seen.regions[region].active {
+                return image[y as usize][x as usize];
+            }
+            if recipe.blank_irrelevant && !seen.regions[region].srs {
+                return 0;
+            }
+        }
+        0
+    };
+    (0..recipe.height).map(|y| (0..recipe.width).map(|x| pixel(x, y)).collect()).collect()
+}

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cycle-level model shows, after every edge, what the schedule and the oracle say; and its
+//! decisions are those of the functional model.
+
+use foveate_model::{
+    Camera, Frame, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream,
+};
+use proptest::prelude::*;
+
+use crate::frames::{Random, film, scripts};
+use crate::oracle::watch;
+use crate::recipe::{Recipe, recipes};
+use crate::schedule::{Expected, expect, tail_steps};
+
+/// How pixels and gaps alternate.
+#[derive(Clone, Copy, Debug)]
+struct Gaps {
+    /// Percent of clocks inside a frame without a pixel.
+    inside: i64,
+    /// Longest gap between frames.
+    between: i64,
+    seed: u64,
+}
+
+fn gaps() -> impl Strategy<Value = Gaps> {
+    let inside = prop_oneof![Just(0), Just(0), 1i64..80];
+    let between = prop_oneof![Just(0), 0i64..30];
+    (inside, between, any::<u64>()).prop_map(|(inside, between, seed)| Gaps {
+        inside,
+        between,
+        seed,
+    })
+}
+
+/// The edges that take each pixel of each frame.
+fn stream_edges(recipe: &Recipe, gaps: Gaps, frames: usize) -> Vec<Vec<usize>> {
+    let pixels = recipe.design().stream_pixels();
+    let mut random = Random(gaps.seed);
+    let mut edge = 0;
+    let mut edges = Vec::new();
+    for _ in 0..frames {
+        edge += random.below(gaps.between + 1) as usize;
+        let mut frame = Vec::new();
+        for _ in 0..pixels {
+            while random.below(100) < gaps.inside {
+                edge += 1;
+            }
+            frame.push(edge);
+            edge += 1;
+        }
+        edges.push(frame);
+    }
+    edges
+}
+
+/// Streams a film and returns what every region shows after every edge.
+fn run(
+    recipe: &Recipe,
+    rcm: &mut PipelinedRcm,
+    film: &[Frame],
+    edges: &[Vec<usize>],
+    clocks: usize,
+) -> Vec<Vec<RpuOutput>> {
+    let design = recipe.design();
+    let thresholds = Thresholds::of(&design);
+    let streams: Vec<Vec<Vec<u16>>> = film
+        .iter()
+        .map(|frame| {
+            let stream = |region| {
+                let mut pixels = Vec::new();
+                region_stream(&design, frame, region, &mut pixels);
+                pixels
+            };
+            (0..design.regions()).map(stream).collect()
+        })
+        .collect();
+    let mut taken = edges
+        .iter()
+        .enumerate()
+        .flat_map(|(frame, edges)| {
+            edges.iter().enumerate().map(move |(place, &edge)| (edge, frame, place))
+        })
+        .peekable();
+    let mut shown = Vec::new();
+    for clock in 0..clocks {
+        let now = taken.next_if(|&(edge, ..)| edge == clock);
+        // Without a valid pixel the port holds anything.
+        let idle = vec![(clock * 7) as u16 & (u16::MAX >> (16 - recipe.bits)); streams[0].len()];
+        let pixels = now.map_or(idle, |(_, frame, place)| {
+            streams[frame].iter().map(|stream| stream[place]).collect()
+        });
+        shown.push(rcm.step(false, now.is_some(), &pixels, &thresholds).to_vec());
+    }
+    shown
+}
+
+fn observed(recipe: &Recipe, output: &RpuOutput) -> Expected {
+    assert_eq!(output.active, output.srs && output.trs);
+    assert!(output.forward_valid || output.forward_pixel == 0);
+    assert!(output.scores[recipe.features.len()..].iter().all(|&score| score == 0));
+    Expected {
+        valid: output.decision_valid,
+        srs: output.srs,
+        trs: output.trs,
+        scores: output.scores[..recipe.features.len()].iter().map(|&s| s as i64).collect(),
+        temporal_count: output.temporal_count.into(),
+        forward: output.forward_valid.then(|| output.forward_pixel.into()),
+    }
+}
+
+/// Frames back to back, without a gap.
+pub(crate) fn check_dense(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame]) {
+    check(recipe, rcm, film, Gaps { inside: 0, between: 0, seed: 0 });
+}
+
+fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
+    let design = recipe.design();
+    let edges = stream_edges(recipe, gaps, film.len());
+    let steps = tail_steps(recipe, &edges);
+    let last = edges.iter().flatten().max().unwrap();
+    let clocks = last + design.timing().decision_latency as usize + 5;
+    let shown = run(recipe, rcm, film, &edges, clocks);
+    let history = watch(recipe, film);
+    for region in 0..design.regions() as usize {
+        let expected = expect(recipe, &history, &steps, region, clocks);
+        for (edge, (shown, expected)) in shown.iter().zip(&expected).enumerate() {
+            let observed = observed(recipe, &shown[region]);
+            assert_eq!(&observed, expected, "region {region} after edge {edge}");
+        }
+    }
+    check_against_camera(recipe, film, &shown);
+    check_latency(recipe, gaps, film, &shown);
+}
+
+/// Decisions in order are those of the functional model, and so are the pixels that leave.
+fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>]) {
+    let design = recipe.design();
+    let timing = design.timing();
+    for region in 0..design.regions() {
+        let at = region as usize;
+        let ports = || shown.iter().map(|outputs| outputs[at]);
+        let mut decisions = ports().filter(|output| output.decision_valid);
+        let mut leaving = Vec::new();
+        let mut camera = Camera::new(&design);
+        let decided = film.len().saturating_sub(timing.decision_frames as usize);
+        let left = film.len().saturating_sub(timing.forward_frames as usize);
+        for (index, frame) in film.iter().take(decided).enumerate() {
+            let outcome = camera.step(frame).unwrap();
+            let decision = decisions.next().unwrap();
+            let ours = (outcome.srs[at], outcome.trs[at], outcome.temporal_count[at]);
+            assert_eq!((decision.srs, decision.trs, decision.temporal_count), ours);
+            for (feature, scores) in outcome.scores.iter().enumerate() {
+                assert_eq!(decision.scores[feature], scores[at]);
+            }
+            if outcome.active[at] && index < left {
+                region_pixels(&design, outcome.payload(&design), region, &mut leaving);
+            }
+        }
+        assert!(decisions.next().is_none());
+        let left: Vec<u16> =
+            ports().filter(|o| o.forward_valid).map(|output| output.forward_pixel).collect();
+        assert_eq!(left, leaving);
+    }
+}
+
+/// Without gaps a decision is valid exactly when `Design::timing` says so.
+fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOutput>]) {
+    if gaps.inside != 0 || gaps.between != 0 {
+        return;
+    }
+    let timing = recipe.design().timing();
+    let valid: Vec<usize> =
+        (0..shown.len()).filter(|&edge| shown[edge][0].decision_valid).collect();
+    let due = |frame: usize| {
+        (frame + 1) * timing.cycles_per_frame as usize - 1 + timing.decision_latency as usize
+    };
+    let expected: Vec<usize> = (timing.decision_frames as usize..film.len()).map(due).collect();
+    assert_eq!(valid, expected);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn every_port_after_every_edge(recipe in recipes(), script in scripts(6), gaps in gaps()) {
+        let mut rcm = PipelinedRcm::new(&recipe.design());
+        check(&recipe, &mut rcm, &film(&recipe, &script), gaps);
+    }
+
+    #[test]
+    fn a_reset_at_any_edge_forgets_everything(
+        recipe in recipes(),
+        before in scripts(3),
+        after in scripts(4),
+        gaps in gaps(),
+        cut in any::<u64>(),
+        held in 1usize..3,
+    ) {
+        let design = recipe.design();
+        let mut rcm = PipelinedRcm::new(&design);
+        let film_before = film(&recipe, &before);
+        let edges = stream_edges(&recipe, gaps, before.len());
+        let end = edges.iter().flatten().max().unwrap() + 20;
+        run(&recipe, &mut rcm, &film_before, &edges, cut as usize % end);
+        let pixels = vec![1; design.regions() as usize];
+        for edge in 0..held {
+            // A pixel at an edge with reset is not taken.
+            let outputs = rcm.step(true, edge == 0, &pixels, &Thresholds::of(&design));
+            prop_assert!(outputs.iter().all(|output| *output == RpuOutput::default()));
+        }
+        check(&recipe, &mut rcm, &film(&recipe, &after), gaps);
+    }
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A random design as plain numbers. The oracle reads these, never the `Design`.
+
+use std::fmt::Write;
+
+use foveate_spec::{Config, Design};
+use proptest::prelude::*;
+use proptest::sample::{select, subsequence};
+
+#[derive(Clone, Debug)]
+pub(crate) struct Recipe {
+    pub(crate) width: i64,
+    pub(crate) height: i64,
+    pub(crate) bits: u32,
+    pub(crate) side: i64,
+    pub(crate) shared: bool,
+    pub(crate) median: bool,
+    pub(crate) features: Vec<FeatureRecipe>,
+    pub(crate) all_must_vote: bool,
+    pub(crate) temporal_level: i64,
+    pub(crate) temporal_min: i64,
+    pub(crate) last_sent: bool,
+    pub(crate) blank_irrelevant: bool,
+    pub(crate) raw_payload: bool,
+    pub(crate) constant: bool,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct FeatureRecipe {
+    pub(crate) name: &'static str,
+    pub(crate) level: i64,
+    /// Minimum score in thousandths of grey levels, squared grey levels, or hits.
+    pub(crate) min_milli: i64,
+    pub(crate) fraction_bits: u32,
+}
+
+impl Recipe {
+    pub(crate) fn pixel_max(&self) -> i64 {
+        (1 << self.bits) - 1
+    }
+
+    pub(crate) fn n(&self) -> i64 {
+        self.side * self.side
+    }
+
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.features.iter().any(|feature| feature.name == name)
+    }
+
+    pub(crate) fn columns(&self) -> i64 {
+        (self.width + self.side - 1) / self.side
+    }
+
+    pub(crate) fn rows(&self) -> i64 {
+        (self.height + self.side - 1) / self.side
+    }
+
+    pub(crate) fn design(&self) -> Design {
+        let toml = self.toml();
+        let config = Config::from_toml(&toml).unwrap_or_else(|e| panic!("{e}\n{toml}"));
+        config.validate().unwrap_or_else(|e| panic!("{e}\n{toml}"))
+    }
+
+    fn toml(&self) -> String {
+        let pick = |first: bool, a: &'static str, b: &'static str| if first { a } else { b };
+        let mut text = format!(
+            "[frame]\nwidth = {}\nheight = {}\npixel_bits = {}\n\
+             [region]\nsize = {}\nneighborhood = \"{}\"\n[denoise]\nfilter = \"{}\"\n\
+             [decision]\ncombine = \"{}\"\n\
+             [temporal]\nlevel = {}\nmin_count = {}\nreference = \"{}\"\n\
+             [render]\nirrelevant = \"{}\"\npayload = \"{}\"\n[hardware]\nthresholds = \"{}\"\n",
+            self.width,
+            self.height,
+            self.bits,
+            self.side,
+            pick(self.shared, "shared", "isolated"),
+            pick(self.median, "median3x3", "none"),
+            pick(self.all_must_vote, "all", "any"),
+            self.temporal_level,
+            self.temporal_min,
+            pick(self.last_sent, "last-sent", "previous"),
+            pick(self.blank_irrelevant, "zero", "hold"),
+            pick(self.raw_payload, "raw", "denoised"),
+            pick(self.constant, "constant", "runtime"),
+        );
+        for feature in &self.features {
+            let (whole, rest) = (feature.min_milli / 1000, feature.min_milli % 1000);
+            let counts = matches!(feature.name, "edge" | "corner");
+            let fraction = if counts { String::new() } else { format!(".{rest:03}") };
+            write!(text, "[[spatial]]\nfeature = \"{}\"\n", feature.name).unwrap();
+            writeln!(text, "min_score = {whole}{fraction}").unwrap();
+            if counts {
+                writeln!(text, "level = {}", feature.level).unwrap();
+            }
+            if feature.name == "mad" {
+                writeln!(text, "mean_fraction_bits = {}", feature.fraction_bits).unwrap();
+            }
+        }
+        text
+    }
+}
+
+/// Every kind of design, with frames of about three regions.
+pub(crate) fn recipes() -> impl Strategy<Value = Recipe> {
+    let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
+    let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
+    (sides, bits).prop_flat_map(|(side, bits)| {
+        let size = 1..=2 * side + 1;
+        let features = subsequence(vec!["edge", "corner", "mad", "variance"], 1..=4)
+            .prop_shuffle()
+            .prop_flat_map(move |names| {
+                names.into_iter().map(|name| feature(name, side, bits)).collect::<Vec<_>>()
+            });
+        let switches = proptest::array::uniform8(any::<bool>());
+        let max = (1i64 << bits) - 1;
+        let temporal = (small(max), small(side * side));
+        ((size.clone(), size), features, switches, temporal).prop_map(
+            move |((width, height), features, on, (temporal_level, temporal_min))| Recipe {
+                width,
+                height,
+                bits,
+                side,
+                shared: on[0],
+                median: on[1],
+                features,
+                all_must_vote: on[2],
+                temporal_level,
+                temporal_min,
+                last_sent: on[3],
+                blank_irrelevant: on[4],
+                raw_payload: on[5],
+                constant: on[6] && on[7],
+            },
+        )
+    })
+}
+
+/// Mostly small numbers up to `max`, so that thresholds are both passed and missed.
+fn small(max: i64) -> impl Strategy<Value = i64> {
+    prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
+}
+
+fn feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<FeatureRecipe> {
+    let (max, n) = ((1i64 << bits) - 1, side * side);
+    // Permille of the pixel range (or its square) that some region is sure to reach.
+    let (level_max, minimum) = match name {
+        "edge" => (6 * max, small(n).prop_map(|hits| 1000 * hits).boxed()),
+        "corner" => (max, small(n).prop_map(|hits| 1000 * hits).boxed()),
+        "mad" => (0, small(400).prop_map(move |permille| permille * max).boxed()),
+        _ => (0, small(200).prop_map(move |permille| permille * max * max).boxed()),
+    };
+    let fraction_max = (0..).find(|bits| 1i64 << bits >= n).unwrap();
+    (small(level_max), minimum, 0u32..=fraction_max)
+        .prop_map(move |(level, min_milli, fraction_bits)| FeatureRecipe {
+            name,
+            level,
+            min_milli,
+            fraction_bits,
+        })
+        .boxed()
+}

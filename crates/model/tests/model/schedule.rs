@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! When things happen, from the list of edges that take a pixel, with no clocked state: every step is
+//! an edge number that follows from other edge numbers by the rules of `docs/timing.md`.
+
+use crate::oracle::Seen;
+use crate::recipe::Recipe;
+
+/// What the ports of one region's RPU must show after an edge.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Expected {
+    pub(crate) valid: bool,
+    pub(crate) srs: bool,
+    pub(crate) trs: bool,
+    pub(crate) scores: Vec<i64>,
+    pub(crate) temporal_count: i64,
+    pub(crate) forward: Option<i64>,
+}
+
+/// Edges of the centers of an isolated window of side N, given the edges of its pixels, both by
+/// frame.
+fn isolated_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
+    let mut centers = Vec::new();
+    for (frame, own) in pixels.iter().enumerate() {
+        let last = *own.last().unwrap();
+        let next: &[usize] = pixels.get(frame + 1).map_or(&[], Vec::as_slice);
+        // The edges at which the window advances after the frame's last pixel.
+        let begin = next.first().copied().unwrap_or(usize::MAX);
+        let mut advances: Vec<usize> = (last + 1..begin).take(side + 1).collect();
+        advances.extend(next);
+        let all: Vec<usize> = own.iter().copied().chain(advances).collect();
+        centers.push(all[side + 1..][..own.len()].to_vec());
+    }
+    centers
+}
+
+/// Edges of the centers of a shared window on squares of side S.
+fn shared_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
+    let inner = |(place, _): &(usize, &usize)| place % side >= 2 && place / side >= 2;
+    let edges = |frame: &Vec<usize>| {
+        frame.iter().enumerate().filter(inner).map(|(_, &edge)| edge).collect()
+    };
+    pixels.iter().map(edges).collect()
+}
+
+/// Edges of the tail steps by frame, given those of the pixels of the stream.
+pub(crate) fn tail_steps(recipe: &Recipe, stream: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let windows = recipe.has("edge") || recipe.has("corner");
+    let delay = usize::from(recipe.has("mad") || recipe.has("variance"));
+    let mut side = recipe.side as usize;
+    if recipe.shared {
+        side += 2 * (usize::from(recipe.median) + usize::from(windows));
+    }
+    let mut steps = stream.to_vec();
+    for (there, registers) in [(recipe.median, 2), (windows, 0)] {
+        if there && recipe.shared {
+            steps = shared_centers(&steps, side);
+            side -= 2;
+        } else if there {
+            steps = isolated_centers(&steps, side);
+        }
+        if there {
+            steps.iter_mut().flatten().for_each(|edge| *edge += registers);
+        }
+    }
+    steps.iter_mut().flatten().for_each(|edge| *edge += delay);
+    steps
+}
+
+/// What must be seen at `region` after each of the first `edges` edges.
+pub(crate) fn expect(
+    recipe: &Recipe,
+    history: &[Seen],
+    steps: &[Vec<usize>],
+    region: usize,
+    edges: usize,
+) -> Vec<Expected> {
+    (0..edges).map(|edge| expect_at(recipe, history, steps, region, edge)).collect()
+}
+
+fn expect_at(
+    recipe: &Recipe,
+    history: &[Seen],
+    steps: &[Vec<usize>],
+    region: usize,
+    edge: usize,
+) -> Expected {
+    let mad = recipe.has("mad");
+    let frame = |index: usize| &history[index].regions[region];
+    let done_at = |index: usize| *steps[index].last().unwrap();
+    // Frames that are done by this edge, and those whose done clock is over.
+    let done = (0..steps.len()).filter(|&index| done_at(index) <= edge).count();
+    let over = (0..steps.len()).filter(|&index| done_at(index) < edge).count();
+    // The frame whose counters run, and how many of its steps have happened.
+    let running = over;
+    let counted =
+        steps.get(running).map_or(0, |frame| frame.iter().take_while(|&&at| at <= edge).count());
+    let partial = |terms: &[i64]| terms.iter().take(counted).sum::<i64>();
+
+    let mut scores = Vec::new();
+    for (index, feature) in recipe.features.iter().enumerate() {
+        let last = |count: usize| count.checked_sub(1).map_or(0, |at| frame(at).scores[index]);
+        scores.push(match (feature.name, mad) {
+            ("mad", _) if counted == 0 => 0,
+            ("mad", _) => {
+                running.checked_sub(1).map_or(0, |before| partial(&frame(before).terms[index]))
+            }
+            ("variance", false) => last(done),
+            (_, true) => last(over),
+            (_, false) if counted == 0 => 0,
+            (_, false) => partial(&frame(running).terms[index]),
+        });
+    }
+    let temporal_count = if mad {
+        over.checked_sub(1).map_or(0, |at| frame(at).temporal_count)
+    } else if counted == 0 {
+        0
+    } else {
+        frame(running).temporal_hits.iter().take(counted).filter(|&&hit| hit).count() as i64
+    };
+
+    let decided = (done > over).then(|| over.checked_sub(usize::from(mad))).flatten().map(frame);
+    let stepping = steps.get(running).and_then(|s| s.iter().position(|&at| at == edge));
+    let leaving = running.checked_sub(1 + usize::from(mad)).map(frame);
+    let forward = match (stepping, leaving) {
+        (Some(position), Some(frame)) if frame.active => Some(frame.payload[position]),
+        _ => None,
+    };
+    Expected {
+        valid: decided.is_some(),
+        srs: decided.is_some_and(|frame| frame.srs),
+        trs: decided.is_some_and(|frame| frame.trs),
+        scores,
+        temporal_count,
+        forward,
+    }
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the two references do over time: the first frame, drift, blanked regions, long silence.
+
+use foveate_model::{Camera, Frame, Outcome, PipelinedRpu, RpuInput, Thresholds};
+use foveate_spec::{Config, Design};
+
+use crate::frames::Random;
+
+const WIDTH: u32 = 32;
+const HEIGHT: u32 = 20;
+
+fn design(toml: &str) -> Design {
+    let size = format!("[frame]\nwidth = {WIDTH}\nheight = {HEIGHT}\n");
+    Config::from_toml(&format!("{size}{toml}")).unwrap().validate().unwrap()
+}
+
+/// A textured scene, shifted to the left by `shift`.
+fn scene(shift: u32, offset: i64, mut noise: impl FnMut() -> i64) -> Frame {
+    Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| {
+        let texture = i64::from((x + shift) / 3 % 2 * 90 + y / 5 % 2 * 40);
+        (40 + texture + offset + noise()).clamp(0, 255) as u16
+    })
+    .unwrap()
+}
+
+#[test]
+fn every_region_of_the_first_frame_is_new() {
+    for reference in ["previous", "last-sent"] {
+        let toml =
+            format!("[temporal]\nlevel = 255\nmin_count = 64\nreference = \"{reference}\"\n");
+        let mut camera = Camera::new(&design(&toml));
+        let outcome = camera.step(&scene(0, 0, || 0)).unwrap();
+        assert!(outcome.trs.iter().all(|&trs| trs));
+        assert!(outcome.temporal_count.iter().all(|&count| count == 64));
+        assert!(camera.step(&scene(0, 0, || 0)).unwrap().trs.iter().all(|&trs| !trs));
+        camera.reset();
+        assert!(camera.step(&scene(0, 0, || 0)).unwrap().trs.iter().all(|&trs| trs));
+    }
+}
+
+#[test]
+fn previous_never_sees_a_slow_fade_and_last_sent_does() {
+    let fade = |reference: &str| {
+        let toml =
+            format!("[temporal]\nreference = \"{reference}\"\n[render]\nirrelevant = \"hold\"\n");
+        let mut camera = Camera::new(&design(&toml));
+        let mut worst = 0;
+        for step in 0..80 {
+            let outcome = camera.step(&scene(0, step, || 0)).unwrap();
+            let (seen, shown) = (outcome.denoised.get(16, 8), outcome.rendered.get(16, 8));
+            worst = worst.max(seen.abs_diff(shown));
+        }
+        worst
+    };
+    assert_eq!(fade("previous"), 79);
+    assert_eq!(fade("last-sent"), 8);
+}
+
+/// Regions with SRS = 1 that hold a pixel too many; and how many were inactive at all.
+fn stale_regions(design: &Design, outcome: &Outcome) -> (usize, usize) {
+    let level = design.temporal().level;
+    let (mut stale, mut held) = (0, 0);
+    for region in 0..design.regions() {
+        let at = region as usize;
+        if !outcome.srs[at] {
+            continue;
+        }
+        held += usize::from(!outcome.trs[at]);
+        let (left, top) = (region % design.columns() * 8, region / design.columns() * 8);
+        let differs = |x: u32, y: u32| {
+            u32::from(outcome.rendered.get(x, y).abs_diff(outcome.denoised.get(x, y))) > level
+        };
+        let different = (top..(top + 8).min(HEIGHT))
+            .flat_map(|y| (left..left + 8).map(move |x| (x, y)))
+            .filter(|&(x, y)| differs(x, y))
+            .count();
+        stale += usize::from(different >= design.temporal().min_count as usize);
+    }
+    (stale, held)
+}
+
+#[test]
+fn last_sent_never_drifts() {
+    let mut random = Random(3);
+    let mut rain = move || if random.below(30) == 0 { 150 } else { random.below(13) - 6 };
+    let cases: Vec<(&str, Vec<Frame>)> = vec![
+        ("fade", (0..60).map(|t| scene(0, t, || 0)).collect()),
+        ("flicker", (0..60).map(|t| scene(0, t % 2, || 0)).collect()),
+        ("light step", (0..60).map(|t| scene(0, t / 15 * 30, || 0)).collect()),
+        ("shake", (0..60).map(|t| scene(t * 7 % 3, 0, || 0)).collect()),
+        ("rain", (0..60).map(|_| scene(0, 0, &mut rain)).collect()),
+        ("a moving pixel", (0..60).map(moving_pixel).collect()),
+        ("texture comes and goes", (0..60).map(coming_and_going).collect()),
+    ];
+    for filter in ["none", "median3x3"] {
+        for irrelevant in ["zero", "hold"] {
+            let rendering = |reference: &str| {
+                design(&format!(
+                    "[denoise]\nfilter = \"{filter}\"\n[temporal]\nreference = \"{reference}\"\n\
+                     [render]\nirrelevant = \"{irrelevant}\"\n"
+                ))
+            };
+            let mut drifted = 0;
+            for (name, frames) in &cases {
+                let design = rendering("last-sent");
+                let mut camera = Camera::new(&design);
+                let mut all_held = 0;
+                for (index, frame) in frames.iter().enumerate() {
+                    let (stale, held) = stale_regions(&design, camera.step(frame).unwrap());
+                    assert_eq!(stale, 0, "{name} {filter} {irrelevant}, frame {index}");
+                    all_held += held;
+                }
+                assert!(all_held > 0 || *name == "shake", "{name}: nothing was ever held");
+                // The same scenes do make the other reference drift.
+                let design = rendering("previous");
+                let mut camera = Camera::new(&design);
+                for frame in frames {
+                    drifted += stale_regions(&design, camera.step(frame).unwrap()).0;
+                }
+            }
+            assert!(drifted > 0);
+        }
+    }
+}
+
+/// One bright pixel on its way through the scene.
+fn moving_pixel(t: u32) -> Frame {
+    let scene = scene(0, 0, || 0);
+    let bright = |x, y| (x, y) == (t % WIDTH, 3 + t / 8);
+    Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| if bright(x, y) { 255 } else { scene.get(x, y) })
+        .unwrap()
+}
+
+/// Contrast sinks below the edge level and comes back, while most pixels change slowly.
+fn coming_and_going(t: u32) -> Frame {
+    let contrast = [60, 30, 12, 6, 12, 30][(t / 2 % 6) as usize];
+    Frame::from_fn(WIDTH, HEIGHT, 8, |x, _| (100 + x / 4 % 2 * contrast) as u16).unwrap()
+}
+
+/// A flat region with one bright pixel that goes away and comes back: SRS falls and returns, while
+/// one changed pixel is too little for TRS.
+#[test]
+fn a_static_region_that_was_blanked_once() {
+    let bright =
+        Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| 90 + 160 * u16::from(x % 8 == 4 && y % 8 == 4));
+    let (bright, flat) = (bright.unwrap(), Frame::filled(WIDTH, HEIGHT, 8, 90).unwrap());
+    let films = |reference: &str, irrelevant: &str| {
+        let mut camera = Camera::new(&design(&format!(
+            "[denoise]\nfilter = \"none\"\n[temporal]\nreference = \"{reference}\"\n\
+             [render]\nirrelevant = \"{irrelevant}\"\n"
+        )));
+        [&bright, &flat, &bright, &bright].map(|frame| {
+            let outcome = camera.step(frame).unwrap();
+            (outcome.srs[0], outcome.trs[0], outcome.rendered.get(0, 0))
+        })
+    };
+    let first = (true, true, 90);
+    assert_eq!(
+        films("previous", "zero"),
+        [first, (false, false, 0), (true, false, 0), (true, false, 0)],
+        "stays black"
+    );
+    assert_eq!(
+        films("last-sent", "zero"),
+        [first, (false, false, 0), (true, true, 90), (true, false, 90)],
+        "is sent again"
+    );
+    for reference in ["previous", "last-sent"] {
+        assert_eq!(
+            films(reference, "hold"),
+            [first, (false, false, 90), (true, false, 90), (true, false, 90)]
+        );
+    }
+}
+
+#[test]
+fn ten_thousand_identical_frames_then_a_change() {
+    for reference in ["previous", "last-sent"] {
+        let design = Config::from_toml(&format!(
+            "[frame]\nwidth = 2\nheight = 2\n[region]\nsize = 2\n\
+             [[spatial]]\nfeature = \"edge\"\nlevel = 0\nmin_score = 0\n\
+             [temporal]\nlevel = 8\nmin_count = 4\nreference = \"{reference}\"\n"
+        ));
+        let design = design.unwrap().validate().unwrap();
+        let mut camera = Camera::new(&design);
+        let mut rpu = PipelinedRpu::new(&design);
+        let thresholds = Thresholds::of(&design);
+        let mut decisions = Vec::new();
+        for index in 0..10_002u32 {
+            let frame = Frame::filled(2, 2, 8, if index < 10_000 { 20 } else { 29 }).unwrap();
+            let outcome = camera.step(&frame).unwrap();
+            assert_eq!(outcome.active[0], index == 0 || index == 10_000, "frame {index}");
+            for &pixel in frame.pixels() {
+                let input = RpuInput { valid: true, pixel, ..RpuInput::default() };
+                let output = rpu.step(&input, &thresholds);
+                decisions.extend(output.decision_valid.then_some(output.active));
+            }
+        }
+        let active: Vec<usize> = (0..decisions.len()).filter(|&index| decisions[index]).collect();
+        assert_eq!(
+            active,
+            [0, 10_000].into_iter().filter(|&i| i < decisions.len()).collect::<Vec<_>>()
+        );
+        assert!(decisions.len() >= 9_999);
+    }
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds that change at any clock: which clock's value counts for what.
+
+use foveate_model::denoise::denoise;
+use foveate_model::feature::{corner_strengths, edge_magnitudes};
+use foveate_model::{
+    Frame, PipelinedRpu, RpuInput, Thresholds, pad, region_border, region_stream,
+    temporal_differences,
+};
+use foveate_spec::Design;
+use proptest::prelude::*;
+
+use crate::frames::{Random, film, scripts};
+use crate::oracle::{Seen, cut, watch};
+use crate::recipe::{Recipe, recipes};
+use crate::schedule::tail_steps;
+
+/// Thresholds of one clock: each is the design's, or anything that its port can carry.
+fn jittered(design: &Design, random: &mut Random) -> Thresholds {
+    let mut thresholds = Thresholds::of(design);
+    let mut pick = |own: u64, bits: u32| {
+        if random.below(3) == 0 { random.below(1 << bits) as u64 } else { own }
+    };
+    for (index, feature) in design.features().iter().enumerate() {
+        if feature.level().is_some() {
+            let own = thresholds.level[index].into();
+            thresholds.level[index] = pick(own, feature.level_bits()) as u32;
+        }
+        thresholds.min_score[index] = pick(thresholds.min_score[index], feature.score_bits());
+    }
+    let own = thresholds.temporal_level.into();
+    thresholds.temporal_level = pick(own, design.pixel_bits()) as u32;
+    let own = thresholds.temporal_min_count.into();
+    thresholds.temporal_min_count = pick(own, design.count_bits()) as u32;
+    thresholds
+}
+
+/// Scores of one frame and what was decided about it.
+struct Frames<'a> {
+    recipe: &'a Recipe,
+    design: Design,
+    denoised: Vec<Frame>,
+    history: Vec<Seen>,
+    steps: Vec<Vec<usize>>,
+    applied: Vec<Thresholds>,
+}
+
+/// A finished frame: srs and active as they were registered.
+type Registered = (bool, bool);
+
+impl Frames<'_> {
+    fn scores(&self, frame: usize) -> Vec<u64> {
+        let late = self.recipe.has("mad") || self.recipe.has("variance");
+        let hits = |index: usize, hit: &dyn Fn(usize, u32) -> bool| {
+            let level = |step: usize| self.applied[step - usize::from(late)].level[index];
+            let steps = self.steps[frame].iter().enumerate();
+            steps.filter(|&(place, &step)| hit(place, level(step))).count() as u64
+        };
+        let score = |(index, name): (usize, &str)| match name {
+            "edge" => {
+                let magnitudes = edge_magnitudes(&self.design, &self.denoised[frame], 0);
+                hits(index, &|place, level| magnitudes[place] > level)
+            }
+            "corner" => {
+                let strengths = corner_strengths(&self.design, &self.denoised[frame], 0);
+                hits(index, &|place, level| strengths[place].is_some_and(|s| level <= s))
+            }
+            _ => self.history[frame].regions[0].scores[index] as u64,
+        };
+        self.recipe.features.iter().map(|feature| feature.name).enumerate().map(score).collect()
+    }
+
+    fn temporal_count(&self, frame: usize, registered: &[Registered]) -> u32 {
+        let reference = if self.recipe.last_sent {
+            let decisive = |&at: &usize| {
+                let (srs, active) = registered[at];
+                active || self.recipe.blank_irrelevant && !srs
+            };
+            (0..frame).rev().find(decisive).filter(|&at| registered[at].1)
+        } else {
+            frame.checked_sub(1)
+        };
+        let Some(reference) = reference else { return self.design.region_pixels() };
+        let (now, then) = (&self.denoised[frame], &self.denoised[reference]);
+        let differences = temporal_differences(&self.design, now, then, 0);
+        let level = |step: &usize| self.applied[*step].temporal_level;
+        let pairs = differences.iter().zip(&self.steps[frame]);
+        pairs.map(|(&difference, step)| u32::from(difference > level(step))).sum()
+    }
+
+    fn decide(&self, scores: &[u64], count: u32, clock: usize) -> (bool, bool) {
+        let thresholds = &self.applied[clock];
+        let mut votes = scores.iter().zip(thresholds.min_score).map(|(&score, min)| score >= min);
+        let srs = if self.recipe.all_must_vote { votes.all(|v| v) } else { votes.any(|v| v) };
+        (srs, count >= thresholds.temporal_min_count)
+    }
+}
+
+fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError> {
+    let design = recipe.design();
+    let mut random = Random(seed);
+    // Pixels with random gaps, and what is applied at every edge.
+    let mut stream = Vec::new();
+    let mut inputs = Vec::new();
+    for frame in film {
+        let mut pixels = Vec::new();
+        region_stream(&design, frame, 0, &mut pixels);
+        let mut edges = Vec::new();
+        for pixel in pixels {
+            inputs.extend((0..random.below(9) / 7 * random.below(8)).map(|_| None));
+            edges.push(inputs.len());
+            inputs.push(Some(pixel));
+        }
+        stream.push(edges);
+    }
+    inputs.extend(vec![None; design.timing().decision_latency as usize + 3]);
+    let frames = Frames {
+        recipe,
+        denoised: film.iter().map(|f| denoise(&design, &pad(&design, f).unwrap())).collect(),
+        history: watch(recipe, film),
+        steps: tail_steps(recipe, &stream),
+        applied: inputs.iter().map(|_| jittered(&design, &mut random)).collect(),
+        design: design.clone(),
+    };
+
+    let mut rpu = PipelinedRpu::new(&design);
+    let border = region_border(&design, 0);
+    let mut decisions = Vec::new();
+    let mut left = Vec::new();
+    for (pixel, thresholds) in inputs.iter().zip(&frames.applied) {
+        let (valid, pixel) = (pixel.is_some(), pixel.unwrap_or_default());
+        let output = rpu.step(&RpuInput { reset: false, valid, pixel, border }, thresholds);
+        decisions.extend(output.decision_valid.then_some(output));
+        left.extend(output.forward_valid.then(|| i64::from(output.forward_pixel)));
+    }
+
+    let wait = usize::from(recipe.has("mad"));
+    let mut registered = Vec::new();
+    let mut leaving = Vec::new();
+    let decided = film.len() - wait.min(film.len());
+    prop_assert_eq!(decisions.len(), decided);
+    for (frame, decision) in decisions.iter().enumerate() {
+        let done = *frames.steps[frame + wait].last().unwrap();
+        let (scores, count) = (frames.scores(frame), frames.temporal_count(frame, &registered));
+        prop_assert_eq!(&decision.scores[..scores.len()], &scores[..]);
+        prop_assert_eq!(decision.temporal_count, count);
+        // Shown with the thresholds of the edge it follows, kept with those of the edge that ends it.
+        prop_assert_eq!((decision.srs, decision.trs), frames.decide(&scores, count, done));
+        let (srs, trs) = frames.decide(&scores, count, done + 1);
+        registered.push((srs, srs && trs));
+        if srs && trs && frame + wait + 1 < film.len() {
+            let seen = &frames.history[frame];
+            let payload = if recipe.raw_payload { &seen.padded } else { &seen.denoised };
+            leaving.extend(cut(recipe, payload, 0));
+        }
+    }
+    prop_assert_eq!(left, leaving);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn each_threshold_counts_in_its_own_clock(
+        recipe in recipes(),
+        script in scripts(6),
+        seed in any::<u64>(),
+    ) {
+        let one_region = Recipe {
+            width: recipe.width.min(recipe.side),
+            height: recipe.height.min(recipe.side),
+            constant: false,
+            ..recipe
+        };
+        check(&one_region, &film(&one_region, &script), seed)?;
+    }
+
+    #[test]
+    fn inputs_that_a_design_has_not_do_nothing(recipe in recipes(), script in scripts(4), seed in any::<u64>()) {
+        let design = Recipe { constant: true, ..recipe.clone() }.design();
+        let mut random = Random(seed);
+        let (mut plain, mut shaken) = (PipelinedRpu::new(&design), PipelinedRpu::new(&design));
+        for frame in film(&recipe, &script) {
+            let mut pixels = Vec::new();
+            region_stream(&design, &frame, 0, &mut pixels);
+            for pixel in pixels {
+                let input = RpuInput { valid: true, pixel, ..RpuInput::default() };
+                let jittered = jittered(&design, &mut random);
+                let border = if design.needs_border() { 0 } else { random.below(16) as u8 };
+                let expected = plain.step(&input, &Thresholds::of(&design));
+                prop_assert_eq!(shaken.step(&RpuInput { border, ..input }, &jittered), expected);
+            }
+        }
+    }
+}
