@@ -1,2 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Synthetic frames: small, deterministic, one scene per hard case
+//! Synthetic frames: small, deterministic, one scene per hard case.
+//!
+//! A [`Scene`] is made, not read: `street` to look at, the others each one situation that a region
+//! based camera finds hard. Everything is integer arithmetic on hashes of position and time, so every
+//! machine makes the same bytes. Any size and any depth work. This crate does no I/O.
+
+mod canvas;
+mod error;
+mod noise;
+mod patterns;
+mod scene;
+mod street;
+
+pub use error::SceneError;
+pub use scene::{Scene, SceneFrames, SceneSize};

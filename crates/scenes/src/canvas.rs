@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A 16-bit grey canvas with anti-aliased shapes, drawn in units that do not depend on its size.
+//!
+//! The canvas is always [`UNITS_HIGH`] units high; how many units wide follows from its shape. A unit
+//! has 64 parts, in which all coordinates are given. Sixteen samples per pixel smooth the borders.
+
+/// Height of every canvas in units.
+pub(crate) const UNITS_HIGH: i64 = 224;
+/// Parts of a unit.
+pub(crate) const UNIT: i64 = 64;
+/// Samples per pixel along each axis.
+const SAMPLES: i64 = 4;
+/// Opacity of a shape that hides what is below it.
+pub(crate) const OPAQUE: u32 = 256;
+
+/// A grey picture, brightest at 65535.
+#[derive(Clone, Debug)]
+pub(crate) struct Canvas {
+    width: u32,
+    height: u32,
+    pixels: Vec<u16>,
+}
+
+/// A rectangle in parts of units, right and bottom excluded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    pub(crate) left: i64,
+    pub(crate) top: i64,
+    pub(crate) right: i64,
+    pub(crate) bottom: i64,
+}
+
+impl Canvas {
+    pub(crate) fn new(width: u32, height: u32) -> Self {
+        Self { width, height, pixels: vec![0; width as usize * height as usize] }
+    }
+
+    pub(crate) fn get(&self, x: u32, y: u32) -> u16 {
+        let index = y as usize * self.width as usize + x as usize;
+        self.pixels.get(index).copied().unwrap_or(0)
+    }
+
+    /// Width in parts of units.
+    pub(crate) fn parts_wide(&self) -> i64 {
+        i64::from(self.width) * UNITS_HIGH * UNIT / i64::from(self.height)
+    }
+
+    /// Blends `shade` into every sample of `bounds` that is `inside` the shape.
+    pub(crate) fn fill(
+        &mut self,
+        bounds: Bounds,
+        shade: u16,
+        opacity: u32,
+        inside: impl Fn(i64, i64) -> bool,
+    ) {
+        let (columns, rows) = self.pixels_of(bounds);
+        let full = OPAQUE * 16;
+        for y in rows {
+            for x in columns.clone() {
+                let covered = self.covered(x, y, bounds, &inside);
+                if covered == 0 {
+                    continue;
+                }
+                let weight = (opacity * covered).min(full);
+                let index = y as usize * self.width as usize + x as usize;
+                if let Some(pixel) = self.pixels.get_mut(index) {
+                    let sum = u32::from(*pixel) * (full - weight) + u32::from(shade) * weight;
+                    *pixel = u16::try_from(sum / full).unwrap_or(u16::MAX);
+                }
+            }
+        }
+    }
+
+    /// Samples of a pixel, 0..=16, that are in `bounds` and `inside`.
+    fn covered(&self, x: u32, y: u32, bounds: Bounds, inside: &impl Fn(i64, i64) -> bool) -> u32 {
+        let mut covered = 0;
+        for sample_y in 0..SAMPLES {
+            let v = self.parts(i64::from(y) * SAMPLES + sample_y);
+            for sample_x in 0..SAMPLES {
+                let u = self.parts(i64::from(x) * SAMPLES + sample_x);
+                covered += u32::from(bounds.contains(u, v) && inside(u, v));
+            }
+        }
+        covered
+    }
+
+    /// The middle of a sample in parts of units.
+    fn parts(&self, sample: i64) -> i64 {
+        (2 * sample + 1) * UNITS_HIGH * UNIT / (2 * SAMPLES * i64::from(self.height))
+    }
+
+    fn pixels_of(&self, bounds: Bounds) -> (std::ops::Range<u32>, std::ops::Range<u32>) {
+        let whole = UNITS_HIGH * UNIT;
+        let pixel = |parts: i64| parts * i64::from(self.height) / whole;
+        let clamp =
+            |pixel: i64, max: u32| u32::try_from(pixel.clamp(0, i64::from(max))).unwrap_or(0);
+        (
+            clamp(pixel(bounds.left) - 1, self.width)..clamp(pixel(bounds.right) + 2, self.width),
+            clamp(pixel(bounds.top) - 1, self.height)..clamp(pixel(bounds.bottom) + 2, self.height),
+        )
+    }
+}
+
+impl Bounds {
+    fn contains(self, u: i64, v: i64) -> bool {
+        (self.left..self.right).contains(&u) && (self.top..self.bottom).contains(&v)
+    }
+}
+
+/// Draws in whole units around an origin, facing right or left, in daylight or at night.
+pub(crate) struct Pen<'a> {
+    pub(crate) canvas: &'a mut Canvas,
+    /// Where (0, 0) is, in parts of units.
+    pub(crate) origin: (i64, i64),
+    /// 1, or -1 to mirror left and right.
+    pub(crate) facing: i64,
+    /// Daylight in 256ths.
+    pub(crate) light: u32,
+}
+
+impl Pen<'_> {
+    /// A rectangle that reflects daylight; `shade` is an 8-bit grey level.
+    pub(crate) fn rect(&mut self, left: i64, top: i64, right: i64, bottom: i64, shade: u32) {
+        let bounds = self.bounds(left, top, right, bottom);
+        let shade = self.reflected(shade);
+        self.canvas.fill(bounds, shade, OPAQUE, |_, _| true);
+    }
+
+    /// A rectangle of its own light, or of a shadow.
+    pub(crate) fn glow_rect(&mut self, at: [i64; 4], shade: u32, opacity: u32) {
+        let [left, top, right, bottom] = at;
+        let bounds = self.bounds(left, top, right, bottom);
+        self.canvas.fill(bounds, emitted(shade), opacity, |_, _| true);
+    }
+
+    /// A disc; radius in parts of units.
+    pub(crate) fn disc(&mut self, x: i64, y: i64, radius: i64, shade: u32) {
+        let shade = self.reflected(shade);
+        self.round(x, y, radius, shade, OPAQUE);
+    }
+
+    /// A disc of its own light.
+    pub(crate) fn glow_disc(&mut self, x: i64, y: i64, radius: i64, shade: u32, opacity: u32) {
+        self.round(x, y, radius, emitted(shade), opacity);
+    }
+
+    /// A convex polygon, corners in either direction, in parts of units from the origin.
+    pub(crate) fn polygon(&mut self, corners: &[(i64, i64)], shade: u32) {
+        let shade = self.reflected(shade);
+        self.convex(corners, shade, OPAQUE);
+    }
+
+    /// A convex polygon of its own light.
+    pub(crate) fn glow_polygon(&mut self, corners: &[(i64, i64)], shade: u32, opacity: u32) {
+        self.convex(corners, emitted(shade), opacity);
+    }
+
+    fn round(&mut self, x: i64, y: i64, radius: i64, shade: u16, opacity: u32) {
+        let (cx, cy) = self.place(x * UNIT, y * UNIT);
+        let bounds =
+            Bounds { left: cx - radius, top: cy - radius, right: cx + radius, bottom: cy + radius };
+        self.canvas.fill(bounds, shade, opacity, |u, v| {
+            (u - cx) * (u - cx) + (v - cy) * (v - cy) <= radius * radius
+        });
+    }
+
+    fn convex(&mut self, corners: &[(i64, i64)], shade: u16, opacity: u32) {
+        let corners: Vec<_> = corners.iter().map(|&(x, y)| self.place(x, y)).collect();
+        let xs = corners.iter().map(|corner| corner.0);
+        let ys = corners.iter().map(|corner| corner.1);
+        let bounds = Bounds {
+            left: xs.clone().min().unwrap_or(0),
+            top: ys.clone().min().unwrap_or(0),
+            right: xs.max().unwrap_or(0),
+            bottom: ys.max().unwrap_or(0),
+        };
+        let next = corners.iter().cycle().skip(1);
+        let sides: Vec<_> = corners.iter().zip(next).collect();
+        self.canvas.fill(bounds, shade, opacity, |u, v| {
+            let turn = |(a, b): &(&(i64, i64), &(i64, i64))| {
+                (b.0 - a.0) * (v - a.1) - (b.1 - a.1) * (u - a.0)
+            };
+            sides.iter().all(|side| turn(side) >= 0) || sides.iter().all(|side| turn(side) <= 0)
+        });
+    }
+
+    fn bounds(&self, left: i64, top: i64, right: i64, bottom: i64) -> Bounds {
+        let (a, top) = self.place(left * UNIT, top * UNIT);
+        let (b, bottom) = self.place(right * UNIT, bottom * UNIT);
+        Bounds { left: a.min(b), top, right: a.max(b), bottom }
+    }
+
+    fn place(&self, x: i64, y: i64) -> (i64, i64) {
+        (self.origin.0 + self.facing * x, self.origin.1 + y)
+    }
+
+    fn reflected(&self, shade: u32) -> u16 {
+        u16::try_from(shade * 257 * self.light / 256).unwrap_or(u16::MAX)
+    }
+}
+
+fn emitted(shade: u32) -> u16 {
+    u16::try_from(shade * 257).unwrap_or(u16::MAX)
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The hard cases that are a formula of place and time.
+
+use crate::{Scene, SceneSize, noise};
+
+/// Frames between two switchings of the light.
+const LIGHT_PERIOD: u32 = 8;
+
+/// The pixel at (`x`, `y`) of frame `t`; the street scenes are not made here and are zero.
+pub(crate) fn pixel(scene: Scene, size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+    let max = size.max();
+    match scene {
+        Scene::Zero | Scene::Street | Scene::Shake | Scene::NightRain => 0,
+        Scene::Max => max,
+        Scene::Checkerboard => max * ((x + y + t / 2) & 1),
+        Scene::HotPixels => hot_pixels(size, t, x, y),
+        Scene::Ramps => ramps(size, t, x, y),
+        Scene::HalfMeans => half_means(size, t, x, y),
+        Scene::Flicker => (x + y) % max + (t & 1),
+        Scene::Fade => fade(max, t, x, y),
+        Scene::LightStep => bars(max / 2, x, y) + (max - max / 2) * ((t / LIGHT_PERIOD) & 1),
+        Scene::OnePixel => one_pixel(size, t, x, y),
+        Scene::LateChange => late_change(size, t, x, y),
+        Scene::Random => u32::try_from(noise::hash(0xF0, t, x, y) & u64::from(max)).unwrap_or(0),
+    }
+}
+
+/// Checks of 4x4 pixels between zero and `high`: edges and corners in every region.
+fn bars(high: u32, x: u32, y: u32) -> u32 {
+    high * ((x / 4 + y / 4) & 1)
+}
+
+/// Half grey; in every region one corner pixel is at an end of the range. Over eight frames each
+/// region shows hot and dead at each of its corners.
+fn hot_pixels(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+    let n = size.region_size;
+    let (column, row) = (x / n, y / n);
+    let turn = column + 3 * row + t;
+    let corner = ((n - 1) * (turn & 1), (n - 1) * (turn >> 1 & 1));
+    if (x % n, y % n) == corner {
+        return size.max() * (turn >> 2 & 1);
+    }
+    size.max() / 2
+}
+
+/// Per region a ramp along x, along y, along the diagonal, or a step, from zero on. Neighboring
+/// regions and successive frames differ by one level of slope, so that whatever the thresholds are,
+/// some region lands on them, one a level below and one a level above.
+fn ramps(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+    let n = size.region_size;
+    let (column, row) = (x / n, y / n);
+    let slope = column + t;
+    let (u, v) = (x % n, y % n);
+    let height = match row % 4 {
+        0 => slope * u,
+        1 => slope * v,
+        2 => slope * (u + v),
+        _ => slope * u32::from(u >= n / 2),
+    };
+    height.min(size.max())
+}
+
+/// The first pixels of a region are one level above the others, as many as make the mean end in
+/// one half at some number of fraction bits, then one pixel less, then one more.
+fn half_means(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+    let n = size.region_size;
+    let (column, row) = (x / n, y / n);
+    let pixels = n * n;
+    let halvings = 1 + (column + row) % pixels.ilog2();
+    let half = pixels >> halvings;
+    let above = match t % 3 {
+        0 => half,
+        1 => half.saturating_sub(1),
+        _ => half + 1,
+    };
+    let base = noise::pick(0x4A1F, column, row, 0, size.max());
+    base + u32::from((y % n) * n + x % n < above)
+}
+
+/// Bars of half contrast on a light that goes up and down by one level per frame.
+fn fade(max: u32, t: u32, x: u32, y: u32) -> u32 {
+    let reach = max - max / 2;
+    let phase = t % (2 * reach);
+    bars(max / 2, x, y) + phase.min(2 * reach - phase)
+}
+
+/// One bright pixel on a quarter of grey, reflected at the borders.
+fn one_pixel(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+    if (x, y) == (reflected(t, size.width), reflected(t, size.height)) {
+        size.max()
+    } else {
+        size.max() / 4
+    }
+}
+
+/// Goes 0, 1, ... `side` - 1 and back, for ever.
+fn reflected(t: u32, side: u32) -> u32 {
+    if side < 2 {
+        return 0;
+    }
+    let phase = t % (2 * (side - 1));
+    phase.min(2 * (side - 1) - phase)
+}
+
+/// Static bars; in the last frame every second region is inverted.
+fn late_change(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+    let still = bars(size.max(), x, y);
+    let changed = (x / size.region_size + y / size.region_size).is_multiple_of(2);
+    if t + 1 == size.frames && changed { size.max() - still } else { still }
+}

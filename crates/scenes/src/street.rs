@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The street: a backdrop that is painted once, and what moves in front of it.
+
+mod buildings;
+mod traffic;
+mod weather;
+
+use crate::canvas::{Canvas, Pen, UNIT};
+
+/// Where the houses stand, in units from the top.
+const GROUND: i64 = 128;
+/// Upper and lower border of the road.
+const ROAD: (i64, i64) = (142, 206);
+
+/// Time of day and weather.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mood {
+    Day,
+    Night,
+}
+
+impl Mood {
+    /// Daylight in 256ths.
+    fn light(self) -> u32 {
+        match self {
+            Self::Day => 256,
+            Self::Night => 52,
+        }
+    }
+}
+
+/// A street of one size.
+#[derive(Clone, Debug)]
+pub(crate) struct Street {
+    backdrop: Canvas,
+    mood: Mood,
+}
+
+impl Street {
+    pub(crate) fn new(width: u32, height: u32, mood: Mood) -> Self {
+        let mut backdrop = Canvas::new(width, height);
+        paint_backdrop(&mut backdrop, mood);
+        Self { backdrop, mood }
+    }
+
+    /// What does not move.
+    pub(crate) fn backdrop(&self) -> &Canvas {
+        &self.backdrop
+    }
+
+    /// The street in frame `t`.
+    pub(crate) fn at(&self, t: u32) -> Canvas {
+        let mut canvas = self.backdrop.clone();
+        traffic::paint(&mut canvas, self.mood, t);
+        if self.mood == Mood::Night {
+            weather::rain(&mut canvas, t);
+        }
+        canvas
+    }
+}
+
+fn paint_backdrop(canvas: &mut Canvas, mood: Mood) {
+    let wide = canvas.parts_wide() / UNIT + 1;
+    let mut pen = Pen { canvas, origin: (0, 0), facing: 1, light: mood.light() };
+    for step in 0..GROUND / 4 {
+        let shade = u32::try_from(196 + step).unwrap_or(196);
+        // Each band reaches below the next, so that no seam shows between two.
+        pen.rect(0, 4 * step, wide, 4 * step + 8, shade);
+    }
+    weather::sky(&mut pen, wide, mood);
+    buildings::paint(&mut pen, wide, mood);
+    paint_road(&mut pen, wide);
+    weather::lamps(&mut pen, wide, mood);
+}
+
+fn paint_road(pen: &mut Pen<'_>, wide: i64) {
+    let (top, bottom) = ROAD;
+    pen.rect(0, GROUND, wide, top, 172);
+    pen.rect(0, top - 3, wide, top + 1, 206);
+    for row in top..bottom {
+        let shade = u32::try_from(78 + (row - top) / 4).unwrap_or(78);
+        pen.rect(0, row, wide, row + 2, shade);
+    }
+    for lane in [163, 184] {
+        for dash in 0..=wide / 30 {
+            pen.rect(30 * dash + 6, lane, 30 * dash + 22, lane + 2, 226);
+        }
+    }
+    pen.rect(0, bottom, wide, bottom + 4, 206);
+    pen.rect(0, bottom + 3, wide, 225, 164);
+    for slab in 0..=wide / 20 {
+        pen.rect(20 * slab + 11, bottom + 3, 20 * slab + 12, 224, 140);
+    }
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What moves: three lanes of cars, each with its own speed, and a pedestrian.
+
+use super::Mood;
+use crate::canvas::{Canvas, OPAQUE, Pen, UNIT};
+use crate::noise::pick;
+
+/// A lane and the cars that follow each other on it for ever.
+struct Lane {
+    /// Where the wheels stand, in units from the top.
+    ground: i64,
+    /// 1 to the right, -1 to the left.
+    facing: i64,
+    /// Parts of units per frame.
+    speed: i64,
+    /// Units from one car to the next.
+    spacing: i64,
+    /// Where the first car is in frame 0, in units.
+    start: i64,
+    /// Whether vans drive here.
+    vans: bool,
+}
+
+const LANES: [Lane; 3] = [
+    Lane { ground: 158, facing: -1, speed: 72, spacing: 236, start: 186, vans: true },
+    Lane { ground: 179, facing: -1, speed: 200, spacing: 310, start: 290, vans: false },
+    Lane { ground: 201, facing: 1, speed: 136, spacing: 268, start: 34, vans: false },
+];
+
+/// Longest car with its headlights, in units.
+const REACH: i64 = 120;
+
+pub(super) fn paint(canvas: &mut Canvas, mood: Mood, t: u32) {
+    for (number, lane) in LANES.iter().enumerate() {
+        lane.paint(canvas, mood, t, u32::try_from(number).unwrap_or(0));
+    }
+    pedestrians(canvas, mood, t);
+}
+
+impl Lane {
+    fn paint(&self, canvas: &mut Canvas, mood: Mood, t: u32, number: u32) {
+        let wide = canvas.parts_wide();
+        let spacing = self.spacing * UNIT;
+        let shift = self.start * UNIT + self.facing * self.speed * i64::from(t);
+        let first = (-REACH * UNIT - shift).div_euclid(spacing);
+        let last = (wide + REACH * UNIT - shift).div_euclid(spacing);
+        for car in first..=last {
+            let origin = (shift + car * spacing, self.ground * UNIT);
+            let which = u32::try_from(car.rem_euclid(1 << 20)).unwrap_or(0);
+            let mut pen = Pen { canvas, origin, facing: self.facing, light: mood.light() };
+            let paint = [218, 44, 160, 232, 92][pick(0xCA2, number, which, 0, 5) as usize];
+            let spin = i64::from(t) * self.speed / UNIT;
+            if self.vans {
+                van(&mut pen, paint, spin);
+            } else {
+                car_body(&mut pen, paint, spin);
+            }
+            if mood == Mood::Night {
+                headlights(&mut pen);
+            }
+        }
+    }
+}
+
+/// Points in whole units.
+fn points<const COUNT: usize>(corners: [(i64, i64); COUNT]) -> [(i64, i64); COUNT] {
+    corners.map(|(x, y)| (x * UNIT, y * UNIT))
+}
+
+/// A car of 50 units that heads right; its wheels stand at y = 0.
+fn car_body(pen: &mut Pen<'_>, paint: u32, spin: i64) {
+    shadow(pen, 50);
+    pen.polygon(&points([(9, -12), (37, -12), (31, -20), (15, -20)]), paint);
+    pen.polygon(&points([(12, -12), (22, -12), (22, -18), (16, -18)]), 50);
+    pen.polygon(&points([(24, -12), (34, -12), (30, -18), (24, -18)]), 66);
+    pen.polygon(&points([(0, -4), (0, -11), (3, -13), (38, -13), (48, -10), (50, -4)]), paint);
+    pen.rect(0, -5, 50, -3, paint / 2 + 12);
+    pen.rect(23, -12, 24, -5, paint * 3 / 4);
+    lights(pen, 50, -9);
+    wheel(pen, 10, 5, spin);
+    wheel(pen, 40, 5, spin);
+}
+
+/// A van of 58 units.
+fn van(pen: &mut Pen<'_>, paint: u32, spin: i64) {
+    shadow(pen, 58);
+    pen.polygon(&points([(0, -4), (0, -25), (44, -25), (44, -4)]), paint);
+    pen.polygon(&points([(43, -4), (43, -25), (49, -24), (56, -13), (58, -4)]), paint);
+    pen.polygon(&points([(45, -13), (45, -22), (49, -22), (54, -13)]), 56);
+    pen.rect(4, -19, 38, -13, if paint > 128 { paint - 70 } else { paint + 70 });
+    pen.rect(0, -5, 58, -3, paint / 2 + 12);
+    lights(pen, 58, -10);
+    wheel(pen, 11, 5, spin);
+    wheel(pen, 46, 5, spin);
+}
+
+fn shadow(pen: &mut Pen<'_>, length: i64) {
+    pen.glow_rect([2, -2, length - 2, 2], 8, OPAQUE * 5 / 8);
+}
+
+fn lights(pen: &mut Pen<'_>, length: i64, y: i64) {
+    pen.glow_rect([length - 4, y, length - 1, y + 3], 250, OPAQUE);
+    pen.glow_rect([0, y - 1, 2, y + 2], 120, OPAQUE);
+}
+
+/// A wheel whose hub turns with the way that the car has gone.
+fn wheel(pen: &mut Pen<'_>, x: i64, radius: i64, spin: i64) {
+    pen.disc(x, -radius + 1, radius * UNIT, 24);
+    pen.disc(x, -radius + 1, (radius - 2) * UNIT, 176);
+    let upright = spin / 4 % 2 == 0;
+    let (dx, dy) = if upright { (0, 2) } else { (2, 0) };
+    pen.rect(x - dx, -radius + 1 - dy, x + dx + 1, -radius + 2 + dy, 92);
+}
+
+fn headlights(pen: &mut Pen<'_>) {
+    for (reach, opacity) in [(104, 36), (84, 44), (66, 52)] {
+        pen.glow_polygon(&points([(50, -9), (50, -6), (reach, 3), (reach, -6)]), 250, opacity);
+    }
+    pen.glow_disc(49, -8, 4 * UNIT, 255, OPAQUE / 3);
+}
+
+/// Someone walks on the pavement in front, one every 380 units.
+fn pedestrians(canvas: &mut Canvas, mood: Mood, t: u32) {
+    const SPACING: i64 = 380 * UNIT;
+    let wide = canvas.parts_wide();
+    let shift = 58 * UNIT + 44 * i64::from(t);
+    let first = (-20 * UNIT - shift).div_euclid(SPACING);
+    let last = (wide + 20 * UNIT - shift).div_euclid(SPACING);
+    for person in first..=last {
+        let origin = (shift + person * SPACING, 220 * UNIT);
+        let mut pen = Pen { canvas, origin, facing: 1, light: mood.light() };
+        walker(&mut pen, i64::from(t) * 44);
+    }
+}
+
+/// A walker of 36 units whose legs and arms swing with the way gone.
+fn walker(pen: &mut Pen<'_>, way: i64) {
+    const STRIDE: i64 = 12 * UNIT;
+    let phase = way.rem_euclid(2 * STRIDE);
+    let swing = phase.min(2 * STRIDE - phase) - STRIDE / 2;
+    let leg = |foot: i64| {
+        [(-2 * UNIT, -17 * UNIT), (2 * UNIT, -17 * UNIT), (foot + 2 * UNIT, 0), (foot - UNIT, 0)]
+    };
+    pen.glow_rect([-7, -1, 8, 1], 40, OPAQUE / 3);
+    pen.polygon(&leg(-swing), 48);
+    pen.polygon(&leg(swing), 30);
+    let hand = -swing * 2 / 3;
+    pen.polygon(&points([(-4, -29), (4, -29), (3, -15), (-3, -15)]), 236);
+    pen.polygon(
+        &[
+            (-UNIT, -28 * UNIT),
+            (UNIT, -28 * UNIT),
+            (hand + UNIT, -17 * UNIT),
+            (hand - UNIT, -17 * UNIT),
+        ],
+        150,
+    );
+    pen.disc(0, -33, 4 * UNIT, 122);
+    pen.rect(-4, -38, 4, -34, 36);
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Clouds by day; stars, street lamps and rain at night.
+
+use super::{GROUND, Mood};
+use crate::canvas::{Canvas, OPAQUE, Pen, UNIT, UNITS_HIGH};
+use crate::noise::pick;
+
+const SEED: u64 = 0x3EA7;
+
+pub(super) fn sky(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
+    match mood {
+        Mood::Day => {
+            for cloud in 0..=wide / 90 {
+                let number = u32::try_from(cloud).unwrap_or(0);
+                let x = 90 * cloud + i64::from(pick(SEED, number, 0, 0, 50));
+                let y = 14 + i64::from(pick(SEED, number, 1, 0, 18));
+                for (dx, dy, radius) in [(0, 0, 6), (8, -3, 8), (17, -1, 7), (25, 1, 5)] {
+                    pen.disc(x + dx, y + dy, radius * UNIT, 246);
+                }
+            }
+        }
+        Mood::Night => {
+            for star in 0..=wide / 9 {
+                let number = u32::try_from(star).unwrap_or(0);
+                let x = 9 * star + i64::from(pick(SEED, number, 2, 0, 9));
+                let y = i64::from(pick(SEED, number, 3, 0, 60));
+                pen.glow_disc(x, y, UNIT * 3 / 4, 120 + pick(SEED, number, 4, 0, 100), OPAQUE);
+            }
+        }
+    }
+}
+
+/// Street lamps on the far pavement.
+pub(super) fn lamps(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
+    for lamp in 0..=wide / 112 {
+        let x = 112 * lamp + 66;
+        pen.rect(x, GROUND - 62, x + 2, GROUND + 10, 46);
+        pen.rect(x - 9, GROUND - 63, x + 2, GROUND - 61, 46);
+        pen.rect(x - 12, GROUND - 63, x - 5, GROUND - 59, 70);
+        if mood == Mood::Night {
+            pen.glow_rect([x - 12, GROUND - 60, x - 5, GROUND - 58], 255, OPAQUE);
+            for radius in [26, 18, 11, 6] {
+                pen.glow_disc(x - 8, GROUND - 58, radius * UNIT, 230, 22);
+            }
+        }
+    }
+}
+
+/// Streaks that fall at their own speed, slanted by the wind.
+pub(super) fn rain(canvas: &mut Canvas, t: u32) {
+    const LENGTH: i64 = 13;
+    let wide = canvas.parts_wide() / UNIT + 1;
+    let fall = (UNITS_HIGH + 2 * LENGTH) * UNIT;
+    for drop in 0..=wide / 2 {
+        let number = u32::try_from(drop).unwrap_or(0);
+        let speed = UNIT * (11 + i64::from(pick(SEED, number, 5, 0, 6)));
+        let way = i64::from(pick(SEED, number, 6, 0, 1 << 14)) + speed * i64::from(t);
+        let round = u32::try_from(way / fall % (1 << 20)).unwrap_or(0);
+        let (min, span) = (-20, u32::try_from(wide + 40).unwrap_or(1));
+        let x = UNIT * (min + i64::from(pick(SEED, number, 7, round, span)));
+        let y = way % fall - LENGTH * UNIT;
+        let mut pen = Pen { canvas, origin: (x - y / 6, y), facing: 1, light: 256 };
+        let foot = LENGTH * UNIT;
+        pen.glow_polygon(
+            &[(0, 0), (UNIT, 0), (UNIT - foot / 6, foot), (-foot / 6, foot)],
+            170,
+            OPAQUE * 3 / 8,
+        );
+    }
+}
