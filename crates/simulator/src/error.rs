@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can go wrong in a simulation. Every message names the thing and says what to do.
+
+use std::io;
+use std::path::PathBuf;
+
+use foveate_model::ModelError;
+use foveate_scenes::SceneError;
+use foveate_spec::SpecError;
+use thiserror::Error;
+
+use crate::picture::{MAX_FILE_GIB, MAX_SIDE};
+
+/// What the reader understands, for messages.
+const TYPES: &str = "PNG, JPEG, BMP and PNM (PGM, PPM, PBM, PAM)";
+
+/// A simulation that cannot be started or finished.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SimulatorError {
+    /// Nothing to simulate was named.
+    #[error(
+        "no input was given; name images, folders, patterns such as 'frames/*.png', or scene:NAME"
+    )]
+    NoInput,
+    /// A file or folder that does not exist.
+    #[error("input `{}` does not exist; check the path", path.display())]
+    Missing {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// A pattern that no image matches.
+    #[error("no image matches `{pattern}`; check the pattern (image types are {TYPES})")]
+    NoMatch {
+        /// The pattern as given.
+        pattern: String,
+    },
+    /// A pattern with a syntax error.
+    #[error("`{pattern}` is not a valid pattern: {problem}")]
+    Pattern {
+        /// The pattern as given.
+        pattern: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A folder without images.
+    #[error("folder `{}` holds no image; image types are {TYPES}", path.display())]
+    EmptyFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Scenes do not mix with other inputs.
+    #[error("`{scene}` cannot be combined with other inputs; simulate it on its own")]
+    SceneNotAlone {
+        /// The scene as given.
+        scene: String,
+    },
+    /// A file that cannot be read at all.
+    #[error("cannot read `{}`: {problem}", path.display())]
+    Unreadable {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        problem: String,
+    },
+    /// A file that is no image of a known type.
+    #[error("`{}` is not an image of a supported type; convert it to one of {TYPES}", path.display())]
+    UnsupportedType {
+        /// The file.
+        path: PathBuf,
+    },
+    /// An image of a supported type in a variant that is not.
+    #[error("image `{}` cannot be decoded: {problem}; export it again as a plain PNG", path.display())]
+    UnsupportedFeature {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        problem: String,
+    },
+    /// An image that ends too early.
+    #[error("image `{}` is truncated: {problem}; copy or export it again", path.display())]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+        /// What is missing.
+        problem: String,
+    },
+    /// An image that does not decode.
+    #[error("image `{}` is damaged: {problem}; copy or export it again", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        problem: String,
+    },
+    /// An image beyond the limits.
+    #[error(
+        "image `{}` is too large; the limits are {MAX_SIDE} pixels per side and {MAX_FILE_GIB} GiB, \
+         so scale it down or cut it",
+        path.display()
+    )]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Frames of one run that differ in size.
+    #[error(
+        "frames of one run must have one size: `{first}` has {}x{} pixels, `{other}` has {}x{}; \
+         scale them, or simulate them apart",
+        first_size.0, first_size.1, other_size.0, other_size.1
+    )]
+    MixedSizes {
+        /// Name of the first frame.
+        first: String,
+        /// Its width and height.
+        first_size: (u32, u32),
+        /// Name of the first frame that differs.
+        other: String,
+        /// Its width and height.
+        other_size: (u32, u32),
+    },
+    /// A source that has no frame.
+    #[error("{inputs} holds no frame; at least one is needed")]
+    NoFrames {
+        /// The inputs as given.
+        inputs: String,
+    },
+    /// A frame rate of zero or without end.
+    #[error("{frames} frames in {seconds} s are no frame rate; both must be at least 1")]
+    FrameRate {
+        /// Frames as given.
+        frames: u32,
+        /// Seconds as given.
+        seconds: u32,
+    },
+    /// A path that names no folder that can be made.
+    #[error("output `{}` names no folder that can be made; choose another", path.display())]
+    OutputName {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// The output folder is there and holds something.
+    #[error("output folder `{}` is not empty; choose another, or ask to overwrite it", path.display())]
+    OutputNotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The output folder holds something that no simulation wrote.
+    #[error(
+        "output folder `{}` was not written by a simulation (it has no summary.json of one), so it \
+         is not overwritten; choose another, or empty it",
+        path.display()
+    )]
+    OutputForeign {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Something cannot be written.
+    #[error("cannot write `{}`: {source}; check space and permissions, or choose another folder", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The user stopped the run.
+    #[error("cancelled after {frames} frames; nothing was written")]
+    Cancelled {
+        /// Frames that were done.
+        frames: u64,
+    },
+    /// The configuration does not fit.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// The model refused a frame.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The scene does not exist.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}

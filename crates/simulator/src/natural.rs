@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Natural order of file names: numbers compare as numbers, so `frame2` comes before `frame10`.
+
+use std::cmp::Ordering;
+use std::path::Path;
+
+/// Compares two paths folder by folder, each name naturally. A total order: names that are equal up
+/// to leading zeros are ordered by their bytes.
+#[must_use]
+pub fn natural_order(a: &Path, b: &Path) -> Ordering {
+    let mut left = a.components();
+    let mut right = b.components();
+    loop {
+        let order = match (left.next(), right.next()) {
+            (None, None) => break a.cmp(b),
+            (None, Some(_)) => Ordering::Less,
+            (Some(_), None) => Ordering::Greater,
+            (Some(l), Some(r)) => names(
+                l.as_os_str().to_string_lossy().as_bytes(),
+                r.as_os_str().to_string_lossy().as_bytes(),
+            ),
+        };
+        if order != Ordering::Equal {
+            break order;
+        }
+    }
+}
+
+fn names(mut a: &[u8], mut b: &[u8]) -> Ordering {
+    loop {
+        let (Some(&first), Some(&second)) = (a.first(), b.first()) else {
+            return a.len().cmp(&b.len());
+        };
+        let order = if first.is_ascii_digit() && second.is_ascii_digit() {
+            numbers(take_number(&mut a), take_number(&mut b))
+        } else {
+            (a, b) = (a.get(1..).unwrap_or_default(), b.get(1..).unwrap_or_default());
+            first.cmp(&second)
+        };
+        if order != Ordering::Equal {
+            return order;
+        }
+    }
+}
+
+/// Splits the digits off the front, without leading zeros.
+fn take_number<'a>(text: &mut &'a [u8]) -> &'a [u8] {
+    let end = text.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(text.len());
+    let (digits, rest) = text.split_at(end);
+    *text = rest;
+    let zeros = digits.iter().take_while(|&&digit| digit == b'0').count();
+    digits.get(zeros..).unwrap_or_default()
+}
+
+/// Without leading zeros the longer number is the larger.
+fn numbers(a: &[u8], b: &[u8]) -> Ordering {
+    a.len().cmp(&b.len()).then_with(|| a.cmp(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_compare_as_numbers_anywhere_in_a_path() {
+        let sorted = [
+            "a/frame2.png",
+            "a/frame10.png",
+            "a2/x",
+            "a10/x",
+            "frame",
+            "frame-3",
+            "frame1.png",
+            "frame1a.png",
+            "frame002.png",
+            "frame2.png",
+            "frame99999999999999999999998.png",
+            "frame99999999999999999999999.png",
+            "frames",
+        ];
+        let mut paths: Vec<&Path> = sorted.iter().map(Path::new).collect();
+        paths.reverse();
+        paths.sort_by(|a, b| natural_order(a, b));
+        assert_eq!(paths, sorted.map(Path::new));
+    }
+
+    #[test]
+    fn equal_only_if_the_same() {
+        let order = natural_order(Path::new("f01"), Path::new("f1"));
+        assert_ne!(order, Ordering::Equal);
+        assert_eq!(order, natural_order(Path::new("f1"), Path::new("f01")).reverse());
+        assert_eq!(natural_order(Path::new("f1"), Path::new("f1")), Ordering::Equal);
+    }
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! NumPy files (NPY 1.0) that grow frame by frame: the header has room for any number of frames and
+//! gets the real one at the end.
+
+use std::fs::File;
+use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::marker::PhantomData;
+use std::path::{Path, PathBuf};
+
+use super::cannot_write;
+use crate::SimulatorError;
+
+/// Bytes of the header; a multiple of 64 that holds the largest numbers.
+const HEADER: usize = 128;
+
+/// A type that NumPy knows.
+pub(super) trait Scalar: Copy {
+    /// Its name, with its byte order.
+    const DESCR: &'static str;
+    fn append_to(self, bytes: &mut Vec<u8>);
+}
+
+impl Scalar for u8 {
+    const DESCR: &'static str = "|u1";
+    fn append_to(self, bytes: &mut Vec<u8>) {
+        bytes.push(self);
+    }
+}
+
+impl Scalar for u32 {
+    const DESCR: &'static str = "<u4";
+    fn append_to(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+impl Scalar for u64 {
+    const DESCR: &'static str = "<u8";
+    fn append_to(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+/// An array of frames x rows x columns.
+pub(super) struct NpyWriter<T> {
+    path: PathBuf,
+    file: BufWriter<File>,
+    rows: u32,
+    columns: u32,
+    frames: u64,
+    bytes: Vec<u8>,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Scalar> NpyWriter<T> {
+    pub(super) fn create(path: &Path, rows: u32, columns: u32) -> Result<Self, SimulatorError> {
+        let file = File::create(path).map_err(cannot_write(path))?;
+        let mut writer = Self {
+            path: path.to_owned(),
+            file: BufWriter::new(file),
+            rows,
+            columns,
+            frames: 0,
+            bytes: Vec::new(),
+            scalar: PhantomData,
+        };
+        writer.write_header()?;
+        Ok(writer)
+    }
+
+    /// Appends the values of one frame, row by row.
+    pub(super) fn push(&mut self, values: impl Iterator<Item = T>) -> Result<(), SimulatorError> {
+        self.bytes.clear();
+        for value in values {
+            value.append_to(&mut self.bytes);
+        }
+        self.frames += 1;
+        self.file.write_all(&self.bytes).map_err(cannot_write(&self.path))
+    }
+
+    /// Writes the number of frames into the header.
+    pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
+        self.file.seek(SeekFrom::Start(0)).map_err(cannot_write(&self.path))?;
+        self.write_header()?;
+        self.file.flush().map_err(cannot_write(&self.path))
+    }
+
+    fn write_header(&mut self) -> Result<(), SimulatorError> {
+        let header = header(T::DESCR, self.frames, self.rows, self.columns);
+        self.file.write_all(&header).map_err(cannot_write(&self.path))
+    }
+}
+
+fn header(descr: &str, frames: u64, rows: u32, columns: u32) -> Vec<u8> {
+    const PREFIX: &[u8] = b"\x93NUMPY\x01\x00\x76\x00";
+    let dictionary = format!(
+        "{{'descr': '{descr}', 'fortran_order': False, 'shape': ({frames}, {rows}, {columns}), }}"
+    );
+    let padded = format!("{dictionary:<0$}\n", HEADER - PREFIX.len() - 1);
+    [PREFIX, padded.as_bytes()].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_has_its_size_whatever_the_numbers_are() {
+        for (frames, side) in [(0, 1), (7, 28), (u64::MAX, u32::MAX)] {
+            let header = header("<u8", frames, side, side);
+            assert_eq!(header.len(), HEADER);
+            assert_eq!(usize::from(header[8]) + 256 * usize::from(header[9]) + 10, HEADER);
+            assert_eq!(header.last(), Some(&b'\n'));
+        }
+    }
+}

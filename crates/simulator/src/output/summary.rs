@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `summary.json`: what was run and what came of it, in one page.
+
+use std::path::Path;
+
+use foveate_spec::{Config, Design};
+use serde::Serialize;
+
+use super::cannot_write;
+use crate::SimulatorError;
+
+/// Changes when a key of the summary changes its meaning or goes.
+const FORMAT_VERSION: u32 = 1;
+
+/// Regions side by side and one below the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Grid {
+    /// Regions side by side.
+    pub columns: u32,
+    /// Regions one below the other.
+    pub rows: u32,
+}
+
+/// Smallest and largest value of a series.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Range {
+    /// Smallest.
+    pub min: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+/// The summary of a run. Shares are of all regions of all frames, rounded to six digits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Version of this format.
+    pub format_version: u32,
+    /// Version of the program.
+    pub foveate_version: &'static str,
+    /// Fingerprint of the design.
+    pub design_fingerprint: String,
+    /// Inputs as they were given.
+    pub inputs: Vec<String>,
+    /// Number of frames.
+    pub frames: u64,
+    /// Frame width in pixels.
+    pub width: u32,
+    /// Frame height in pixels.
+    pub height: u32,
+    /// Bits per pixel.
+    pub pixel_bits: u32,
+    /// Grid of regions.
+    pub grid: Grid,
+    /// Regions of a frame.
+    pub regions: u32,
+    /// Share of regions with SRS and TRS.
+    pub active_share: f64,
+    /// Share of regions with SRS.
+    pub srs_share: f64,
+    /// Share of regions with TRS.
+    pub trs_share: f64,
+    /// Share of active regions in the frame with the fewest and in the one with the most.
+    pub active_share_per_frame: Range,
+    /// Pixels of all frames.
+    pub pixels_in: u64,
+    /// Pixels of all active regions; padding of ragged frames does not count.
+    pub pixels_forwarded: u64,
+    /// The configuration, with the frame size filled in.
+    pub configuration: Config,
+}
+
+/// Sums over the frames so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Totals {
+    pub(super) frames: u64,
+    pub(super) srs: u64,
+    pub(super) trs: u64,
+    pub(super) active: u64,
+    pub(super) pixels_forwarded: u64,
+    /// Active regions of the frame with the fewest and of the one with the most.
+    pub(super) extremes: Option<(u64, u64)>,
+}
+
+impl Totals {
+    pub(super) fn add(&mut self, srs: u64, trs: u64, active: u64, pixels_forwarded: u64) {
+        self.frames += 1;
+        self.srs += srs;
+        self.trs += trs;
+        self.active += active;
+        self.pixels_forwarded += pixels_forwarded;
+        let (min, max) = self.extremes.unwrap_or((active, active));
+        self.extremes = Some((min.min(active), max.max(active)));
+    }
+
+    pub(super) fn summary(&self, design: &Design, inputs: &[String]) -> Summary {
+        let regions = u64::from(design.regions());
+        let all = regions * self.frames;
+        let (min, max) = self.extremes.unwrap_or_default();
+        Summary {
+            format_version: FORMAT_VERSION,
+            foveate_version: env!("CARGO_PKG_VERSION"),
+            design_fingerprint: design.fingerprint(),
+            inputs: inputs.to_vec(),
+            frames: self.frames,
+            width: design.width(),
+            height: design.height(),
+            pixel_bits: design.pixel_bits(),
+            grid: Grid { columns: design.columns(), rows: design.rows() },
+            regions: design.regions(),
+            active_share: share(self.active, all),
+            srs_share: share(self.srs, all),
+            trs_share: share(self.trs, all),
+            active_share_per_frame: Range { min: share(min, regions), max: share(max, regions) },
+            pixels_in: self.frames * u64::from(design.width()) * u64::from(design.height()),
+            pixels_forwarded: self.pixels_forwarded,
+            configuration: design.config().clone(),
+        }
+    }
+}
+
+impl Summary {
+    /// The summary as a JSON document.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Plain data with text keys: this cannot fail.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    pub(super) fn write(&self, path: &Path) -> Result<(), SimulatorError> {
+        std::fs::write(path, self.to_json()).map_err(cannot_write(path))
+    }
+}
+
+/// `part / whole`, rounded to six digits after the point, the same on every machine.
+fn share(part: u64, whole: u64) -> f64 {
+    const UNIT: u128 = 1_000_000;
+    let whole = u128::from(whole.max(1));
+    let millionths = (u128::from(part) * UNIT + whole / 2) / whole;
+    f64::from(u32::try_from(millionths).unwrap_or(u32::MAX)) / 1e6
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_rounded_to_six_digits() {
+        assert!((share(1, 3) - 0.333_333).abs() < 1e-12);
+        assert!((share(2, 3) - 0.666_667).abs() < 1e-12);
+        assert_eq!((share(0, 0), share(7, 7)).0.to_string(), "0");
+        assert_eq!(share(7, 7).to_string(), "1");
+    }
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One run: every frame of a source through one camera, into one folder.
+
+use std::path::Path;
+
+use foveate_model::Camera;
+use foveate_spec::{Config, Design};
+
+use crate::output::{Recorder, Staging};
+use crate::{RunOptions, SimulatorError, Source, Summary};
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Frames that are done.
+    pub done: u64,
+    /// Frames in all, if that is known.
+    pub total: Option<u64>,
+}
+
+/// What a run asks and tells its caller, once per frame.
+pub trait Hooks {
+    /// Another frame is done.
+    fn progress(&mut self, progress: Progress);
+
+    /// Whether to stop; nothing is left of the output then.
+    fn cancelled(&self) -> bool;
+}
+
+/// Hooks that say nothing and never stop.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Hooks for Silent {
+    fn progress(&mut self, _progress: Progress) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// A design and the frames to show it.
+pub struct Simulation {
+    design: Design,
+    source: Box<dyn Source>,
+}
+
+impl Simulation {
+    /// Fits the configuration to the frame size of the source.
+    ///
+    /// # Errors
+    /// When the configuration names another size, or is no design.
+    pub fn new(config: &Config, source: Box<dyn Source>) -> Result<Self, SimulatorError> {
+        let mut config = config.clone();
+        let (width, height) = source.size();
+        config.fit_frame(width, height)?;
+        Ok(Self { design: config.validate()?, source })
+    }
+
+    /// The design, with the frame size of the source.
+    #[must_use]
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// Runs to the end of the source. The folder `output` appears when everything is written; on an
+    /// error nothing is left.
+    ///
+    /// # Errors
+    /// When a frame cannot be read, the output cannot be written, or `hooks` cancelled the run.
+    pub fn run(
+        mut self,
+        output: &Path,
+        options: &RunOptions,
+        hooks: &mut dyn Hooks,
+    ) -> Result<Summary, SimulatorError> {
+        let staging = Staging::new(output, options.overwrite)?;
+        let mut recorder = Recorder::create(staging.folder(), &self.design, options)?;
+        self.record(&mut recorder, hooks)?;
+        if recorder.frames() == 0 {
+            return Err(SimulatorError::NoFrames { inputs: self.source.inputs().join(", ") });
+        }
+        let summary = recorder.finish(staging.folder(), self.source.inputs())?;
+        staging.commit()?;
+        Ok(summary)
+    }
+
+    fn record(
+        &mut self,
+        recorder: &mut Recorder,
+        hooks: &mut dyn Hooks,
+    ) -> Result<(), SimulatorError> {
+        let mut camera = Camera::new(&self.design);
+        let source = &mut self.source;
+        let total = source.frames();
+        let mut next = source.next_frame()?;
+        while let Some(current) = next {
+            if hooks.cancelled() {
+                return Err(SimulatorError::Cancelled { frames: recorder.frames() });
+            }
+            let outcome = camera.step(&current.frame)?;
+            // While a frame is written the one after it is read.
+            let (written, read) =
+                rayon::join(|| recorder.push(&current, outcome), || source.next_frame());
+            written?;
+            next = read?;
+            hooks.progress(Progress { done: recorder.frames(), total });
+        }
+        Ok(())
+    }
+}
+
+impl std::fmt::Debug for Simulation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Simulation").field("design", &self.design).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a run writes is what the model says, byte for byte.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+
+use foveate_model::{Camera, Outcome};
+use foveate_scenes::{Scene, SceneSize};
+use foveate_simulator::{InputOptions, RunOptions, Silent, Simulation, convert_depth, open};
+use foveate_spec::Config;
+use support::{Npy, names, run};
+
+/// A ragged street of five frames with two features.
+const OVERRIDES: [&str; 4] = [
+    "frame.width=45",
+    "frame.height=38",
+    "region.size=8",
+    r#"spatial=[{feature="edge"},{feature="mad",min_score=4}]"#,
+];
+
+fn simulate(output: &Path, overrides: &[&str], options: &RunOptions) -> foveate_simulator::Summary {
+    let config = Config::from_toml_with("", overrides).unwrap();
+    let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
+    let source = open(&["scene:street"], &config, &limit).unwrap();
+    Simulation::new(&config, source).unwrap().run(output, options, &mut Silent).unwrap()
+}
+
+fn outcomes(overrides: &[&str]) -> Vec<Outcome> {
+    let design = Config::from_toml_with("", overrides).unwrap().validate().unwrap();
+    let size = SceneSize {
+        width: design.width(),
+        height: design.height(),
+        bits: design.pixel_bits(),
+        region_size: design.region_size(),
+        frames: 5,
+    };
+    let mut camera = Camera::new(&design);
+    Scene::Street.frames(size).map(|frame| camera.step(&frame).unwrap().clone()).collect()
+}
+
+fn little_endian<const SIZE: usize>(values: impl Iterator<Item = [u8; SIZE]>) -> Vec<u8> {
+    values.flatten().collect()
+}
+
+#[test]
+fn arrays_hold_every_outcome() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    simulate(&output, &OVERRIDES, &RunOptions::default());
+    let outcomes = outcomes(&OVERRIDES);
+    let expect = |name: &str, descr: &str, data: Vec<u8>| {
+        let npy = Npy::read(&output.join(name));
+        assert_eq!((npy.descr.as_str(), &npy.shape[..]), (descr, &[5, 5, 6][..]), "{name}");
+        assert!(npy.data == data, "{name}");
+    };
+    let flags = |of: fn(&Outcome) -> &Vec<bool>| {
+        outcomes.iter().flat_map(|outcome| of(outcome).iter().map(|&bit| u8::from(bit))).collect()
+    };
+    expect("srs.npy", "|u1", flags(|outcome| &outcome.srs));
+    expect("trs.npy", "|u1", flags(|outcome| &outcome.trs));
+    expect("active.npy", "|u1", flags(|outcome| &outcome.active));
+    let counts = outcomes.iter().flat_map(|o| o.temporal_count.iter().map(|c| c.to_le_bytes()));
+    expect("t_count.npy", "<u4", little_endian(counts));
+    for (index, name) in ["score_edge.npy", "score_mad.npy"].into_iter().enumerate() {
+        let scores = outcomes.iter().flat_map(|o| o.scores[index].iter().map(|s| s.to_le_bytes()));
+        expect(name, "<u8", little_endian(scores));
+    }
+    assert!(outcomes.iter().any(|o| o.active.contains(&true) && o.active.contains(&false)));
+}
+
+#[test]
+fn the_summary_is_that_of_the_golden_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let summary = simulate(&output, &OVERRIDES, &RunOptions::default());
+    let written = fs::read_to_string(output.join("summary.json")).unwrap();
+    assert_eq!(written, summary.to_json());
+    let version = format!("\"foveate_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(written.contains(&version));
+    let actual = written.replace(&version, "\"foveate_version\": \"*\"")
+        + &fs::read_to_string(output.join("frames.csv")).unwrap();
+    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/street.txt");
+    if std::env::var_os("FOVEATE_BLESS").is_some() {
+        fs::write(golden, &actual).unwrap();
+    }
+    assert_eq!(fs::read_to_string(golden).unwrap(), actual);
+}
+
+#[test]
+fn sums_of_the_summary_follow_from_the_outcomes() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = simulate(&folder.path().join("out"), &OVERRIDES, &RunOptions::default());
+    let mut forwarded = 0;
+    for outcome in outcomes(&OVERRIDES) {
+        for y in 0..38 {
+            for x in 0..45 {
+                forwarded += u64::from(outcome.active[y / 8 * 6 + x / 8]);
+            }
+        }
+    }
+    assert_eq!(summary.pixels_forwarded, forwarded, "padding does not count");
+    assert_eq!(summary.pixels_in, 5 * 45 * 38);
+    assert_eq!((summary.frames, summary.regions, summary.grid.columns), (5, 30, 6));
+    assert!((summary.active_share_per_frame.max - summary.active_share_per_frame.min) > 0.0);
+}
+
+#[test]
+fn rendered_frames_are_widened_to_a_depth_that_png_has() {
+    for (bits, depth) in [(1, 8), (5, 8), (8, 8), (10, 16), (16, 16)] {
+        let folder = tempfile::tempdir().unwrap();
+        let output = folder.path().join("out");
+        let bits_override = format!("frame.pixel_bits={bits}");
+        let overrides = [
+            "frame.width=45",
+            "frame.height=38",
+            "temporal.level=0",
+            "temporal.min_count=0",
+            "spatial.0.level=0",
+            "spatial.0.min_score=0",
+            &bits_override,
+        ];
+        simulate(&output, &overrides, &RunOptions::default());
+        assert_eq!(names(&output.join("rendered")).len(), 5);
+        for (t, outcome) in outcomes(&overrides).iter().enumerate() {
+            let path = output.join(format!("rendered/{t:06}.png"));
+            let picture = image::open(path).unwrap();
+            assert_eq!(picture.color().bits_per_pixel(), depth);
+            let expected: Vec<u16> = outcome
+                .rendered
+                .pixels()
+                .iter()
+                .map(|&value| convert_depth(value, bits, depth.into()))
+                .collect();
+            let seen: Vec<u16> = match picture {
+                image::DynamicImage::ImageLuma8(p) => {
+                    p.as_raw().iter().map(|&v| v.into()).collect()
+                }
+                other => other.into_luma16().into_raw(),
+            };
+            assert_eq!(seen, expected, "P = {bits}, frame {t}");
+        }
+    }
+}
+
+#[test]
+fn the_overlay_shows_each_state_in_its_colour() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    simulate(&output, &OVERRIDES, &RunOptions { overlay: true, rendered: false, overwrite: false });
+    assert!(!output.join("rendered").exists());
+    for (t, outcome) in outcomes(&OVERRIDES).iter().enumerate() {
+        let path = output.join(format!("overlay/{t:06}.png"));
+        let picture = image::open(path).unwrap().into_rgb8();
+        assert_eq!(picture.dimensions(), (45, 38));
+        for region in 0..30 {
+            // A pixel beside the grid.
+            let at = (region % 6 * 8 + 3, region / 6 * 8 + 3);
+            let [r, g, b] = picture.get_pixel(at.0, at.1).0;
+            let index = region as usize;
+            match (outcome.srs[index], outcome.trs[index]) {
+                (true, true) => assert!(g > r && g > b),
+                (true, false) => assert!(r > g && g > b),
+                (false, true) => assert!(b > g && g > r),
+                (false, false) => assert!(r == g && g == b),
+            }
+        }
+    }
+}
+
+#[test]
+fn frames_have_their_names_and_times() {
+    let folder = tempfile::tempdir().unwrap();
+    let inputs: Vec<_> = ["b,1.png", "a.png"]
+        .map(|name| support::grey(&folder.path().join(name), 8, 8, |x, _| u8::try_from(x).unwrap()))
+        .into();
+    let output = folder.path().join("out");
+    run(&inputs, &[], &output, &RunOptions::default()).unwrap();
+    let table = fs::read_to_string(output.join("frames.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines[0].starts_with("frame,time_us,name,"));
+    assert!(lines[1].starts_with(&format!("0,0,\"{}\",", inputs[0].display())));
+    assert!(lines[2].starts_with(&format!("1,33333,{},", inputs[1].display())));
+}
+
+#[test]
+fn every_scene_runs_and_runs_the_same_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    for scene in Scene::ALL {
+        let input = format!("scene:{scene}");
+        let overrides = ["frame.width=16", "frame.height=12", "frame.pixel_bits=10"];
+        let outputs = ["1", "2"].map(|run| folder.path().join(format!("{scene}-{run}")));
+        for output in &outputs {
+            let summary = run(&[&input], &overrides, output, &RunOptions::default()).unwrap();
+            assert_eq!(summary.frames, u64::from(scene.default_frames()));
+        }
+        for name in
+            ["summary.json", "frames.csv", "srs.npy", "score_edge.npy", "rendered/000003.png"]
+        {
+            let [first, second] =
+                outputs.each_ref().map(|output| fs::read(output.join(name)).unwrap());
+            assert!(first == second, "{scene} {name}");
+        }
+    }
+}
