@@ -11,7 +11,7 @@ module change_detector #(
     output wire             hit_o
 );
 
-    wire signed [WIDTH:0] difference = $signed({1'b0, pixel_i}) - $signed({1'b0, reference_i});
+    wire [WIDTH:0] difference = {1'b0, pixel_i} - {1'b0, reference_i};
 
     magnitude_above #(.WIDTH(WIDTH + 1)) u_above (
         .value_i(difference), .level_i(level_i), .above_o(hit_o)

@@ -27,26 +27,52 @@ module edge_detector #(
     output wire             hit_o      // of the center, with the incoming column on its right
 );
 
-    wire [WIDTH:0] upper_pair = upper_i + middle_i;
-    wire [WIDTH:0] lower_pair = lower_i + middle_i;
-    wire signed [WIDTH+2:0] slope = $signed({3'b0, lower_i}) - $signed({3'b0, upper_i});
+    localparam SUM_BITS = WIDTH + 3;  // -3 * (2^WIDTH - 1) .. 3 * (2^WIDTH - 1), signed
 
-    reg [WIDTH:0] upper_pair_q;
-    reg [WIDTH:0] lower_pair_q;
-    reg signed [WIDTH+2:0] sum_q;   // left and center part of (Gx + Gy) / 2
-    reg signed [WIDTH+2:0] diff_q;  // left and center part of (Gy - Gx) / 2
+    // Sums of two pixels and their difference, of the incoming column.
+    wire [WIDTH:0] upper_pair;
+    wire [WIDTH:0] lower_pair;
+    wire [SUM_BITS-1:0] slope = {2'b0, lower_pair} - {2'b0, upper_pair};  // lower - upper
+
+    adder #(.WIDTH(WIDTH + 1)) u_upper_pair (
+        .plain_i({1'b0, middle_i}), .other_i({1'b0, upper_i}), .sum_o(upper_pair)
+    );
+
+    adder #(.WIDTH(WIDTH + 1)) u_lower_pair (
+        .plain_i({1'b0, middle_i}), .other_i({1'b0, lower_i}), .sum_o(lower_pair)
+    );
+
+    // What left and center contribute.
+    reg  [WIDTH:0] upper_pair_q;
+    reg  [WIDTH:0] lower_pair_q;
+    reg  [SUM_BITS-1:0] sum_q;   // to (Gx + Gy) / 2
+    reg  [SUM_BITS-1:0] diff_q;  // to (Gy - Gx) / 2
+    wire [SUM_BITS-1:0] diff_next;
+    wire [WIDTH:0] left_upper_pair = left_i ? upper_pair : upper_pair_q;
+    wire [WIDTH:0] left_lower_pair = left_i ? lower_pair : lower_pair_q;
+
+    adder #(.WIDTH(SUM_BITS)) u_diff_next (
+        .plain_i(slope), .other_i({2'b0, left_lower_pair}), .sum_o(diff_next)
+    );
 
     always @(posedge clk_i) begin
         if (advance_i) begin
             upper_pair_q <= upper_pair;
             lower_pair_q <= lower_pair;
-            sum_q  <= slope - $signed({2'b0, left_i ? upper_pair : upper_pair_q});
-            diff_q <= slope + $signed({2'b0, left_i ? lower_pair : lower_pair_q});
+            sum_q        <= slope - {2'b0, left_upper_pair};
+            diff_q       <= diff_next;
         end
     end
 
-    wire signed [WIDTH+2:0] sum = sum_q + $signed({2'b0, right_i ? lower_pair_q : lower_pair});
-    wire signed [WIDTH+2:0] diff = diff_q - $signed({2'b0, right_i ? upper_pair_q : upper_pair});
+    // With the right column.
+    wire [WIDTH:0] right_upper_pair = right_i ? upper_pair_q : upper_pair;
+    wire [WIDTH:0] right_lower_pair = right_i ? lower_pair_q : lower_pair;
+    wire [SUM_BITS-1:0] sum;
+    wire [SUM_BITS-1:0] diff = diff_q - {2'b0, right_upper_pair};
+
+    adder #(.WIDTH(SUM_BITS)) u_sum (
+        .plain_i(sum_q), .other_i({2'b0, right_lower_pair}), .sum_o(sum)
+    );
 
     // Doubled sums are even, so the lowest bit of the level decides nothing.
     wire [WIDTH+1:0] half_level = {{(WIDTH + 3 - LEVEL_BITS) {1'b0}}, level_i[LEVEL_BITS-1:1]};
@@ -55,11 +81,11 @@ module edge_detector #(
     wire sum_above;
     wire diff_above;
 
-    magnitude_above #(.WIDTH(WIDTH + 3)) u_sum (
+    magnitude_above #(.WIDTH(SUM_BITS)) u_sum_above (
         .value_i(sum), .level_i(half_level), .above_o(sum_above)
     );
 
-    magnitude_above #(.WIDTH(WIDTH + 3)) u_diff (
+    magnitude_above #(.WIDTH(SUM_BITS)) u_diff_above (
         .value_i(diff), .level_i(half_level), .above_o(diff_above)
     );
 

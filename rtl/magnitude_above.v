@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// |value| > level, without an absolute value: a value >= 0 gets -level - 1, a negative one gets
-// +level, and the sign stays exactly when the magnitude is above the level.
+// |value| > level, with one carry chain.
+//
+// The bits of a negative value are inverted, which gives |value| - 1; the lowest bit of the comparison
+// makes up for the missing one.
 `default_nettype none
 
 module magnitude_above #(
     parameter WIDTH = 9  // bits of the value, which is signed; the level has one less
 ) (
-    input  wire signed [WIDTH-1:0] value_i,
-    input  wire        [WIDTH-2:0] level_i,
-    output wire                    above_o
+    input  wire [WIDTH-1:0] value_i,
+    input  wire [WIDTH-2:0] level_i,
+    output wire             above_o
 );
 
     wire negative = value_i[WIDTH-1];
-    wire signed [WIDTH-1:0] toward_zero = {!negative, level_i ^ {(WIDTH - 1) {!negative}}};
-    // Only the sign of the sum matters.
-    /* verilator lint_off UNUSEDSIGNAL */
-    wire signed [WIDTH-1:0] rest = value_i + toward_zero;
-    /* verilator lint_on UNUSEDSIGNAL */
+    wire [WIDTH-2:0] inverted = value_i[WIDTH-2:0] ^ {(WIDTH - 1) {negative}};
 
-    assign above_o = rest[WIDTH-1] == negative;
+    assign above_o = {inverted, 1'b1} > {level_i, !negative};
 
 endmodule
 
