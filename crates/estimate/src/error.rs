@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Why a design could not be estimated.
+
+use foveate_toolchain::ToolError;
+use thiserror::Error;
+
+/// An estimate failed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EstimateError {
+    /// Yosys is missing or failed.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+
+    /// The netlist has a cell whose area is not known.
+    #[error(
+        "module `{module}` has {count} cells of the unknown type `{cell}`; \
+         their area is not known, so that no total can be given"
+    )]
+    UnknownCell {
+        /// The type of the cell.
+        cell: String,
+        /// The module it is in.
+        module: String,
+        /// How many there are.
+        count: u64,
+    },
+
+    /// A module that was asked for is not in the netlist.
+    #[error(
+        "the synthesized netlist has no module `{module}`, only: {present}; \
+         the top modules must exist and take no parameters"
+    )]
+    MissingModule {
+        /// The module.
+        module: String,
+        /// The modules that are there.
+        present: String,
+    },
+
+    /// The array does not have as many RPUs as the design has regions.
+    #[error("`{rcm}` has {found} instances of `{rpu}`, but the design has {expected} regions")]
+    RegionCount {
+        /// The array.
+        rcm: String,
+        /// The RPU.
+        rpu: String,
+        /// The number of regions.
+        expected: u64,
+        /// The number of instances.
+        found: u64,
+    },
+
+    /// A module contains itself.
+    #[error("module `{module}` contains itself")]
+    Recursive {
+        /// The module.
+        module: String,
+    },
+
+    /// Yosys wrote something that is not understood.
+    #[error("cannot read `{file}` of Yosys: {source}; its format may have changed")]
+    Format {
+        /// The file.
+        file: &'static str,
+        /// The reason.
+        source: serde_json::Error,
+    },
+
+    /// The report could not be turned into JSON.
+    #[error("cannot write the report as JSON: {0}")]
+    Json(serde_json::Error),
+}

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Reads the netlist that Yosys writes as JSON, by name.
+//!
+//! The counts of `stat -json` would be smaller, but they are not the same in all versions: 0.23
+//! writes text between the modules of a nested design, which is no JSON, and 0.70 adds submodules to
+//! some figures. The netlist itself has been the same for years.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::area::Area;
+use crate::error::EstimateError;
+
+/// The modules of a netlist by name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Netlist(BTreeMap<String, Module>);
+
+/// A module: primitive cells and submodules by type, and what it is called in the source.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Module {
+    pub(crate) cells: BTreeMap<String, u64>,
+    pub(crate) submodules: BTreeMap<String, u64>,
+    pub(crate) source_name: String,
+    pub(crate) parameters: Vec<String>,
+}
+
+/// Only what is needed; other fields come and go with versions.
+#[derive(Deserialize)]
+struct RawNetlist {
+    modules: BTreeMap<String, RawModule>,
+}
+
+#[derive(Deserialize)]
+struct RawModule {
+    cells: BTreeMap<String, RawCell>,
+    #[serde(default)]
+    attributes: BTreeMap<String, serde_json::Value>,
+    #[serde(default)]
+    parameter_default_values: BTreeMap<String, serde_json::Value>,
+}
+
+#[derive(Deserialize)]
+struct RawCell {
+    #[serde(rename = "type")]
+    kind: String,
+}
+
+impl Netlist {
+    pub(crate) fn parse(file: &'static str, json: &[u8]) -> Result<Self, EstimateError> {
+        let raw: RawNetlist = serde_json::from_slice(json)
+            .map_err(|source| EstimateError::Format { file, source })?;
+        let module = |(name, module): (&String, &RawModule)| {
+            (name.clone(), Module::new(name, module, &raw.modules))
+        };
+        Ok(Self(raw.modules.iter().map(module).collect()))
+    }
+
+    pub(crate) fn module(&self, name: &str) -> Result<&Module, EstimateError> {
+        self.0.get(name).ok_or_else(|| EstimateError::MissingModule {
+            module: name.to_owned(),
+            present: self.0.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// The area of a module's own cells, without submodules.
+    pub(crate) fn own_area(&self, name: &str) -> Result<Area, EstimateError> {
+        let module = self.module(name)?;
+        Area::of_cells(&module.source_name, &module.cells)
+    }
+
+    /// The area of a module and all that is inside it, except for the module `without`.
+    pub(crate) fn whole_area(
+        &self,
+        top: &str,
+        without: Option<&str>,
+    ) -> Result<Area, EstimateError> {
+        let counts = self.instances(top, without)?;
+        let mut inside = counts.iter().filter(|(name, _)| Some(name.as_str()) != without);
+        inside.try_fold(self.own_area(top)?, |sum, (name, &count)| {
+            Ok(sum.plus(self.own_area(name)?.times(count)))
+        })
+    }
+
+    /// How often each module stands below `top`, at any depth; modules `leaf` are not entered.
+    pub(crate) fn instances(
+        &self,
+        top: &str,
+        leaf: Option<&str>,
+    ) -> Result<BTreeMap<String, u64>, EstimateError> {
+        let mut counts = BTreeMap::new();
+        self.count_below(top, leaf, 1, &mut Vec::new(), &mut counts)?;
+        Ok(counts)
+    }
+
+    fn count_below(
+        &self,
+        name: &str,
+        leaf: Option<&str>,
+        times: u64,
+        above: &mut Vec<String>,
+        counts: &mut BTreeMap<String, u64>,
+    ) -> Result<(), EstimateError> {
+        if above.iter().any(|module| module == name) {
+            return Err(EstimateError::Recursive { module: name.to_owned() });
+        }
+        above.push(name.to_owned());
+        for (submodule, count) in &self.module(name)?.submodules {
+            *counts.entry(submodule.clone()).or_default() += times * count;
+            if Some(submodule.as_str()) != leaf {
+                self.count_below(submodule, leaf, times * count, above, counts)?;
+            }
+        }
+        above.pop();
+        Ok(())
+    }
+}
+
+impl Module {
+    /// A cell whose type is a module of the design is a submodule.
+    fn new(name: &str, raw: &RawModule, modules: &BTreeMap<String, RawModule>) -> Self {
+        let mut module = Self::default();
+        for cell in raw.cells.values() {
+            let is_module = modules.contains_key(&cell.kind);
+            let counts = if is_module { &mut module.submodules } else { &mut module.cells };
+            *counts.entry(cell.kind.clone()).or_default() += 1;
+        }
+        let hdlname = raw.attributes.get("hdlname").and_then(serde_json::Value::as_str);
+        let source_name = hdlname.unwrap_or(name);
+        // Older versions keep the backslash that Yosys puts before public names.
+        module.source_name = source_name.strip_prefix('\\').unwrap_or(source_name).to_owned();
+        let parameters = raw.parameter_default_values.iter();
+        module.parameters =
+            parameters.map(|(name, value)| format!("{name}={}", number(value))).collect();
+        module
+    }
+}
+
+/// Yosys writes numbers as strings of binary digits, and text as text.
+fn number(value: &serde_json::Value) -> String {
+    let Some(text) = value.as_str() else { return value.to_string() };
+    u64::from_str_radix(text, 2).map_or_else(|_| text.trim_end().to_owned(), |n| n.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OLD: &[u8] = include_bytes!("../tests/fixtures/array_yosys_0.23.json");
+    const NEW: &[u8] = include_bytes!("../tests/fixtures/array_yosys_0.70.json");
+
+    #[test]
+    fn old_and_new_yosys_are_understood() {
+        for json in [OLD, NEW] {
+            let netlist = Netlist::parse("netlist", json).unwrap();
+            let rcm = netlist.module("rcm").unwrap();
+            assert_eq!(rcm.submodules, BTreeMap::from([("rpu".to_owned(), 4)]));
+            assert_eq!(rcm.cells, BTreeMap::from([("LUT4".to_owned(), 1)]));
+            let rpu = netlist.whole_area("rpu", None).unwrap();
+            assert_eq!((rpu.lut_logic_low, rpu.lut_logic_high), (10, 16));
+            assert_eq!((rpu.lut_memory, rpu.ff, rpu.carry), (8, 7, 6));
+        }
+    }
+
+    #[test]
+    fn what_is_not_understood_is_an_error() {
+        let error = Netlist::parse("netlist.json", br#"{"modules": {"a": {}}}"#).unwrap_err();
+        let text = error.to_string();
+        assert!(text.contains("netlist.json") && text.contains("`cells`"), "{text}");
+        let netlist = Netlist::parse("netlist", OLD).unwrap();
+        let error = netlist.module("lane").unwrap_err().to_string();
+        assert!(
+            error.contains("no module `lane`, only: ") && error.contains("`rcm`, `rpu`"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn whole_area_has_what_is_inside() {
+        let json = include_bytes!("../tests/fixtures/leaves_yosys_0.23.json");
+        let netlist = Netlist::parse("netlist", json).unwrap();
+        let whole = netlist.whole_area("rpu", None).unwrap();
+        assert_eq!((whole.lut_logic_high, whole.lut_memory, whole.carry), (40, 8, 12));
+        let without = netlist.whole_area("rpu", Some("pair")).unwrap();
+        assert_eq!((without.lut_logic_high, without.lut_memory, without.carry), (7, 8, 3));
+    }
+
+    #[test]
+    fn a_module_in_itself_is_an_error() {
+        let json = br#"{"modules": {"a": {"cells": {"u": {"type": "a"}}}}}"#;
+        let error = Netlist::parse("netlist", json).unwrap().instances("a", None).unwrap_err();
+        assert!(matches!(error, EstimateError::Recursive { .. }));
+    }
+
+    #[test]
+    fn parameters_are_numbers_or_text() {
+        for (value, text) in [("00001000", "8"), ("distributed ", "distributed"), ("x1", "x1")] {
+            assert_eq!(number(&value.into()), text);
+        }
+    }
+}

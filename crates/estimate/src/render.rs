@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The report for people: text for a terminal, Markdown for a document.
+
+use crate::area::Area;
+use crate::report::{Comparison, LeafArea, Report, ToolRecord};
+use crate::table::{Table, grouped, wrap};
+
+const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "BRAM"];
+
+/// The report as tables for a terminal of `width` columns; 80 is enough.
+#[must_use]
+pub fn render_text(report: &Report, width: usize) -> String {
+    let mut text = wrap(&heading(report), width);
+    for table in tables(report) {
+        text.push('\n');
+        text.push_str(&table.text(width));
+    }
+    text
+}
+
+/// The report as Markdown.
+#[must_use]
+pub fn render_markdown(report: &Report) -> String {
+    let mut text = heading(report) + "\n";
+    for table in tables(report) {
+        text.push('\n');
+        text.push_str(&table.markdown());
+    }
+    text
+}
+
+fn heading(report: &Report) -> String {
+    let ToolRecord { version, flags, .. } = &report.tool;
+    let version = version.split(" (").next().unwrap_or(version);
+    format!("Yosys estimate ({version}): {flags}")
+}
+
+fn tables(report: &Report) -> Vec<Table> {
+    vec![area_table(report), paper_table(report), leaf_table(report)]
+}
+
+fn area_table(report: &Report) -> Table {
+    let mut rows = area_rows("RPU", &report.rpu);
+    rows.extend(area_rows("RCM", &report.rcm));
+    rows.push(area_row("  glue only", &report.rcm_glue));
+    rows.push(share_row(report));
+    Table {
+        title: format!("Area of {} regions, one RPU each", grouped(report.regions)),
+        header: header("module", &COLUMNS),
+        rows,
+        note: Some(
+            "low, high: logic LUTs with and without small ones sharing a LUT. LUT = high + memory. \
+             carry: units of CARRY4. BRAM: units of RAMB36."
+                .to_owned(),
+        ),
+    }
+}
+
+/// A row, and a second one if shift registers can be packed.
+fn area_rows(name: &str, area: &Area) -> Vec<Vec<String>> {
+    let mut rows = vec![area_row(name, area)];
+    if area.lut_memory_packed != area.lut_memory {
+        let packed =
+            Area { lut_memory: area.lut_memory_packed, lut_total: area.lut_total_packed, ..*area };
+        rows.push(area_row("  SRL16 in pairs", &packed));
+    }
+    rows
+}
+
+fn area_row(name: &str, area: &Area) -> Vec<String> {
+    let figures = [
+        area.lut_logic_low,
+        area.lut_logic_high,
+        area.lut_memory,
+        area.lut_total,
+        area.ff,
+        area.carry,
+        area.dsp,
+    ];
+    let mut row = vec![name.to_owned()];
+    row.extend(figures.map(grouped));
+    row.push(ramb36(area.bram18));
+    row
+}
+
+fn share_row(report: &Report) -> Vec<String> {
+    let percent = |value: f64| format!("{value:.2}%");
+    let share = &report.share;
+    vec![
+        format!("  of {}", report.device.name),
+        String::new(),
+        String::new(),
+        percent(share.lut_memory),
+        percent(share.lut),
+        percent(share.ff),
+        String::new(),
+        percent(share.dsp),
+        percent(share.bram),
+    ]
+}
+
+fn paper_table(report: &Report) -> Table {
+    let mut rows = paper_rows("RPU", &report.rpu, &report.paper.rpu);
+    if let Some(comparison) = &report.paper.rcm {
+        rows.extend(paper_rows("RCM", &report.rcm, comparison));
+    }
+    let columns = ["LUT", "ratio", "FF", "ratio", "LUTRAM", "ratio"];
+    Table {
+        title: "Beside the paper's table (Vivado, 8x8 regions, 224x224 frames)".to_owned(),
+        header: header("", &columns),
+        rows,
+        note: None,
+    }
+}
+
+fn paper_rows(name: &str, area: &Area, comparison: &Comparison) -> Vec<Vec<String>> {
+    let Comparison { paper, ratio } = comparison;
+    let row = |name: String, cells: [(u64, Option<f64>); 3]| {
+        let pairs = cells.into_iter().flat_map(|(value, ratio)| {
+            [grouped(value), ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}x"))]
+        });
+        std::iter::once(name).chain(pairs).collect()
+    };
+    let mut rows = vec![
+        row(format!("{name}, paper"), [(paper.lut, None), (paper.ff, None), (paper.lutram, None)]),
+        row(
+            format!("{name}, Yosys estimate"),
+            [
+                (area.lut_total, Some(ratio.lut_total)),
+                (area.ff, Some(ratio.ff)),
+                (area.lut_memory, Some(ratio.lut_memory)),
+            ],
+        ),
+    ];
+    if area.lut_memory_packed != area.lut_memory {
+        rows.push(row(
+            "  SRL16 in pairs".to_owned(),
+            [
+                (area.lut_total_packed, Some(ratio.lut_total_packed)),
+                (area.ff, Some(ratio.ff)),
+                (area.lut_memory_packed, Some(ratio.lut_memory_packed)),
+            ],
+        ));
+    }
+    rows
+}
+
+fn leaf_table(report: &Report) -> Table {
+    Table {
+        title: "Modules of one RPU, each synthesized apart".to_owned(),
+        header: header("module", &["count", "low", "high", "memory", "LUT", "FF", "carry"]),
+        rows: report.leaves.iter().map(leaf_row).collect(),
+        note: Some(
+            "Figures are for one instance without the modules inside it. They do not add up to the \
+             RPU above, where logic is optimized across modules."
+                .to_owned(),
+        ),
+    }
+}
+
+fn leaf_row(leaf: &LeafArea) -> Vec<String> {
+    let name = match leaf.parameters.as_slice() {
+        [] => leaf.module.clone(),
+        parameters => format!("{} {}", leaf.module, parameters.join(" ")),
+    };
+    let mut row = vec![name, grouped(leaf.instances)];
+    row.extend(area_row("", &leaf.area).into_iter().skip(1).take(6));
+    row
+}
+
+fn header(first: &str, columns: &[&str]) -> Vec<String> {
+    std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
+}
+
+fn ramb36(bram18: u64) -> String {
+    let half = if bram18 & 1 == 1 { ".5" } else { "" };
+    grouped(bram18 / 2) + half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::tests::example;
+
+    #[test]
+    fn text_fits_the_terminal() {
+        let text = render_text(&example(784), 80);
+        let widest = text.lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(80), "{text}");
+        for part in
+            ["Yosys 0.23", "0.87x", "0.83x", "143,472", "125,443", "10.61%", "SRL16 in pairs"]
+        {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn the_papers_array_is_shown_only_beside_its_like() {
+        assert!(!render_text(&example(4), 80).contains("143,472"));
+    }
+
+    #[test]
+    fn markdown_has_three_tables() {
+        let text = render_markdown(&example(784));
+        assert_eq!(text.matches("| --- |").count(), 3);
+        assert!(text.contains("| RPU, Yosys estimate | 160 | 0.87x |"), "{text}");
+        assert!(text.contains("| median WIDTH=8 SIDE=8 | 2 |"), "{text}");
+    }
+}

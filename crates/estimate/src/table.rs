@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A table that can be text for a terminal or Markdown.
+
+/// Rows of cells under a header; the first column is text, the others are figures.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Table {
+    pub(crate) title: String,
+    pub(crate) header: Vec<String>,
+    pub(crate) rows: Vec<Vec<String>>,
+    pub(crate) note: Option<String>,
+}
+
+const GAP: usize = 2;
+const NARROWEST: usize = 8;
+
+impl Table {
+    /// Aligned columns; the first one is cut where the table would be wider than `width`.
+    pub(crate) fn text(&self, width: usize) -> String {
+        let mut columns = self.widths();
+        let figures: usize = columns.iter().skip(1).map(|column| column + GAP).sum();
+        if let Some(first) = columns.first_mut() {
+            *first = (*first).min(width.saturating_sub(figures).max(NARROWEST));
+        }
+        let mut text = wrap(&self.title, width);
+        for row in std::iter::once(&self.header).chain(&self.rows) {
+            text.push_str(line(row, &columns).trim_end());
+            text.push('\n');
+        }
+        if let Some(note) = &self.note {
+            text.push_str(&wrap(note, width));
+        }
+        text
+    }
+
+    /// A Markdown table under its title in bold.
+    pub(crate) fn markdown(&self) -> String {
+        let row = |cells: &[String]| {
+            let cells = cells.iter().map(|cell| cell.trim_start().replace('|', "\\|"));
+            format!("| {} |\n", cells.collect::<Vec<_>>().join(" | "))
+        };
+        let mut text = format!("**{}**\n\n{}| --- |", self.title, row(&self.header));
+        text.push_str(&" ---: |".repeat(self.header.len().saturating_sub(1)));
+        text.push('\n');
+        self.rows.iter().for_each(|cells| text.push_str(&row(cells)));
+        if let Some(note) = &self.note {
+            text.push_str(&format!("\n{note}\n"));
+        }
+        text
+    }
+
+    fn widths(&self) -> Vec<usize> {
+        let mut widths = vec![0; self.header.len()];
+        for row in std::iter::once(&self.header).chain(&self.rows) {
+            for (width, cell) in widths.iter_mut().zip(row) {
+                *width = (*width).max(cell.chars().count());
+            }
+        }
+        widths
+    }
+}
+
+fn line(row: &[String], columns: &[usize]) -> String {
+    let mut text = String::new();
+    for (index, (cell, &width)) in row.iter().zip(columns).enumerate() {
+        if index == 0 {
+            text.push_str(&format!("{:<width$}", cut(cell, width)));
+        } else {
+            text.push_str(&format!("{:>1$}", cell, width + GAP));
+        }
+    }
+    text
+}
+
+fn cut(cell: &str, width: usize) -> String {
+    if cell.chars().count() <= width {
+        return cell.to_owned();
+    }
+    let kept: String = cell.chars().take(width.saturating_sub(2)).collect();
+    kept + ".."
+}
+
+/// Breaks a sentence into lines of at most `width`.
+pub(crate) fn wrap(sentence: &str, width: usize) -> String {
+    let mut text = String::new();
+    let mut column = 0;
+    for word in sentence.split_whitespace() {
+        let length = word.chars().count();
+        if column > 0 && column + 1 + length > width {
+            text.push('\n');
+            column = 0;
+        } else if column > 0 {
+            text.push(' ');
+            column += 1;
+        }
+        text.push_str(word);
+        column += length;
+    }
+    text.push('\n');
+    text
+}
+
+/// A number with commas between thousands.
+pub(crate) fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let (first, rest) = digits.split_at((digits.len() - 1) % 3 + 1);
+    let thousands = rest.as_bytes().chunks(3).map(String::from_utf8_lossy);
+    thousands.fold(first.to_owned(), |text, group| text + "," + &group)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_grouped() {
+        assert_eq!(
+            [0, 12, 999, 1000, 143_472, 1_182_240].map(grouped).join(" "),
+            "0 12 999 1,000 143,472 1,182,240"
+        );
+    }
+
+    #[test]
+    fn columns_are_aligned_and_names_cut() {
+        let row = |cells: [&str; 2]| cells.map(str::to_owned).to_vec();
+        let table = Table {
+            title: "T".into(),
+            header: row(["module", "LUT"]),
+            rows: vec![row(["a_long_module_name", "1,000"]), row(["b", "1"])],
+            note: None,
+        };
+        let expected = "T\nmodule      LUT\na_long..  1,000\nb             1\n";
+        assert_eq!(table.text(15), expected);
+        assert!(table.markdown().contains("| module | LUT |\n| --- | ---: |\n"));
+    }
+
+    #[test]
+    fn sentences_are_wrapped() {
+        assert_eq!(wrap("one two three", 8), "one two\nthree\n");
+    }
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A toy design through Yosys. Skipped, visibly, where Yosys is missing.
+
+use foveate_estimate::{EstimateError, EstimateJob, estimate, render_text};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Tool, ToolError, Toolchain};
+
+fn toy(regions: u64) -> EstimateJob {
+    let rcm = include_str!("fixtures/rcm.v").replace("REGIONS", &regions.to_string());
+    let sources = [
+        ("adder.v", include_str!("fixtures/adder.v").to_owned()),
+        ("pair.v", include_str!("fixtures/pair.v").to_owned()),
+        ("ram.v", include_str!("fixtures/ram.v").to_owned()),
+        ("rpu.v", include_str!("fixtures/rpu.v").to_owned()),
+        ("rcm.v", rcm),
+    ];
+    EstimateJob {
+        sources: sources.map(|(name, text)| (name.to_owned(), text)).to_vec(),
+        rpu_top: "rpu".to_owned(),
+        rcm_top: "rcm".to_owned(),
+        regions,
+    }
+}
+
+#[test]
+fn a_toy_array_is_estimated() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let report = estimate(&tools, &cache, &toy(784)).unwrap();
+    assert_eq!(report.rpu.lut_memory, 8, "a single-port RAM of 64 x 8");
+    assert_eq!(report.rpu.ff, 7, "the address register is not doubled");
+    assert!(report.rpu.lut_logic_high > 10, "{report:?}");
+    assert!(report.rcm_glue.lut_logic_high > 0, "the OR over all regions");
+    assert_eq!(report.rcm, report.rpu.times(784).plus(report.rcm_glue));
+    assert!(report.tool.version.starts_with("Yosys "));
+    let modules: Vec<&str> = report.leaves.iter().map(|leaf| leaf.module.as_str()).collect();
+    assert_eq!(modules, ["rpu", "adder", "adder", "pair", "ram"]);
+    assert_eq!(report.leaves[1].instances, 2);
+    assert!(report.leaves[4].parameters.contains(&"DEPTH=64".to_owned()));
+    assert!(render_text(&report, 80).contains("RCM, Yosys estimate"));
+    assert_eq!(estimate(&tools, &cache, &toy(784)).unwrap(), report);
+}
+
+#[test]
+fn a_design_without_memory_is_estimated() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let mut job = toy(4);
+    job.sources[2].1 = job.sources[2].1.replace("= mem[addr_i]", "= d_i").replace("reg [W", "//");
+    job.sources[2].1 = job.sources[2].1.replace("always", "//");
+    let report = estimate(&tools, &cache, &job).unwrap();
+    assert_eq!(report.rpu.lut_memory, 0);
+}
+
+#[test]
+fn mistakes_are_named() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let error = estimate(&tools, &cache, &EstimateJob { regions: 5, ..toy(4) }).unwrap_err();
+    let expected = "`rcm` has 4 instances of `rpu`, but the design has 5 regions";
+    assert_eq!(error.to_string(), expected);
+
+    let mut job = toy(4);
+    job.sources[3].1 = job.sources[3].1.replace("always @(posedge clk_i)", "always @*");
+    let error = estimate(&tools, &cache, &job).unwrap_err();
+    let EstimateError::UnknownCell { cell, module, .. } = &error else { panic!("{error}") };
+    assert_eq!((cell.as_str(), module.as_str()), ("LDCE", "rpu"));
+
+    let error = estimate(&tools, &cache, &EstimateJob { rcm_top: "array".into(), ..toy(4) });
+    let Err(EstimateError::Tool(ToolError::Failed { tail, .. })) = error else {
+        panic!("{error:?}")
+    };
+    assert!(tail.contains("array"), "{tail}");
+}
