@@ -36,7 +36,7 @@ fn heading(report: &Report) -> String {
 }
 
 fn tables(report: &Report) -> Vec<Table> {
-    vec![area_table(report), paper_table(report), leaf_table(report)]
+    vec![leaf_table(report), area_table(report), paper_table(report)]
 }
 
 fn area_table(report: &Report) -> Table {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Helpers for tests: skip where a tool is missing, and a machine without any tool.
+//! Helpers for tests: skip where a tool or data is missing, and a machine without any tool.
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -27,11 +27,27 @@ pub fn require_tools(tools: &[Tool]) -> bool {
     };
     let required = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
     assert!(!required, "FOVEATE_REQUIRE_TOOLS is 1, but {error}");
+    say_skipped(&error.to_string());
+    false
+}
+
+/// The folder of real images and video that the environment variable `FOVEATE_DATA` names. Without
+/// one, says on the terminal that the test is skipped.
+#[must_use]
+pub fn data_folder() -> Option<PathBuf> {
+    let folder = std::env::var_os("FOVEATE_DATA").map(PathBuf::from).filter(|path| path.is_dir());
+    if folder.is_none() {
+        say_skipped("FOVEATE_DATA names no folder");
+    }
+    folder
+}
+
+/// Writes past the capture of the test harness.
+fn say_skipped(reason: &str) {
     let name = std::thread::current().name().unwrap_or("test").to_owned();
     // One write, so that tests side by side do not mix; nothing can be done for a lost terminal.
-    let line = format!("\nSKIPPED {name}: {error}\n");
+    let line = format!("\nSKIPPED {name}: {reason}\n");
     let _ = std::io::stderr().write_all(line.as_bytes());
-    false
 }
 
 type Handler = Box<dyn Fn(&Invocation) -> Result<Output, ToolError> + Send + Sync>;
