@@ -10,6 +10,7 @@
 
 mod area;
 mod cells;
+mod comparison;
 mod error;
 mod job;
 mod leaves;
@@ -20,6 +21,7 @@ mod table;
 
 pub use area::Area;
 pub use cells::CellKind;
+pub use comparison::{Candidate, compare_markdown, compare_text};
 pub use error::EstimateError;
 pub use job::{EstimateJob, estimate};
 pub use render::{render_markdown, render_text};

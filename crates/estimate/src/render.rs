@@ -29,7 +29,7 @@ pub fn render_markdown(report: &Report) -> String {
     text
 }
 
-fn heading(report: &Report) -> String {
+pub(crate) fn heading(report: &Report) -> String {
     let ToolRecord { version, flags, .. } = &report.tool;
     let version = version.split(" (").next().unwrap_or(version);
     format!("Yosys estimate ({version}): {flags}")

@@ -9,10 +9,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SpecError {
     /// The text is not TOML.
-    #[error("the configuration is not valid TOML: {0}")]
+    #[error("the configuration is not valid TOML: {}", printable(.0))]
     Syntax(String),
     /// A key that does not exist.
-    #[error("unknown key `{key}`{}", hint(nearest))]
+    #[error("unknown key `{}`{}", printable(key), hint(nearest))]
     UnknownKey {
         /// Dotted path of the key.
         key: String,
@@ -20,7 +20,7 @@ pub enum SpecError {
         nearest: Option<String>,
     },
     /// A value of the wrong type or not one of the names that the key takes.
-    #[error("`{key}`: {problem}")]
+    #[error("`{}`: {}", printable(key), printable(problem))]
     Type {
         /// Dotted path of the key.
         key: String,
@@ -50,7 +50,7 @@ pub enum SpecError {
         remedy: String,
     },
     /// An override that is not `KEY=TOML_VALUE`.
-    #[error("`--set {text}`: {problem}")]
+    #[error("`--set {}`: {}", printable(text), printable(problem))]
     Override {
         /// The override as given.
         text: String,
@@ -58,7 +58,7 @@ pub enum SpecError {
         problem: String,
     },
     /// A preset that does not exist.
-    #[error("unknown preset `{name}`; presets are {known}")]
+    #[error("unknown preset `{}`; presets are {known}", printable(name))]
     UnknownPreset {
         /// The name as given.
         name: String,
@@ -69,4 +69,11 @@ pub enum SpecError {
 
 fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|key| format!("; did you mean `{key}`?")).unwrap_or_default()
+}
+
+/// What a user wrote, with control characters made visible: a message stays one line and cannot steer
+/// the terminal.
+fn printable(text: &str) -> String {
+    let shown = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
+    text.chars().map(shown).collect()
 }
