@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use foveate_model::ModelError;
 use foveate_scenes::SceneError;
 use foveate_spec::SpecError;
+use foveate_staging::StagingError;
 use thiserror::Error;
 
 use crate::picture::{MAX_FILE_GIB, MAX_SIDE};
@@ -133,28 +134,9 @@ pub enum SimulatorError {
         /// Seconds as given.
         seconds: u32,
     },
-    /// A path that names no folder that can be made.
-    #[error("output `{}` names no folder that can be made; choose another", path.display())]
-    OutputName {
-        /// The path as given.
-        path: PathBuf,
-    },
-    /// The output folder is there and holds something.
-    #[error("output folder `{}` is not empty; choose another, or ask to overwrite it", path.display())]
-    OutputNotEmpty {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// The output folder holds something that no simulation wrote.
-    #[error(
-        "output folder `{}` was not written by a simulation (it has no summary.json of one), so it \
-         is not overwritten; choose another, or empty it",
-        path.display()
-    )]
-    OutputForeign {
-        /// The folder.
-        path: PathBuf,
-    },
+    /// The output folder cannot be written.
+    #[error(transparent)]
+    Output(#[from] StagingError),
     /// Something cannot be written.
     #[error("cannot write `{}`: {source}; check space and permissions, or choose another folder", path.display())]
     Write {

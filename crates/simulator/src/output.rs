@@ -5,12 +5,10 @@ mod npy;
 mod overlay;
 mod png;
 mod recorder;
-mod staging;
 mod summary;
 mod table;
 
 pub(crate) use recorder::Recorder;
-pub(crate) use staging::Staging;
 pub use summary::{Grid, Range, Summary};
 
 use std::io;

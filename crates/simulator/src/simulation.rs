@@ -5,8 +5,9 @@ use std::path::Path;
 
 use foveate_model::Camera;
 use foveate_spec::{Config, Design};
+use foveate_staging::{Kind, StagedFolder};
 
-use crate::output::{Recorder, Staging};
+use crate::output::Recorder;
 use crate::{RunOptions, SimulatorError, Source, Summary};
 
 /// How far a run is.
@@ -74,7 +75,7 @@ impl Simulation {
         options: &RunOptions,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, SimulatorError> {
-        let staging = Staging::new(output, options.overwrite)?;
+        let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
         let mut recorder = Recorder::create(staging.folder(), &self.design, options)?;
         self.record(&mut recorder, hooks)?;
         if recorder.frames() == 0 {
@@ -114,4 +115,13 @@ impl std::fmt::Debug for Simulation {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Simulation").field("design", &self.design).finish_non_exhaustive()
     }
+}
+
+/// What a run leaves, and what it may replace.
+const SIMULATION: Kind = Kind { what: "a simulation (its summary.json)", is: is_simulation };
+
+fn is_simulation(folder: &Path) -> bool {
+    let summary = std::fs::read(folder.join("summary.json")).unwrap_or_default();
+    serde_json::from_slice::<serde_json::Value>(&summary)
+        .is_ok_and(|value| value.get("foveate_version").is_some())
 }

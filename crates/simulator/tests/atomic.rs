@@ -13,6 +13,7 @@ use foveate_simulator::{
     SourceFrame, open,
 };
 use foveate_spec::Config;
+use foveate_staging::StagingError;
 use support::{grey, names, run};
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];
@@ -111,7 +112,7 @@ fn a_folder_that_holds_something_is_refused_unless_overwriting_is_asked_for() {
     fs::create_dir(&output).unwrap();
     zero(&output, &PLAIN).unwrap();
     let error = zero(&output, &PLAIN).unwrap_err();
-    assert!(matches!(error, SimulatorError::OutputNotEmpty { .. }), "{error}");
+    assert!(matches!(error, SimulatorError::Output(StagingError::NotEmpty { .. })), "{error}");
     assert!(error.to_string().contains("out` is not empty"));
     fs::write(output.join("stale.npy"), "").unwrap();
     zero(&output, &OVERWRITE).unwrap();
@@ -126,7 +127,7 @@ fn overwriting_spares_what_no_simulation_wrote() {
     fs::create_dir(&output).unwrap();
     fs::write(output.join("thesis.tex"), "years of work").unwrap();
     let error = zero(&output, &OVERWRITE).unwrap_err();
-    assert!(matches!(error, SimulatorError::OutputForeign { .. }), "{error}");
+    assert!(matches!(error, SimulatorError::Output(StagingError::Foreign { .. })), "{error}");
     assert_eq!(fs::read_to_string(output.join("thesis.tex")).unwrap(), "years of work");
     assert_eq!(names(folder.path()), ["home"]);
 }
@@ -157,7 +158,7 @@ fn places_that_cannot_be_written_are_named() {
     }
     for output in ["", "/"] {
         let error = zero(Path::new(output), &OVERWRITE).unwrap_err();
-        assert!(matches!(error, SimulatorError::OutputName { .. }), "{error}");
+        assert!(matches!(error, SimulatorError::Output(StagingError::NoName { .. })), "{error}");
     }
 }
 

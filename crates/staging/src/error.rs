@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Why an output cannot be written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// An output that cannot be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StagingError {
+    /// A path that names no folder that can be made.
+    #[error("output `{}` names no folder that can be made; choose another", path.display())]
+    NoName {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// The folder is there and holds something.
+    #[error("output folder `{}` is not empty; choose another, or replace it with --force", path.display())]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder holds something else than what would replace it.
+    #[error(
+        "output folder `{}` does not hold {what}, so it is not replaced; choose another, or empty it",
+        path.display()
+    )]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+        /// What it should hold.
+        what: &'static str,
+    },
+    /// Something cannot be written.
+    #[error("cannot write `{}`: {source}; check space and permissions, or choose another place", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+impl StagingError {
+    /// Names the path in an error of the operating system.
+    pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
+        |source| Self::Write { path: path.to_owned(), source }
+    }
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Folders and files that are there whole or not at all: written beside their place and renamed when
+//! they are complete.
+//!
+//! A folder that holds something is only replaced when the caller asks for it, and only when it is
+//! one that the caller's kind of run wrote: nobody's thesis goes because of a flag.
+
+mod error;
+mod file;
+mod folder;
+
+pub use error::StagingError;
+pub use file::write_file;
+pub use folder::{Kind, StagedFolder};
