@@ -1,2 +1,35 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Feeds identical vectors to the model and to the RTL and compares every output at every clock
+//! Feeds identical vectors to the model and to the RTL and compares every output at every clock.
+//!
+//! A [`Job`] is a whole co-simulation: its [`Stimulus`] runs the cycle-level model and records
+//! vectors, a simulator runs the Verilog on them, and a [`CosimReport`] says whether they agree or
+//! where they first do not. A failing run leaves a folder that replays it. Everything that touches
+//! the Verilog is made from the list of ports: the byte [`Layout`] of a clock, the C++ harness and
+//! the replay bench.
+
+mod compare;
+mod error;
+mod harness;
+mod job;
+mod junit;
+mod layout;
+mod level;
+mod recording;
+mod replay;
+mod report;
+mod simulate;
+mod stimulus;
+#[cfg(test)]
+mod testing;
+
+pub use compare::Difference;
+pub use error::CosimError;
+pub use harness::{bench_file, bench_name, cpp_harness, replay_bench};
+pub use job::{Job, Progress};
+pub use junit::junit_xml;
+pub use layout::{Field, Layout};
+pub use level::Level;
+pub use recording::{Recorder, Recording, Span, vectors_hex};
+pub use report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
+pub use simulate::{Dut, Outcome, Run, Simulator};
+pub use stimulus::Stimulus;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can go wrong beside a mismatch, which is a result and no error.
+
+use foveate_spec::SpecError;
+use foveate_staging::StagingError;
+use foveate_toolchain::ToolError;
+use std::path::{Path, PathBuf};
+
+/// Why a co-simulation could not come to a result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CosimError {
+    /// A tool is missing, too old, or refused its input.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+
+    /// The design does not allow what was asked for.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+
+    /// The Verilog has no module of the name that is to be simulated.
+    #[error("no module `{top}` in the Verilog ({files}); give the sources of the whole core")]
+    NoTop {
+        /// The module.
+        top: String,
+        /// The files that were looked at.
+        files: String,
+    },
+
+    /// The Verilog's top module lacks a port of the design.
+    #[error("module `{top}` has no port `{port}`; is the Verilog that of another design?")]
+    NoPort {
+        /// The module.
+        top: String,
+        /// The port.
+        port: String,
+    },
+
+    /// A frame does not fit the design.
+    #[error(
+        "frame {index} is {found}, the design takes {wanted}; \
+         set frame.width, frame.height and frame.pixel_bits to match"
+    )]
+    FrameShape {
+        /// Number of the frame.
+        index: usize,
+        /// Its size and depth.
+        found: String,
+        /// Those of the design.
+        wanted: String,
+    },
+
+    /// The model refused a frame or an input.
+    #[error("the model refused its input: {reason}")]
+    Model {
+        /// Its words.
+        reason: String,
+    },
+
+    /// The simulator ended early.
+    #[error("{simulator} ended after {got} of {clocks} clocks ({status}){log}")]
+    Short {
+        /// The simulator.
+        simulator: String,
+        /// Clocks that it had to simulate.
+        clocks: u64,
+        /// Clocks that it has simulated.
+        got: u64,
+        /// How it ended.
+        status: String,
+        /// What it said, if anything.
+        log: String,
+    },
+
+    /// The folder for the replay cannot be written.
+    #[error(transparent)]
+    Output(#[from] StagingError),
+
+    /// A file could not be used.
+    #[error("cannot {action} `{}`: {source}", path.display())]
+    Io {
+        /// What was tried, such as "write".
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The reason.
+        source: std::io::Error,
+    },
+}
+
+impl CosimError {
+    /// For `map_err`: names the file and what was tried with it.
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        move |source| Self::Io { action, path: path.to_owned(), source }
+    }
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sources made from a port list alone: the C++ harness for Verilator and the replay bench.
+
+use crate::layout::Layout;
+use askama::Template;
+use foveate_spec::{Direction, Port, PortRole};
+
+/// The C++ main that clocks module `top` with packed records; see [`Layout`] for their bytes.
+#[must_use]
+pub fn cpp_harness(top: &str, ports: &[Port]) -> String {
+    let clock = clock_name(ports);
+    let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
+    rendered(&Harness { top, clock, inputs, outputs })
+}
+
+/// The name of the bench that [`replay_bench`] writes for module `top`.
+#[must_use]
+pub fn bench_name(top: &str) -> String {
+    format!("{top}_replay")
+}
+
+/// The file that it belongs into.
+#[must_use]
+pub fn bench_file(top: &str) -> String {
+    format!("{}.v", bench_name(top))
+}
+
+/// A bench in Verilog-2005 that replays vectors through module `top` and compares every output at
+/// every clock. What it reads is written by [`crate::vectors_hex`].
+#[must_use]
+pub fn replay_bench(top: &str, ports: &[Port]) -> String {
+    let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
+    let bench_ports = |layout: &Layout| -> Vec<BenchPort> {
+        layout.fields().iter().map(|field| BenchPort::new(&field.port)).collect()
+    };
+    let (inputs, outputs) = (bench_ports(&inputs), bench_ports(&outputs));
+    let columns = inputs.len() + outputs.len();
+    let clock = BenchPort {
+        name: clock_name(ports).to_owned(),
+        declared: clock_name(ports).to_owned(),
+        ..BenchPort::default()
+    };
+    rendered(&Bench {
+        top,
+        bench: bench_name(top),
+        clock,
+        has_lanes: outputs.iter().any(|port| port.lanes > 1),
+        scan_format: vec!["%h"; columns].join(" "),
+        columns,
+        inputs,
+        outputs,
+    })
+}
+
+#[derive(Template)]
+#[template(path = "harness.cpp")]
+struct Harness<'a> {
+    top: &'a str,
+    clock: &'a str,
+    inputs: Layout,
+    outputs: Layout,
+}
+
+#[derive(Template)]
+#[template(path = "replay_bench.v")]
+struct Bench<'a> {
+    top: &'a str,
+    bench: String,
+    clock: BenchPort,
+    inputs: Vec<BenchPort>,
+    outputs: Vec<BenchPort>,
+    has_lanes: bool,
+    scan_format: String,
+    columns: usize,
+}
+
+/// The pieces of text in which a port appears in the bench.
+#[derive(Default)]
+struct BenchPort {
+    name: String,
+    declared: String,
+    next: String,
+    expected: String,
+    lanes: u32,
+    lane: String,
+    expected_lane: String,
+}
+
+impl BenchPort {
+    fn new(port: &Port) -> Self {
+        let name = &port.name;
+        let range = match port.bits() {
+            1 => String::new(),
+            bits => format!("[{}:0] ", bits - 1),
+        };
+        let lane = |vector: &str| match port.width {
+            1 => format!("{vector}[lane]"),
+            width => format!("{vector}[lane*{width} +: {width}]"),
+        };
+        Self {
+            name: name.clone(),
+            declared: format!("{range}{name}"),
+            next: format!("{range}{name}_next"),
+            expected: format!("{range}{name}_expected"),
+            lanes: port.lanes,
+            lane: lane(name),
+            expected_lane: lane(&format!("{name}_expected")),
+        }
+    }
+}
+
+/// The clock, by role; a hand-made module has one of the same name.
+fn clock_name(ports: &[Port]) -> &str {
+    let is_clock =
+        |port: &&Port| port.direction == Direction::Input && matches!(port.role, PortRole::Clock);
+    ports.iter().find(is_clock).map_or("clk_i", |port| port.name.as_str())
+}
+
+/// A filled template, ending in the newline that askama drops. Rendering into a string fails only
+/// when a template calls something that can fail; none does.
+pub(crate) fn rendered(template: &impl Template) -> String {
+    template.render().unwrap_or_default() + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::port;
+
+    #[test]
+    fn ports_of_every_width_are_named_once_per_use() {
+        let ports = [
+            port("clk_i", Direction::Input, 1, 1),
+            port("a_i", Direction::Input, 33, 1),
+            port("b_o", Direction::Output, 8, 25),
+        ];
+        let cpp = cpp_harness("tiny", &ports);
+        assert!(cpp.contains("#include \"Vtiny.h\""), "{cpp}");
+        assert!(cpp.contains("put(top.a_i, record + 0, 5);"), "{cpp}");
+        assert!(cpp.contains("kFits<200, decltype(top.b_o)>"), "{cpp}");
+        assert!(!cpp.contains("put(top.clk_i"), "{cpp}");
+        let bench = replay_bench("tiny", &ports);
+        assert!(bench.contains("module tiny_replay;"), "{bench}");
+        assert!(bench.contains("b_o[lane*8 +: 8] !== b_o_expected[lane*8 +: 8]"), "{bench}");
+        assert!(bench.contains("while (columns == 2)"), "{bench}");
+    }
+}

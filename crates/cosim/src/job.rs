@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A whole co-simulation: vectors from the model, through the RTL, to a report.
+
+use crate::compare::Difference;
+use crate::error::CosimError;
+use crate::level::Level;
+use crate::recording::Recording;
+use crate::replay::{self, About};
+use crate::report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
+use crate::simulate::{Dut, Outcome, Run, Simulator};
+use crate::stimulus::Stimulus;
+use foveate_emit::{SourceFile, verilog};
+use foveate_spec::{Design, SpecError};
+use foveate_toolchain::{Cache, Source, Toolchain, sha256_hex};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Arrays of more regions than this share the code of one RPU; see [`Dut::no_inline`].
+const INLINED_REGIONS: u32 = 16;
+
+/// A co-simulation to run.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The design.
+    pub design: Design,
+    /// The Verilog: what the emitter makes of the design, or what a user made of that.
+    pub sources: Vec<SourceFile>,
+    /// The vectors.
+    pub stimulus: Stimulus,
+    /// The simulator.
+    pub simulator: Simulator,
+    /// Whether to write waves.
+    pub trace: bool,
+    /// The folder for what a failing run leaves. A run with waves and without mismatch leaves
+    /// them in a folder of this name too.
+    pub output: PathBuf,
+    /// The longest that the simulation itself may take.
+    pub limit: Duration,
+}
+
+/// What a job is busy with; for progress bars.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// The model makes the vectors: sequences done, and how many there are.
+    Vectors {
+        /// Sequences that are complete.
+        done: u64,
+        /// All of them.
+        total: u64,
+    },
+    /// The simulation is built, simulated and compared.
+    Simulation {
+        /// Clocks that are to be simulated.
+        clocks: u64,
+    },
+}
+
+impl Job {
+    /// A job with the Verilog that the emitter makes for the level of the stimulus.
+    ///
+    /// # Errors
+    /// When the level's grid makes a frame that no design can have.
+    pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, SpecError> {
+        let simulated = stimulus.level.design(design)?;
+        Ok(Self {
+            sources: verilog(&simulated, stimulus.level.top()),
+            design: design.clone(),
+            stimulus,
+            simulator: Simulator::default(),
+            trace: false,
+            output: output.to_owned(),
+            limit: Duration::from_secs(3600),
+        })
+    }
+
+    /// Runs it to a report; a mismatch is a result and no error.
+    ///
+    /// # Errors
+    /// When there is no result: a tool is missing or fails, a frame does not fit, a folder cannot
+    /// be written.
+    pub fn run(
+        &self,
+        toolchain: &Toolchain,
+        cache: &Cache,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<CosimReport, CosimError> {
+        let design = self.stimulus.level.design(&self.design)?;
+        replay::check(&self.output)?;
+        for &tool in self.simulator.tools() {
+            toolchain.find(tool)?;
+        }
+        let dut = self.dut(&design);
+        let start = Instant::now();
+        let recording = self.stimulus.record(&self.design, &mut |done, total| {
+            progress(Progress::Vectors { done, total });
+        })?;
+        let vectors = start.elapsed();
+        progress(Progress::Simulation { clocks: recording.clocks() });
+        let run = Run {
+            simulator: self.simulator,
+            seed: self.stimulus.seed,
+            trace: self.trace,
+            toolchain,
+            cache,
+            limit: self.limit,
+        };
+        let outcome = run.run(&dut, &recording)?;
+        let mut report = self.report(&design, &recording, &outcome);
+        report.seconds.vectors = vectors.as_secs_f64();
+        report.rtl_sha256 = rtl_sha256(&dut.sources);
+        if let (Some(difference), Some(mismatch)) = (&outcome.difference, &report.mismatch) {
+            let about =
+                About { difference, mismatch: &mismatch.to_string(), fingerprint: &report.design };
+            let folder = replay::write(&self.output, &run, &dut, &recording, &outcome, &about)?;
+            report.replay = Some(folder);
+        } else if let Some(waves) = &outcome.waves {
+            report.waves = Some(replay::write_waves(&self.output, waves)?);
+        }
+        Ok(report)
+    }
+
+    fn dut(&self, design: &Design) -> Dut {
+        let top = self.stimulus.level.top();
+        let array = self.stimulus.level != Level::Rpu && design.regions() > INLINED_REGIONS;
+        let source = |file: &SourceFile| (file.path.clone(), file.contents.clone());
+        Dut {
+            top: top.module().to_owned(),
+            ports: top.ports(design),
+            sources: self.sources.iter().map(source).collect(),
+            no_inline: if array { vec!["rpu".to_owned()] } else { Vec::new() },
+        }
+    }
+
+    fn report(&self, design: &Design, recording: &Recording, outcome: &Outcome) -> CosimReport {
+        let level = self.stimulus.level;
+        let mismatch = outcome.difference.as_ref().map(|d| named(d, recording, level));
+        let clocks = mismatch.as_ref().map_or(recording.clocks(), |mismatch| mismatch.clock + 1);
+        CosimReport {
+            format_version: FORMAT_VERSION,
+            name: format!("{level} {}", self.simulator),
+            design: design.fingerprint(),
+            level,
+            grid: (design.columns(), design.rows()),
+            simulator: self.simulator,
+            simulator_version: outcome.version.clone(),
+            rtl_sha256: String::new(),
+            seed: self.stimulus.seed,
+            sequences: recording.sequences(),
+            frames: recording.frames(),
+            clocks,
+            comparisons: clocks * recording.outputs().values(),
+            mismatch,
+            replay: None,
+            waves: None,
+            seconds: Seconds {
+                vectors: 0.0,
+                build: outcome.build.as_secs_f64(),
+                run: outcome.run.as_secs_f64(),
+            },
+        }
+    }
+}
+
+/// A difference in the words of the vectors.
+fn named(difference: &Difference, recording: &Recording, level: Level) -> Mismatch {
+    let span = recording.span(difference.clock);
+    Mismatch {
+        sequence: span.map_or_else(String::new, |span| span.sequence.clone()),
+        frame: span.map_or(0, |span| span.frame),
+        clock: difference.clock,
+        clock_in_frame: difference.clock - span.map_or(0, |span| span.first_clock),
+        region: match level {
+            Level::Rpu => span.and_then(|span| span.region),
+            Level::Rcm { .. } | Level::Full => Some(difference.lane),
+        },
+        port: difference.port.clone(),
+        expected: difference.expected.clone(),
+        got: difference.got.clone(),
+    }
+}
+
+/// One hash for all files, in their order.
+fn rtl_sha256(sources: &[Source]) -> String {
+    let each = |(name, contents): &Source| format!("{} {name}\n", sha256_hex(contents));
+    sha256_hex(sources.iter().map(each).collect::<String>())
+}

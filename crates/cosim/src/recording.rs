@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Vectors on disk: what goes in, and what the model says must come out, clock by clock.
+//!
+//! Both are files of packed records (see [`Layout`]) in a folder of their own, so that the length
+//! of a run is bounded by the disk and not by memory, and the simulator reads the one directly.
+
+use crate::error::CosimError;
+use crate::layout::Layout;
+use foveate_spec::Port;
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// Where a stretch of clocks belongs, to name a mismatch in the words of the vectors.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// The first clock of the stretch; it ends where the next begins.
+    pub first_clock: u64,
+    /// The name of the sequence of frames.
+    pub sequence: String,
+    /// The frame of the sequence that enters, from 0.
+    pub frame: u64,
+    /// The region whose pixels enter, where one region is simulated at a time.
+    pub region: Option<u32>,
+}
+
+/// Finished vectors. The files vanish with the value.
+#[derive(Debug)]
+pub struct Recording {
+    folder: TempDir,
+    inputs: Layout,
+    outputs: Layout,
+    clocks: u64,
+    frames: u64,
+    spans: Vec<Span>,
+}
+
+impl Recording {
+    /// The layout of an input record.
+    #[must_use]
+    pub fn inputs(&self) -> &Layout {
+        &self.inputs
+    }
+
+    /// The layout of an output record.
+    #[must_use]
+    pub fn outputs(&self) -> &Layout {
+        &self.outputs
+    }
+
+    /// Clocks, one record of each kind per clock.
+    #[must_use]
+    pub fn clocks(&self) -> u64 {
+        self.clocks
+    }
+
+    /// Frames that were begun.
+    #[must_use]
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Sequences of frames.
+    #[must_use]
+    pub fn sequences(&self) -> u64 {
+        let starts = self.spans.chunk_by(|a, b| a.sequence == b.sequence && a.region == b.region);
+        starts.count() as u64
+    }
+
+    /// The stretch to which a clock belongs.
+    #[must_use]
+    pub fn span(&self, clock: u64) -> Option<&Span> {
+        let after = self.spans.partition_point(|span| span.first_clock <= clock);
+        after.checked_sub(1).and_then(|index| self.spans.get(index))
+    }
+
+    /// The file of input records.
+    #[must_use]
+    pub fn inputs_path(&self) -> PathBuf {
+        inputs_path(self.folder.path())
+    }
+
+    /// The file of expected output records.
+    #[must_use]
+    pub fn expected_path(&self) -> PathBuf {
+        expected_path(self.folder.path())
+    }
+
+    /// The folder of the files, for what a run adds.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Writes the first `limit` clocks as the vectors of a replay bench.
+    ///
+    /// # Errors
+    /// When a file cannot be read or written.
+    pub fn write_hex(&self, path: &Path, limit: u64) -> Result<(), CosimError> {
+        let file = File::create(path).map_err(CosimError::io("write", path))?;
+        let mut file = BufWriter::with_capacity(1 << 18, file);
+        self.each_line(limit, |line| file.write_all(line.as_bytes()), path)?;
+        file.flush().map_err(CosimError::io("write", path))
+    }
+
+    fn each_line(
+        &self,
+        limit: u64,
+        mut write: impl FnMut(&str) -> std::io::Result<()>,
+        to: &Path,
+    ) -> Result<(), CosimError> {
+        let (inputs, expected) = (self.inputs_path(), self.expected_path());
+        let mut sources = [open(&inputs)?, open(&expected)?];
+        let [input, output] = &mut sources;
+        let (mut applied, mut wanted) = (self.inputs.record(), self.outputs.record());
+        let mut line = String::new();
+        for _ in 0..self.clocks.min(limit) {
+            input.read_exact(&mut applied).map_err(CosimError::io("read", &inputs))?;
+            output.read_exact(&mut wanted).map_err(CosimError::io("read", &expected))?;
+            line.clear();
+            self.inputs.write_hex(&applied, &mut line);
+            self.outputs.write_hex(&wanted, &mut line);
+            line.push('\n');
+            write(&line).map_err(CosimError::io("write", to))?;
+        }
+        Ok(())
+    }
+}
+
+/// The first `limit` clocks of a recording as text for a replay bench: a line per clock.
+///
+/// # Errors
+/// When the recording cannot be read.
+pub fn vectors_hex(recording: &Recording, limit: u64) -> Result<String, CosimError> {
+    let mut text = String::new();
+    let append = |line: &str| {
+        text.push_str(line);
+        Ok(())
+    };
+    recording.each_line(limit, append, Path::new("vectors"))?;
+    Ok(text)
+}
+
+/// Writes a recording.
+#[derive(Debug)]
+pub struct Recorder {
+    recording: Recording,
+    input: BufWriter<File>,
+    expected: BufWriter<File>,
+}
+
+impl Recorder {
+    /// An empty recording for a module with these ports.
+    ///
+    /// # Errors
+    /// When there is no place for temporary files.
+    pub fn new(ports: &[Port]) -> Result<Self, CosimError> {
+        let parent = std::env::temp_dir();
+        let folder = tempfile::Builder::new()
+            .prefix("foveate-cosim-")
+            .tempdir_in(&parent)
+            .map_err(CosimError::io("create a folder in", &parent))?;
+        let create = |path: PathBuf| {
+            let file = File::create(&path).map_err(CosimError::io("write", &path))?;
+            Ok::<_, CosimError>(BufWriter::with_capacity(1 << 18, file))
+        };
+        Ok(Self {
+            input: create(inputs_path(folder.path()))?,
+            expected: create(expected_path(folder.path()))?,
+            recording: Recording {
+                folder,
+                inputs: Layout::inputs(ports),
+                outputs: Layout::outputs(ports),
+                clocks: 0,
+                frames: 0,
+                spans: Vec::new(),
+            },
+        })
+    }
+
+    /// The layout of an input record.
+    #[must_use]
+    pub fn inputs(&self) -> &Layout {
+        &self.recording.inputs
+    }
+
+    /// The layout of an output record.
+    #[must_use]
+    pub fn outputs(&self) -> &Layout {
+        &self.recording.outputs
+    }
+
+    /// Clocks so far.
+    #[must_use]
+    pub fn clocks(&self) -> u64 {
+        self.recording.clocks
+    }
+
+    /// Names the clocks from here on, and counts a frame.
+    pub fn begin_frame(&mut self, sequence: &str, frame: u64, region: Option<u32>) {
+        let first_clock = self.recording.clocks;
+        self.recording.frames += 1;
+        let sequence = sequence.to_owned();
+        self.recording.spans.push(Span { first_clock, sequence, frame, region });
+    }
+
+    /// Adds one clock: the inputs of an edge, and the outputs after it.
+    ///
+    /// # Errors
+    /// When the files cannot be written.
+    pub fn push(&mut self, input: &[u8], expected: &[u8]) -> Result<(), CosimError> {
+        let folder = self.recording.folder.path();
+        self.input.write_all(input).map_err(CosimError::io("write", folder))?;
+        self.expected.write_all(expected).map_err(CosimError::io("write", folder))?;
+        self.recording.clocks += 1;
+        Ok(())
+    }
+
+    /// Ends the recording.
+    ///
+    /// # Errors
+    /// When the files cannot be written.
+    pub fn finish(mut self) -> Result<Recording, CosimError> {
+        let folder = self.recording.folder.path();
+        self.input.flush().map_err(CosimError::io("write", folder))?;
+        self.expected.flush().map_err(CosimError::io("write", folder))?;
+        Ok(self.recording)
+    }
+}
+
+fn inputs_path(folder: &Path) -> PathBuf {
+    folder.join("inputs.bin")
+}
+
+fn expected_path(folder: &Path) -> PathBuf {
+    folder.join("expected.bin")
+}
+
+/// A large buffer in front of a file.
+pub(crate) fn open(path: &Path) -> Result<BufReader<File>, CosimError> {
+    let file = File::open(path).map_err(CosimError::io("read", path))?;
+    Ok(BufReader::with_capacity(1 << 18, file))
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The folder that a failing run leaves: everything that shows the mismatch again, without Foveate.
+
+use crate::compare::Difference;
+use crate::error::CosimError;
+use crate::harness::{bench_file, bench_name, rendered, replay_bench};
+use crate::recording::Recording;
+use crate::simulate::{Dut, Outcome, Run, Simulator, VECTORS_FILE, WAVES_FILE};
+use askama::Template;
+use foveate_staging::{Kind, StagedFolder};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const SCRIPT: &str = "replay.sh";
+/// What is written, and what makes way for it.
+const REPLAY: Kind = Kind {
+    what: "a replay (its replay.sh) or waves (its waves.fst)",
+    is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
+};
+/// Clocks that are kept behind the mismatch.
+const MARGIN: u64 = 16;
+
+#[derive(Template)]
+#[template(path = "replay.sh")]
+struct Script<'a> {
+    top: &'a str,
+    bench: String,
+    bench_file: String,
+    vectors_file: &'a str,
+    simulator: Simulator,
+    seed: u64,
+    files: Vec<String>,
+}
+
+#[derive(Template)]
+#[template(path = "replay.md")]
+struct Readme<'a> {
+    top: &'a str,
+    bench_file: String,
+    vectors_file: &'a str,
+    mismatch: &'a str,
+    clocks: u64,
+    version: &'a str,
+    seed: u64,
+    fingerprint: &'a str,
+}
+
+/// What a replay shows, for its README.
+pub(crate) struct About<'a> {
+    pub(crate) difference: &'a Difference,
+    pub(crate) mismatch: &'a str,
+    pub(crate) fingerprint: &'a str,
+}
+
+/// Refuses a folder that holds something else, before anything is simulated.
+pub(crate) fn check(folder: &Path) -> Result<(), CosimError> {
+    Ok(StagedFolder::check(folder, REPLAY, true)?)
+}
+
+/// Writes the folder beside its place, then puts it there; an earlier replay makes way.
+pub(crate) fn write(
+    folder: &Path,
+    run: &Run<'_>,
+    dut: &Dut,
+    recording: &Recording,
+    outcome: &Outcome,
+    about: &About<'_>,
+) -> Result<PathBuf, CosimError> {
+    let staged = StagedFolder::new(folder, REPLAY, true)?;
+    fill(staged.folder(), run, dut, recording, outcome, about)?;
+    staged.commit()?;
+    Ok(folder.to_owned())
+}
+
+/// Writes the folder of a run without a mismatch whose waves were asked for.
+pub(crate) fn write_waves(folder: &Path, waves: &Path) -> Result<PathBuf, CosimError> {
+    let staged = StagedFolder::new(folder, REPLAY, true)?;
+    copy_waves(waves, staged.folder())?;
+    staged.commit()?;
+    Ok(folder.join(WAVES_FILE))
+}
+
+fn copy_waves(waves: &Path, dir: &Path) -> Result<(), CosimError> {
+    let to = dir.join(WAVES_FILE);
+    fs::copy(waves, &to).map(drop).map_err(CosimError::io("write", &to))
+}
+
+fn fill(
+    dir: &Path,
+    run: &Run<'_>,
+    dut: &Dut,
+    recording: &Recording,
+    outcome: &Outcome,
+    about: &About<'_>,
+) -> Result<(), CosimError> {
+    let limit = about.difference.clock.saturating_add(MARGIN).min(recording.clocks());
+    let bench = replay_bench(&dut.top, &dut.ports);
+    // As they stand between single quotes.
+    let files = dut.sources.iter().map(|(name, _)| name.replace('\'', r"'\''")).collect();
+    let script = rendered(&Script {
+        top: &dut.top,
+        bench: bench_name(&dut.top),
+        bench_file: bench_file(&dut.top),
+        vectors_file: VECTORS_FILE,
+        simulator: run.simulator,
+        seed: run.seed,
+        files,
+    });
+    let readme = rendered(&Readme {
+        top: &dut.top,
+        bench_file: bench_file(&dut.top),
+        vectors_file: VECTORS_FILE,
+        mismatch: about.mismatch,
+        clocks: limit,
+        version: &outcome.version,
+        seed: run.seed,
+        fingerprint: about.fingerprint,
+    });
+    for (name, contents) in &dut.sources {
+        put(dir, name, contents)?;
+    }
+    put(dir, &bench_file(&dut.top), &bench)?;
+    put(dir, "README.md", &readme)?;
+    put(dir, SCRIPT, &script)?;
+    make_executable(&dir.join(SCRIPT))?;
+    recording.write_hex(&dir.join(VECTORS_FILE), limit)?;
+    outcome.waves.as_ref().map_or(Ok(()), |waves| copy_waves(waves, dir))
+}
+
+fn put(dir: &Path, name: &str, contents: &str) -> Result<(), CosimError> {
+    let path = dir.join(name);
+    if let Some(parent) = path.parent() {
+        fs::create_dir_all(parent).map_err(CosimError::io("create", parent))?;
+    }
+    fs::write(&path, contents).map_err(CosimError::io("write", &path))
+}
+
+#[cfg(unix)]
+fn make_executable(path: &Path) -> Result<(), CosimError> {
+    use std::os::unix::fs::PermissionsExt as _;
+    let mode = fs::Permissions::from_mode(0o755);
+    fs::set_permissions(path, mode).map_err(CosimError::io("write", path))
+}
+
+#[cfg(not(unix))]
+fn make_executable(_: &Path) -> Result<(), CosimError> {
+    Ok(())
+}

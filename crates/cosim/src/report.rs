@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a co-simulation came to, for people and for machines.
+
+use crate::level::Level;
+use crate::simulate::Simulator;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::path::PathBuf;
+
+/// Version of [`CosimReport`] as JSON; changes when a field changes its meaning or goes.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// The result of one co-simulation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CosimReport {
+    /// [`FORMAT_VERSION`].
+    pub format_version: u32,
+    /// Name for people, such as `rpu verilator`.
+    pub name: String,
+    /// Fingerprint of the design, with the frame that was simulated.
+    pub design: String,
+    /// How much of the hardware was simulated.
+    pub level: Level,
+    /// Regions side by side, and one below the other.
+    pub grid: (u32, u32),
+    /// The simulator.
+    pub simulator: Simulator,
+    /// What it says about its version.
+    pub simulator_version: String,
+    /// SHA-256 of names and contents of the Verilog.
+    pub rtl_sha256: String,
+    /// Seed of the vectors.
+    pub seed: u64,
+    /// Sequences of frames, each after a reset.
+    pub sequences: u64,
+    /// Frames that were streamed.
+    pub frames: u64,
+    /// Clock edges, up to the first mismatch.
+    pub clocks: u64,
+    /// Values that were compared: every output of every region at each of these edges.
+    pub comparisons: u64,
+    /// The first mismatch.
+    pub mismatch: Option<Mismatch>,
+    /// The folder that replays it.
+    pub replay: Option<PathBuf>,
+    /// Waves of a run without a mismatch, if they were asked for.
+    pub waves: Option<PathBuf>,
+    /// Where the time went.
+    pub seconds: Seconds,
+}
+
+impl CosimReport {
+    /// Whether model and RTL agree.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.mismatch.is_none()
+    }
+}
+
+/// Durations in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// To make the vectors and run the model.
+    pub vectors: f64,
+    /// To build the simulation; next to nothing when it was found in the cache.
+    pub build: f64,
+    /// To simulate and compare.
+    pub run: f64,
+}
+
+/// The first output that differs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mismatch {
+    /// The sequence of frames.
+    pub sequence: String,
+    /// The frame of the sequence that was entering, from 0.
+    pub frame: u64,
+    /// The clock edge, counted from the first of the run.
+    pub clock: u64,
+    /// The clock edge, counted from the first of the frame.
+    pub clock_in_frame: u64,
+    /// The region, unless a single RPU was fed with made-up pixels.
+    pub region: Option<u32>,
+    /// The output port.
+    pub port: String,
+    /// What the model says, hexadecimal.
+    pub expected: String,
+    /// What the simulator says, hexadecimal; `x` where it does not know.
+    pub got: String,
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { sequence, frame, clock, clock_in_frame, region, port, expected, got } = self;
+        write!(f, "sequence \"{sequence}\", frame {frame}, clock {clock_in_frame} of it")?;
+        write!(f, " ({clock} of the run)")?;
+        if let Some(region) = region {
+            write!(f, ", region {region}")?;
+        }
+        write!(f, ": {port} is 'h{got}, expected 'h{expected}")
+    }
+}
+
+impl fmt::Display for CosimReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, frames, clocks, comparisons, .. } = self;
+        match &self.mismatch {
+            None => write!(
+                f,
+                "{name}: {frames} frames, {clocks} clocks, {comparisons} values compared, no mismatch"
+            ),
+            Some(mismatch) => write!(f, "{name}: mismatch after {clocks} clocks: {mismatch}"),
+        }
+    }
+}

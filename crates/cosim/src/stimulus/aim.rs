@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds that hit the data: exactly on it, one below and one above.
+
+use super::gauge::{filtered, window};
+use super::random::Random;
+use foveate_model::Thresholds;
+use foveate_model::feature::{corner::strength, edge::magnitude};
+use foveate_spec::{Design, FeatureKind, Filter};
+
+/// The largest value of every threshold port.
+#[derive(Clone, Debug)]
+pub(crate) struct Ranges {
+    kinds: Vec<FeatureKind>,
+    level: [u32; 4],
+    min_score: [u64; 4],
+    temporal_level: u32,
+    temporal_min_count: u32,
+    denoise: bool,
+}
+
+impl Ranges {
+    pub(crate) fn of(design: &Design) -> Self {
+        let top = |bits: u32| u64::MAX >> (64 - bits.clamp(1, 64));
+        let top_u32 = |bits: u32| u32::try_from(top(bits)).unwrap_or(u32::MAX);
+        let (mut level, mut min_score) = ([0; 4], [0; 4]);
+        for (index, feature) in design.features().iter().enumerate() {
+            level[index] = feature.level().map_or(0, |_| top_u32(feature.level_bits()));
+            min_score[index] = top(feature.score_bits());
+        }
+        Self {
+            kinds: design.features().iter().map(|feature| feature.kind()).collect(),
+            level,
+            min_score,
+            temporal_level: design.pixel_max(),
+            temporal_min_count: top_u32(design.count_bits()),
+            denoise: design.filter() == Filter::Median3x3,
+        }
+    }
+
+    /// Levels for a frame that shows `now` after `before`, squares of the same size.
+    pub(crate) fn aim_levels(
+        &self,
+        now: &[u16],
+        before: &[u16],
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
+        let (now, before) = if self.denoise {
+            (filtered(now), filtered(before))
+        } else {
+            (now.to_vec(), before.to_vec())
+        };
+        let places = now.len().saturating_sub(1) as u64;
+        let mut place = || usize::try_from(random.up_to(places)).unwrap_or(0);
+        let (at, changed) = (place(), place());
+        let window = window(&now, at);
+        for (index, kind) in self.kinds.iter().enumerate() {
+            let value = match kind {
+                FeatureKind::Edge => magnitude(&window),
+                FeatureKind::Corner => strength(&window).unwrap_or(0),
+                FeatureKind::Mad | FeatureKind::Variance => continue,
+            };
+            let max = self.level[index].into();
+            thresholds.level[index] = narrow(near(value.into(), max, random));
+        }
+        let difference = now[changed].abs_diff(before[changed]);
+        thresholds.temporal_level =
+            narrow(near(difference.into(), self.temporal_level.into(), random));
+    }
+
+    /// Thresholds without any relation to the data.
+    pub(crate) fn shake(&self, thresholds: &mut Thresholds, random: &mut Random) {
+        for (level, &max) in thresholds.level.iter_mut().zip(&self.level) {
+            let reach = if random.one_in(2) { max } else { max / 16 };
+            *level = random.up_to_u32(reach);
+        }
+        thresholds.temporal_level = random.up_to_u32(self.temporal_level);
+        for (minimum, &max) in thresholds.min_score.iter_mut().zip(&self.min_score) {
+            *minimum = random.up_to(max);
+        }
+        thresholds.temporal_min_count = random.up_to_u32(self.temporal_min_count);
+    }
+
+    /// Minima for scores that are decided now.
+    pub(crate) fn aim_minima(
+        &self,
+        scores: &[u64; 4],
+        temporal_count: u32,
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
+        let minima = thresholds.min_score.iter_mut().zip(scores).zip(&self.min_score);
+        for ((minimum, &score), &max) in minima.take(self.kinds.len()) {
+            *minimum = near(score, max, random);
+        }
+        let max = self.temporal_min_count.into();
+        thresholds.temporal_min_count = narrow(near(temporal_count.into(), max, random));
+    }
+}
+
+/// The value, one less or one more; rarely something else.
+fn near(value: u64, max: u64, random: &mut Random) -> u64 {
+    let chosen = match random.up_to(9) {
+        0..=3 => value,
+        4..=6 => value + 1,
+        7..=8 => value.saturating_sub(1),
+        _ if random.one_in(2) => random.up_to(max),
+        _ => 0,
+    };
+    chosen.min(max)
+}
+
+fn narrow(value: u64) -> u32 {
+    u32::try_from(value).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How motifs are drawn: the figures, with differences and counts near the design's thresholds.
+
+use super::motif::Artist;
+use super::random::Random;
+
+impl Artist {
+    /// A square from a function of maximum and place.
+    pub(super) fn fill(&self, mut value: impl FnMut(u16, (usize, usize)) -> u16) -> Vec<u16> {
+        let places = (0..self.side * self.side).map(|at| (at % self.side, at / self.side));
+        places.map(|place| value(self.max, place)).collect()
+    }
+
+    /// Number of a place among the pixels of the region; halo comes after all of them.
+    pub(super) fn rank(&self, at: usize) -> usize {
+        let (x, y) = (at % self.side, at / self.side);
+        let own = self.margin..self.side - self.margin;
+        if own.contains(&x) && own.contains(&y) {
+            (y - self.margin) * own.len() + x - self.margin
+        } else {
+            usize::MAX
+        }
+    }
+
+    /// Every pixel from what it was.
+    pub(super) fn each(
+        &mut self,
+        mut pixels: Vec<u16>,
+        mut value: impl FnMut(&mut Random, u16, u16) -> u16,
+    ) -> Vec<u16> {
+        for pixel in &mut pixels {
+            *pixel = value(&mut self.random, self.max, *pixel);
+        }
+        pixels
+    }
+
+    /// A difference of two pixels: mostly one that meets a threshold, or misses it by one.
+    pub(super) fn amount(&mut self) -> u16 {
+        if self.random.one_in(4) {
+            return self.random.pixel(self.max);
+        }
+        self.random.of(&self.amounts).unwrap_or(1)
+    }
+
+    fn place(&mut self) -> usize {
+        let last = self.side - 1;
+        usize::try_from(self.random.up_to(last as u64)).unwrap_or(0)
+    }
+
+    /// A difference of a pixel from what it was before.
+    pub(super) fn change(&mut self) -> u16 {
+        if self.random.one_in(2) {
+            return self.amount();
+        }
+        self.random.of(&self.changes).unwrap_or(1)
+    }
+
+    /// Two values that differ by a chosen amount.
+    pub(super) fn pair(&mut self) -> (u16, u16) {
+        let amount = self.amount();
+        let low = self.random.pixel(self.max - amount);
+        if self.random.one_in(2) { (low, low + amount) } else { (low + amount, low) }
+    }
+
+    pub(super) fn hot_corner(&mut self) -> Vec<u16> {
+        let (base, hot) = self.pair();
+        let near = self.margin + usize::from(self.random.one_in(4));
+        let mut end = || if self.random.one_in(2) { near } else { self.side - 1 - near };
+        let spot = (end(), end());
+        self.fill(|_, place| if place == spot { hot } else { base })
+    }
+
+    pub(super) fn step(&mut self) -> Vec<u16> {
+        let (near, far) = self.pair();
+        let (at, kind) = (self.place() + 1, self.random.up_to(2));
+        self.fill(|_, (x, y)| {
+            let along = [x, y, (x + y) / 2][usize::try_from(kind).unwrap_or(0)];
+            if along < at { near } else { far }
+        })
+    }
+
+    pub(super) fn ramp(&mut self) -> Vec<u16> {
+        let steepest = usize::from(self.max) / (2 * self.side).max(1);
+        let slope = usize::from(self.amount()).min(steepest).max(1);
+        let (falls, diagonal) = (self.random.one_in(2), self.random.one_in(2));
+        self.fill(|max, (x, y)| {
+            let along = if diagonal { x + y } else { x };
+            let value = u16::try_from(slope * along).unwrap_or(max).min(max);
+            if falls { max - value } else { value }
+        })
+    }
+
+    /// The ring clockwise from the upper left, as offsets from the cell before the center.
+    pub(super) fn ring(&mut self) -> Vec<u16> {
+        const RING: [(usize, usize); 8] =
+            [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+        let (center, around) = self.pair();
+        let (first, length) = (self.random.up_to(7), 4 + self.random.up_to(4));
+        let (x, y) = (self.place(), self.place());
+        let mut pixels = self.fill(|_, _| center);
+        for number in first..first + length {
+            let (dx, dy) = RING[usize::try_from(number % 8).unwrap_or(0)];
+            let (x, y) = (x + dx, y + dy);
+            if (1..=self.side).contains(&x) && (1..=self.side).contains(&y) {
+                pixels[(y - 1) * self.side + x - 1] = around;
+            }
+        }
+        pixels
+    }
+
+    /// Two neighboring levels, as many of each as it takes for the mean to end just on, below or
+    /// above the point at which it is rounded up.
+    pub(super) fn half_mean(&mut self) -> Vec<u16> {
+        let low = self.random.pixel(self.max - 1);
+        let wanted = [0, 1, self.count - 1];
+        let remainder = |more: usize| (self.mean_unit * more + self.count / 2) % self.count;
+        let start = usize::try_from(self.random.up_to(self.count as u64)).unwrap_or(0);
+        let more = (0..self.count).map(|step| (start + step) % self.count);
+        let more =
+            more.into_iter().find(|&more| wanted.contains(&remainder(more))).unwrap_or(start);
+        self.fill(|_, (x, y)| if self.rank(y * self.side + x) < more { low + 1 } else { low })
+    }
+
+    pub(super) fn two_point(&mut self) -> Vec<u16> {
+        let full = self.random.one_in(2);
+        let (low, high) = if full { (0, self.max) } else { self.pair() };
+        let any = usize::try_from(self.random.up_to(self.count as u64)).unwrap_or(0);
+        let split = if full { self.count / 2 } else { any };
+        self.fill(|_, (x, y)| if self.rank(y * self.side + x) < split { low } else { high })
+    }
+
+    pub(super) fn smooth(&mut self) -> Vec<u16> {
+        let mut corner = || i64::from(self.random.pixel(self.max));
+        let (a, b, c, d) = (corner(), corner(), corner(), corner());
+        let span = i64::try_from(self.side).unwrap_or(1);
+        self.fill(|max, (x, y)| {
+            let (x, y) = (i64::try_from(x).unwrap_or(0), i64::try_from(y).unwrap_or(0));
+            let upper = a * (span - x) + b * x;
+            let lower = c * (span - x) + d * x;
+            let value = (upper * (span - y) + lower * y) / (span * span);
+            u16::try_from(value).unwrap_or(max).min(max)
+        })
+    }
+
+    pub(super) fn bump(&mut self, mut pixels: Vec<u16>) -> Vec<u16> {
+        let (amount, up) = (self.change(), self.random.one_in(2));
+        let count = self.random.of(&self.counts).unwrap_or(0) as usize;
+        for (at, pixel) in pixels.iter_mut().enumerate() {
+            if self.rank(at) < count {
+                *pixel = moved(*pixel, amount, up, self.max);
+            }
+        }
+        pixels
+    }
+
+    pub(super) fn moving_pixel(&mut self, mut pixels: Vec<u16>) -> Vec<u16> {
+        let amount = self.change();
+        let (from, to) = (self.place() * self.side + self.place(), self.place());
+        let background = pixels[to];
+        pixels[from] = background;
+        let to = self.place() * self.side + to;
+        pixels[to] = moved(background, amount, true, self.max);
+        pixels
+    }
+}
+
+/// A pixel more or less by an amount, the other way where there is no room.
+pub(super) fn moved(pixel: u16, amount: u16, up: bool, max: u16) -> u16 {
+    let (more, less) = (pixel.checked_add(amount).filter(|&v| v <= max), pixel.checked_sub(amount));
+    let wanted = if up { more.or(less) } else { less.or(more) };
+    wanted.unwrap_or(if up { max } else { 0 })
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Streams frames into the model, clock by clock, and records what goes in and what comes out.
+
+use super::aim::Ranges;
+use super::machine::{Codec, Inputs, Machine};
+use super::random::Random;
+use super::sequence::{Aim, Gaps};
+use crate::error::CosimError;
+use crate::recording::Recorder;
+use foveate_model::{RpuOutput, Thresholds};
+use foveate_spec::{Design, Thresholds as Mode};
+
+/// Streams frames into the model.
+pub(crate) struct Driver<'a> {
+    machine: Machine,
+    recorder: &'a mut Recorder,
+    codec: Codec,
+    pub(crate) ranges: Ranges,
+    pub(crate) random: Random,
+    /// Thresholds as they are now.
+    pub(crate) thresholds: Thresholds,
+    configured: Thresholds,
+    constant: bool,
+    aim: Aim,
+    border: u8,
+    max: u16,
+    garbage: Vec<u16>,
+    input: Vec<u8>,
+    expected: Vec<u8>,
+    outputs: Vec<RpuOutput>,
+}
+
+impl<'a> Driver<'a> {
+    pub(crate) fn new(
+        design: &Design,
+        machine: Machine,
+        lanes: usize,
+        recorder: &'a mut Recorder,
+        random: Random,
+    ) -> Self {
+        let configured = Thresholds::of(design);
+        Self {
+            machine,
+            input: recorder.inputs().record(),
+            expected: recorder.outputs().record(),
+            recorder,
+            codec: Codec::new(design),
+            ranges: Ranges::of(design),
+            random,
+            thresholds: configured,
+            configured,
+            constant: design.thresholds() == Mode::Constant,
+            aim: Aim::Design,
+            border: 0,
+            max: u16::try_from(design.pixel_max()).unwrap_or(u16::MAX),
+            garbage: vec![0; lanes],
+            outputs: Vec::with_capacity(lanes),
+        }
+    }
+
+    /// Starts over: a reset, during which anything may be on the other inputs.
+    pub(crate) fn begin(&mut self, aim: Aim, border: u8) -> Result<(), CosimError> {
+        self.aim = if self.constant { Aim::Design } else { aim };
+        self.border = border;
+        self.thresholds = self.configured;
+        for _ in 0..=self.random.up_to(1) {
+            let valid = self.random.one_in(2);
+            self.shuffle_garbage();
+            self.clock(true, valid, None)?;
+        }
+        Ok(())
+    }
+
+    /// Whether the thresholds are those of the design, so that the data must meet them.
+    pub(crate) fn thresholds_are_configured(&self) -> bool {
+        self.aim == Aim::Design
+    }
+
+    /// Names the clocks from here on.
+    pub(crate) fn name(&mut self, sequence: &str, frame: u64, region: Option<u32>) {
+        self.recorder.begin_frame(sequence, frame, region);
+    }
+
+    /// Levels for the frame that comes.
+    pub(crate) fn aim_levels(&mut self, now: &[u16], before: &[u16]) {
+        if self.aim == Aim::Exact {
+            self.ranges.aim_levels(now, before, &mut self.thresholds, &mut self.random);
+        }
+    }
+
+    /// The first `count` pixels of a frame; `streams` holds one stream per lane, one after the other.
+    pub(crate) fn stream(
+        &mut self,
+        streams: &[u16],
+        count: usize,
+        gaps: Gaps,
+    ) -> Result<(), CosimError> {
+        let lanes = self.garbage.len();
+        let length = streams.len() / lanes;
+        let mut pixels = vec![0; lanes];
+        for at in 0..count.min(length) {
+            let pause = gaps.before_pixel(&mut self.random);
+            self.idle(pause)?;
+            for (pixel, stream) in pixels.iter_mut().zip(streams.chunks_exact(length)) {
+                *pixel = stream[at];
+            }
+            self.clock(false, true, Some(&pixels))?;
+        }
+        Ok(())
+    }
+
+    /// Clocks without a pixel; the pixel port shows anything.
+    pub(crate) fn idle(&mut self, clocks: u64) -> Result<(), CosimError> {
+        for _ in 0..clocks {
+            self.shuffle_garbage();
+            self.clock(false, false, None)?;
+        }
+        Ok(())
+    }
+
+    fn shuffle_garbage(&mut self) {
+        for pixel in &mut self.garbage {
+            *pixel = self.random.pixel(self.max);
+        }
+    }
+
+    /// One edge. Without pixels the garbage is applied.
+    fn clock(
+        &mut self,
+        reset: bool,
+        valid: bool,
+        pixels: Option<&[u16]>,
+    ) -> Result<(), CosimError> {
+        if self.aim == Aim::Restless {
+            self.ranges.shake(&mut self.thresholds, &mut self.random);
+        }
+        let pixels = pixels.unwrap_or(&self.garbage);
+        let mut inputs =
+            Inputs { reset, valid, pixels, border: self.border, thresholds: self.thresholds };
+        if self.aim != Aim::Design {
+            // What is decided after this edge does not depend on the minima of this edge, so that a
+            // copy can look ahead.
+            self.machine.clone().step(&inputs, &mut self.outputs);
+            let decided = self.outputs.first().is_some_and(|output| output.decision_valid);
+            let lane = self.random.up_to(self.outputs.len().saturating_sub(1) as u64);
+            let output = usize::try_from(lane).ok().and_then(|lane| self.outputs.get(lane));
+            if let (true, Some(output)) = (decided, output) {
+                let (scores, count) = (&output.scores, output.temporal_count);
+                self.ranges.aim_minima(scores, count, &mut self.thresholds, &mut self.random);
+                inputs.thresholds = self.thresholds;
+            }
+        }
+        self.machine.step(&inputs, &mut self.outputs);
+        self.codec.inputs(self.recorder.inputs(), &inputs, &mut self.input);
+        self.codec.outputs(self.recorder.outputs(), &self.outputs, &mut self.expected);
+        self.recorder.push(&self.input, &self.expected)
+    }
+}

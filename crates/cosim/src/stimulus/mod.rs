@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Vectors for a design: what goes into the hardware, with what the model says comes out.
+//!
+//! A recording is a row of *sequences*, each begun by a reset: directed ones from [`motif`]s, with
+//! thresholds that hit the data exactly ([`aim`]) and pixels with and without gaps, then the frames
+//! of the caller. Sequences end drained, in mid-frame or in mid-flush, so that each reset finds
+//! something else under way. Everything follows from the design, the seed and the frames.
+
+mod aim;
+mod brush;
+mod driver;
+mod gauge;
+mod machine;
+mod motif;
+mod random;
+mod sequence;
+mod session;
+
+use crate::error::CosimError;
+use crate::level::Level;
+use crate::recording::{Recorder, Recording};
+use driver::Driver;
+use foveate_model::{Frame, PipelinedRcm, PipelinedRpu};
+use foveate_spec::Design;
+use machine::Machine;
+use random::Random;
+use session::Session;
+
+/// What vectors are made from.
+#[derive(Clone, Debug)]
+pub struct Stimulus {
+    /// How much of the hardware they are for.
+    pub level: Level,
+    /// Equal seeds give equal vectors.
+    pub seed: u64,
+    /// How often the directed sequences are run through, each time with other data and gaps;
+    /// 0 leaves only the frames.
+    pub rounds: u32,
+    /// Frames of the caller, of the size and depth of the design.
+    pub frames: Vec<Frame>,
+}
+
+impl Default for Stimulus {
+    fn default() -> Self {
+        Self { level: Level::Rpu, seed: 1, rounds: 3, frames: Vec::new() }
+    }
+}
+
+impl Stimulus {
+    /// Runs the model and records. `progress` hears how many sequences of how many are done.
+    ///
+    /// # Errors
+    /// When a frame is not of the design's kind, or there is no place for the files.
+    pub fn record(
+        &self,
+        design: &Design,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<Recording, CosimError> {
+        self.check_frames(design)?;
+        let design = self.level.design(design)?;
+        let mut recorder = Recorder::new(&self.level.top().ports(&design))?;
+        let mut random = Random::new(self.seed);
+        let (machine, lanes) = match self.level {
+            Level::Rpu => (Machine::Rpu(Box::new(PipelinedRpu::new(&design))), 1),
+            Level::Rcm { .. } | Level::Full => {
+                (Machine::Rcm(PipelinedRcm::new(&design)), design.regions())
+            }
+        };
+        let lanes = lanes as usize;
+        let driver = Driver::new(&design, machine, lanes, &mut recorder, random.fork());
+        let mut session = Session::new(&design, self.level, driver, random);
+        session.run(self.rounds, &self.frames, progress)?;
+        recorder.finish()
+    }
+
+    fn check_frames(&self, design: &Design) -> Result<(), CosimError> {
+        let kind = |width, height, bits| format!("{width}x{height} pixels of {bits} bits");
+        let wanted = kind(design.width(), design.height(), design.pixel_bits());
+        for (index, frame) in self.frames.iter().enumerate() {
+            let found = kind(frame.width(), frame.height(), frame.bits());
+            if found != wanted {
+                return Err(CosimError::FrameShape { index, found, wanted });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a region shows: the hard cases, each drawn into a square of pixels.
+
+use super::brush::moved;
+use super::gauge::Gauge;
+use super::random::Random;
+use foveate_spec::Design;
+
+/// One way to fill a square, some of them from what it held before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Motif {
+    /// All zero.
+    Zero,
+    /// All at the maximum.
+    Max,
+    /// One level throughout.
+    Flat,
+    /// One-pixel checkerboard at full swing.
+    Checkerboard,
+    /// One pixel at a corner, or beside it, above or below the rest by a chosen amount.
+    HotCorner,
+    /// Two halves that differ by a chosen amount.
+    Step,
+    /// A ramp of constant slope, so that every pixel is an edge.
+    Ramp,
+    /// A pixel with 4 to 8 contiguous neighbors that differ by a chosen amount.
+    Ring,
+    /// A mean that ends in one half, or misses it by one pixel.
+    HalfMean,
+    /// Some pixels at one value, the others at another; half and half is the largest variance.
+    TwoPoint,
+    /// Independent random pixels of the whole range.
+    Noise,
+    /// Independent random extremes.
+    Binary,
+    /// Random and smooth.
+    Smooth,
+    /// As before.
+    Same,
+    /// As before, some pixels off by one.
+    Flicker,
+    /// One level more than before.
+    Fade,
+    /// A chosen amount more, or less, than before.
+    LightStep,
+    /// As before, but for the first pixels, as many as the temporal threshold or one off.
+    Bump,
+    /// As before, with one pixel moved.
+    MovingPixel,
+}
+
+/// How many squares are tried to meet a minimum.
+const TRIALS: usize = 64;
+
+/// Draws motifs for one region.
+#[derive(Clone, Debug)]
+pub(crate) struct Artist {
+    pub(super) side: usize,
+    /// Columns and rows on each side that are halo and no pixels of the region.
+    pub(super) margin: usize,
+    pub(super) max: u16,
+    /// Pixels of the region.
+    pub(super) count: usize,
+    /// How much a pixel counts in the mean of the design: 2^f.
+    pub(super) mean_unit: usize,
+    pub(super) counts: Vec<u32>,
+    pub(super) amounts: Vec<u16>,
+    /// Changes that meet the temporal level, or miss it by one.
+    pub(super) changes: Vec<u16>,
+    gauge: Gauge,
+    pub(crate) pixels: Vec<u16>,
+    pub(super) random: Random,
+}
+
+impl Artist {
+    /// An artist for squares of `side` pixels, who starts with a black one.
+    pub(crate) fn new(design: &Design, side: u32, random: Random) -> Self {
+        let max = u16::try_from(design.pixel_max()).unwrap_or(u16::MAX);
+        let (side, own) = (side as usize, design.region_size() as usize);
+        let mean = design.features().iter().find_map(|feature| feature.mean());
+        let levels = design.features().iter().filter_map(|feature| feature.level());
+        let mut amounts = vec![1, 2.min(max), max / 2, max];
+        for level in levels.chain([design.temporal().level]) {
+            // A single pixel that is off by h has edges of 2h around it, a straight step of h edges
+            // of 4h, a diagonal one of 6h; corners and changes are compared with h itself.
+            for part in [1, 2, 4, 6].map(|divisor| level / divisor) {
+                let near = [part.saturating_sub(1), part, part + 1];
+                amounts.extend(near.map(|h| u16::try_from(h).unwrap_or(max).min(max)));
+            }
+        }
+        let level = design.temporal().level;
+        let near = [level.saturating_sub(1), level, level + 1];
+        let changes = near.map(|h| u16::try_from(h).unwrap_or(max).min(max)).to_vec();
+        let minimum = design.temporal().min_count;
+        let mut counts = vec![minimum.saturating_sub(1), minimum, minimum + 1];
+        counts.extend(design.features().iter().filter_map(|f| u32::try_from(f.min_score()).ok()));
+        Self {
+            side,
+            margin: side.saturating_sub(own) / 2,
+            max,
+            count: own * own,
+            mean_unit: 1 << mean.map_or(0, |mean| mean.fraction_bits),
+            counts,
+            amounts,
+            changes,
+            gauge: Gauge::of(design, side),
+            pixels: vec![0; side * side],
+            random,
+        }
+    }
+
+    /// Draws the next picture over the last.
+    pub(crate) fn draw(&mut self, motif: Motif) {
+        let before = std::mem::take(&mut self.pixels);
+        self.pixels = match motif {
+            Motif::Zero => self.fill(|_, _| 0),
+            Motif::Max => self.fill(|max, _| max),
+            Motif::Flat => {
+                let level = self.random.pixel(self.max);
+                self.fill(|_, _| level)
+            }
+            Motif::Checkerboard => {
+                let phase = usize::from(self.random.one_in(2));
+                self.fill(|max, (x, y)| if (x + y) % 2 == phase { max } else { 0 })
+            }
+            Motif::HotCorner => self.hot_corner(),
+            Motif::Step => self.step(),
+            Motif::Ramp => self.ramp(),
+            Motif::Ring => self.ring(),
+            Motif::HalfMean => self.half_mean(),
+            Motif::TwoPoint => self.two_point(),
+            Motif::Noise => self.each(before, |random, max, _| random.pixel(max)),
+            Motif::Binary => {
+                let rarity = self.random.up_to(4) + 2;
+                self.each(before, |random, max, _| if random.one_in(rarity) { max } else { 0 })
+            }
+            Motif::Smooth => self.smooth(),
+            Motif::Same => before,
+            Motif::Flicker => self.each(before, |random, max, pixel| match random.up_to(3) {
+                0 => pixel.saturating_sub(1),
+                1 => pixel.saturating_add(1).min(max),
+                _ => pixel,
+            }),
+            Motif::Fade => self.each(before, |_, max, pixel| pixel.saturating_add(1).min(max)),
+            Motif::LightStep => {
+                let (amount, up) = (self.change(), self.random.one_in(2));
+                self.each(before, |_, max, pixel| moved(pixel, amount, up, max))
+            }
+            Motif::Bump => self.bump(before),
+            Motif::MovingPixel => self.moving_pixel(before),
+        };
+    }
+
+    /// Draws, then takes back as many of the last pixels as it needs for one of the scores to come
+    /// as near as can be to its configured minimum, or to one less or more.
+    pub(crate) fn draw_near_minimum(&mut self, motif: Motif) {
+        let before = self.pixels.clone();
+        self.draw(motif);
+        let last = self.gauge.meters() - 1;
+        let meter = usize::try_from(self.random.up_to(last as u64)).unwrap_or(0);
+        let wanted = (self.gauge.minimum(meter) + self.random.up_to(2)).saturating_sub(1);
+        let drawn = std::mem::take(&mut self.pixels);
+        let step = self.count.div_ceil(TRIALS);
+        let offset = usize::try_from(self.random.up_to(step as u64)).unwrap_or(0);
+        let mixed = |kept: usize| -> Vec<u16> {
+            let pairs = drawn.iter().zip(&before).enumerate();
+            pairs.map(|(at, (&new, &old))| if self.rank(at) < kept { new } else { old }).collect()
+        };
+        let trials = (0..=self.count / step).map(|trial| mixed(offset + trial * step));
+        let distance = |square: &Vec<u16>| self.gauge.read(meter, square, &before).abs_diff(wanted);
+        self.pixels = trials.min_by_key(distance).unwrap_or(drawn);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foveate_spec::Config;
+
+    const ALL: [Motif; 19] = [
+        Motif::Zero,
+        Motif::Max,
+        Motif::Flat,
+        Motif::Checkerboard,
+        Motif::HotCorner,
+        Motif::Step,
+        Motif::Ramp,
+        Motif::Ring,
+        Motif::HalfMean,
+        Motif::TwoPoint,
+        Motif::Noise,
+        Motif::Binary,
+        Motif::Smooth,
+        Motif::Same,
+        Motif::Flicker,
+        Motif::Fade,
+        Motif::LightStep,
+        Motif::Bump,
+        Motif::MovingPixel,
+    ];
+
+    #[test]
+    fn every_motif_stays_in_range_at_every_size_and_depth() {
+        for bits in [1, 2, 8, 12, 16] {
+            for side in [2, 3, 5, 8, 12, 66] {
+                let mut config = Config::default();
+                config.frame.pixel_bits = bits;
+                config.spatial[0].level = Some(1);
+                config.temporal.level = 1;
+                let design = config.validate().unwrap();
+                let mut artist = Artist::new(&design, side, Random::new(u64::from(bits * side)));
+                for round in 0..60 {
+                    artist.draw(ALL[round % ALL.len()]);
+                    let count = (side * side) as usize;
+                    assert_eq!(artist.pixels.len(), count);
+                    let max = design.pixel_max();
+                    assert!(artist.pixels.iter().all(|&pixel| u32::from(pixel) <= max));
+                }
+            }
+        }
+    }
+}

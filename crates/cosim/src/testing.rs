@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A small hand-made module and a matching closure, to test the machinery without model and RTL.
+
+use foveate_spec::{Direction, Port, PortRole};
+
+/// A port of any name and shape; the role is the clock's for `clk_i` and of no meaning otherwise.
+pub(crate) fn port(name: &str, direction: Direction, width: u32, lanes: u32) -> Port {
+    let role = match (name, direction) {
+        ("clk_i", _) => PortRole::Clock,
+        (_, Direction::Input) => PortRole::Pixel,
+        (_, Direction::Output) => PortRole::TemporalCount,
+    };
+    Port { name: name.to_owned(), direction, role, width, lanes, doc: String::new() }
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether the vectors hit what they are meant to hit; no tool is needed for that.
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod common;
+
+use common::{design, directed};
+use foveate_cosim::{Field, Layout, Level, Recording, Stimulus, vectors_hex};
+use foveate_model::Frame;
+use foveate_spec::{Config, Design, FeatureKind, PortRole};
+use std::collections::BTreeSet;
+
+fn config(toml: &str) -> Config {
+    Config::from_toml(toml).unwrap()
+}
+
+fn record(design: &Design, stimulus: &Stimulus) -> Recording {
+    stimulus.record(design, &mut |_, _| {}).unwrap()
+}
+
+fn field(layout: &Layout, role: PortRole) -> &Field {
+    layout.fields().iter().find(|field| field.port.role == role).unwrap()
+}
+
+/// Input and expected output records, clock by clock.
+fn clocks(recording: &Recording) -> Vec<(Vec<u8>, Vec<u8>)> {
+    let inputs = std::fs::read(recording.inputs_path()).unwrap();
+    let outputs = std::fs::read(recording.expected_path()).unwrap();
+    let inputs = inputs.chunks_exact(recording.inputs().record_bytes());
+    let outputs = outputs.chunks_exact(recording.outputs().record_bytes());
+    assert_eq!(inputs.len() as u64, recording.clocks());
+    assert_eq!(outputs.len() as u64, recording.clocks());
+    inputs.zip(outputs).map(|(a, b)| (a.to_vec(), b.to_vec())).collect()
+}
+
+#[test]
+fn equal_seeds_give_equal_vectors() {
+    let design = design(&config(""), (1, 1));
+    let text = |seed| {
+        let stimulus = Stimulus { seed, ..directed(Level::Rpu, 1) };
+        vectors_hex(&record(&design, &stimulus), u64::MAX).unwrap()
+    };
+    assert_eq!(text(1), text(1));
+    assert_ne!(text(1), text(2));
+}
+
+/// Every threshold of a decision must have been met exactly, missed by one, and passed by one.
+#[test]
+fn decisions_are_made_on_below_and_above_their_thresholds() {
+    let toml = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"corner\"\n\
+                [[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
+    let design = design(&config(toml), (1, 1));
+    let recording = record(&design, &directed(Level::Rpu, 2));
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let scores = FeatureKind::ALL.iter().map(|&k| (PortRole::MinScore(k), PortRole::Score(k)));
+    let count = (PortRole::TemporalMinCount, PortRole::TemporalCount);
+    for (minimum, score) in scores.chain([count]) {
+        let mut found = BTreeSet::new();
+        for (input, output) in clocks(&recording) {
+            if field(outputs, PortRole::DecisionValid).get(&output, 0) == 1 {
+                let score = field(outputs, score).get(&output, 0);
+                let minimum = field(inputs, minimum).get(&input, 0);
+                found.insert(i128::from(score) - i128::from(minimum));
+            }
+        }
+        assert!([-1, 0, 1].iter().all(|near| found.contains(near)), "{minimum:?}: {found:?}");
+    }
+}
+
+#[test]
+fn scores_reach_their_largest_values() {
+    let toml = "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\
+                [[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
+    let design = design(&config(toml), (1, 1));
+    let recording = record(&design, &directed(Level::Rpu, 2));
+    for feature in design.features() {
+        let port = field(recording.outputs(), PortRole::Score(feature.kind()));
+        let reached = clocks(&recording).iter().map(|(_, output)| port.get(output, 0)).max();
+        assert_eq!(reached, Some(feature.score_max()), "{}", feature.kind());
+    }
+}
+
+#[test]
+fn every_border_is_seen_and_resets_come_at_any_time() {
+    let design = design(&config("[region]\nneighborhood = \"shared\"\n"), (1, 1));
+    let recording = record(&design, &directed(Level::Rpu, 4));
+    let inputs = recording.inputs();
+    let (mut borders, mut resets, mut busy) = (BTreeSet::new(), 0, 0);
+    let (mut pixels, mut last_reset) = (0, true);
+    for (input, _) in clocks(&recording) {
+        borders.insert(field(inputs, PortRole::Border).get(&input, 0));
+        let reset = field(inputs, PortRole::Reset).get(&input, 0) == 1;
+        if reset && !last_reset {
+            resets += 1;
+            busy += u32::from(pixels % design.stream_pixels() != 0);
+        }
+        let valid = field(inputs, PortRole::Valid).get(&input, 0) == 1;
+        pixels = if reset { 0 } else { pixels + u32::from(valid) };
+        last_reset = reset;
+    }
+    assert_eq!(borders.len(), 16, "{borders:?}");
+    assert!(resets >= 60 && busy >= 6, "{resets} resets, {busy} of them in a frame");
+}
+
+/// Region after region goes through the one RPU, each after a reset, with its own border.
+#[test]
+fn frames_of_the_caller_are_streamed_region_by_region() {
+    let design = design(&config("[region]\nneighborhood = \"shared\"\n"), (3, 2));
+    let frame = Frame::from_fn(24, 16, 8, |x, y| u16::try_from(x * 10 + y % 10).unwrap()).unwrap();
+    let stimulus =
+        Stimulus { rounds: 0, frames: vec![frame.clone(), frame], ..Stimulus::default() };
+    let recording = record(&design, &stimulus);
+    assert_eq!((recording.sequences(), recording.frames()), (6, 12));
+    let first = recording.span(0).unwrap();
+    assert_eq!((first.sequence.as_str(), first.region, first.frame), ("frames", Some(0), 0));
+    let last = recording.span(recording.clocks()).unwrap();
+    assert_eq!((last.region, last.frame), (Some(5), 1));
+    let border = field(recording.inputs(), PortRole::Border);
+    let borders: BTreeSet<u64> = clocks(&recording).iter().map(|(i, _)| border.get(i, 0)).collect();
+    assert_eq!(borders, BTreeSet::from([0b0101, 0b0100, 0b0110, 0b1001, 0b1000, 0b1010]));
+
+    let array = Stimulus { level: Level::Rcm { columns: 2, rows: 1 }, ..stimulus };
+    assert_eq!(record(&design, &array).sequences(), 1);
+}
+
+#[test]
+fn frames_of_another_kind_are_refused() {
+    let design = design(&config(""), (3, 2));
+    let frames = vec![Frame::filled(24, 16, 8, 0).unwrap(), Frame::filled(24, 15, 8, 0).unwrap()];
+    let stimulus = Stimulus { frames, ..Stimulus::default() };
+    let error = stimulus.record(&design, &mut |_, _| {}).unwrap_err().to_string();
+    assert!(error.starts_with("frame 1 is 24x15 pixels of 8 bits, the design takes"), "{error}");
+}

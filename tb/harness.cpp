@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Clocks `{= top =}`: reads one packed record of inputs per clock from the standard input and writes one
+// packed record of outputs per clock to the standard output. Made from the list of ports.
+//
+//   argument 1   seed of the values that registers have before reset
+//   argument 2   file for waves, in a build with tracing
+//
+// Outputs are those after the rising edge, with the inputs of that edge still applied.
+
+#include "V{= top =}.h"
+#include "verilated.h"
+#if VM_TRACE
+#include "verilated_fst_c.h"
+#endif
+
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <type_traits>
+#include <unistd.h>
+#include <vector>
+
+namespace {
+
+constexpr std::size_t kInputBytes = {= inputs.record_bytes() =};
+constexpr std::size_t kOutputBytes = {= outputs.record_bytes() =};
+constexpr std::size_t kBatch = (std::size_t{1} << 18) / (kInputBytes + kOutputBytes) + 1;
+
+template <int Bits>
+using Storage = std::conditional_t<
+    (Bits <= 8), CData,
+    std::conditional_t<
+        (Bits <= 16), SData,
+        std::conditional_t<(Bits <= 32), IData,
+                           std::conditional_t<(Bits <= 64), QData, VlWide<(Bits + 31) / 32>>>>>;
+
+template <int Bits, typename Port>
+constexpr bool kFits = std::is_same<std::remove_reference_t<Port>, Storage<Bits>>::value;
+
+// Values travel with their lowest byte first.
+template <typename Port>
+void put(Port& port, const unsigned char* from, std::size_t bytes) {
+    QData value = 0;
+    for (std::size_t i = 0; i < bytes; ++i) value |= QData{from[i]} << (8 * i);
+    port = static_cast<Port>(value);
+}
+
+template <std::size_t Words>
+void put(VlWide<Words>& port, const unsigned char* from, std::size_t bytes) {
+    for (std::size_t word = 0; word < Words; ++word) port[word] = 0;
+    for (std::size_t i = 0; i < bytes; ++i) port[i / 4] |= EData{from[i]} << (8 * (i % 4));
+}
+
+template <typename Port>
+void get(const Port& port, unsigned char* to, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i) {
+        to[i] = static_cast<unsigned char>(static_cast<QData>(port) >> (8 * i));
+    }
+}
+
+template <std::size_t Words>
+void get(const VlWide<Words>& port, unsigned char* to, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i) {
+        to[i] = static_cast<unsigned char>(port[i / 4] >> (8 * (i % 4)));
+    }
+}
+
+using Top = V{= top =};
+
+void apply(Top& top, const unsigned char* record) {
+    {%- for field in inputs.fields() %}
+    static_assert(kFits<{= field.port.bits() =}, decltype(top.{= field.port.name =})>,
+                  "{= field.port.name =} must be {= field.port.bits() =} bits wide");
+    put(top.{= field.port.name =}, record + {= field.offset =}, {= field.bytes =});
+    {%- endfor %}
+}
+
+void collect(const Top& top, unsigned char* record) {
+    {%- for field in outputs.fields() %}
+    static_assert(kFits<{= field.port.bits() =}, decltype(top.{= field.port.name =})>,
+                  "{= field.port.name =} must be {= field.port.bits() =} bits wide");
+    get(top.{= field.port.name =}, record + {= field.offset =}, {= field.bytes =});
+    {%- endfor %}
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // What the Verilog prints must not end up between the records.
+    std::FILE* const records_out = fdopen(dup(STDOUT_FILENO), "wb");
+    if (records_out == nullptr || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
+
+    const auto context = std::make_unique<VerilatedContext>();
+    context->randReset(2);
+    context->randSeed(argc > 1 ? std::atoi(argv[1]) : 1);
+#if VM_TRACE
+    context->traceEverOn(true);
+#endif
+    const auto top = std::make_unique<Top>(context.get());
+#if VM_TRACE
+    VerilatedFstC waves;
+    top->trace(&waves, 99);
+    waves.open(argc > 2 ? argv[2] : "waves.fst");
+#endif
+
+    std::vector<unsigned char> inputs(kBatch * kInputBytes);
+    std::vector<unsigned char> outputs(kBatch * kOutputBytes);
+    for (;;) {
+        const std::size_t bytes = std::fread(inputs.data(), 1, inputs.size(), stdin);
+        if (bytes == 0) break;
+        if (bytes % kInputBytes != 0) {
+            std::fprintf(stderr, "the input ends within a record\n");
+            return 2;
+        }
+        const std::size_t records = bytes / kInputBytes;
+        for (std::size_t i = 0; i < records; ++i) {
+            apply(*top, inputs.data() + i * kInputBytes);
+            top->{= clock =} = 0;
+            top->eval();
+#if VM_TRACE
+            waves.dump(context->time());
+#endif
+            context->timeInc(1);
+            top->{= clock =} = 1;
+            top->eval();
+#if VM_TRACE
+            waves.dump(context->time());
+#endif
+            context->timeInc(1);
+            collect(*top, outputs.data() + i * kOutputBytes);
+        }
+        if (std::fwrite(outputs.data(), kOutputBytes, records, records_out) != records) {
+            std::fprintf(stderr, "cannot write the outputs\n");
+            return 2;
+        }
+    }
+#if VM_TRACE
+    waves.close();
+#endif
+    top->final();
+    return std::fclose(records_out) == 0 ? 0 : 2;
+}
