@@ -1,4 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The foveate command.
+//! The `foveate` command. The only crate that prints or exits.
+//!
+//! Exit codes: 0 fine, 1 a mismatch or a failed check, 2 bad usage or input, 3 a tool is missing or
+//! failed, 130 interrupted.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate is the one that prints")]
 
-fn main() {}
+mod args;
+mod command;
+mod error;
+mod output;
+mod progress;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match run(&cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("foveate: {error}");
+            error.exit_code()
+        }
+    }
+}
+
+fn run(cli: &Cli) -> Result<(), error::CliError> {
+    match &cli.command {
+        Command::Check(args) => command::check::run(args),
+        Command::Generate(args) => command::generate::run(args),
+        Command::Cosim(args) => command::cosim::run(args),
+        Command::Estimate(args) => command::estimate::run(args),
+        Command::Simulate(args) => command::simulate::run(args),
+        Command::Presets(args) => command::presets::run(args),
+        Command::Completions(args) => command::completions::run(args),
+    }
+}

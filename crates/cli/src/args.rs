@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The command line as clap sees it, and the design that its options describe.
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use foveate_spec::{Config, Design, Preset};
+
+use crate::error::CliError;
+
+/// A region-based event camera: bit-exact model, Verilog, co-simulation and area.
+#[derive(Debug, Parser)]
+#[command(
+    version,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 fine, 1 mismatch or failed check, 2 bad usage or input, 3 a tool is missing or failed, 130 interrupted."
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Check(CheckArgs),
+    Generate(GenerateArgs),
+    Cosim(CosimArgs),
+    Estimate(EstimateArgs),
+    Simulate(SimulateArgs),
+    Presets(PresetsArgs),
+    Completions(CompletionsArgs),
+}
+
+/// Where the design comes from.
+#[derive(Args, Debug)]
+pub(crate) struct DesignArgs {
+    /// Configuration file (TOML)
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) config: Option<PathBuf>,
+    /// Named configuration to start from; see `foveate presets`
+    #[arg(long, short, value_name = "NAME", conflicts_with = "config")]
+    pub(crate) preset: Option<String>,
+    /// Set one key after the file or preset, for example region.size=16 or spatial.0.level=50
+    #[arg(long = "set", value_name = "KEY=TOML_VALUE")]
+    pub(crate) overrides: Vec<String>,
+}
+
+impl DesignArgs {
+    /// The configuration; without a file or preset the defaults.
+    pub(crate) fn read(&self) -> Result<Config, CliError> {
+        let text = match (&self.config, &self.preset) {
+            (Some(file), _) => {
+                fs::read_to_string(file).map_err(CliError::io("read the configuration", file))?
+            }
+            (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
+            (None, None) => String::new(),
+        };
+        Config::from_toml_with(&text, &self.overrides).map_err(|error| self.blame(error))
+    }
+
+    /// The validated design.
+    pub(crate) fn design(&self) -> Result<Design, CliError> {
+        self.read()?.validate().map_err(|error| self.blame(error))
+    }
+
+    fn blame(&self, error: foveate_spec::SpecError) -> CliError {
+        CliError::Spec { file: self.config.clone(), error }
+    }
+}
+
+/// Check a configuration and print what follows from it
+#[derive(Args, Debug)]
+#[command(after_help = "Example: foveate check camera.toml")]
+pub(crate) struct CheckArgs {
+    /// Configuration file (TOML); the same as --config
+    #[arg(value_name = "FILE", conflicts_with_all = ["config", "preset"])]
+    pub(crate) file: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Write the Verilog of a design, with file lists, constraints, bench and README
+#[derive(Args, Debug)]
+#[command(after_help = "Example: foveate generate --preset paper --set region.size=16 -o core16")]
+pub(crate) struct GenerateArgs {
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Folder to write; it must not exist or be empty
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Replace the folder if it holds a generated core
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Run the same vectors through the model and the RTL and compare every output at every clock
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate cosim --preset bare
+          foveate cosim --level rcm --grid 4x3 photo.png
+          foveate cosim --full scene:street
+          foveate cosim --config core/design.toml --rtl core/rtl")]
+pub(crate) struct CosimArgs {
+    /// Frames to run beside the directed and random ones: images, folders, globs, scene:NAME
+    #[arg(value_name = "INPUT")]
+    pub(crate) inputs: Vec<String>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// What to simulate: one RPU that sees every region in turn, or an array
+    #[arg(long, value_enum, default_value_t = Level::Rpu)]
+    pub(crate) level: Level,
+    /// Regions of the array for --level rcm, columns x rows
+    #[arg(long, value_name = "CxR", value_parser = parse_grid)]
+    pub(crate) grid: Option<(u32, u32)>,
+    /// The whole array of the design
+    #[arg(long, conflicts_with_all = ["level", "grid"])]
+    pub(crate) full: bool,
+    /// Simulator to run
+    #[arg(long, value_enum, default_value_t = SimulatorChoice::Verilator)]
+    pub(crate) simulator: SimulatorChoice,
+    /// Check the Verilog files of this folder instead of freshly generated ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) rtl: Option<PathBuf>,
+    /// Seed of the random vectors
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// At most this many frames of the inputs
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    pub(crate) frames: u32,
+    /// How often the directed sequences are run through, each time with other data; 0 runs the
+    /// frames alone. By default 3 for one RPU, 1 for an array
+    #[arg(long, value_name = "N")]
+    pub(crate) rounds: Option<u32>,
+    /// Where a failing run leaves its replay folder
+    #[arg(long, value_name = "DIR", default_value = "foveate-replay")]
+    pub(crate) replay: PathBuf,
+    /// Record waves (FST) of a failing run in its replay folder
+    #[arg(long)]
+    pub(crate) trace: bool,
+    /// Write the results as JUnit XML, for a CI server
+    #[arg(long, value_name = "FILE")]
+    pub(crate) junit: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum Level {
+    Rpu,
+    Rcm,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum SimulatorChoice {
+    Verilator,
+    Iverilog,
+}
+
+/// Synthesize a design with Yosys and print its area beside the paper's
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate estimate --preset bare
+          foveate estimate --compare --markdown")]
+pub(crate) struct EstimateArgs {
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Print one table instead: an RPU of the design with each feature, with and without denoising
+    #[arg(long)]
+    pub(crate) compare: bool,
+    /// Print JSON
+    #[arg(long, conflicts_with = "markdown")]
+    pub(crate) json: bool,
+    /// Print Markdown tables
+    #[arg(long)]
+    pub(crate) markdown: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+/// Run the model over images and write scores, decisions and rendered frames
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate simulate scene:street -o out
+          foveate simulate frames/ -o out --preset steady
+          foveate simulate 'clip/*.png' -o out --set region.size=16")]
+pub(crate) struct SimulateArgs {
+    /// Images (PNG, JPEG, BMP, PGM), folders, globs, or scene:NAME; see `foveate presets --scenes`
+    #[arg(value_name = "INPUT", required = true)]
+    pub(crate) inputs: Vec<String>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Folder to write
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Replace the folder if it exists
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Do not write rendered frames
+    #[arg(long)]
+    pub(crate) no_rendered: bool,
+    /// Write an overlay of the decisions for every frame
+    #[arg(long)]
+    pub(crate) overlay: bool,
+    /// At most this many frames; of a scene, exactly this many
+    #[arg(long, value_name = "N")]
+    pub(crate) frames: Option<u32>,
+    /// Frames per second of images, for the times of frames
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    pub(crate) fps: u32,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+/// List the named configurations, or print one as a file
+#[derive(Args, Debug)]
+#[command(after_help = "Example: foveate presets steady > camera.toml")]
+pub(crate) struct PresetsArgs {
+    /// Print this preset with every key
+    #[arg(value_name = "NAME")]
+    pub(crate) name: Option<String>,
+    /// List the synthetic scenes instead
+    #[arg(long, conflicts_with = "name")]
+    pub(crate) scenes: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Print a completion script for a shell
+#[derive(Args, Debug)]
+#[command(after_help = "Example: foveate completions bash > /etc/bash_completion.d/foveate")]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}
+
+fn parse_grid(text: &str) -> Result<(u32, u32), String> {
+    let side = |part: &str| part.parse::<u32>().ok().filter(|&side| (1..=256).contains(&side));
+    text.split_once('x')
+        .and_then(|(columns, rows)| Some((side(columns)?, side(rows)?)))
+        .ok_or_else(|| "expected COLUMNSxROWS, each 1 to 256, for example 4x3".to_owned())
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate cosim`: model against RTL, every output at every clock.
+
+use std::fs;
+use std::path::Path;
+
+use foveate_cosim::{CosimReport, Job, Level, Progress, Simulator, Stimulus, junit_xml};
+use foveate_emit::SourceFile;
+use foveate_model::Frame;
+use foveate_simulator::{InputOptions, Simulation, open};
+use foveate_spec::Design;
+use foveate_staging::write_file;
+use foveate_toolchain::{Cache, Toolchain};
+use indicatif::ProgressBar;
+
+use crate::args::{self, CosimArgs, SimulatorChoice};
+use crate::error::CliError;
+use crate::{output, progress};
+
+pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
+    let (design, frames) = design_and_frames(args)?;
+    let level = level(args)?;
+    let rounds = args.rounds.unwrap_or(match level {
+        Level::Rpu => 3,
+        Level::Rcm { .. } | Level::Full => 1,
+    });
+    let stimulus = Stimulus { level, seed: args.seed, rounds, frames };
+    let mut job = Job::new(&design, stimulus, &args.replay)?;
+    job.simulator = match args.simulator {
+        SimulatorChoice::Verilator => Simulator::Verilator,
+        SimulatorChoice::Iverilog => Simulator::Iverilog,
+    };
+    job.trace = args.trace;
+    if let Some(folder) = &args.rtl {
+        job.sources = read_rtl(folder)?;
+    }
+
+    let bar = progress::bar(args.quiet, 0, "vectors");
+    let report = job.run(&Toolchain::system(), &Cache::from_env()?, &mut |step| show(&bar, step));
+    bar.finish_and_clear();
+    let report = report?;
+    if let Some(file) = &args.junit {
+        write_file(file, junit_xml(std::slice::from_ref(&report)).as_bytes())?;
+    }
+    tell(args, &report)
+}
+
+fn tell(args: &CosimArgs, report: &CosimReport) -> Result<(), CliError> {
+    if args.json {
+        output::json(report)?;
+    } else {
+        output::text(&text(report))?;
+    }
+    if report.passed() {
+        Ok(())
+    } else {
+        Err(CliError::Failed("model and RTL do not agree".to_owned()))
+    }
+}
+
+fn text(report: &CosimReport) -> String {
+    let seconds = report.seconds;
+    let mut text = format!(
+        "{report}\ndesign {}, {} x {} regions, {}, seed {}\n{:.1} s vectors, {:.1} s build, {:.1} s run\n",
+        report.design,
+        report.grid.0,
+        report.grid.1,
+        report.simulator_version,
+        report.seed,
+        seconds.vectors,
+        seconds.build,
+        seconds.run
+    );
+    if let Some(replay) = &report.replay {
+        text += &format!("replay it with {}\n", replay.join("replay.sh").display());
+    }
+    if let Some(waves) = &report.waves {
+        text += &format!("waves in {}\n", waves.display());
+    }
+    text
+}
+
+/// The frames of the inputs, and the design with their size.
+fn design_and_frames(args: &CosimArgs) -> Result<(Design, Vec<Frame>), CliError> {
+    if args.inputs.is_empty() {
+        return Ok((args.design.design()?, Vec::new()));
+    }
+    let config = args.design.read()?;
+    let options = InputOptions { frames: Some(args.frames), ..InputOptions::default() };
+    let design = Simulation::new(&config, open(&args.inputs, &config, &options)?)?.design().clone();
+    let mut source = open(&args.inputs, &config, &options)?;
+    let mut frames = Vec::new();
+    while let Some(next) = source.next_frame()? {
+        frames.push(next.frame);
+    }
+    Ok((design, frames))
+}
+
+fn level(args: &CosimArgs) -> Result<Level, CliError> {
+    match (args.full, args.level, args.grid) {
+        (true, ..) => Ok(Level::Full),
+        (false, args::Level::Rcm, Some((columns, rows))) => Ok(Level::Rcm { columns, rows }),
+        (false, args::Level::Rcm, None) => Ok(Level::Rcm { columns: 2, rows: 2 }),
+        (false, args::Level::Rpu, None) => Ok(Level::Rpu),
+        (false, args::Level::Rpu, Some(_)) => {
+            Err(CliError::Usage("--grid is for --level rcm; add it or leave --grid out".to_owned()))
+        }
+    }
+}
+
+/// The Verilog files of a folder, in the order of their names.
+fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).map_err(CliError::io("read the folder", folder))? {
+        let path = entry.map_err(CliError::io("read the folder", folder))?.path();
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+        if let (Some(name), true) = (name, path.extension().is_some_and(|e| e == "v")) {
+            let contents = fs::read_to_string(&path).map_err(CliError::io("read", &path))?;
+            files.push(SourceFile { path: format!("rtl/{name}"), contents });
+        }
+    }
+    if files.is_empty() {
+        let shown = folder.display();
+        return Err(CliError::Usage(format!(
+            "`{shown}` holds no .v file; name a folder with the RTL"
+        )));
+    }
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(files)
+}
+
+fn show(bar: &ProgressBar, step: Progress) {
+    match step {
+        Progress::Vectors { done, total } => {
+            bar.set_length(total);
+            bar.set_position(done);
+        }
+        Progress::Simulation { clocks } => {
+            bar.set_message(format!("simulating {clocks} clocks after"));
+        }
+    }
+}

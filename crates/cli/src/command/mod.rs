@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One module per sub-command.
+
+pub(crate) mod check;
+pub(crate) mod completions;
+pub(crate) mod cosim;
+pub(crate) mod estimate;
+pub(crate) mod generate;
+pub(crate) mod presets;
+pub(crate) mod simulate;
