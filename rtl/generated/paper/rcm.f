@@ -1,0 +1,16 @@
+rtl/line_delay.v
+rtl/window_isolated.v
+rtl/window_column.v
+rtl/median3x3.v
+rtl/adder.v
+rtl/magnitude_above.v
+rtl/edge_detector.v
+rtl/frame_progress.v
+rtl/frame_store.v
+rtl/change_detector.v
+rtl/hit_counter.v
+rtl/vote.v
+rtl/decision.v
+rtl/forward_gate.v
+rtl/rpu.v
+rtl/rcm.v

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// SRS from the votes of the features, active from SRS and TRS (the paper's Table I). The decision
+// stands for one clock on the outputs and, as forward_o, until the next one is made.
+`default_nettype none
+
+module decision #(
+    parameter FEATURES = 1,  // number of votes
+    parameter ALL = 0        // 1: every feature must vote; 0: one vote is enough
+) (
+    input  wire                clk_i,
+    input  wire                rst_i,
+    input  wire                valid_i,  // the votes are those of a whole frame
+    input  wire [FEATURES-1:0] votes_i,
+    input  wire                trs_i,
+    output wire                srs_o,
+    output wire                trs_o,
+    output wire                active_o,
+    output wire                forward_o  // the frame decided last is active
+);
+
+    reg active_q;
+
+    assign srs_o     = valid_i && (ALL ? &votes_i : |votes_i);
+    assign trs_o     = valid_i && trs_i;
+    assign active_o  = srs_o && trs_o;
+    assign forward_o = valid_i ? active_o : active_q;
+
+    always @(posedge clk_i) begin
+        if (rst_i) active_q <= 1'b0;
+        else active_q <= forward_o;
+    end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// 3x3 Sobel: hit when |Gx| + |Gy| > level.
+//
+// |Gx| + |Gy| is the larger of |Gx + Gy| and |Gx - Gy|, and both have kernels of weight +-2 only:
+//
+//     (Gx + Gy) / 2 = -(upper + middle) of the left column + (lower - upper) of the center column
+//                     + (middle + lower) of the right column
+//     (Gy - Gx) / 2 = (middle + lower) of the left + (lower - upper) of the center
+//                     - (upper + middle) of the right
+//
+// so each is compared with floor(level / 2). What left and center contribute is added up before the
+// right column comes, and every clamp is an operand of one of these adders.
+`default_nettype none
+
+module edge_detector #(
+    parameter WIDTH = 8,       // bits of a pixel
+    parameter LEVEL_BITS = 11  // bits of the level, at most WIDTH + 3
+) (
+    input  wire             clk_i,
+    input  wire             advance_i,
+    input  wire             left_i,    // the incoming column is the first of its row
+    input  wire             right_i,   // the center is the last of its row
+    input  wire [WIDTH-1:0] upper_i,   // the incoming column
+    input  wire [WIDTH-1:0] middle_i,
+    input  wire [WIDTH-1:0] lower_i,
+    input  wire [LEVEL_BITS-1:0] level_i,
+    output wire             hit_o      // of the center, with the incoming column on its right
+);
+
+    localparam SUM_BITS = WIDTH + 3;  // -3 * (2^WIDTH - 1) .. 3 * (2^WIDTH - 1), signed
+
+    // Sums of two pixels and their difference, of the incoming column.
+    wire [WIDTH:0] upper_pair;
+    wire [WIDTH:0] lower_pair;
+    wire [SUM_BITS-1:0] slope = {2'b0, lower_pair} - {2'b0, upper_pair};  // lower - upper
+
+    adder #(.WIDTH(WIDTH + 1)) u_upper_pair (
+        .plain_i({1'b0, middle_i}), .other_i({1'b0, upper_i}), .sum_o(upper_pair)
+    );
+
+    adder #(.WIDTH(WIDTH + 1)) u_lower_pair (
+        .plain_i({1'b0, middle_i}), .other_i({1'b0, lower_i}), .sum_o(lower_pair)
+    );
+
+    // What left and center contribute.
+    reg  [WIDTH:0] upper_pair_q;
+    reg  [WIDTH:0] lower_pair_q;
+    reg  [SUM_BITS-1:0] sum_q;   // to (Gx + Gy) / 2
+    reg  [SUM_BITS-1:0] diff_q;  // to (Gy - Gx) / 2
+    wire [SUM_BITS-1:0] diff_next;
+    wire [WIDTH:0] left_upper_pair = left_i ? upper_pair : upper_pair_q;
+    wire [WIDTH:0] left_lower_pair = left_i ? lower_pair : lower_pair_q;
+
+    adder #(.WIDTH(SUM_BITS)) u_diff_next (
+        .plain_i(slope), .other_i({2'b0, left_lower_pair}), .sum_o(diff_next)
+    );
+
+    always @(posedge clk_i) begin
+        if (advance_i) begin
+            upper_pair_q <= upper_pair;
+            lower_pair_q <= lower_pair;
+            sum_q        <= slope - {2'b0, left_upper_pair};
+            diff_q       <= diff_next;
+        end
+    end
+
+    // With the right column.
+    wire [WIDTH:0] right_upper_pair = right_i ? upper_pair_q : upper_pair;
+    wire [WIDTH:0] right_lower_pair = right_i ? lower_pair_q : lower_pair;
+    wire [SUM_BITS-1:0] sum;
+    wire [SUM_BITS-1:0] diff = diff_q - {2'b0, right_upper_pair};
+
+    adder #(.WIDTH(SUM_BITS)) u_sum (
+        .plain_i(sum_q), .other_i({2'b0, right_lower_pair}), .sum_o(sum)
+    );
+
+    // Doubled sums are even, so the lowest bit of the level decides nothing.
+    wire [WIDTH+1:0] half_level = {{(WIDTH + 3 - LEVEL_BITS) {1'b0}}, level_i[LEVEL_BITS-1:1]};
+    wire unused_level_bit = level_i[0];
+
+    wire sum_above;
+    wire diff_above;
+
+    magnitude_above #(.WIDTH(SUM_BITS)) u_sum_above (
+        .value_i(sum), .level_i(half_level), .above_o(sum_above)
+    );
+
+    magnitude_above #(.WIDTH(SUM_BITS)) u_diff_above (
+        .value_i(diff), .level_i(half_level), .above_o(diff_above)
+    );
+
+    assign hit_o = sum_above || diff_above;
+
+endmodule
+
+`default_nettype wire

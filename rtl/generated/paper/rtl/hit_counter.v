@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Counts the hits of a frame. The clock after a frame's last step shows its count; the edge that
+// ends that clock restarts the count, with the first hit of the next frame if there is one.
+`default_nettype none
+
+module hit_counter #(
+    parameter WIDTH = 7  // bits of the count
+) (
+    input  wire             clk_i,
+    input  wire             rst_i,
+    input  wire             restart_i,  // the count is that of a whole frame
+    input  wire             hit_i,
+    output reg  [WIDTH-1:0] count_o
+);
+
+    wire [WIDTH-1:0] hit = {{(WIDTH - 1) {1'b0}}, hit_i};
+
+    always @(posedge clk_i) begin
+        if (rst_i) count_o <= {WIDTH{1'b0}};
+        else if (restart_i) count_o <= hit;
+        else count_o <= count_o + hit;
+    end
+
+endmodule
+
+`default_nettype wire

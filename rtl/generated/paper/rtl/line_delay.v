@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Delays data by DEPTH advances. No reset, so that it maps to shift-register LUTs.
+`default_nettype none
+
+module line_delay #(
+    parameter WIDTH = 8,  // bits of one word
+    parameter DEPTH = 8   // advances from data_i to data_o, at least 2
+) (
+    input  wire             clk_i,
+    input  wire             advance_i,  // the line moves by one word
+    input  wire [WIDTH-1:0] data_i,
+    output wire [WIDTH-1:0] data_o      // data_i of DEPTH advances ago
+);
+
+    reg [WIDTH*DEPTH-1:0] line_q;
+
+    always @(posedge clk_i) begin
+        if (advance_i) line_q <= {line_q[WIDTH*(DEPTH-1)-1:0], data_i};
+    end
+
+    assign data_o = line_q[WIDTH*(DEPTH-1)+:WIDTH];
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The fifth of the nine sorted pixels of a 3x3 window, two clocks after its step.
+//
+// Each column is sorted once, as it comes in. The median of nine is then the median of the largest
+// of the three low pixels, the median of the three middle ones and the smallest of the three high
+// ones.
+`default_nettype none
+
+module median3x3 #(
+    parameter WIDTH = 8  // bits of a pixel
+) (
+    input  wire             clk_i,
+    input  wire             rst_i,
+    input  wire             advance_i,
+    input  wire             step_i,    // the window is complete with the incoming column
+    input  wire             left_i,    // the incoming column is the first of its row
+    input  wire             right_i,   // the center is the last of its row
+    input  wire [WIDTH-1:0] upper_i,   // the incoming column
+    input  wire [WIDTH-1:0] middle_i,
+    input  wire [WIDTH-1:0] lower_i,
+    output reg              valid_o,   // a result, two clocks after step_i
+    output reg  [WIDTH-1:0] median_o
+);
+
+    function [WIDTH-1:0] lesser(input [WIDTH-1:0] a, input [WIDTH-1:0] b);
+        lesser = a < b ? a : b;
+    endfunction
+
+    function [WIDTH-1:0] greater(input [WIDTH-1:0] a, input [WIDTH-1:0] b);
+        greater = a < b ? b : a;
+    endfunction
+
+    function [WIDTH-1:0] middle_of(
+        input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
+    );
+        middle_of = greater(lesser(a, b), lesser(greater(a, b), c));
+    endfunction
+
+    // Sorted columns: right is the newest, then center, then left.
+    reg [WIDTH-1:0] right_low_q, right_mid_q, right_high_q;
+    reg [WIDTH-1:0] center_low_q, center_mid_q, center_high_q;
+    reg [WIDTH-1:0] left_low_q, left_mid_q, left_high_q;
+    reg row_start_q;  // the column in right is the first of its row
+    reg clamp_q;      // the center's column stands for its right neighbor too
+    reg step_q;
+
+    always @(posedge clk_i) begin
+        if (advance_i) begin
+            right_low_q   <= lesser(lesser(upper_i, middle_i), lower_i);
+            right_mid_q   <= middle_of(upper_i, middle_i, lower_i);
+            right_high_q  <= greater(greater(upper_i, middle_i), lower_i);
+            center_low_q  <= right_low_q;
+            center_mid_q  <= right_mid_q;
+            center_high_q <= right_high_q;
+            left_low_q    <= row_start_q ? right_low_q : center_low_q;
+            left_mid_q    <= row_start_q ? right_mid_q : center_mid_q;
+            left_high_q   <= row_start_q ? right_high_q : center_high_q;
+            row_start_q   <= left_i;
+            clamp_q       <= right_i;
+        end
+    end
+
+    wire [WIDTH-1:0] right_low = clamp_q ? center_low_q : right_low_q;
+    wire [WIDTH-1:0] right_mid = clamp_q ? center_mid_q : right_mid_q;
+    wire [WIDTH-1:0] right_high = clamp_q ? center_high_q : right_high_q;
+
+    wire [WIDTH-1:0] highest_low = greater(greater(left_low_q, center_low_q), right_low);
+    wire [WIDTH-1:0] middle_mid = middle_of(left_mid_q, center_mid_q, right_mid);
+    wire [WIDTH-1:0] lowest_high = lesser(lesser(left_high_q, center_high_q), right_high);
+
+    always @(posedge clk_i) begin
+        median_o <= middle_of(highest_low, middle_mid, lowest_high);
+        if (rst_i) begin
+            step_q  <= 1'b0;
+            valid_o <= 1'b0;
+        end else begin
+            step_q  <= step_i;
+            valid_o <= step_q;
+        end
+    end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The incoming column of a 3x3 window: the newest pixel and those one and two rows above it, with
+// the upper or lower one replaced by the middle at a border.
+`default_nettype none
+
+module window_column #(
+    parameter WIDTH = 8,  // bits of a pixel
+    parameter SIDE  = 8   // pixels of a row of the stream
+) (
+    input  wire             clk_i,
+    input  wire             advance_i,
+    input  wire             top_i,     // no row above the middle
+    input  wire             bottom_i,  // no row below the middle
+    input  wire [WIDTH-1:0] pixel_i,
+    output wire [WIDTH-1:0] upper_o,
+    output wire [WIDTH-1:0] middle_o,
+    output wire [WIDTH-1:0] lower_o,
+    output wire [WIDTH-1:0] center_o   // the middle one advance ago: the center of the window
+);
+
+    wire [WIDTH-1:0] middle;
+    wire [WIDTH-1:0] above;
+    reg  [WIDTH-1:0] center_q;
+
+    line_delay #(.WIDTH(WIDTH), .DEPTH(SIDE)) u_middle (
+        .clk_i(clk_i), .advance_i(advance_i), .data_i(pixel_i), .data_o(middle)
+    );
+
+    line_delay #(.WIDTH(WIDTH), .DEPTH(SIDE)) u_above (
+        .clk_i(clk_i), .advance_i(advance_i), .data_i(middle), .data_o(above)
+    );
+
+    always @(posedge clk_i) begin
+        if (advance_i) center_q <= middle;
+    end
+
+    assign upper_o  = top_i ? middle : above;
+    assign middle_o = middle;
+    assign lower_o  = bottom_i ? middle : pixel_i;
+    assign center_o = center_q;
+
+endmodule
+
+`default_nettype wire
