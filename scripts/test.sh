@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Runs every check: format, clippy, documentation, unit, property, golden, command line, RTL lint, co-simulation. Installs
+# what is missing.
+#
+# A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used where FOVEATE_DATA names their folder.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+step() { printf '\n== %s\n' "$*"; }
+
+step "tools"
+scripts/install_tools.sh
+export FOVEATE_REQUIRE_TOOLS=1
+step "format"
+cargo fmt --all --check
+step "clippy"
+cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
+step "documentation"
+RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
+step "tests"
+cargo test --workspace --locked
