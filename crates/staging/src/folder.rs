@@ -45,6 +45,15 @@ impl StagedFolder {
         Ok(Self { target: place, partial, kind, replace })
     }
 
+    /// Whether [`StagedFolder::new`] would accept `target`, without making anything: to refuse it
+    /// before hours of work.
+    ///
+    /// # Errors
+    /// When `target` holds something that does not make way.
+    pub fn check(target: &Path, kind: Kind, replace: bool) -> Result<(), StagingError> {
+        refuse_occupied(target, kind, replace)
+    }
+
     /// Where to write.
     #[must_use]
     pub fn folder(&self) -> &Path {
