@@ -34,7 +34,7 @@ module {= bench =};
   reg {= port.name =}_failed = 1'b0;
   {%- endfor %}
 
-  {= top =} dut (
+  {= top =} {% if !parameters.is_empty() %}#({= parameters.join(", ") =}) {% endif %}dut (
     .{= clock.name =}({= clock.name =})
     {%- for port in inputs %},
     .{= port.name =}({= port.name =})

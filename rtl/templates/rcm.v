@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// Relevance computation module: {= columns =} x {= rows =} regional processing units, region row * {= columns =} + column
+// Relevance computation module: COLUMNS x ROWS regional processing units, region row * COLUMNS + column
 // in the lane of that number. All take their pixels at the same clocks and decide together.
 `default_nettype none
 
-module rcm (
+module rcm #(
+    parameter COLUMNS = {= columns =},  // regions side by side
+    parameter ROWS = {= rows =}      // regions one below the other
+) (
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
 );
-
-    localparam COLUMNS = {= columns =};
-    localparam ROWS = {= rows =};
 
     wire [COLUMNS*ROWS-1:0] decision_valid;
 

@@ -57,6 +57,8 @@ fn edited_verilog_is_caught_and_replayed() {
         run_in(dir.path(), &[&args[..], extra].concat())
     };
     assert_eq!(cosim(&["--simulator", "iverilog"]).code, 0);
+    let array = cosim(&["--simulator", "iverilog", "--level", "rcm", "--grid", "3x1"]);
+    assert_eq!(array.code, 0, "the array takes any grid: {}", array.stderr);
 
     edit(&dir.path().join("core/rtl/vote.v"), "score_i >= minimum_i", "score_i > minimum_i");
     let outcome = cosim(&["--junit", "cosim.xml"]);

@@ -3,6 +3,7 @@
 
 use crate::layout::Layout;
 use askama::Template;
+use foveate_emit::Parameter;
 use foveate_spec::{Direction, Port, PortRole};
 
 /// The C++ main that clocks module `top` with packed records; see [`Layout`] for their bytes.
@@ -26,9 +27,10 @@ pub fn bench_file(top: &str) -> String {
 }
 
 /// A bench in Verilog-2005 that replays vectors through module `top` and compares every output at
-/// every clock. What it reads is written by [`crate::vectors_hex`].
+/// every clock. `parameters` of the module are set to their values. What the bench reads is written by
+/// [`crate::vectors_hex`].
 #[must_use]
-pub fn replay_bench(top: &str, ports: &[Port]) -> String {
+pub fn replay_bench(top: &str, ports: &[Port], parameters: &[Parameter]) -> String {
     let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
     let bench_ports = |layout: &Layout| -> Vec<BenchPort> {
         layout.fields().iter().map(|field| BenchPort::new(&field.port)).collect()
@@ -42,6 +44,7 @@ pub fn replay_bench(top: &str, ports: &[Port]) -> String {
     };
     rendered(&Bench {
         top,
+        parameters: parameters.iter().map(|(name, value)| format!(".{name}({value})")).collect(),
         bench: bench_name(top),
         clock,
         has_lanes: outputs.iter().any(|port| port.lanes > 1),
@@ -65,6 +68,7 @@ struct Harness<'a> {
 #[template(path = "replay_bench.v")]
 struct Bench<'a> {
     top: &'a str,
+    parameters: Vec<String>,
     bench: String,
     clock: BenchPort,
     inputs: Vec<BenchPort>,
@@ -139,8 +143,9 @@ mod tests {
         assert!(cpp.contains("put(top.a_i, record + 0, 5);"), "{cpp}");
         assert!(cpp.contains("kFits<200, decltype(top.b_o)>"), "{cpp}");
         assert!(!cpp.contains("put(top.clk_i"), "{cpp}");
-        let bench = replay_bench("tiny", &ports);
+        let bench = replay_bench("tiny", &ports, &[("N", 4)]);
         assert!(bench.contains("module tiny_replay;"), "{bench}");
+        assert!(bench.contains("tiny #(.N(4)) dut ("), "{bench}");
         assert!(bench.contains("b_o[lane*8 +: 8] !== b_o_expected[lane*8 +: 8]"), "{bench}");
         assert!(bench.contains("while (columns == 2)"), "{bench}");
     }

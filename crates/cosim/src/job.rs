@@ -126,6 +126,7 @@ impl Job {
         Dut {
             top: top.module().to_owned(),
             ports: top.ports(design),
+            parameters: top.parameters(design),
             sources: self.sources.iter().map(source).collect(),
             no_inline: if array { vec!["rpu".to_owned()] } else { Vec::new() },
         }

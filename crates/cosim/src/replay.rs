@@ -94,7 +94,7 @@ fn fill(
     about: &About<'_>,
 ) -> Result<(), CosimError> {
     let limit = about.difference.clock.saturating_add(MARGIN).min(recording.clocks());
-    let bench = replay_bench(&dut.top, &dut.ports);
+    let bench = replay_bench(&dut.top, &dut.ports, &dut.parameters);
     // As they stand between single quotes.
     let files = dut.sources.iter().map(|(name, _)| name.replace('\'', r"'\''")).collect();
     let script = rendered(&Script {

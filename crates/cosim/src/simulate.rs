@@ -5,6 +5,7 @@ use crate::compare::{Difference, compare, parse_clocks, parse_mismatch};
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, cpp_harness, replay_bench};
 use crate::recording::Recording;
+use foveate_emit::Parameter;
 use foveate_spec::Port;
 use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
 use foveate_toolchain::{Cache, Invocation, Output, Source, Tool, Toolchain, iverilog};
@@ -68,6 +69,8 @@ pub struct Dut {
     pub top: String,
     /// Its ports.
     pub ports: Vec<Port>,
+    /// Its parameters and their values.
+    pub parameters: Vec<Parameter>,
     /// The Verilog: name and contents, in the order of compilation.
     pub sources: Vec<Source>,
     /// Modules that Verilator must not copy into every place that uses them.
@@ -144,7 +147,10 @@ impl Run<'_> {
             Simulator::Verilator => verilator::build(self.toolchain, self.cache, &self.job(dut))?,
             Simulator::Iverilog => {
                 let mut sources = dut.sources.clone();
-                sources.push((bench_file(&dut.top), replay_bench(&dut.top, &dut.ports)));
+                sources.push((
+                    bench_file(&dut.top),
+                    replay_bench(&dut.top, &dut.ports, &dut.parameters),
+                ));
                 let job = iverilog::IverilogJob {
                     sources,
                     top: bench_name(&dut.top),
@@ -177,6 +183,8 @@ impl Run<'_> {
     fn job(&self, dut: &Dut) -> VerilatorJob {
         let configure = |module| format!("no_inline -module \"{module}\"\n");
         let vlt = dut.no_inline.iter().map(configure).collect::<String>();
+        let parameters = dut.parameters.iter().map(|(name, value)| format!("-G{name}={value}"));
+        let unknown_start = UNKNOWN_START.map(str::to_owned);
         VerilatorJob {
             sources: dut.sources.clone(),
             top: dut.top.clone(),
@@ -184,7 +192,7 @@ impl Run<'_> {
             vlt: (!vlt.is_empty()).then(|| format!("`verilator_config\n{vlt}")),
             trace: self.trace,
             lint: Lint::Lenient,
-            extra_args: UNKNOWN_START.map(str::to_owned).to_vec(),
+            extra_args: unknown_start.into_iter().chain(parameters).collect(),
             ..VerilatorJob::default()
         }
     }

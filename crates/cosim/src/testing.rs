@@ -10,5 +10,6 @@ pub(crate) fn port(name: &str, direction: Direction, width: u32, lanes: u32) -> 
         (_, Direction::Input) => PortRole::Pixel,
         (_, Direction::Output) => PortRole::TemporalCount,
     };
-    Port { name: name.to_owned(), direction, role, width, lanes, doc: String::new() }
+    let (name, doc, per_region) = (name.to_owned(), String::new(), lanes > 1);
+    Port { name, direction, role, width, lanes, per_region, doc }
 }

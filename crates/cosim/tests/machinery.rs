@@ -22,6 +22,7 @@ fn ports() -> Vec<Port> {
         role: if name == "clk_i" { PortRole::Clock } else { PortRole::Valid },
         width,
         lanes,
+        per_region: lanes > 1,
         doc: String::new(),
     };
     vec![
@@ -75,6 +76,7 @@ fn dut(verilog: &str) -> Dut {
     Dut {
         top: "tiny".to_owned(),
         ports: ports(),
+        parameters: Vec::new(),
         sources: vec![("tiny.v".to_owned(), verilog.to_owned())],
         no_inline: Vec::new(),
     }
@@ -200,7 +202,7 @@ fn the_bench_is_clean_in_both_tools() {
     let dir = tempfile::tempdir().unwrap();
     let put = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
     put("tiny.v", TINY);
-    put("tiny_replay.v", &replay_bench("tiny", &ports()));
+    put("tiny_replay.v", &replay_bench("tiny", &ports(), &[]));
     let (toolchain, bench) = (Toolchain::system(), bench_name("tiny"));
     let files = ["tiny.v", "tiny_replay.v"];
     let check = |tool, args: &[&str]| {

@@ -13,7 +13,7 @@ mod verilog;
 
 pub use crate::core::core;
 pub use leaf::{LEAVES, Leaf};
-pub use verilog::{Top, verilog};
+pub use verilog::{Parameter, Top, verilog};
 
 use foveate_spec::Design;
 

@@ -5,6 +5,9 @@ use crate::{SourceFile, leaf, rcm, rpu};
 use askama::Template;
 use foveate_spec::{Design, Direction, Port};
 
+/// A parameter of a module and its value.
+pub type Parameter = (&'static str, u32);
+
 /// Which module is on top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Top {
@@ -21,6 +24,16 @@ impl Top {
         match self {
             Self::Rpu => "rpu",
             Self::Rcm => "rcm",
+        }
+    }
+
+    /// Its parameters with the values of the design, which are their defaults in its Verilog. The
+    /// widths of the array's ports follow from them.
+    #[must_use]
+    pub fn parameters(self, design: &Design) -> Vec<Parameter> {
+        match self {
+            Self::Rpu => Vec::new(),
+            Self::Rcm => vec![("COLUMNS", design.columns()), ("ROWS", design.rows())],
         }
     }
 
@@ -89,7 +102,12 @@ fn direction(port: &Port) -> &'static str {
     }
 }
 
-/// `[7:0]`; nothing for a single bit.
+/// `[7:0]`, nothing for a single bit; in the array with its parameters.
 fn range(port: &Port) -> String {
-    if port.bits() == 1 { String::new() } else { format!("[{}:0]", port.bits() - 1) }
+    match (port.per_region, port.width) {
+        (true, 1) => "[COLUMNS*ROWS-1:0]".to_owned(),
+        (true, width) => format!("[COLUMNS*ROWS*{width}-1:0]"),
+        (false, 1) => String::new(),
+        (false, width) => format!("[{}:0]", width - 1),
+    }
 }

@@ -78,7 +78,7 @@ fn module_headers_are_the_port_lists() {
         let files = verilog(&design, Top::Rcm);
         for top in [Top::Rpu, Top::Rcm] {
             let header = contents(&files, &format!("rtl/{}.v", top.module()));
-            let header = header.split_once("\nmodule ").unwrap().1.split_once(");").unwrap().0;
+            let header = header.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
             for port in top.ports(&design) {
                 let direction = match port.direction {
                     Direction::Input => "input",
@@ -89,8 +89,12 @@ fn module_headers_are_the_port_lists() {
                     .find(|line| line.contains(&format!(" {}", port.name)))
                     .unwrap_or_else(|| panic!("{} is missing: {toml}", port.name));
                 assert!(line.trim_start().starts_with(direction), "{line}");
-                let range = format!("[{}:0]", port.bits() - 1);
-                assert_eq!(line.contains(&range), port.bits() > 1, "{line}");
+                let range = match (port.per_region, port.width) {
+                    (true, 1) => "[COLUMNS*ROWS-1:0]".to_owned(),
+                    (true, width) => format!("[COLUMNS*ROWS*{width}-1:0]"),
+                    (false, width) => format!("[{}:0]", width - 1),
+                };
+                assert_eq!(line.contains(&range), port.per_region || port.width > 1, "{line}");
             }
         }
     }

@@ -65,6 +65,8 @@ pub struct Port {
     pub width: u32,
     /// One, or one per region of the RCM.
     pub lanes: u32,
+    /// Whether there is a lane per region: in the RCM, even if it has but one.
+    pub per_region: bool,
     /// One line of documentation.
     pub doc: String,
 }
@@ -101,6 +103,7 @@ impl Design {
             Spread::Common => Some(port),
             Spread::PerRegion => {
                 port.lanes = self.regions();
+                port.per_region = true;
                 port.doc.push_str("; region i in lane i");
                 Some(port)
             }
@@ -115,7 +118,10 @@ fn ports(design: &Design) -> Vec<(Spread, Port)> {
     let mut list = Vec::new();
     let mut add = |spread, direction, role: PortRole, width, doc: &str| {
         let (name, doc) = (port_name(role), doc.to_owned());
-        list.push((spread, Port { name, direction, role, width, lanes: 1, doc }));
+        list.push((
+            spread,
+            Port { name, direction, role, width, lanes: 1, per_region: false, doc },
+        ));
     };
     let pixel = design.pixel_bits();
 

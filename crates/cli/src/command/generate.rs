@@ -61,7 +61,7 @@ fn files(design: &Design) -> Result<Vec<SourceFile>, CliError> {
     let recording = stimulus.record(design, &mut |_, _| {})?;
     let rpu = Top::Rpu;
     let mut add = |path: &str, contents| files.push(SourceFile { path: path.to_owned(), contents });
-    add("tb/rpu_replay.v", replay_bench(rpu.module(), &rpu.ports(design)));
+    add("tb/rpu_replay.v", replay_bench(rpu.module(), &rpu.ports(design), &rpu.parameters(design)));
     add("tb/rpu_vectors.hex", vectors_hex(&recording, BENCH_CLOCKS)?);
     Ok(files)
 }
