@@ -30,6 +30,11 @@ const fn fault(
 /// Every fault, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
+    fault("index", Paper, "rcm", "pixel_i[REGION*8+:8]", "pixel_i[(REGION^1)*8+:8]"),
+    fault("index", Shared, "rcm", "row * COLUMNS + column;", "column * ROWS + row;"),
+    fault("constant", Shared, "rcm", "row == 0, ", "row == 1, "),
+    fault("constant", Shared, "rcm", "column == COLUMNS - 1", "column == COLUMNS"),
+    fault("operator", Paper, "rcm", "= decision_valid[0]", "= !decision_valid[0]"),
     fault("operator", Paper, "vote", "score_i >= minimum_i", "score_i > minimum_i"),
     fault("operator", Paper, "vote", "score_i >= minimum_i", "score_i == minimum_i"),
     fault("width", Constant, "vote",

@@ -66,20 +66,21 @@ fn plant(fault: &Fault, output: &Path) -> Result<CosimReport, String> {
     let design = fault.design.design();
     let Fault { what, module, from, to, .. } = fault;
     let path = format!("rtl/{module}.v");
+    let level = match *module {
+        "rcm" => Level::Rcm { columns: 3, rows: 2 },
+        _ => Level::Rpu,
+    };
     let mut problem = None;
-    let report =
-        cosimulate(&design, Simulator::Iverilog, directed(Level::Rpu, 1), output, |job| match job
-            .sources
-            .iter_mut()
-            .find(|file| file.path == path)
-        {
+    let report = cosimulate(&design, Simulator::Iverilog, directed(level, 1), output, |job| {
+        match job.sources.iter_mut().find(|file| file.path == path) {
             None => problem = Some(format!("{module}: not in this design")),
             Some(file) if file.contents.matches(from).count() != 1 => {
                 let count = file.contents.matches(from).count();
                 problem = Some(format!("{module}: `{from}` is there {count} times"));
             }
             Some(file) => file.contents = file.contents.replace(from, to),
-        });
+        }
+    });
     match (problem, report) {
         (Some(problem), _) => Err(problem),
         (None, Err(error)) => Err(format!("{module}, {what}: {error}")),
@@ -117,7 +118,7 @@ fn every_planted_fault_is_caught() {
 #[test]
 fn every_module_has_a_fault() {
     let covered: BTreeSet<&str> = FAULTS.iter().map(|fault| fault.module).collect();
-    let modules = foveate_emit::LEAVES.iter().map(|leaf| leaf.name).chain(["rpu"]);
+    let modules = foveate_emit::LEAVES.iter().map(|leaf| leaf.name).chain(["rpu", "rcm"]);
     let missing: Vec<&str> = modules.filter(|module| !covered.contains(module)).collect();
     assert!(missing.is_empty(), "no fault is planted in {missing:?}");
     let kinds: BTreeSet<&str> = FAULTS.iter().map(|fault| fault.what).collect();
