@@ -10,7 +10,7 @@ use std::process::Command;
 
 use common::{fail_in, foveate, run_in, succeed_in};
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{data_folder, require_tools};
 use serde_json::Value;
 
 const SIMULATORS: &[Tool] = &[Tool::Verilator, Tool::Cxx, Tool::Iverilog, Tool::Vvp];
@@ -42,6 +42,21 @@ fn model_and_rtl_agree_in_both_simulators() {
     );
     assert!(text.contains("no mismatch") && text.contains("3 x 2 regions"), "{text}");
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "a good run leaves nothing");
+}
+
+/// Every region of real images, where the environment variable FOVEATE_DATA names their folder.
+#[test]
+fn real_images_agree() {
+    let Some(data) = data_folder() else { return };
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let folder = data.join("mosquito/culex");
+    let args = ["cosim", folder.to_str().unwrap(), "--rounds", "0", "--json"];
+    let report: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    assert!(report["mismatch"].is_null());
+    assert_eq!((&report["sequences"], &report["frames"]), (&784.into(), &(2 * 784).into()));
 }
 
 #[test]
