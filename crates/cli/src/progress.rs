@@ -5,28 +5,40 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+const SPINNER: &str = "{spinner} {msg} [{elapsed}]";
+const BAR: &str = "{msg} {wide_bar} {pos}/{len} [{elapsed}, {eta} left]";
+
 /// A spinner with a message, hidden when quiet or when there is no terminal.
 pub(crate) fn spinner(quiet: bool, message: &str) -> ProgressBar {
-    let bar = with_style(quiet, ProgressBar::new_spinner(), "{spinner} {msg} [{elapsed}]");
-    bar.set_message(message.to_owned());
+    let bar = shown(quiet, ProgressBar::new_spinner());
+    become_spinner(&bar, message);
     bar
+}
+
+/// Turns a bar into a spinner, for work of unknown length that follows.
+pub(crate) fn become_spinner(bar: &ProgressBar, message: &str) {
+    set_style(bar, SPINNER);
+    bar.set_message(message.to_owned());
 }
 
 /// A bar over a known number of steps.
 pub(crate) fn bar(quiet: bool, length: u64, message: &str) -> ProgressBar {
-    let style = "{msg} {wide_bar} {pos}/{len} [{elapsed}, {eta} left]";
-    let bar = with_style(quiet, ProgressBar::new(length), style);
+    let bar = shown(quiet, ProgressBar::new(length));
+    set_style(&bar, BAR);
     bar.set_message(message.to_owned());
     bar
 }
 
-fn with_style(quiet: bool, bar: ProgressBar, template: &str) -> ProgressBar {
+fn shown(quiet: bool, bar: ProgressBar) -> ProgressBar {
     // indicatif itself hides what is drawn to something that is no terminal.
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     bar.set_draw_target(target);
+    bar.enable_steady_tick(Duration::from_millis(120));
+    bar
+}
+
+fn set_style(bar: &ProgressBar, template: &str) {
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
-    bar.enable_steady_tick(Duration::from_millis(120));
-    bar
 }

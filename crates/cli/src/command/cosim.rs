@@ -136,7 +136,7 @@ fn show(bar: &ProgressBar, step: Progress) {
             bar.set_position(done);
         }
         Progress::Simulation { clocks } => {
-            bar.set_message(format!("simulating {clocks} clocks after"));
+            progress::become_spinner(bar, &format!("building and simulating {clocks} clocks"));
         }
     }
 }
