@@ -5,8 +5,8 @@
 //   scores   {= summary =}
 //   latency  {= latency =}
 //
-// Ports change at the rising edge of clk_i. Thresholds are read when they are used: keep them still
-// while a frame is under way.
+// Outputs change at the rising edge of clk_i; srs_o, trs_o and active_o follow the threshold inputs, too.
+// Thresholds are read when they are used: keep them still while a frame is under way.
 `default_nettype none
 
 module rpu (
@@ -250,10 +250,10 @@ module rpu (
     );
 {%- endfor %}
 {%- if let Some(variance) = variance %}
-    wire [{= 2 * p - 1 =}:0] square = front_pixel * front_pixel;
+    wire [{= variance.square_bits - 1 =}:0] square = front_pixel * front_pixel;
     wire [{= variance.square_sum_bits - 1 =}:0] square_sum;
     wire square_done;
-    region_sum #(.WIDTH({= 2 * p =}), .SUM_BITS({= variance.square_sum_bits =})) u_square_sum (
+    region_sum #(.WIDTH({= variance.square_bits =}), .SUM_BITS({= variance.square_sum_bits =})) u_square_sum (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .last_i(front_last),
         .value_i(square), .done_o(square_done), .sum_o(square_sum)
     );

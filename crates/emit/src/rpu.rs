@@ -7,7 +7,7 @@ use crate::{banner, latency};
 use askama::Template;
 use foveate_spec::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PortRole, Reference,
-    SpatialFeature, Thresholds, bits_for,
+    SpatialFeature, Thresholds, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -83,6 +83,7 @@ struct Mad {
 }
 
 struct VarianceWidths {
+    square_bits: u32,
     square_sum_bits: u32,
     product_bits: u32,
     score_bits: u32,
@@ -114,10 +115,7 @@ fn view(design: &Design) -> Rpu {
     let keeps_raw = design.keeps_raw();
     let shared = design.neighborhood() == Neighborhood::Shared;
     let features = design.features();
-    let sum_bits = bits_for(u64::from(design.region_pixels()) * u64::from(design.pixel_max()));
-    let window_side = window_side(design);
-    let median_side = design.stream_side() - if shared { 2 } else { 0 };
-    let side_bits = |side: u32| bits_for(u64::from(side) - 1);
+    let window_side = design.denoised_side();
     Rpu {
         banner: banner(design),
         summary: summary(design),
@@ -130,11 +128,11 @@ fn view(design: &Design) -> Rpu {
         slot_bits: design.slot_bits(),
         count_bits: design.count_bits(),
         stream_side: design.stream_side(),
-        stream_side_bits: side_bits(design.stream_side()),
+        stream_side_bits: index_bits(design.stream_side().into()),
         stream_pixels: design.stream_pixels(),
-        median_slot_bits: bits_for(u64::from(median_side * median_side) - 1),
+        median_slot_bits: index_bits(u64::from(window_side).pow(2)),
         window_side,
-        window_side_bits: side_bits(window_side),
+        window_side_bits: index_bits(window_side.into()),
         shared,
         border: design.needs_border(),
         median: design.filter() != Filter::None,
@@ -147,7 +145,7 @@ fn view(design: &Design) -> Rpu {
         blanks: u32::from(design.irrelevant() == Irrelevant::Zero),
         windowed: features.iter().filter_map(|f| windowed(design, f)).collect(),
         sums: features.iter().any(|f| f.mean().is_some() || f.variance().is_some()),
-        sum_bits,
+        sum_bits: design.pixel_sum_bits(),
         mad: design.feature(FeatureKind::Mad).and_then(mad),
         variance: design.feature(FeatureKind::Variance).and_then(variance),
         references: candidates(last_sent, second_pass),
@@ -163,16 +161,6 @@ fn view(design: &Design) -> Rpu {
             (true, true) => "second_raw",
         },
         unused: unused(last_sent, second_pass),
-    }
-}
-
-/// Side of the stream that the feature window takes.
-fn window_side(design: &Design) -> u32 {
-    let behind_median = design.filter() != Filter::None;
-    match design.neighborhood() {
-        Neighborhood::Isolated => design.region_size(),
-        Neighborhood::Shared if behind_median => design.stream_side() - 2,
-        Neighborhood::Shared => design.stream_side(),
     }
 }
 
@@ -256,6 +244,7 @@ fn mad(feature: &SpatialFeature) -> Option<Mad> {
 
 fn variance(feature: &SpatialFeature) -> Option<VarianceWidths> {
     feature.variance().map(|widths| VarianceWidths {
+        square_bits: widths.square_bits,
         square_sum_bits: widths.square_sum_bits,
         product_bits: widths.product_bits,
         score_bits: feature.score_bits(),

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The validated configuration: one immutable value from which everything else is derived.
 
-use crate::width::ceil_log2;
+use std::ops::RangeInclusive;
+
+use crate::width::index_bits;
 use crate::{
     Combine, Config, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
     Reference, SpatialConfig, SpatialFeature, SpecError, Thresholds, Timing, bits_for, fingerprint,
@@ -11,6 +13,9 @@ use crate::{
 const DEFAULT_SIDE: u32 = 224;
 /// Largest frame side; keeps every count of regions and pixels far inside 32 bits.
 const MAX_SIDE: u32 = 16_384;
+/// Most regions of a frame: those of the largest frame at 8x8 pixels. What a model keeps per region
+/// then stays within memory.
+const MAX_REGIONS: u32 = 1 << 22;
 
 /// A design: a configuration that has been checked, with every number that follows from it.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,14 +46,17 @@ impl Config {
     pub fn validate(&self) -> Result<Design, SpecError> {
         let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
         let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
-        in_range("frame.width", width, 1, MAX_SIDE)?;
-        in_range("frame.height", height, 1, MAX_SIDE)?;
-        in_range("frame.pixel_bits", self.frame.pixel_bits, 1, 16)?;
-        in_range("region.size", self.region.size, 2, 64)?;
+        in_range("frame.width", width, 1..=MAX_SIDE, "")?;
+        in_range("frame.height", height, 1..=MAX_SIDE, "")?;
+        in_range("frame.pixel_bits", self.frame.pixel_bits, 1..=16, "")?;
+        in_range("region.size", self.region.size, 2..=64, "")?;
+        self.check_regions(width, height)?;
         let n = self.region.size * self.region.size;
         let pixel_max = (1 << self.frame.pixel_bits) - 1;
-        in_range("temporal.level", self.temporal.level, 0, pixel_max)?;
-        in_range("temporal.min_count", self.temporal.min_count, 0, n)?;
+        let pixels = format!(" for pixels of {} bits", self.frame.pixel_bits);
+        in_range("temporal.level", self.temporal.level, 0..=pixel_max, &pixels)?;
+        let region = format!(" for regions of {n} pixels");
+        in_range("temporal.min_count", self.temporal.min_count, 0..=n, &region)?;
         self.check_hardware()?;
         self.check_features()?;
         let mut config = self.clone();
@@ -86,6 +94,20 @@ impl Config {
             *own = Some(given);
         }
         Ok(())
+    }
+
+    fn check_regions(&self, width: u32, height: u32) -> Result<(), SpecError> {
+        let size = self.region.size;
+        let regions = width.div_ceil(size) * height.div_ceil(size);
+        if regions <= MAX_REGIONS {
+            return Ok(());
+        }
+        Err(SpecError::Combination {
+            key: "region.size".to_owned(),
+            value: size.to_string(),
+            with: format!("a frame of {width}x{height} pixels, which has {regions} regions"),
+            remedy: format!("{MAX_REGIONS} regions are the most; enlarge regions or cut the frame"),
+        })
     }
 
     fn check_features(&self) -> Result<(), SpecError> {
@@ -136,14 +158,15 @@ impl Config {
     }
 }
 
-fn in_range(key: &str, value: u32, min: u32, max: u32) -> Result<(), SpecError> {
-    if (min..=max).contains(&value) {
+/// `why` follows the range in the message.
+fn in_range(key: &str, value: u32, range: RangeInclusive<u32>, why: &str) -> Result<(), SpecError> {
+    if range.contains(&value) {
         return Ok(());
     }
     Err(SpecError::Range {
         key: key.to_owned(),
         value: value.to_string(),
-        valid: format!("{min}..={max}"),
+        valid: format!("{}..={}{why}", range.start(), range.end()),
     })
 }
 
@@ -315,6 +338,20 @@ impl Design {
         self.region_size() + 2 * self.halo()
     }
 
+    /// Side of the square of pixels that the median window gives, or the stream itself without one;
+    /// the feature window takes it.
+    #[must_use]
+    pub fn denoised_side(&self) -> u32 {
+        let consumed = u32::from(self.halo() > 0 && self.filter() != Filter::None);
+        self.stream_side() - 2 * consumed
+    }
+
+    /// Bits of the sum of a region's pixels.
+    #[must_use]
+    pub fn pixel_sum_bits(&self) -> u32 {
+        bits_for(u64::from(self.region_pixels()) * u64::from(self.pixel_max()))
+    }
+
     /// Pixels that are streamed per region and frame.
     #[must_use]
     pub fn stream_pixels(&self) -> u32 {
@@ -330,7 +367,7 @@ impl Design {
     /// Bits of the number of a pixel in its region, 0..n.
     #[must_use]
     pub fn slot_bits(&self) -> u32 {
-        ceil_log2(self.region_pixels().into())
+        index_bits(self.region_pixels().into())
     }
 
     /// Latencies.

@@ -23,8 +23,6 @@ pub struct SpatialFeature {
 pub struct Mean {
     /// Fraction bits f of the mean.
     pub fraction_bits: u32,
-    /// Bits of the sum of a region's pixels.
-    pub sum_bits: u32,
     /// Bits of the mean, in units of `2^-f` grey levels.
     pub mean_bits: u32,
     /// Bits of the dividend `2^f * sum + floor(n/2)`.
@@ -36,8 +34,8 @@ pub struct Mean {
 /// The accumulators of `variance`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variance {
-    /// Bits of the sum of a region's pixels.
-    pub sum_bits: u32,
+    /// Bits of the square of a pixel.
+    pub square_bits: u32,
     /// Bits of the sum of their squares.
     pub square_sum_bits: u32,
     /// Bits of `n * sum(x^2)`, the minuend of the score.
@@ -160,7 +158,6 @@ impl Mean {
         let dividend_max = ((n * pixel_max) << fraction_bits) + n / 2;
         Self {
             fraction_bits,
-            sum_bits: bits_for(n * pixel_max),
             mean_bits: bits_for(dividend_max / n),
             dividend_bits: bits_for(dividend_max),
             reciprocal: Reciprocal::new(n, dividend_max),
@@ -171,7 +168,7 @@ impl Mean {
 impl Variance {
     fn new(n: u64, pixel_max: u64) -> Self {
         Self {
-            sum_bits: bits_for(n * pixel_max),
+            square_bits: bits_for(pixel_max * pixel_max),
             square_sum_bits: bits_for(n * pixel_max * pixel_max),
             product_bits: bits_for(n * n * pixel_max * pixel_max),
         }
@@ -201,7 +198,7 @@ impl Entry<'_> {
     }
 
     fn fraction_bits(&self, n: u64) -> Result<u32, SpecError> {
-        let max = crate::width::ceil_log2(n);
+        let max = crate::width::index_bits(n);
         match (self.config.mean_fraction_bits, self.config.feature) {
             (None, _) => Ok(0),
             (Some(bits), FeatureKind::Mad) if bits <= max => Ok(bits),

@@ -4,28 +4,45 @@
 use crate::SpecError;
 use toml::{Table, Value};
 
-/// Every key, dotted; `spatial` is an array of tables.
-const KEYS: &[&str] = &[
-    "frame.width",
-    "frame.height",
-    "frame.pixel_bits",
-    "region.size",
-    "region.neighborhood",
-    "denoise.filter",
-    "spatial.feature",
-    "spatial.level",
-    "spatial.min_score",
-    "spatial.mean_fraction_bits",
-    "decision.combine",
-    "temporal.level",
-    "temporal.min_count",
-    "temporal.reference",
-    "render.irrelevant",
-    "render.payload",
-    "hardware.organization",
-    "hardware.fold",
-    "hardware.thresholds",
+/// Every key, dotted, and what it takes; `spatial` is an array of tables.
+const KEYS: &[(&str, &str)] = &[
+    ("frame.width", "a whole number, 1..=16384"),
+    ("frame.height", "a whole number, 1..=16384"),
+    ("frame.pixel_bits", "a whole number, 1..=16"),
+    ("region.size", "a whole number, 2..=64"),
+    ("region.neighborhood", "\"isolated\" or \"shared\""),
+    ("denoise.filter", "\"none\" or \"median3x3\""),
+    ("spatial.feature", "\"edge\", \"corner\", \"mad\" or \"variance\""),
+    ("spatial.level", "a whole number >= 0, in grey levels"),
+    ("spatial.min_score", "a number >= 0 with at most nine digits after the point"),
+    ("spatial.mean_fraction_bits", "a whole number, 0..=12"),
+    ("decision.combine", "\"any\" or \"all\""),
+    ("temporal.level", "a whole number >= 0, in grey levels"),
+    ("temporal.min_count", "a whole number >= 0, in pixels"),
+    ("temporal.reference", "\"previous\" or \"last-sent\""),
+    ("render.irrelevant", "\"zero\" or \"hold\""),
+    ("render.payload", "\"denoised\" or \"raw\""),
+    ("hardware.organization", "\"pipelined\" or \"serial\""),
+    ("hardware.fold", "a whole number >= 1"),
+    ("hardware.thresholds", "\"runtime\" or \"constant\""),
 ];
+
+/// What the key at `path`, such as `spatial[0].level`, takes.
+pub(crate) fn takes(path: &str) -> &'static str {
+    let dotted: String = path
+        .split('[')
+        .enumerate()
+        .map(|(part, text)| match part {
+            0 => text,
+            _ => text.split_once(']').map_or("", |(_, rest)| rest),
+        })
+        .collect();
+    let key = KEYS.iter().find(|(key, _)| *key == dotted);
+    key.map_or_else(
+        || if path == "spatial" { "an array of tables" } else { "a table" },
+        |(_, takes)| takes,
+    )
+}
 
 /// Refuses the first key of `table` that is not one of [`KEYS`].
 pub(crate) fn refuse_unknown(table: &Table) -> Result<(), SpecError> {
@@ -49,7 +66,7 @@ pub(crate) fn refuse_unknown(table: &Table) -> Result<(), SpecError> {
 }
 
 fn refuse_unknown_in(section: &str, path: &str, keys: &Table) -> Result<(), SpecError> {
-    match keys.keys().find(|key| !KEYS.contains(&format!("{section}.{key}").as_str())) {
+    match keys.keys().find(|key| !all_keys().any(|known| known == format!("{section}.{key}"))) {
         None => Ok(()),
         Some(key) => {
             Err(unknown(&format!("{path}.{key}"), &format!("{section}.{key}"), all_keys()))
@@ -58,11 +75,11 @@ fn refuse_unknown_in(section: &str, path: &str, keys: &Table) -> Result<(), Spec
 }
 
 fn sections() -> impl Iterator<Item = &'static str> {
-    KEYS.iter().filter_map(|key| key.split_once('.')).map(|(section, _)| section)
+    KEYS.iter().filter_map(|(key, _)| key.split_once('.')).map(|(section, _)| section)
 }
 
 fn all_keys() -> impl Iterator<Item = String> {
-    KEYS.iter().map(|&key| key.to_owned())
+    KEYS.iter().map(|(key, _)| (*key).to_owned())
 }
 
 /// The error for `shown`; the nearest key is looked for under the name `plain`.

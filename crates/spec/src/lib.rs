@@ -33,4 +33,4 @@ pub use port::{Direction, Port, PortRole};
 pub use preset::{PRESETS, Preset};
 pub use reciprocal::Reciprocal;
 pub use timing::Timing;
-pub use width::{bits_for, mad_score_max};
+pub use width::{bits_for, index_bits, mad_score_max};

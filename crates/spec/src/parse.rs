@@ -3,6 +3,7 @@
 
 use crate::{Config, SpecError, keys};
 use serde::Deserialize;
+use serde_path_to_error::{Path, Segment};
 use toml::{Table, Value};
 
 impl Config {
@@ -28,9 +29,11 @@ impl Config {
             apply(&mut table, text.as_ref())?;
         }
         keys::refuse_unknown(&table)?;
-        serde_path_to_error::deserialize(Value::Table(table)).map_err(|e| SpecError::Type {
-            key: e.path().to_string(),
-            problem: e.inner().message().to_owned(),
+        let value = Value::Table(table);
+        serde_path_to_error::deserialize(value.clone()).map_err(|e| {
+            let key = e.path().to_string();
+            let problem = problem(&key, at(&value, e.path()), e.inner().message());
+            SpecError::Type { key, problem }
         })
     }
 
@@ -39,6 +42,33 @@ impl Config {
     pub fn to_toml(&self) -> String {
         toml::to_string(self).unwrap_or_default()
     }
+}
+
+/// What is wrong with the value of a key, which serde says in words of its own.
+fn problem(key: &str, value: Option<&Value>, message: &str) -> String {
+    match value {
+        _ if message.starts_with("missing field") => message.replace("missing field", "it lacks"),
+        Some(value) => format!("{} is not valid; it takes {}", short(value), keys::takes(key)),
+        None => message.to_owned(),
+    }
+}
+
+/// The value as it is written, cut where it is long.
+fn short(value: &Value) -> String {
+    const LONGEST: usize = 40;
+    let text = value.to_string();
+    if text.chars().count() <= LONGEST {
+        return text;
+    }
+    text.chars().take(LONGEST).chain("...".chars()).collect()
+}
+
+fn at<'a>(value: &'a Value, path: &Path) -> Option<&'a Value> {
+    path.iter().try_fold(value, |here, step| match step {
+        Segment::Map { key } => here.get(key),
+        Segment::Seq { index } => here.get(*index),
+        _ => None,
+    })
 }
 
 /// The message of a syntax error with its place, without the drawing of the source line.
@@ -90,6 +120,7 @@ fn default_features() -> Value {
 
 fn literal(text: &str) -> Value {
     #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
     struct Wrapped {
         value: Value,
     }

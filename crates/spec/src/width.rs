@@ -7,8 +7,9 @@ pub const fn bits_for(max: u64) -> u32 {
     if max == 0 { 1 } else { u64::BITS - max.leading_zeros() }
 }
 
-/// The smallest `b` with `2^b >= n`.
-pub(crate) const fn ceil_log2(n: u64) -> u32 {
+/// Bits of a number that counts `n` things from 0: the smallest `b` with `2^b >= n`.
+#[must_use]
+pub const fn index_bits(n: u64) -> u32 {
     if n <= 1 { 0 } else { bits_for(n - 1) }
 }
 
@@ -144,6 +145,6 @@ mod tests {
         for (max, bits) in [(0, 1), (1, 1), (2, 2), (63, 6), (64, 7), (255, 8), (256, 9)] {
             assert_eq!(bits_for(max), bits);
         }
-        assert_eq!([1, 2, 3, 4, 5, 64, 65].map(ceil_log2), [0, 1, 2, 2, 3, 6, 7]);
+        assert_eq!([1, 2, 3, 4, 5, 64, 65].map(index_bits), [0, 1, 2, 2, 3, 6, 7]);
     }
 }

@@ -87,9 +87,25 @@ fn unknown_keys_name_the_nearest() {
 
 #[test]
 fn wrong_types_name_the_key() {
-    assert!(refusal("[region]\nsize = \"big\"\n").starts_with("`region.size`: "));
-    let names = refusal("[[spatial]]\nfeature = \"edges\"\n");
-    assert!(names.starts_with("`spatial[0].feature`: ") && names.contains("`corner`"), "{names}");
+    for (toml, message) in [
+        (
+            "[region]\nsize = \"big\"\n",
+            "`region.size`: \"big\" is not valid; it takes a whole number, 2..=64",
+        ),
+        (
+            "[region]\nsize = 8.0\n",
+            "`region.size`: 8.0 is not valid; it takes a whole number, 2..=64",
+        ),
+        (
+            "[[spatial]]\nfeature = \"edges\"\n",
+            "`spatial[0].feature`: \"edges\" is not valid; it takes \"edge\", \"corner\", \"mad\" or \"variance\"",
+        ),
+        ("[[spatial]]\nlevel = 3\n", "`spatial[0]`: it lacks `feature`"),
+        ("region = 8\n", "`region`: 8 is not valid; it takes a table"),
+        ("spatial = \"edge\"\n", "`spatial`: \"edge\" is not valid; it takes an array of tables"),
+    ] {
+        assert_eq!(refusal(toml), message);
+    }
     assert!(refusal("[region\nsize = 8").contains("line 1"));
     assert!(refusal("[[spatial]]\nfeature = \"mad\"\nmin_score = -1\n").contains("min_score"));
 }
@@ -102,7 +118,7 @@ fn ranges_name_key_value_and_range() {
         ("[frame]\nwidth = 0\n", "`frame.width` = 0 is out of range; valid is 1..=16384"),
         (
             "[temporal]\nmin_count = 65\n",
-            "`temporal.min_count` = 65 is out of range; valid is 0..=64",
+            "`temporal.min_count` = 65 is out of range; valid is 0..=64 for regions of 64 pixels",
         ),
         (
             "[[spatial]]\nfeature = \"edge\"\nlevel = 1531\n",
@@ -129,6 +145,7 @@ fn impossible_combinations_say_what_to_do() {
         ("[hardware]\norganization = \"serial\"\n", "not there yet"),
         ("[hardware]\nfold = 2\n", "use 1"),
         ("spatial = []\n", "one to four features"),
+        ("[frame]\nwidth = 16384\nheight = 16384\n[region]\nsize = 2\n", "67108864 regions"),
     ] {
         assert!(refusal(toml).contains(part), "{}", refusal(toml));
     }
@@ -142,8 +159,14 @@ fn overrides_reach_every_key() {
     assert_eq!((design.region_size(), design.features()[0].level()), (16, Some(50)));
     let two = with(&["spatial=[{feature=\"mad\"},{feature=\"corner\"}]"]).unwrap();
     assert_eq!(two.spatial.len(), 2);
-    for wrong in ["region.size", "=3", "spatial.1.level=3", "region.size.deep=1", "region..size=1"]
-    {
+    for wrong in [
+        "region.size=16\ntemporal=3",
+        "region.size",
+        "=3",
+        "spatial.1.level=3",
+        "region.size.deep=1",
+        "region..size=1",
+    ] {
         assert!(with(&[wrong]).is_err(), "{wrong}");
     }
 }
