@@ -4,9 +4,10 @@
 use std::fs;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::builder::RangedI64ValueParser;
+use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
-use foveate_spec::{Config, Design, Preset};
+use foveate_spec::{Config, Design, Preset, SpecError};
 
 use crate::error::CliError;
 
@@ -50,23 +51,30 @@ pub(crate) struct DesignArgs {
 impl DesignArgs {
     /// The configuration; without a file or preset the defaults.
     pub(crate) fn read(&self) -> Result<Config, CliError> {
-        let text = match (&self.config, &self.preset) {
+        let text = self.text()?;
+        Config::from_toml_with(&text, &self.overrides).map_err(|error| self.blame(&text, error))
+    }
+
+    /// The validated design.
+    pub(crate) fn design(&self) -> Result<Design, CliError> {
+        let config = self.read()?;
+        config.validate().or_else(|error| Err(self.blame(&self.text()?, error)))
+    }
+
+    fn text(&self) -> Result<String, CliError> {
+        Ok(match (&self.config, &self.preset) {
             (Some(file), _) => {
                 fs::read_to_string(file).map_err(CliError::io("read the configuration", file))?
             }
             (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
             (None, None) => String::new(),
-        };
-        Config::from_toml_with(&text, &self.overrides).map_err(|error| self.blame(error))
+        })
     }
 
-    /// The validated design.
-    pub(crate) fn design(&self) -> Result<Design, CliError> {
-        self.read()?.validate().map_err(|error| self.blame(error))
-    }
-
-    fn blame(&self, error: foveate_spec::SpecError) -> CliError {
-        CliError::Spec { file: self.config.clone(), error }
+    /// Names the file if it is wrong without the overrides, too.
+    fn blame(&self, text: &str, error: SpecError) -> CliError {
+        let alone = Config::from_toml(text).and_then(|config| config.validate());
+        CliError::Spec { file: self.config.clone().filter(|_| alone.is_err()), error }
     }
 }
 
@@ -90,7 +98,7 @@ pub(crate) struct CheckArgs {
 pub(crate) struct GenerateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Folder to write; it must not exist or be empty
+    /// Folder to write; if it exists, it must be empty
     #[arg(long, short, value_name = "DIR")]
     pub(crate) output: PathBuf,
     /// Replace the folder if it holds a generated core
@@ -132,7 +140,7 @@ pub(crate) struct CosimArgs {
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
     /// At most this many frames of the inputs
-    #[arg(long, value_name = "N", default_value_t = 2)]
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = at_least_one())]
     pub(crate) frames: u32,
     /// How often the directed sequences are run through, each time with other data; 0 runs the
     /// frames alone. By default 3 for one RPU, 1 for an array
@@ -202,7 +210,7 @@ pub(crate) struct SimulateArgs {
     /// Folder to write
     #[arg(long, short, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Replace the folder if it exists
+    /// Replace the folder if it holds a simulation
     #[arg(long)]
     pub(crate) force: bool,
     /// Do not write rendered frames
@@ -212,10 +220,10 @@ pub(crate) struct SimulateArgs {
     #[arg(long)]
     pub(crate) overlay: bool,
     /// At most this many frames; of a scene, exactly this many
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = at_least_one())]
     pub(crate) frames: Option<u32>,
     /// Frames per second of images, for the times of frames
-    #[arg(long, value_name = "N", default_value_t = 30)]
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = at_least_one())]
     pub(crate) fps: u32,
     /// Print the summary as JSON
     #[arg(long)]
@@ -247,6 +255,10 @@ pub(crate) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]
     pub(crate) shell: Shell,
+}
+
+fn at_least_one() -> RangedI64ValueParser<u32> {
+    value_parser!(u32).range(1..)
 }
 
 fn parse_grid(text: &str) -> Result<(u32, u32), String> {

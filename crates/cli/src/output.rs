@@ -4,6 +4,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
+use terminal_size::Width;
 
 use crate::error::CliError;
 
@@ -25,8 +26,11 @@ pub(crate) fn json(value: &impl Serialize) -> Result<(), CliError> {
     text(&(rendered + "\n"))
 }
 
-/// Columns to fill: those of the terminal within reason, 80 where there is none.
+/// Columns to fill, within reason: what the environment variable `COLUMNS` says, or the terminal; 80
+/// where there is neither.
 pub(crate) fn width() -> usize {
-    terminal_size::terminal_size()
-        .map_or(80, |(terminal_size::Width(columns), _)| usize::from(columns).clamp(40, 120))
+    let from_environment = || std::env::var("COLUMNS").ok()?.parse().ok();
+    let from_terminal =
+        || terminal_size::terminal_size().map(|(Width(columns), _)| usize::from(columns));
+    from_environment().or_else(from_terminal).unwrap_or(80).clamp(40, 120)
 }

@@ -106,6 +106,10 @@ fn verilog_that_does_not_fit_is_refused() {
     let outcome = run_in(dir.path(), &same);
     assert_eq!(outcome.code, 3);
     assert!(outcome.stderr.contains("vote.v"), "{}", outcome.stderr);
+    assert_eq!(run_in(dir.path(), &[&same[..], &["--junit", "cosim.xml"]].concat()).code, 3);
+    let junit = fs::read_to_string(dir.path().join("cosim.xml")).unwrap();
+    assert!(junit.contains("<error") && junit.contains("vote.v"), "{junit}");
+    fail_in(dir.path(), 2, &["cosim", "--junit", "no/cosim.xml"], &["`no/cosim.xml`"]);
     fs::create_dir(dir.path().join("empty")).unwrap();
     fail_in(dir.path(), 2, &["cosim", "--rtl", "empty"], &["`empty`", "no .v file"]);
     fail_in(dir.path(), 2, &["cosim", "--rtl", "missing"], &["`missing`"]);

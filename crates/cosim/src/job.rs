@@ -119,6 +119,12 @@ impl Job {
         Ok(report)
     }
 
+    /// Name for people, such as `rpu verilator`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{} {}", self.stimulus.level, self.simulator)
+    }
+
     fn dut(&self, design: &Design) -> Dut {
         let top = self.stimulus.level.top();
         let array = self.stimulus.level != Level::Rpu && design.regions() > INLINED_REGIONS;
@@ -138,7 +144,7 @@ impl Job {
         let clocks = mismatch.as_ref().map_or(recording.clocks(), |mismatch| mismatch.clock + 1);
         CosimReport {
             format_version: FORMAT_VERSION,
-            name: format!("{level} {}", self.simulator),
+            name: self.name(),
             design: design.fingerprint(),
             level,
             grid: (design.columns(), design.rows()),

@@ -30,6 +30,20 @@ pub fn junit_xml(reports: &[CosimReport]) -> String {
         case.set_system_out(report.to_string());
         suite.add_test_case(case);
     }
+    rendered(suite)
+}
+
+/// One test case for a run that came to no result.
+#[must_use]
+pub fn junit_error(name: &str, problem: &str) -> String {
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+    status.set_type("no result").set_message(problem);
+    let mut suite = TestSuite::new("foveate cosim");
+    suite.add_test_case(TestCase::new(name, status));
+    rendered(suite)
+}
+
+fn rendered(suite: TestSuite) -> String {
     let mut report = Report::new("foveate cosim");
     report.add_test_suite(suite);
     // Writing into memory cannot fail.

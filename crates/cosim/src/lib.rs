@@ -26,7 +26,7 @@ pub use compare::Difference;
 pub use error::CosimError;
 pub use harness::{bench_file, bench_name, cpp_harness, replay_bench};
 pub use job::{Job, Progress};
-pub use junit::junit_xml;
+pub use junit::{junit_error, junit_xml};
 pub use layout::{Field, Layout};
 pub use level::Level;
 pub use recording::{Recorder, Recording, Span, vectors_hex};

@@ -11,15 +11,17 @@ pub(crate) struct Table {
 }
 
 const GAP: usize = 2;
-const NARROWEST: usize = 8;
+const NARROWEST: usize = 20;
 
 impl Table {
-    /// Aligned columns; the first one is cut where the table would be wider than `width`.
+    /// Aligned columns. The first one is cut where the table would be wider than `width`, unless too
+    /// little would be left of it: a terminal that narrow has to break the lines.
     pub(crate) fn text(&self, width: usize) -> String {
         let mut columns = self.widths();
         let figures: usize = columns.iter().skip(1).map(|column| column + GAP).sum();
-        if let Some(first) = columns.first_mut() {
-            *first = (*first).min(width.saturating_sub(figures).max(NARROWEST));
+        let left = width.saturating_sub(figures);
+        if let Some(first) = columns.first_mut().filter(|_| left >= NARROWEST) {
+            *first = (*first).min(left);
         }
         let mut text = wrap(&self.title, width);
         for row in std::iter::once(&self.header).chain(&self.rows) {

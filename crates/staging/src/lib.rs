@@ -10,5 +10,5 @@ mod file;
 mod folder;
 
 pub use error::StagingError;
-pub use file::write_file;
+pub use file::{check_file, write_file};
 pub use folder::{Kind, StagedFolder};

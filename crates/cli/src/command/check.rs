@@ -176,7 +176,8 @@ fn text(design: &Design, card: &Card<'_>) -> String {
     lines.push(("pixels leave", forward_line(&card.timing)));
     let mut text = String::new();
     for (name, value) in lines {
-        let _ = writeln!(text, "{name:<17} {value}");
+        let start = format!("{name:<17} ");
+        wrap(&mut text, &start, &value);
     }
     ports(&mut text, "rpu", &card.rpu_ports);
     ports(&mut text, "rcm", &card.rcm_ports);
@@ -226,6 +227,17 @@ fn ports(text: &mut String, module: &str, rows: &[PortRow]) {
     for row in rows {
         let lanes = if row.lanes == 1 { String::new() } else { format!("{} x ", row.lanes) };
         let bits = format!("{lanes}{}", row.width);
-        let _ = writeln!(text, "  {:<6} {bits:>10}  {:<17} {}", row.direction, row.name, row.doc);
+        let start = format!("  {:<6} {bits:>10}  {:<17} ", row.direction, row.name);
+        wrap(text, &start, &row.doc);
     }
+}
+
+/// A line that starts with `start`; what does not fit goes on under `rest`.
+fn wrap(text: &mut String, start: &str, rest: &str) {
+    let indent = " ".repeat(start.len());
+    let options = textwrap::Options::new(output::width())
+        .initial_indent(start)
+        .subsequent_indent(&indent)
+        .break_words(false);
+    let _ = writeln!(text, "{}", textwrap::fill(rest, options));
 }

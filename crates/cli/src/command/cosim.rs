@@ -4,12 +4,14 @@
 use std::fs;
 use std::path::Path;
 
-use foveate_cosim::{CosimReport, Job, Level, Progress, Simulator, Stimulus, junit_xml};
+use foveate_cosim::{
+    CosimError, CosimReport, Job, Level, Progress, Simulator, Stimulus, junit_error, junit_xml,
+};
 use foveate_emit::SourceFile;
 use foveate_model::Frame;
 use foveate_simulator::{InputOptions, Simulation, open};
 use foveate_spec::Design;
-use foveate_staging::write_file;
+use foveate_staging::{check_file, write_file};
 use foveate_toolchain::{Cache, Toolchain};
 use indicatif::ProgressBar;
 
@@ -35,27 +37,41 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
         job.sources = read_rtl(folder)?;
     }
 
+    if let Some(file) = &args.junit {
+        check_file(file)?;
+    }
+
     let bar = progress::bar(args.quiet, 0, "vectors");
     let report = job.run(&Toolchain::system(), &Cache::from_env()?, &mut |step| show(&bar, step));
     bar.finish_and_clear();
+    let written = write_junit(args, &job, &report);
     let report = report?;
-    if let Some(file) = &args.junit {
-        write_file(file, junit_xml(std::slice::from_ref(&report)).as_bytes())?;
+    tell(args, &report)?;
+    if !report.passed() {
+        if let Err(error) = written {
+            eprintln!("foveate: {error}");
+        }
+        return Err(CliError::Failed("model and RTL do not agree".to_owned()));
     }
-    tell(args, &report)
+    written
 }
 
 fn tell(args: &CosimArgs, report: &CosimReport) -> Result<(), CliError> {
-    if args.json {
-        output::json(report)?;
-    } else {
-        output::text(&text(report))?;
-    }
-    if report.passed() {
-        Ok(())
-    } else {
-        Err(CliError::Failed("model and RTL do not agree".to_owned()))
-    }
+    if args.json { output::json(report) } else { output::text(&text(report)) }
+}
+
+/// The result for a CI server, also if there is none because a tool failed.
+fn write_junit(
+    args: &CosimArgs,
+    job: &Job,
+    report: &Result<CosimReport, CosimError>,
+) -> Result<(), CliError> {
+    let Some(file) = &args.junit else { return Ok(()) };
+    let xml = match report {
+        Ok(report) => junit_xml(std::slice::from_ref(report)),
+        Err(error) => junit_error(&job.name(), &error.to_string()),
+    };
+    Ok(write_file(file, xml.as_bytes())?)
 }
 
 fn text(report: &CosimReport) -> String {

@@ -8,6 +8,7 @@ use foveate_estimate::{
 };
 use foveate_spec::{Config, Design, FeatureKind, Filter, SpatialConfig};
 use foveate_toolchain::{Cache, Toolchain};
+use serde::Serialize;
 
 use crate::args::EstimateArgs;
 use crate::error::CliError;
@@ -16,6 +17,12 @@ use crate::{output, progress};
 pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
     let flow = Flow { toolchain: Toolchain::system(), cache: Cache::from_env()? };
     if args.compare { compare(args, &flow) } else { one(args, &flow) }
+}
+
+#[derive(Serialize)]
+struct Comparison {
+    format_version: u32,
+    candidates: Vec<Candidate>,
 }
 
 /// What every synthesis needs.
@@ -66,7 +73,7 @@ fn compare(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     }
     bar.finish_and_clear();
     if args.json {
-        output::json(&candidates)
+        output::json(&Comparison { format_version: 1, candidates })
     } else if args.markdown {
         output::text(&compare_markdown(&candidates))
     } else {

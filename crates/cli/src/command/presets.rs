@@ -2,12 +2,18 @@
 //! `foveate presets`: what there is to start from.
 
 use foveate_scenes::Scene;
-use foveate_spec::{PRESETS, Preset};
+use foveate_spec::{Config, PRESETS, Preset};
 use serde::Serialize;
 
 use crate::args::PresetsArgs;
 use crate::error::CliError;
 use crate::output;
+
+#[derive(Serialize)]
+struct List {
+    format_version: u32,
+    entries: Vec<Entry>,
+}
 
 /// Something with a name and a line about it.
 #[derive(Serialize)]
@@ -18,19 +24,29 @@ struct Entry {
 
 pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
     if let Some(name) = &args.name {
-        let design = Preset::find(name)?.config()?.validate()?;
-        return if args.json {
-            output::json(design.config())
-        } else {
-            output::text(&design.config().to_toml())
-        };
+        // Every key but the frame's size, which simulations take from their input.
+        let mut config = Preset::find(name)?.config()?.validate()?.config().clone();
+        (config.frame.width, config.frame.height) = (None, None);
+        return if args.json { output::json(&config) } else { output::text(&file(name, &config)) };
     }
     let entries: Vec<Entry> = if args.scenes {
         Scene::ALL.iter().map(|s| Entry { name: s.name(), summary: s.summary() }).collect()
     } else {
         PRESETS.iter().map(|p| Entry { name: p.name, summary: p.summary }).collect()
     };
-    if args.json { output::json(&entries) } else { output::text(&list(&entries)) }
+    if args.json {
+        output::json(&List { format_version: 1, entries })
+    } else {
+        output::text(&list(&entries))
+    }
+}
+
+fn file(name: &str, config: &Config) -> String {
+    format!(
+        "# Preset `{name}`. frame.width and frame.height are 224 unless they are set; `foveate simulate`\n\
+         # and `foveate cosim` take them from their input.\n\n{}",
+        config.to_toml()
+    )
 }
 
 fn list(entries: &[Entry]) -> String {

@@ -5,8 +5,8 @@
 //   scores   edge (any), temporal against previous; isolated neighborhood, filter median3x3
 //   latency  a decision is valid 20 clocks after the edge that takes the last pixel
 //
-// Ports change at the rising edge of clk_i. Thresholds are read when they are used: keep them still
-// while a frame is under way.
+// Outputs change at the rising edge of clk_i; srs_o, trs_o and active_o follow the threshold inputs, too.
+// Thresholds are read when they are used: keep them still while a frame is under way.
 `default_nettype none
 
 module rpu (
