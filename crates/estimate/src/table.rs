@@ -127,11 +127,12 @@ mod tests {
         let table = Table {
             title: "T".into(),
             header: row(["module", "LUT"]),
-            rows: vec![row(["a_long_module_name", "1,000"]), row(["b", "1"])],
+            rows: vec![row(["a_module_with_a_long_name", "1,000"]), row(["b", "1"])],
             note: None,
         };
-        let expected = "T\nmodule      LUT\na_long..  1,000\nb             1\n";
-        assert_eq!(table.text(15), expected);
+        let cut = "T\nmodule                  LUT\na_module_with_a_lo..  1,000\nb                         1\n";
+        assert_eq!(table.text(27), cut);
+        assert!(table.text(15).contains("a_module_with_a_long_name  1,000"), "too narrow to cut");
         assert!(table.markdown().contains("| module | LUT |\n| --- | ---: |\n"));
     }
 
