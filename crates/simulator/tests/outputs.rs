@@ -146,31 +146,6 @@ fn rendered_frames_are_widened_to_a_depth_that_png_has() {
 }
 
 #[test]
-fn the_overlay_shows_each_state_in_its_colour() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = folder.path().join("out");
-    simulate(&output, &OVERRIDES, &RunOptions { overlay: true, rendered: false, overwrite: false });
-    assert!(!output.join("rendered").exists());
-    for (t, outcome) in outcomes(&OVERRIDES).iter().enumerate() {
-        let path = output.join(format!("overlay/{t:06}.png"));
-        let picture = image::open(path).unwrap().into_rgb8();
-        assert_eq!(picture.dimensions(), (45, 38));
-        for region in 0..30 {
-            // A pixel beside the grid.
-            let at = (region % 6 * 8 + 3, region / 6 * 8 + 3);
-            let [r, g, b] = picture.get_pixel(at.0, at.1).0;
-            let index = region as usize;
-            match (outcome.srs[index], outcome.trs[index]) {
-                (true, true) => assert!(g > r && g > b),
-                (true, false) => assert!(r > g && g > b),
-                (false, true) => assert!(b > g && g > r),
-                (false, false) => assert!(r == g && g == b),
-            }
-        }
-    }
-}
-
-#[test]
 fn frames_have_their_names_and_times() {
     let folder = tempfile::tempdir().unwrap();
     let inputs: Vec<_> = ["b,1.png", "a.png"]

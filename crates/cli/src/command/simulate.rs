@@ -5,11 +5,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_simulator::{
-    FrameRate, Hooks, InputOptions, Progress, RunOptions, Simulation, Summary, open,
+    Bandwidth, EventTables, FrameRate, Hooks, InputOptions, Medium, PixelEvents, Progress,
+    RunOptions, Simulation, Summary, Traffic, open,
 };
 use indicatif::ProgressBar;
 
-use crate::args::SimulateArgs;
+use crate::args::{
+    EventFormat, Only, OutputArgs, Pictures, PixelEventFormat, Rendered, SimulateArgs,
+};
 use crate::error::CliError;
 use crate::{output, progress};
 
@@ -18,13 +21,45 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let input = InputOptions { frames: args.frames, frame_rate: FrameRate::new(args.fps, 1)? };
     let source = open(&args.inputs, &config, &input)?;
     let simulation = Simulation::new(&config, source)?;
-    let options =
-        RunOptions { rendered: !args.no_rendered, overlay: args.overlay, overwrite: args.force };
+    let options = RunOptions { overwrite: args.force, ..outputs(&args.outputs) };
     let mut hooks = Terminal::new(args.quiet)?;
     let summary = simulation.run(&args.output, &options, &mut hooks);
     hooks.bar.finish_and_clear();
     let summary = summary?;
     if args.json { output::json(&summary) } else { output::text(&text(args, &summary)) }
+}
+
+/// What the options of the command ask for.
+fn outputs(args: &OutputArgs) -> RunOptions {
+    let medium = |pictures| match pictures {
+        Pictures::Png => Medium::Png,
+        Pictures::Mkv => Medium::Mkv,
+        Pictures::Mp4 => Medium::Mp4,
+    };
+    let rendered = match args.rendered {
+        _ if args.no_rendered => None,
+        Rendered::None => None,
+        Rendered::Png => Some(Medium::Png),
+        Rendered::Mkv => Some(Medium::Mkv),
+        Rendered::Mp4 => Some(Medium::Mp4),
+    };
+    RunOptions {
+        rendered,
+        overlay: args.overlay.map(medium),
+        heatmap: args.heatmap.map(medium),
+        events: EventTables {
+            csv: args.events.contains(&EventFormat::Csv),
+            parquet: args.events.contains(&EventFormat::Parquet),
+            only_active: args.only == Some(Only::Active),
+        },
+        pixel_events: PixelEvents {
+            npz: args.pixel_events.contains(&PixelEventFormat::Npz),
+            csv: args.pixel_events.contains(&PixelEventFormat::Csv),
+            contrast: args.contrast,
+            log: args.log,
+        },
+        overwrite: false,
+    }
 }
 
 /// Draws progress and listens for Ctrl-C.
@@ -61,7 +96,8 @@ fn text(args: &SimulateArgs, summary: &Summary) -> String {
     format!(
         "{}: {} frames of {} x {} pixels, {} regions\n\
          active {}  SRS {}  TRS {}\n\
-         {} pixels in, {} forwarded\n",
+         {} pixels in, {} forwarded\n\
+         {}",
         args.output.display(),
         summary.frames,
         summary.width,
@@ -72,5 +108,26 @@ fn text(args: &SimulateArgs, summary: &Summary) -> String {
         percent(summary.trs_share),
         summary.pixels_in,
         summary.pixels_forwarded,
+        traffic(&summary.bandwidth),
     )
+}
+
+/// What the cameras send, a line for each.
+fn traffic(bandwidth: &Bandwidth) -> String {
+    let per_second =
+        |rate: Option<f64>| rate.map_or(String::new(), |rate| format!(" ({rate:.0}/s)"));
+    let line = |name: &str, traffic: &Traffic| {
+        let events = traffic.events.map_or(String::new(), |events| {
+            format!(", {events} events{}", per_second(traffic.events_per_second))
+        });
+        format!(
+            "{name:<13} {} bytes{}{events}\n",
+            traffic.bytes,
+            per_second(traffic.bytes_per_second)
+        )
+    };
+    let pixel = bandwidth.pixel.as_ref().map(|pixel| line("pixel events", pixel));
+    line("raw video", &bandwidth.raw)
+        + &line("region camera", &bandwidth.region)
+        + &pixel.unwrap_or_default()
 }

@@ -1,40 +1,131 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The original frame, dimmed, with what the camera thinks of every region in colour.
+//! The original frame, dimmed, with what the camera thinks of every region in colour, and below it a
+//! legend and the share of active regions over the latest frames.
+//!
+//! The colours are of the Okabe-Ito palette, made to be told apart with any colour vision; active
+//! regions have an outline besides.
 
-use foveate_model::{Frame, Outcome};
+use std::collections::VecDeque;
 
+use foveate_model::Frame;
+
+use super::canvas::{Canvas, Colour, Layout};
+use super::font;
+use super::gallery::Painter;
 use super::png::low_byte;
+use super::sink::Step;
 use crate::convert_depth;
 
-/// Red, green and blue of a region with SRS and TRS.
-const ACTIVE: [u32; 3] = [40, 210, 90];
-/// Of a region with SRS only: worth seeing, but nothing new.
-const SPATIAL_ONLY: [u32; 3] = [240, 170, 30];
-/// Of a region with TRS only: something new, but not worth seeing.
-const TEMPORAL_ONLY: [u32; 3] = [60, 110, 245];
-/// Regions smaller than this are drawn without a grid, which would cover them.
+/// A region with SRS and TRS: bluish green.
+const ACTIVE: Colour = [0, 158, 115];
+/// SRS only, worth seeing but nothing new: orange.
+const SPATIAL_ONLY: Colour = [230, 159, 0];
+/// TRS only, something new but not worth seeing: sky blue.
+const TEMPORAL_ONLY: Colour = [86, 180, 233];
+/// The outline of active regions and their share over time: bluish green, brighter.
+const OUTLINE: Colour = [70, 230, 180];
+/// The line of the strip that means one half.
+const HALF: Colour = [70, 70, 70];
+/// Regions with sides below this are drawn without lines, which would cover them.
 const SMALLEST_GRID: u32 = 6;
+/// Height of the strip, in dots of a letter.
+const STRIP_DOTS: u32 = 32;
 
-/// RGB bytes of the picture.
-pub(super) fn picture(frame: &Frame, outcome: &Outcome, region_size: u32) -> Vec<u8> {
-    let columns = frame.width().div_ceil(region_size) as usize;
-    let mut bytes = Vec::with_capacity(3 * frame.pixels().len());
-    for y in 0..frame.height() {
-        let row = (y / region_size) as usize * columns;
-        for x in 0..frame.width() {
-            let region = row + (x / region_size) as usize;
-            let grey = u32::from(convert_depth(frame.get(x, y), frame.bits(), 8));
-            let line = region_size >= SMALLEST_GRID
-                && (x.is_multiple_of(region_size) || y.is_multiple_of(region_size));
-            bytes.extend(shade(grey, tint(outcome, region), line));
-        }
-    }
-    bytes
+/// Draws overlays and remembers the share of active regions as far as the strip reaches.
+#[derive(Default)]
+pub(super) struct Overlay {
+    /// Active regions of the latest frames.
+    recent: VecDeque<u32>,
 }
 
-fn tint(outcome: &Outcome, region: usize) -> Option<[u32; 3]> {
-    let bit = |bits: &[bool]| bits.get(region).copied().unwrap_or(false);
-    match (bit(&outcome.srs), bit(&outcome.trs)) {
+impl Painter for Overlay {
+    fn paint(&mut self, step: &Step<'_>) -> Canvas {
+        let frame = &step.source.frame;
+        let layout = Layout::new(frame.width(), frame.height());
+        let legend = (font::SIZE.1 + 4) * layout.dot;
+        let strip = STRIP_DOTS * layout.dot;
+        let mut canvas = Canvas::new(layout.width, layout.frame_height + legend + strip);
+        draw_frame(&mut canvas, frame, step, layout);
+        let regions = step.design.regions();
+        let active = step.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
+        draw_legend(&mut canvas, layout, active, regions);
+        let bar = layout.dot;
+        self.recent.push_back(active);
+        if self.recent.len() > (layout.width / bar) as usize {
+            self.recent.pop_front();
+        }
+        let bottom = canvas.height;
+        canvas.fill(0, bottom - strip / 2, layout.width, 1, HALF);
+        for (column, &active) in (0..).zip(&self.recent) {
+            let height = u64::from(active) * u64::from(strip) / u64::from(regions);
+            // A frame with any active region shows.
+            let height = u32::try_from(height).unwrap_or(strip).max(u32::from(active > 0));
+            canvas.fill(column * bar, bottom - height, bar, height, OUTLINE);
+        }
+        canvas
+    }
+}
+
+fn draw_frame(canvas: &mut Canvas, frame: &Frame, step: &Step<'_>, layout: Layout) {
+    let side = step.design.region_size();
+    let cell = side * layout.scale;
+    for y in 0..frame.height() {
+        for x in 0..frame.width() {
+            let region = y / side * step.design.columns() + x / side;
+            let grey = u32::from(convert_depth(frame.get(x, y), frame.bits(), 8));
+            let colour = shade(grey, tint(step, region));
+            let scale = layout.scale;
+            canvas.fill(x * scale, y * scale, scale, scale, colour);
+        }
+    }
+    if cell < SMALLEST_GRID {
+        return;
+    }
+    for (column, row) in (0..step.design.rows())
+        .flat_map(|row| (0..step.design.columns()).map(move |column| (column, row)))
+    {
+        let (left, top) = (column * cell, row * cell);
+        let width = cell.min(layout.frame_width - left);
+        let height = cell.min(layout.frame_height - top);
+        grid(canvas, [left, top, width, 1]);
+        grid(canvas, [left, top, 1, height]);
+        let region = (row * step.design.columns() + column) as usize;
+        if step.outcome.active[region] {
+            canvas.frame([left, top, width, height], 1 + cell / 40, OUTLINE);
+        }
+    }
+}
+
+/// Lightens a line.
+fn grid(canvas: &mut Canvas, [left, top, width, height]: [u32; 4]) {
+    for y in top..top + height {
+        let start = 3 * (y as usize * canvas.width as usize + left as usize);
+        for value in &mut canvas.rgb[start..start + 3 * width as usize] {
+            *value = low_byte((7 * u16::from(*value) + 255) / 8);
+        }
+    }
+}
+
+fn draw_legend(canvas: &mut Canvas, layout: Layout, active: u32, regions: u32) {
+    let (dot, top) = (layout.dot, layout.frame_height + 2 * layout.dot);
+    let height = font::SIZE.1 * dot;
+    let permille = (u64::from(active) * 1000 + u64::from(regions) / 2) / u64::from(regions);
+    let share = format!("Active {}.{}%", permille / 10, permille % 10);
+    let mut left = 2 * dot;
+    for (colour, text) in
+        [(ACTIVE, share.as_str()), (SPATIAL_ONLY, "SRS only"), (TEMPORAL_ONLY, "TRS only")]
+    {
+        canvas.fill(left, top, height, height, colour);
+        if colour == ACTIVE {
+            canvas.frame([left, top, height, height], dot.div_ceil(2), OUTLINE);
+        }
+        left = canvas.text(left + height + dot, top, dot, text) + 3 * dot;
+    }
+}
+
+fn tint(step: &Step<'_>, region: u32) -> Option<Colour> {
+    let region = region as usize;
+    match (step.outcome.srs[region], step.outcome.trs[region]) {
         (true, true) => Some(ACTIVE),
         (true, false) => Some(SPATIAL_ONLY),
         (false, true) => Some(TEMPORAL_ONLY),
@@ -42,14 +133,11 @@ fn tint(outcome: &Outcome, region: usize) -> Option<[u32; 3]> {
     }
 }
 
-/// Half the grey without a tint, else five parts of grey and three of tint; grid lines are lighter.
-fn shade(grey: u32, tint: Option<[u32; 3]>, line: bool) -> [u8; 3] {
+/// Half the grey without a tint, else half of each.
+fn shade(grey: u32, tint: Option<Colour>) -> Colour {
     let mixed = match tint {
-        Some(tint) => tint.map(|colour| (5 * grey + 3 * colour) / 8),
+        Some(tint) => tint.map(|colour| u32::midpoint(grey, colour.into())),
         None => [grey / 2; 3],
     };
-    mixed.map(|value| {
-        let value = if line { (7 * value + 255) / 8 } else { value };
-        low_byte(u16::try_from(value).unwrap_or(u16::MAX))
-    })
+    mixed.map(|value| low_byte(u16::try_from(value).unwrap_or(u16::MAX)))
 }
