@@ -22,6 +22,7 @@ mod pixel_events;
 mod png;
 mod recorder;
 mod sink;
+mod strip;
 mod summary;
 mod table;
 mod video;

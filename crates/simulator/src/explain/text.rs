@@ -3,7 +3,7 @@
 //!
 //! Regions up to 16 x 16 are shown as numbers, hexadecimal above 8 bits, with a mark at every hit.
 //! Larger ones are shown with one character per pixel, which is cut nowhere: ten shades for pixels,
-//! `*` for a hit.
+//! `X` for a hit.
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
@@ -65,7 +65,7 @@ impl Spatial {
     fn show_hits(&self, f: &mut Formatter<'_>, grid: &Grid, denoised: &Rows<u16>) -> fmt::Result {
         match (&self.hits, self.level) {
             (Some(hits), Some(level)) => {
-                let title = format!("{}: hits (*), level {level}", self.feature);
+                let title = format!("{}: hits ({}), level {level}", self.feature, grid.mark());
                 grid.show(f, &title, denoised, Some(hits))
             }
             _ => Ok(()),
@@ -89,8 +89,9 @@ impl Change {
     fn show_hits(&self, f: &mut Formatter<'_>, grid: &Grid) -> fmt::Result {
         match &self.reference {
             Some(reference) => {
+                let mark = grid.mark();
                 let title =
-                    format!("reference ({}): changed (*), level {}", self.against, self.level);
+                    format!("reference ({}): changed ({mark}), level {}", self.against, self.level);
                 grid.show(f, &title, reference, Some(&self.hits))
             }
             None => {
@@ -121,11 +122,15 @@ impl Grid {
         match (self.side > NUMBERS, self.hexadecimal) {
             (true, _) => {
                 "one character per pixel: ten shades from black to white (the numbers are in\n\
-                 --json), or * for a hit"
+                 --json), or X for a hit"
             }
             (false, true) => "pixels are hexadecimal",
             (false, false) => "pixels are decimal",
         }
+    }
+
+    fn mark(&self) -> char {
+        if self.side > NUMBERS { 'X' } else { '*' }
     }
 
     /// A titled square; hits are marked.
@@ -152,7 +157,7 @@ impl Grid {
     fn cell(&self, line: &mut String, pixel: u16, hit: Option<bool>) -> fmt::Result {
         let width = self.digits;
         match (self.side > NUMBERS, hit) {
-            (true, Some(hit)) => line.push(if hit { '*' } else { '.' }),
+            (true, Some(hit)) => line.push(if hit { self.mark() } else { '.' }),
             (true, None) => {
                 let shade = usize::from(pixel) * (SHADES.len() - 1) / usize::from(self.max.max(1));
                 line.push(char::from(SHADES[shade]));
@@ -163,7 +168,7 @@ impl Grid {
                 } else {
                     write!(line, "{pixel:>width$}")?;
                 }
-                line.push(if hit == Some(true) { '*' } else { ' ' });
+                line.push(if hit == Some(true) { self.mark() } else { ' ' });
             }
         }
         Ok(())

@@ -5,7 +5,7 @@
 //! standard deviation. The bar below has a tick at the threshold.
 
 use colorous::VIRIDIS;
-use foveate_spec::{Design, FeatureKind};
+use foveate_spec::{Design, FeatureKind, SpatialFeature};
 
 use super::canvas::{Canvas, Colour, Layout, TEXT};
 use super::font;
@@ -20,6 +20,8 @@ pub(super) struct Heatmap {
     score: Score,
     title: String,
     max: u64,
+    /// The largest score as it is written beside the bar: in grey levels, or their square.
+    label: String,
     threshold: u64,
 }
 
@@ -33,16 +35,19 @@ enum Score {
 impl Heatmap {
     /// A map for every score of a design, with its name.
     pub(super) fn all(design: &Design) -> Vec<(String, Self)> {
+        let n = u64::from(design.region_pixels());
         let spatial = design.features().iter().enumerate().map(|(index, feature)| Self {
             score: Score::Spatial(index, feature.kind()),
             title: feature.kind().to_string(),
             max: feature.score_max(),
+            label: (feature.score_max() / unit(feature, n)).to_string(),
             threshold: feature.min_score(),
         });
         let temporal = Self {
             score: Score::Temporal,
             title: "temporal".to_owned(),
-            max: design.region_pixels().into(),
+            max: n,
+            label: n.to_string(),
             threshold: design.temporal().min_count.into(),
         };
         let all = spatial.chain([temporal]);
@@ -74,13 +79,13 @@ impl Heatmap {
         let height = font::SIZE.1 * dot;
         let title = format!("{} 0", self.title);
         let left = canvas.text(2 * dot, top, dot, &title) + dot;
-        let letters = u32::try_from(self.max.to_string().len()).unwrap_or_default();
+        let letters = u32::try_from(self.label.len()).unwrap_or_default();
         let right = layout.width.saturating_sub((letters * (font::SIZE.0 + 1) + 3) * dot);
         let width = right.saturating_sub(left).max(1);
         for x in 0..width {
             canvas.fill(left + x, top, 1, height, colour(u64::from(x) * STEPS / u64::from(width)));
         }
-        canvas.text(right + dot, top, dot, &self.max.to_string());
+        canvas.text(right + dot, top, dot, &self.label);
         let tick = self.place(self.threshold) * u64::from(width) / STEPS;
         let tick = left + u32::try_from(tick).unwrap_or_default();
         canvas.fill(tick, top - dot, dot, height + 2 * dot, TEXT);
@@ -103,6 +108,15 @@ impl Painter for Heatmap {
         }
         self.draw_bar(&mut canvas, layout);
         canvas
+    }
+}
+
+/// What a score is divided by to be in grey levels, or their square.
+fn unit(feature: &SpatialFeature, n: u64) -> u64 {
+    match feature.kind() {
+        FeatureKind::Edge | FeatureKind::Corner => 1,
+        FeatureKind::Mad => n << feature.mean().map_or(0, |mean| mean.fraction_bits),
+        FeatureKind::Variance => n * n,
     }
 }
 

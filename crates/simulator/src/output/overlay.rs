@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The original frame, dimmed, with what the camera thinks of every region in colour, and below it a
-//! legend and the share of active regions over the latest frames.
+//! legend and the share of active regions over time.
 //!
 //! The colours are of the Okabe-Ito palette, made to be told apart with any colour vision; active
 //! regions have an outline besides.
-
-use std::collections::VecDeque;
 
 use foveate_model::Frame;
 
@@ -14,6 +12,7 @@ use super::font;
 use super::gallery::Painter;
 use super::png::low_byte;
 use super::sink::Step;
+use super::strip::Strip;
 use crate::convert_depth;
 
 /// A region with SRS and TRS: bluish green.
@@ -24,18 +23,13 @@ const SPATIAL_ONLY: Colour = [230, 159, 0];
 const TEMPORAL_ONLY: Colour = [86, 180, 233];
 /// The outline of active regions and their share over time: bluish green, brighter.
 const OUTLINE: Colour = [70, 230, 180];
-/// The line of the strip that means one half.
-const HALF: Colour = [70, 70, 70];
 /// Regions with sides below this are drawn without lines, which would cover them.
 const SMALLEST_GRID: u32 = 6;
-/// Height of the strip, in dots of a letter.
-const STRIP_DOTS: u32 = 32;
 
-/// Draws overlays and remembers the share of active regions as far as the strip reaches.
+/// Draws overlays and remembers the share of active regions so far.
 #[derive(Default)]
 pub(super) struct Overlay {
-    /// Active regions of the latest frames.
-    recent: VecDeque<u32>,
+    strip: Strip,
 }
 
 impl Painter for Overlay {
@@ -43,25 +37,14 @@ impl Painter for Overlay {
         let frame = &step.source.frame;
         let layout = Layout::new(frame.width(), frame.height());
         let legend = (font::SIZE.1 + 4) * layout.dot;
-        let strip = STRIP_DOTS * layout.dot;
-        let mut canvas = Canvas::new(layout.width, layout.frame_height + legend + strip);
+        let height = layout.frame_height + legend + Strip::DOTS * layout.dot;
+        let mut canvas = Canvas::new(layout.width, height);
         draw_frame(&mut canvas, frame, step, layout);
         let regions = step.design.regions();
         let active = step.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, regions);
-        let bar = layout.dot;
-        self.recent.push_back(active);
-        if self.recent.len() > (layout.width / bar) as usize {
-            self.recent.pop_front();
-        }
-        let bottom = canvas.height;
-        canvas.fill(0, bottom - strip / 2, layout.width, 1, HALF);
-        for (column, &active) in (0..).zip(&self.recent) {
-            let height = u64::from(active) * u64::from(strip) / u64::from(regions);
-            // A frame with any active region shows.
-            let height = u32::try_from(height).unwrap_or(strip).max(u32::from(active > 0));
-            canvas.fill(column * bar, bottom - height, bar, height, OUTLINE);
-        }
+        self.strip.push(active.into(), (layout.width / Strip::bar(layout)) as usize);
+        self.strip.draw(&mut canvas, layout, regions.into(), OUTLINE);
         canvas
     }
 }
