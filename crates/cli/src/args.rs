@@ -250,7 +250,7 @@ pub(crate) struct OutputArgs {
     pub(crate) pixel_events: Vec<PixelEventFormat>,
     /// Change of a pixel that makes an event: grey levels [default: temporal.level + 1], or with --log
     /// a natural logarithm [default: 0.2]
-    #[arg(long, value_name = "C", value_parser = parse_decimal, requires = "pixel_events")]
+    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse_decimal, requires = "pixel_events")]
     pub(crate) contrast: Option<Decimal>,
     /// Logarithmic pixels instead of linear ones
     #[arg(long, requires = "pixel_events")]

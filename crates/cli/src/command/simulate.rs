@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate simulate`: images in, arrays and rendered frames out.
+//! `foveate simulate`: images in; arrays, tables, pictures and video out.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -14,6 +14,8 @@ pub(super) const TEXT: Colour = [230, 230, 230];
 const ENOUGH_WIDTH: u32 = 448;
 /// unless they become higher than this.
 const ENOUGH_HEIGHT: u32 = 1024;
+/// Dots across, from which their size follows.
+const ENOUGH_DOTS: u32 = 220;
 /// Room that a legend needs, in dots.
 const LEGEND_DOTS: u32 = 150;
 
@@ -34,7 +36,7 @@ impl Layout {
     pub(super) fn new(width: u32, height: u32) -> Self {
         let scale = (ENOUGH_WIDTH / width).min(ENOUGH_HEIGHT / height).max(1);
         let (frame_width, frame_height) = (width * scale, height * scale);
-        let dot = (frame_width / LEGEND_DOTS).clamp(1, 4);
+        let dot = (frame_width / ENOUGH_DOTS).clamp(1, 4);
         Self { scale, dot, width: frame_width.max(LEGEND_DOTS), frame_height, frame_width }
     }
 }
