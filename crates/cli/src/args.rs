@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The command line as clap sees it, and the design that its options describe.
 
+mod explain;
+mod outputs;
+
 use std::fs;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use foveate_spec::{Config, Decimal, Design, Preset};
+use foveate_spec::{Config, Design, Preset};
 
 use crate::error::CliError;
+pub(crate) use explain::ExplainArgs;
+pub(crate) use outputs::OutputArgs;
 
 /// A region-based event camera: bit-exact model, Verilog, co-simulation and area.
 #[derive(Debug, Parser)]
@@ -222,107 +227,6 @@ pub(crate) struct SimulateArgs {
     pub(crate) quiet: bool,
 }
 
-/// What `simulate` writes beside arrays, frames.csv and summary.json.
-#[derive(Args, Debug)]
-#[command(next_help_heading = "Outputs")]
-pub(crate) struct OutputArgs {
-    /// What is on the screen: numbered pictures, one lossless video (FFV1), or one for any player
-    /// (H.264); video needs ffmpeg
-    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Rendered::Png)]
-    pub(crate) rendered: Rendered,
-    /// The same as --rendered none
-    #[arg(long, conflicts_with = "rendered")]
-    pub(crate) no_rendered: bool,
-    /// The original frames with the decisions in colour
-    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
-    pub(crate) overlay: Option<Pictures>,
-    /// A map of every score
-    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
-    pub(crate) heatmap: Option<Pictures>,
-    /// A table with one row per region and frame; several formats with commas
-    #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',')]
-    pub(crate) events: Vec<EventFormat>,
-    /// Rows of the table to keep
-    #[arg(long, value_enum, value_name = "WHICH", requires = "events")]
-    pub(crate) only: Option<Only>,
-    /// Ordinary (x, y, t, p) events of the same frames, for comparison; several formats with commas
-    #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
-    pub(crate) pixel_events: Vec<PixelEventFormat>,
-    /// Change of a pixel that makes an event: grey levels [default: temporal.level + 1], or with --log
-    /// a natural logarithm [default: 0.2]
-    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse_decimal, requires = "pixel_events")]
-    pub(crate) contrast: Option<Decimal>,
-    /// Logarithmic pixels instead of linear ones
-    #[arg(long, requires = "pixel_events")]
-    pub(crate) log: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Rendered {
-    Png,
-    /// Lossless video
-    #[value(alias = "video")]
-    Mkv,
-    /// Video for any player
-    Mp4,
-    None,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Pictures {
-    Png,
-    /// Lossless video
-    #[value(alias = "video")]
-    Mkv,
-    /// Video for any player
-    Mp4,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum EventFormat {
-    Csv,
-    Parquet,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Only {
-    /// Active regions
-    Active,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum PixelEventFormat {
-    Npz,
-    Csv,
-}
-
-/// Say why a region of a frame was sent or dropped
-#[derive(Args, Debug)]
-#[command(after_help = "Examples: foveate explain scene:street --frame 3 --region 12,5
-          foveate explain frames/ --frame 0 --region 0,0 --json")]
-pub(crate) struct ExplainArgs {
-    /// Images (PNG, JPEG, BMP, PGM), folders, globs, or scene:NAME
-    #[arg(value_name = "INPUT", required = true)]
-    pub(crate) inputs: Vec<String>,
-    #[command(flatten)]
-    pub(crate) design: DesignArgs,
-    /// Number of the frame, from 0; the frames before it are run through first
-    #[arg(long, value_name = "K")]
-    pub(crate) frame: u64,
-    /// Column and row of the region, from 0
-    #[arg(long, value_name = "X,Y", value_parser = parse_region)]
-    pub(crate) region: (u32, u32),
-    /// Frames of a scene, as in `foveate simulate`
-    #[arg(long, value_name = "N")]
-    pub(crate) frames: Option<u32>,
-    /// Frames per second of images, for the times of frames
-    #[arg(long, value_name = "N", default_value_t = 30)]
-    pub(crate) fps: u32,
-    /// Print JSON, with every pixel
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
 /// List the named configurations, or print one as a file
 #[derive(Args, Debug)]
 #[command(after_help = "Example: foveate presets steady > camera.toml")]
@@ -352,15 +256,4 @@ fn parse_grid(text: &str) -> Result<(u32, u32), String> {
     text.split_once('x')
         .and_then(|(columns, rows)| Some((side(columns)?, side(rows)?)))
         .ok_or_else(|| "expected COLUMNSxROWS, each 1 to 256, for example 4x3".to_owned())
-}
-
-fn parse_region(text: &str) -> Result<(u32, u32), String> {
-    text.split_once(',')
-        .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
-        .ok_or_else(|| "expected COLUMN,ROW, for example 12,5".to_owned())
-}
-
-fn parse_decimal(text: &str) -> Result<Decimal, String> {
-    let value = text.parse().ok().and_then(Decimal::from_f64);
-    value.ok_or_else(|| "expected a number with at most nine digits after the point".to_owned())
 }

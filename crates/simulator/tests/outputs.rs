@@ -8,7 +8,7 @@ use std::fs;
 
 use foveate_model::Outcome;
 use foveate_scenes::Scene;
-use foveate_simulator::{RunOptions, convert_depth};
+use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions, convert_depth};
 use support::{Npy, STREET, names, outcomes, run, street};
 
 fn little_endian<const SIZE: usize>(values: impl Iterator<Item = [u8; SIZE]>) -> Vec<u8> {
@@ -134,16 +134,33 @@ fn frames_have_their_names_and_times() {
 fn every_scene_runs_and_runs_the_same_twice() {
     let folder = tempfile::tempdir().unwrap();
     for scene in Scene::ALL {
+        let options = RunOptions {
+            overlay: Some(Medium::Png),
+            heatmap: Some(Medium::Png),
+            events: EventTables { csv: true, parquet: true, only_active: false },
+            pixel_events: PixelEvents { npz: true, csv: true, ..PixelEvents::default() },
+            ..RunOptions::default()
+        };
         let input = format!("scene:{scene}");
         let overrides = ["frame.width=16", "frame.height=12", "frame.pixel_bits=10"];
         let outputs = ["1", "2"].map(|run| folder.path().join(format!("{scene}-{run}")));
         for output in &outputs {
-            let summary = run(&[&input], &overrides, output, &RunOptions::default()).unwrap();
+            let summary = run(&[&input], &overrides, output, &options).unwrap();
             assert_eq!(summary.frames, u64::from(scene.default_frames()));
         }
-        for name in
-            ["summary.json", "frames.csv", "srs.npy", "score_edge.npy", "rendered/000003.png"]
-        {
+        for name in [
+            "summary.json",
+            "frames.csv",
+            "srs.npy",
+            "score_edge.npy",
+            "rendered/000003.png",
+            "overlay/000003.png",
+            "heatmap_edge/000003.png",
+            "events.csv",
+            "events.parquet",
+            "pixel_events.npz",
+            "pixel_events.csv",
+        ] {
             let [first, second] =
                 outputs.each_ref().map(|output| fs::read(output.join(name)).unwrap());
             assert!(first == second, "{scene} {name}");

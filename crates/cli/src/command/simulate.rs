@@ -5,14 +5,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_simulator::{
-    Bandwidth, EventTables, FrameRate, Hooks, InputOptions, Medium, PixelEvents, Progress,
-    RunOptions, Simulation, Summary, Traffic, open,
+    Bandwidth, FrameRate, Hooks, InputOptions, Progress, RunOptions, Simulation, Summary, Traffic,
+    open,
 };
 use indicatif::ProgressBar;
 
-use crate::args::{
-    EventFormat, Only, OutputArgs, Pictures, PixelEventFormat, Rendered, SimulateArgs,
-};
+use crate::args::SimulateArgs;
 use crate::error::CliError;
 use crate::{output, progress};
 
@@ -21,45 +19,12 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let input = InputOptions { frames: args.frames, frame_rate: FrameRate::new(args.fps, 1)? };
     let source = open(&args.inputs, &config, &input)?;
     let simulation = Simulation::new(&config, source)?;
-    let options = RunOptions { overwrite: args.force, ..outputs(&args.outputs) };
+    let options = RunOptions { overwrite: args.force, ..args.outputs.options() };
     let mut hooks = Terminal::new(args.quiet)?;
     let summary = simulation.run(&args.output, &options, &mut hooks);
     hooks.bar.finish_and_clear();
     let summary = summary?;
     if args.json { output::json(&summary) } else { output::text(&text(args, &summary)) }
-}
-
-/// What the options of the command ask for.
-fn outputs(args: &OutputArgs) -> RunOptions {
-    let medium = |pictures| match pictures {
-        Pictures::Png => Medium::Png,
-        Pictures::Mkv => Medium::Mkv,
-        Pictures::Mp4 => Medium::Mp4,
-    };
-    let rendered = match args.rendered {
-        _ if args.no_rendered => None,
-        Rendered::None => None,
-        Rendered::Png => Some(Medium::Png),
-        Rendered::Mkv => Some(Medium::Mkv),
-        Rendered::Mp4 => Some(Medium::Mp4),
-    };
-    RunOptions {
-        rendered,
-        overlay: args.overlay.map(medium),
-        heatmap: args.heatmap.map(medium),
-        events: EventTables {
-            csv: args.events.contains(&EventFormat::Csv),
-            parquet: args.events.contains(&EventFormat::Parquet),
-            only_active: args.only == Some(Only::Active),
-        },
-        pixel_events: PixelEvents {
-            npz: args.pixel_events.contains(&PixelEventFormat::Npz),
-            csv: args.pixel_events.contains(&PixelEventFormat::Csv),
-            contrast: args.contrast,
-            log: args.log,
-        },
-        overwrite: false,
-    }
 }
 
 /// Draws progress and listens for Ctrl-C.
