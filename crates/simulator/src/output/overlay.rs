@@ -124,3 +124,52 @@ fn shade(grey: u32, tint: Option<Colour>) -> Colour {
     };
     mixed.map(|value| low_byte(u16::try_from(value).unwrap_or(u16::MAX)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Protanopia, deuteranopia and tritanopia as matrices on linear RGB (Machado et al. 2009).
+    const VISIONS: [[[f64; 3]; 3]; 3] = [
+        [
+            [0.152_286, 1.052_583, -0.204_868],
+            [0.114_503, 0.786_281, 0.099_216],
+            [-0.003_882, -0.048_116, 1.051_998],
+        ],
+        [
+            [0.367_322, 0.860_646, -0.227_968],
+            [0.280_085, 0.672_501, 0.047_413],
+            [-0.011_820, 0.042_940, 0.968_881],
+        ],
+        [
+            [1.255_528, -0.076_749, -0.178_779],
+            [-0.078_411, 0.930_809, 0.147_602],
+            [0.004_733, 0.691_367, 0.303_900],
+        ],
+    ];
+
+    fn seen(colour: Colour, vision: [[f64; 3]; 3]) -> [f64; 3] {
+        let linear = colour.map(|value| (f64::from(value) / 255.0).powf(2.2));
+        vision.map(|row| {
+            let sum: f64 = row.iter().zip(linear).map(|(factor, value)| factor * value).sum();
+            255.0 * sum.clamp(0.0, 1.0).powf(1.0 / 2.2)
+        })
+    }
+
+    #[test]
+    fn states_can_be_told_apart_with_any_colour_vision() {
+        let tints = [Some(ACTIVE), Some(SPATIAL_ONLY), Some(TEMPORAL_ONLY), None];
+        for (kind, vision) in VISIONS.into_iter().enumerate() {
+            for grey in (0..256).step_by(5) {
+                for (index, &first) in tints.iter().enumerate() {
+                    for &second in &tints[..index] {
+                        let [a, b] = [first, second].map(|tint| seen(shade(grey, tint), vision));
+                        let distance =
+                            a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                        assert!(distance > 20.0, "{kind} {grey} {first:?} {second:?} {distance}");
+                    }
+                }
+            }
+        }
+    }
+}
