@@ -211,8 +211,6 @@ pub(crate) struct SimulateArgs {
     /// Replace the folder if it exists
     #[arg(long)]
     pub(crate) force: bool,
-    #[command(flatten)]
-    pub(crate) outputs: OutputArgs,
     /// At most this many frames; of a scene, exactly this many
     #[arg(long, value_name = "N")]
     pub(crate) frames: Option<u32>,
@@ -225,6 +223,9 @@ pub(crate) struct SimulateArgs {
     /// No progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    /// Last, because what follows would be listed under its heading.
+    #[command(flatten)]
+    pub(crate) outputs: OutputArgs,
 }
 
 /// List the named configurations, or print one as a file
