@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The command line as clap sees it, and the design that its options describe.
 
+mod explain;
+mod outputs;
+
 use std::fs;
 use std::path::PathBuf;
 
@@ -10,6 +13,8 @@ use clap_complete::Shell;
 use foveate_spec::{Config, Design, Preset, SpecError};
 
 use crate::error::CliError;
+pub(crate) use explain::ExplainArgs;
+pub(crate) use outputs::OutputArgs;
 
 /// A region-based event camera: bit-exact model, Verilog, co-simulation and area.
 #[derive(Debug, Parser)]
@@ -30,6 +35,7 @@ pub(crate) enum Command {
     Cosim(CosimArgs),
     Estimate(EstimateArgs),
     Simulate(SimulateArgs),
+    Explain(ExplainArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),
 }
@@ -199,7 +205,7 @@ pub(crate) struct EstimateArgs {
 /// Run the model over images and write scores, decisions and rendered frames
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate simulate scene:street -o out
-          foveate simulate frames/ -o out --preset steady
+          foveate simulate frames/ -o out --preset steady --events parquet --overlay
           foveate simulate 'clip/*.png' -o out --set region.size=16")]
 pub(crate) struct SimulateArgs {
     /// Images (PNG, JPEG, BMP, PGM), folders, globs, or scene:NAME; see `foveate presets --scenes`
@@ -213,12 +219,6 @@ pub(crate) struct SimulateArgs {
     /// Replace the folder if it holds a simulation
     #[arg(long)]
     pub(crate) force: bool,
-    /// Do not write rendered frames
-    #[arg(long)]
-    pub(crate) no_rendered: bool,
-    /// Write an overlay of the decisions for every frame
-    #[arg(long)]
-    pub(crate) overlay: bool,
     /// At most this many frames; of a scene, exactly this many
     #[arg(long, value_name = "N", value_parser = at_least_one())]
     pub(crate) frames: Option<u32>,
@@ -231,6 +231,9 @@ pub(crate) struct SimulateArgs {
     /// No progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    /// Last, because what follows would be listed under its heading.
+    #[command(flatten)]
+    pub(crate) outputs: OutputArgs,
 }
 
 /// List the named configurations, or print one as a file

@@ -50,6 +50,7 @@ impl CliError {
             Self::Failed(_) => 1,
             Self::Simulator(SimulatorError::Cancelled { .. }) => 130,
             Self::Tool(_)
+            | Self::Simulator(SimulatorError::NoVideo(_) | SimulatorError::Video { .. })
             | Self::Cosim(CosimError::Tool(_) | CosimError::Short { .. })
             | Self::Estimate(_) => 3,
             _ => 2,

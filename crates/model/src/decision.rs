@@ -23,6 +23,16 @@ pub enum Action {
 }
 
 impl Action {
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Forward => "forward",
+            Self::Hold => "hold",
+            Self::Blank => "blank",
+        }
+    }
+
     /// The action for a region with these two bits.
     #[must_use]
     pub fn of(design: &Design, srs: bool, trs: bool) -> Self {

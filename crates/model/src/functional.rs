@@ -93,6 +93,16 @@ impl Camera {
         self.screen = Screen::black(&self.design);
     }
 
+    /// What the next frame's region will be compared with: denoised pixels, row by row; `None` where
+    /// there is no valid reference.
+    ///
+    /// # Panics
+    /// When the design has no such region.
+    #[must_use]
+    pub fn reference(&self, region: u32) -> Option<Vec<u16>> {
+        self.references.pixels(&self.design, region)
+    }
+
     /// Takes the next frame.
     ///
     /// # Errors

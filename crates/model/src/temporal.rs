@@ -41,6 +41,11 @@ impl References {
         Self { frame: Frame::black_padded(design), valid: vec![false; index(design.regions())] }
     }
 
+    /// The reference of a region, row by row, if it is valid.
+    pub(crate) fn pixels(&self, design: &Design, region: u32) -> Option<Vec<u16>> {
+        self.valid[index(region)].then(|| Area::of(design, region).pixels(&self.frame).collect())
+    }
+
     /// Changed pixels of a region; all of them where there is no valid reference.
     pub(crate) fn count(&self, design: &Design, denoised: &Frame, region: u32) -> u32 {
         if !self.valid[index(region)] {

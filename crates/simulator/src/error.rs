@@ -8,6 +8,7 @@ use foveate_model::ModelError;
 use foveate_scenes::SceneError;
 use foveate_spec::SpecError;
 use foveate_staging::StagingError;
+use foveate_toolchain::ToolError;
 use thiserror::Error;
 
 use crate::picture::{MAX_FILE_GIB, MAX_SIDE};
@@ -144,6 +145,45 @@ pub enum SimulatorError {
         path: PathBuf,
         /// Why.
         source: io::Error,
+    },
+    /// No video can be written on this machine.
+    #[error("video cannot be written: {0}; or write pictures, for example with --rendered png")]
+    NoVideo(#[source] ToolError),
+    /// A video could not be written to its end.
+    #[error("ffmpeg cannot write `{}`: {problem}; check space, or write pictures", path.display())]
+    Video {
+        /// The file.
+        path: PathBuf,
+        /// What ffmpeg said.
+        problem: String,
+    },
+    /// A contrast that would make events without end.
+    #[error("a contrast of {contrast} is too small; it must be at least 0.01")]
+    Contrast {
+        /// The contrast as given.
+        contrast: String,
+    },
+    /// There is no such frame to explain.
+    #[error("there is no frame {frame}; {inputs} has {frames} frames, counted from 0")]
+    NoSuchFrame {
+        /// The frame that was asked for.
+        frame: u64,
+        /// The inputs as given.
+        inputs: String,
+        /// How many there are.
+        frames: u64,
+    },
+    /// There is no such region to explain.
+    #[error("there is no region {x},{y}; columns are 0 to {}, rows 0 to {}", columns - 1, rows - 1)]
+    NoSuchRegion {
+        /// Column that was asked for.
+        x: u32,
+        /// Row that was asked for.
+        y: u32,
+        /// Columns of regions.
+        columns: u32,
+        /// Rows of regions.
+        rows: u32,
     },
     /// The user stopped the run.
     #[error("cancelled after {frames} frames; nothing was written")]

@@ -8,6 +8,7 @@
 
 mod depth;
 mod error;
+mod explain;
 mod input;
 mod natural;
 mod output;
@@ -17,9 +18,13 @@ mod source;
 
 pub use depth::{convert_depth, display_depth};
 pub use error::SimulatorError;
+pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
 pub use input::{InputOptions, open};
 pub use natural::natural_order;
-pub use output::{Grid, Range, RunOptions, Summary};
+pub use output::{
+    Bandwidth, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent, PixelEvents,
+    Range, RunOptions, Summary, Traffic,
+};
 pub use picture::{MAX_SIDE, decode, luma, read};
 pub use simulation::{Hooks, Progress, Silent, Simulation};
 pub use source::{FrameRate, Source, SourceFrame};

@@ -1,13 +1,35 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run leaves behind: arrays, a table of frames, pictures and a summary.
+//! What a run leaves behind: arrays, tables, pictures, pixel events and a summary.
+//!
+//! Everything that takes frames one at a time and writes them at once is a [`sink::Sink`]; the
+//! recorder feeds them. A new kind of output is a new sink and a line in the recorder.
 
+mod arrays;
+mod bandwidth;
+mod canvas;
+mod csv;
+mod events;
+mod font;
+mod gallery;
+mod heatmap;
 mod npy;
+mod npz;
+mod options;
 mod overlay;
+mod parquet;
+mod pixel_camera;
+mod pixel_events;
 mod png;
 mod recorder;
+mod sink;
+mod strip;
 mod summary;
 mod table;
+mod video;
 
+pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
+pub use options::{EventTables, Medium, PixelEvents, RunOptions};
+pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::Recorder;
 pub use summary::{Grid, Range, Summary};
 
@@ -15,25 +37,6 @@ use std::io;
 use std::path::Path;
 
 use crate::SimulatorError;
-
-/// What a run writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RunOptions {
-    /// The rendered frames, `rendered/000000.png` and on. 8 bits per pixel as they are; fewer are
-    /// widened to 8 and more to 16 bits by [`crate::convert_depth`].
-    pub rendered: bool,
-    /// The original frames, dimmed, with active regions in green, those with SRS only in amber and
-    /// those with TRS only in blue, `overlay/000000.png` and on.
-    pub overlay: bool,
-    /// Replace the output folder of an earlier run.
-    pub overwrite: bool,
-}
-
-impl Default for RunOptions {
-    fn default() -> Self {
-        Self { rendered: true, overlay: false, overwrite: false }
-    }
-}
 
 /// Names the file in an error of the operating system.
 fn cannot_write(path: &Path) -> impl Fn(io::Error) -> SimulatorError + '_ {

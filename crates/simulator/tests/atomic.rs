@@ -17,8 +17,14 @@ use foveate_staging::StagingError;
 use support::{grey, names, run};
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];
-const PLAIN: RunOptions = RunOptions { rendered: true, overlay: false, overwrite: false };
-const OVERWRITE: RunOptions = RunOptions { overwrite: true, ..PLAIN };
+
+fn plain() -> RunOptions {
+    RunOptions::default()
+}
+
+fn overwrite() -> RunOptions {
+    RunOptions { overwrite: true, ..plain() }
+}
 
 fn zero(output: &Path, options: &RunOptions) -> Result<(), SimulatorError> {
     run(&["scene:zero"], &SMALL, output, options).map(drop)
@@ -27,7 +33,7 @@ fn zero(output: &Path, options: &RunOptions) -> Result<(), SimulatorError> {
 #[test]
 fn a_run_leaves_its_folder_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
-    zero(&folder.path().join("new/out"), &PLAIN).unwrap();
+    zero(&folder.path().join("new/out"), &plain()).unwrap();
     assert_eq!(names(folder.path()), ["new"]);
     assert_eq!(names(&folder.path().join("new")), ["out"]);
     let expected = [
@@ -54,12 +60,12 @@ fn a_failing_run_leaves_nothing() {
     let broken = frames.join("3.png");
     let whole = fs::read(&broken).unwrap();
     fs::write(&broken, &whole[..whole.len() / 2]).unwrap();
-    let error = run(&[&frames], &[], &folder.path().join("out"), &PLAIN).unwrap_err();
+    let error = run(&[&frames], &[], &folder.path().join("out"), &plain()).unwrap_err();
     assert!(matches!(error, SimulatorError::Truncated { .. }), "{error}");
     assert_eq!(names(folder.path()), ["frames"]);
 
     grey(&broken, 17, 16, |_, _| 0);
-    let error = run(&[&frames], &[], &folder.path().join("out"), &PLAIN).unwrap_err();
+    let error = run(&[&frames], &[], &folder.path().join("out"), &plain()).unwrap_err();
     assert!(matches!(error, SimulatorError::MixedSizes { .. }), "{error}");
     assert_eq!(names(folder.path()), ["frames"]);
 }
@@ -83,7 +89,7 @@ impl Hooks for StopAfter {
 fn run_with(output: &Path, hooks: &mut dyn Hooks) -> Result<(), SimulatorError> {
     let config = Config::from_toml_with("", &SMALL).unwrap();
     let source = open(&["scene:max"], &config, &InputOptions::default())?;
-    Simulation::new(&config, source)?.run(output, &PLAIN, hooks).map(drop)
+    Simulation::new(&config, source)?.run(output, &plain(), hooks).map(drop)
 }
 
 #[test]
@@ -110,12 +116,12 @@ fn a_folder_that_holds_something_is_refused_unless_overwriting_is_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     fs::create_dir(&output).unwrap();
-    zero(&output, &PLAIN).unwrap();
-    let error = zero(&output, &PLAIN).unwrap_err();
+    zero(&output, &plain()).unwrap();
+    let error = zero(&output, &plain()).unwrap_err();
     assert!(matches!(error, SimulatorError::Output(StagingError::NotEmpty { .. })), "{error}");
     assert!(error.to_string().contains("out` is not empty"));
     fs::write(output.join("stale.npy"), "").unwrap();
-    zero(&output, &OVERWRITE).unwrap();
+    zero(&output, &overwrite()).unwrap();
     assert!(!output.join("stale.npy").exists() && output.join("summary.json").exists());
     assert_eq!(names(folder.path()), ["out"]);
 }
@@ -126,7 +132,7 @@ fn overwriting_spares_what_no_simulation_wrote() {
     let output = folder.path().join("home");
     fs::create_dir(&output).unwrap();
     fs::write(output.join("thesis.tex"), "years of work").unwrap();
-    let error = zero(&output, &OVERWRITE).unwrap_err();
+    let error = zero(&output, &overwrite()).unwrap_err();
     assert!(matches!(error, SimulatorError::Output(StagingError::Foreign { .. })), "{error}");
     assert_eq!(fs::read_to_string(output.join("thesis.tex")).unwrap(), "years of work");
     assert_eq!(names(folder.path()), ["home"]);
@@ -136,12 +142,12 @@ fn overwriting_spares_what_no_simulation_wrote() {
 fn a_failing_overwrite_keeps_the_earlier_run() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    zero(&output, &PLAIN).unwrap();
+    zero(&output, &plain()).unwrap();
     let before = fs::read(output.join("summary.json")).unwrap();
     let broken = folder.path().join("broken.png");
     let fine = grey(&folder.path().join("fine.png"), 8, 8, |_, _| 0);
     fs::write(&broken, "no image").unwrap();
-    run(&[&fine, &broken], &[], &output, &OVERWRITE).unwrap_err();
+    run(&[&fine, &broken], &[], &output, &overwrite()).unwrap_err();
     assert_eq!(fs::read(output.join("summary.json")).unwrap(), before);
     assert_eq!(names(folder.path()), ["broken.png", "fine.png", "out"]);
 }
@@ -152,12 +158,12 @@ fn places_that_cannot_be_written_are_named() {
     let file = folder.path().join("file");
     fs::write(&file, "").unwrap();
     for output in [file.clone(), file.join("out")] {
-        let message = zero(&output, &PLAIN).unwrap_err().to_string();
+        let message = zero(&output, &plain()).unwrap_err().to_string();
         let named = format!("cannot write `{}`", output.display());
         assert!(message.starts_with(&named) && message.contains("choose another"), "{message}");
     }
     for output in ["", "/"] {
-        let error = zero(Path::new(output), &OVERWRITE).unwrap_err();
+        let error = zero(Path::new(output), &overwrite()).unwrap_err();
         assert!(matches!(error, SimulatorError::Output(StagingError::NoName { .. })), "{error}");
     }
 }
@@ -193,7 +199,7 @@ fn any_source_will_do_but_it_must_keep_its_word() {
     let start = |frames| {
         let source = Foreign { inputs: ["camera 3".to_owned()], frames };
         let simulation = Simulation::new(&Config::default(), Box::new(source)).unwrap();
-        simulation.run(&folder.path().join("out"), &PLAIN, &mut Silent)
+        simulation.run(&folder.path().join("out"), &plain(), &mut Silent)
     };
     let message = start(Vec::new()).unwrap_err().to_string();
     assert_eq!(message, "camera 3 holds no frame; at least one is needed");

@@ -5,41 +5,11 @@
 mod support;
 
 use std::fs;
-use std::path::Path;
 
-use foveate_model::{Camera, Outcome};
-use foveate_scenes::{Scene, SceneSize};
-use foveate_simulator::{InputOptions, RunOptions, Silent, Simulation, convert_depth, open};
-use foveate_spec::Config;
-use support::{Npy, names, run};
-
-/// A ragged street of five frames with two features.
-const OVERRIDES: [&str; 4] = [
-    "frame.width=45",
-    "frame.height=38",
-    "region.size=8",
-    r#"spatial=[{feature="edge"},{feature="mad",min_score=4}]"#,
-];
-
-fn simulate(output: &Path, overrides: &[&str], options: &RunOptions) -> foveate_simulator::Summary {
-    let config = Config::from_toml_with("", overrides).unwrap();
-    let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
-    let source = open(&["scene:street"], &config, &limit).unwrap();
-    Simulation::new(&config, source).unwrap().run(output, options, &mut Silent).unwrap()
-}
-
-fn outcomes(overrides: &[&str]) -> Vec<Outcome> {
-    let design = Config::from_toml_with("", overrides).unwrap().validate().unwrap();
-    let size = SceneSize {
-        width: design.width(),
-        height: design.height(),
-        bits: design.pixel_bits(),
-        region_size: design.region_size(),
-        frames: 5,
-    };
-    let mut camera = Camera::new(&design);
-    Scene::Street.frames(size).map(|frame| camera.step(&frame).unwrap().clone()).collect()
-}
+use foveate_model::Outcome;
+use foveate_scenes::Scene;
+use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions, convert_depth};
+use support::{Npy, STREET, names, outcomes, run, street};
 
 fn little_endian<const SIZE: usize>(values: impl Iterator<Item = [u8; SIZE]>) -> Vec<u8> {
     values.flatten().collect()
@@ -49,8 +19,8 @@ fn little_endian<const SIZE: usize>(values: impl Iterator<Item = [u8; SIZE]>) ->
 fn arrays_hold_every_outcome() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    simulate(&output, &OVERRIDES, &RunOptions::default());
-    let outcomes = outcomes(&OVERRIDES);
+    street(&output, &STREET, &RunOptions::default());
+    let outcomes = outcomes(&STREET);
     let expect = |name: &str, descr: &str, data: Vec<u8>| {
         let npy = Npy::read(&output.join(name));
         assert_eq!((npy.descr.as_str(), &npy.shape[..]), (descr, &[5, 5, 6][..]), "{name}");
@@ -75,7 +45,7 @@ fn arrays_hold_every_outcome() {
 fn the_summary_is_that_of_the_golden_file() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let summary = simulate(&output, &OVERRIDES, &RunOptions::default());
+    let summary = street(&output, &STREET, &RunOptions::default());
     let written = fs::read_to_string(output.join("summary.json")).unwrap();
     assert_eq!(written, summary.to_json());
     let version = format!("\"foveate_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
@@ -92,9 +62,9 @@ fn the_summary_is_that_of_the_golden_file() {
 #[test]
 fn sums_of_the_summary_follow_from_the_outcomes() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = simulate(&folder.path().join("out"), &OVERRIDES, &RunOptions::default());
+    let summary = street(&folder.path().join("out"), &STREET, &RunOptions::default());
     let mut forwarded = 0;
-    for outcome in outcomes(&OVERRIDES) {
+    for outcome in outcomes(&STREET) {
         for y in 0..38 {
             for x in 0..45 {
                 forwarded += u64::from(outcome.active[y / 8 * 6 + x / 8]);
@@ -122,7 +92,7 @@ fn rendered_frames_are_widened_to_a_depth_that_png_has() {
             "spatial.0.min_score=0",
             &bits_override,
         ];
-        simulate(&output, &overrides, &RunOptions::default());
+        street(&output, &overrides, &RunOptions::default());
         assert_eq!(names(&output.join("rendered")).len(), 5);
         for (t, outcome) in outcomes(&overrides).iter().enumerate() {
             let path = output.join(format!("rendered/{t:06}.png"));
@@ -146,31 +116,6 @@ fn rendered_frames_are_widened_to_a_depth_that_png_has() {
 }
 
 #[test]
-fn the_overlay_shows_each_state_in_its_colour() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = folder.path().join("out");
-    simulate(&output, &OVERRIDES, &RunOptions { overlay: true, rendered: false, overwrite: false });
-    assert!(!output.join("rendered").exists());
-    for (t, outcome) in outcomes(&OVERRIDES).iter().enumerate() {
-        let path = output.join(format!("overlay/{t:06}.png"));
-        let picture = image::open(path).unwrap().into_rgb8();
-        assert_eq!(picture.dimensions(), (45, 38));
-        for region in 0..30 {
-            // A pixel beside the grid.
-            let at = (region % 6 * 8 + 3, region / 6 * 8 + 3);
-            let [r, g, b] = picture.get_pixel(at.0, at.1).0;
-            let index = region as usize;
-            match (outcome.srs[index], outcome.trs[index]) {
-                (true, true) => assert!(g > r && g > b),
-                (true, false) => assert!(r > g && g > b),
-                (false, true) => assert!(b > g && g > r),
-                (false, false) => assert!(r == g && g == b),
-            }
-        }
-    }
-}
-
-#[test]
 fn frames_have_their_names_and_times() {
     let folder = tempfile::tempdir().unwrap();
     let inputs: Vec<_> = ["b,1.png", "a.png"]
@@ -189,16 +134,33 @@ fn frames_have_their_names_and_times() {
 fn every_scene_runs_and_runs_the_same_twice() {
     let folder = tempfile::tempdir().unwrap();
     for scene in Scene::ALL {
+        let options = RunOptions {
+            overlay: Some(Medium::Png),
+            heatmap: Some(Medium::Png),
+            events: EventTables { csv: true, parquet: true, only_active: false },
+            pixel_events: PixelEvents { npz: true, csv: true, ..PixelEvents::default() },
+            ..RunOptions::default()
+        };
         let input = format!("scene:{scene}");
         let overrides = ["frame.width=16", "frame.height=12", "frame.pixel_bits=10"];
         let outputs = ["1", "2"].map(|run| folder.path().join(format!("{scene}-{run}")));
         for output in &outputs {
-            let summary = run(&[&input], &overrides, output, &RunOptions::default()).unwrap();
+            let summary = run(&[&input], &overrides, output, &options).unwrap();
             assert_eq!(summary.frames, u64::from(scene.default_frames()));
         }
-        for name in
-            ["summary.json", "frames.csv", "srs.npy", "score_edge.npy", "rendered/000003.png"]
-        {
+        for name in [
+            "summary.json",
+            "frames.csv",
+            "srs.npy",
+            "score_edge.npy",
+            "rendered/000003.png",
+            "overlay/000003.png",
+            "heatmap_edge/000003.png",
+            "events.csv",
+            "events.parquet",
+            "pixel_events.npz",
+            "pixel_events.csv",
+        ] {
             let [first, second] =
                 outputs.each_ref().map(|output| fs::read(output.join(name)).unwrap());
             assert!(first == second, "{scene} {name}");

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate simulate`: images in, arrays and rendered frames out.
+//! `foveate simulate`: images in; arrays, tables, pictures and video out.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_simulator::{
-    FrameRate, Hooks, InputOptions, Progress, RunOptions, Simulation, Summary, open,
+    Bandwidth, FrameRate, Hooks, InputOptions, Progress, RunOptions, Simulation, Summary, Traffic,
+    open,
 };
 use indicatif::ProgressBar;
 
@@ -18,8 +19,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let input = InputOptions { frames: args.frames, frame_rate: FrameRate::new(args.fps, 1)? };
     let source = open(&args.inputs, &config, &input)?;
     let simulation = Simulation::new(&config, source)?;
-    let options =
-        RunOptions { rendered: !args.no_rendered, overlay: args.overlay, overwrite: args.force };
+    let options = RunOptions { overwrite: args.force, ..args.outputs.options() };
     let mut hooks = Terminal::new(args.quiet)?;
     let summary = simulation.run(&args.output, &options, &mut hooks);
     hooks.bar.finish_and_clear();
@@ -61,7 +61,8 @@ fn text(args: &SimulateArgs, summary: &Summary) -> String {
     format!(
         "{}: {} frames of {} x {} pixels, {} regions\n\
          active {}  SRS {}  TRS {}\n\
-         {} pixels in, {} forwarded\n",
+         {} pixels in, {} forwarded\n\
+         {}",
         args.output.display(),
         summary.frames,
         summary.width,
@@ -72,5 +73,26 @@ fn text(args: &SimulateArgs, summary: &Summary) -> String {
         percent(summary.trs_share),
         summary.pixels_in,
         summary.pixels_forwarded,
+        traffic(&summary.bandwidth),
     )
+}
+
+/// What the cameras send, a line for each.
+fn traffic(bandwidth: &Bandwidth) -> String {
+    let per_second =
+        |rate: Option<f64>| rate.map_or(String::new(), |rate| format!(" ({rate:.0}/s)"));
+    let line = |name: &str, traffic: &Traffic| {
+        let events = traffic.events.map_or(String::new(), |events| {
+            format!(", {events} events{}", per_second(traffic.events_per_second))
+        });
+        format!(
+            "{name:<13} {} bytes{}{events}\n",
+            traffic.bytes,
+            per_second(traffic.bytes_per_second)
+        )
+    };
+    let pixel = bandwidth.pixel.as_ref().map(|pixel| line("pixel events", pixel));
+    line("raw video", &bandwidth.raw)
+        + &line("region camera", &bandwidth.region)
+        + &pixel.unwrap_or_default()
 }

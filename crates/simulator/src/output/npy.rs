@@ -86,18 +86,19 @@ impl<T: Scalar> NpyWriter<T> {
     }
 
     fn write_header(&mut self) -> Result<(), SimulatorError> {
-        let header = header(T::DESCR, self.frames, self.rows, self.columns);
+        let shape = format!("{}, {}, {}", self.frames, self.rows, self.columns);
+        let header = header::<HEADER>(&format!("'{}'", T::DESCR), &shape);
         self.file.write_all(&header).map_err(cannot_write(&self.path))
     }
 }
 
-fn header(descr: &str, frames: u64, rows: u32, columns: u32) -> Vec<u8> {
-    const PREFIX: &[u8] = b"\x93NUMPY\x01\x00\x76\x00";
-    let dictionary = format!(
-        "{{'descr': '{descr}', 'fortran_order': False, 'shape': ({frames}, {rows}, {columns}), }}"
-    );
-    let padded = format!("{dictionary:<0$}\n", HEADER - PREFIX.len() - 1);
-    [PREFIX, padded.as_bytes()].concat()
+/// A header of `SIZE` bytes, a multiple of 64: a type and a shape as Python writes them.
+pub(super) fn header<const SIZE: usize>(descr: &str, shape: &str) -> Vec<u8> {
+    const PREFIX: usize = 10;
+    let length = u16::try_from(SIZE - PREFIX).unwrap_or(u16::MAX);
+    let dictionary = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
+    let padded = format!("{dictionary:<0$}\n", SIZE - PREFIX - 1);
+    [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..], padded.as_bytes()].concat()
 }
 
 #[cfg(test)]
@@ -106,8 +107,9 @@ mod tests {
 
     #[test]
     fn a_header_has_its_size_whatever_the_numbers_are() {
-        for (frames, side) in [(0, 1), (7, 28), (u64::MAX, u32::MAX)] {
-            let header = header("<u8", frames, side, side);
+        for (frames, side) in [(0u64, 1u32), (7, 28), (u64::MAX, u32::MAX)] {
+            let shape = format!("{frames}, {side}, {side}");
+            let header = header::<HEADER>("'<u8'", &shape);
             assert_eq!(header.len(), HEADER);
             assert_eq!(usize::from(header[8]) + 256 * usize::from(header[9]) + 10, HEADER);
             assert_eq!(header.last(), Some(&b'\n'));

@@ -5,25 +5,26 @@ use std::path::Path;
 
 use foveate_model::Outcome;
 use foveate_spec::Design;
+use rayon::prelude::*;
 
-use super::npy::NpyWriter;
-use super::png::PngSeries;
+use super::arrays::Arrays;
+use super::gallery::Gallery;
+use super::heatmap::Heatmap;
+use super::overlay::Overlay;
+use super::pixel_events::PixelRecorder;
+use super::sink::{Sink, Step};
 use super::summary::Totals;
 use super::table::{FrameTable, Row};
-use super::{RunOptions, Summary, overlay};
+use super::{RunOptions, Summary, events};
 use crate::{SimulatorError, SourceFrame};
 
 /// Every file of a run, open.
 pub(crate) struct Recorder {
     design: Design,
-    srs: NpyWriter<u8>,
-    trs: NpyWriter<u8>,
-    active: NpyWriter<u8>,
-    temporal_count: NpyWriter<u32>,
-    scores: Vec<NpyWriter<u64>>,
     table: FrameTable,
-    rendered: Option<PngSeries>,
-    overlay: Option<PngSeries>,
+    /// Apart from the others because the summary asks for its number of events.
+    pixels: Option<PixelRecorder>,
+    sinks: Vec<Box<dyn Sink>>,
     totals: Totals,
 }
 
@@ -33,23 +34,26 @@ impl Recorder {
         design: &Design,
         options: &RunOptions,
     ) -> Result<Self, SimulatorError> {
-        let (rows, columns) = (design.rows(), design.columns());
-        let flags = |name: &str| NpyWriter::create(&folder.join(name), rows, columns);
-        let scores = design.features().iter().map(|feature| {
-            let name = format!("score_{}.npy", feature.kind());
-            NpyWriter::create(&folder.join(name), rows, columns)
-        });
-        let series =
-            |wanted: bool, name| wanted.then(|| PngSeries::create(folder.join(name))).transpose();
+        let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(Arrays::create(folder, design)?)];
+        sinks.append(&mut events::sinks(folder, design, options.events)?);
+        if let Some(medium) = options.rendered {
+            sinks.push(Box::new(Gallery::rendered(folder, medium)?));
+        }
+        if let Some(medium) = options.overlay {
+            let overlay = Overlay::default();
+            sinks.push(Box::new(Gallery::painted(folder, "overlay", medium, overlay)?));
+        }
+        if let Some(medium) = options.heatmap {
+            for (name, map) in Heatmap::all(design) {
+                sinks.push(Box::new(Gallery::painted(folder, &name, medium, map)?));
+            }
+        }
+        let pixels = options.pixel_events;
+        let pixels = pixels.wanted().then(|| PixelRecorder::create(folder, design, pixels));
         Ok(Self {
-            srs: flags("srs.npy")?,
-            trs: flags("trs.npy")?,
-            active: flags("active.npy")?,
-            temporal_count: NpyWriter::create(&folder.join("t_count.npy"), rows, columns)?,
-            scores: scores.collect::<Result<_, _>>()?,
             table: FrameTable::create(&folder.join("frames.csv"))?,
-            rendered: series(options.rendered, "rendered")?,
-            overlay: series(options.overlay, "overlay")?,
+            pixels: pixels.transpose()?,
+            sinks,
             totals: Totals::default(),
             design: design.clone(),
         })
@@ -61,19 +65,15 @@ impl Recorder {
         source: &SourceFrame,
         outcome: &Outcome,
     ) -> Result<(), SimulatorError> {
-        self.push_arrays(outcome)?;
+        let number = self.totals.frames;
         self.push_row(source, outcome)?;
-        let Self { rendered, overlay, design, .. } = self;
-        let (rendered, overlay) = rayon::join(
-            || rendered.as_mut().map_or(Ok(()), |series| series.push_frame(&outcome.rendered)),
-            || {
-                overlay.as_mut().map_or(Ok(()), |series| {
-                    let bytes = overlay::picture(&source.frame, outcome, design.region_size());
-                    series.push_colour(&bytes, design.width(), design.height())
-                })
-            },
+        let Self { design, pixels, sinks, .. } = self;
+        let step = Step { design, number, source, outcome };
+        let (pixels, sinks) = rayon::join(
+            || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(&step)),
+            || sinks.par_iter_mut().try_for_each(|sink| sink.push(&step)),
         );
-        rendered.and(overlay)
+        pixels.and(sinks)
     }
 
     /// Completes every file and adds the summary.
@@ -82,13 +82,10 @@ impl Recorder {
         folder: &Path,
         inputs: &[String],
     ) -> Result<Summary, SimulatorError> {
-        self.srs.finish()?;
-        self.trs.finish()?;
-        self.active.finish()?;
-        self.temporal_count.finish()?;
-        self.scores.into_iter().try_for_each(NpyWriter::finish)?;
         self.table.finish()?;
-        let summary = self.totals.summary(&self.design, inputs);
+        self.sinks.into_iter().try_for_each(Sink::finish)?;
+        let pixel_events = self.pixels.map(PixelRecorder::finish).transpose()?;
+        let summary = self.totals.summary(&self.design, inputs, pixel_events);
         summary.write(&folder.join("summary.json"))?;
         Ok(summary)
     }
@@ -96,18 +93,6 @@ impl Recorder {
     /// Frames so far.
     pub(crate) fn frames(&self) -> u64 {
         self.totals.frames
-    }
-
-    fn push_arrays(&mut self, outcome: &Outcome) -> Result<(), SimulatorError> {
-        let bytes = |bits: &[bool]| bits.iter().copied().map(u8::from).collect::<Vec<_>>();
-        self.srs.push(bytes(&outcome.srs).into_iter())?;
-        self.trs.push(bytes(&outcome.trs).into_iter())?;
-        self.active.push(bytes(&outcome.active).into_iter())?;
-        self.temporal_count.push(outcome.temporal_count.iter().copied())?;
-        for (writer, scores) in self.scores.iter_mut().zip(&outcome.scores) {
-            writer.push(scores.iter().copied())?;
-        }
-        Ok(())
     }
 
     fn push_row(&mut self, source: &SourceFrame, outcome: &Outcome) -> Result<(), SimulatorError> {
@@ -120,6 +105,7 @@ impl Recorder {
             .sum();
         let (frame, time_us, name) = (self.totals.frames, source.time_us, source.name.as_str());
         self.totals.add(srs, trs, active, pixels_forwarded);
+        self.totals.at(time_us);
         self.table.push(&Row { frame, time_us, name, srs, trs, active, pixels_forwarded })
     }
 }

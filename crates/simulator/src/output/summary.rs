@@ -6,6 +6,7 @@ use std::path::Path;
 use foveate_spec::{Config, Design};
 use serde::Serialize;
 
+use super::bandwidth::{Bandwidth, Sums};
 use super::cannot_write;
 use crate::SimulatorError;
 
@@ -65,6 +66,8 @@ pub struct Summary {
     pub pixels_in: u64,
     /// Pixels of all active regions; padding of ragged frames does not count.
     pub pixels_forwarded: u64,
+    /// What the cameras send.
+    pub bandwidth: Bandwidth,
     /// The configuration, with the frame size filled in.
     pub configuration: Config,
 }
@@ -77,6 +80,8 @@ pub(super) struct Totals {
     pub(super) trs: u64,
     pub(super) active: u64,
     pub(super) pixels_forwarded: u64,
+    /// Times of the first and the last frame.
+    pub(super) times: Option<(u64, u64)>,
     /// Active regions of the frame with the fewest and of the one with the most.
     pub(super) extremes: Option<(u64, u64)>,
 }
@@ -92,7 +97,24 @@ impl Totals {
         self.extremes = Some((min.min(active), max.max(active)));
     }
 
-    pub(super) fn summary(&self, design: &Design, inputs: &[String]) -> Summary {
+    /// A frame was at this time.
+    pub(super) fn at(&mut self, time_us: u64) {
+        self.times = Some((self.times.map_or(time_us, |(first, _)| first), time_us));
+    }
+
+    pub(super) fn summary(
+        &self,
+        design: &Design,
+        inputs: &[String],
+        pixel_events: Option<u64>,
+    ) -> Summary {
+        let sums = Sums {
+            frames: self.frames,
+            active: self.active,
+            pixels_forwarded: self.pixels_forwarded,
+            pixel_events,
+            times: self.times,
+        };
         let regions = u64::from(design.regions());
         let all = regions * self.frames;
         let (min, max) = self.extremes.unwrap_or_default();
@@ -113,6 +135,7 @@ impl Totals {
             active_share_per_frame: Range { min: share(min, regions), max: share(max, regions) },
             pixels_in: self.frames * u64::from(design.width()) * u64::from(design.height()),
             pixels_forwarded: self.pixels_forwarded,
+            bandwidth: Bandwidth::of(design, &sums),
             configuration: design.config().clone(),
         }
     }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `frames.csv`: one line per frame, so that every row of the arrays has a name and a time.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::cannot_write;
+use super::csv::{Csv, quoted};
 use crate::SimulatorError;
 
 /// What the table says of a frame.
@@ -20,50 +18,22 @@ pub(super) struct Row<'a> {
 }
 
 /// The file, open.
-pub(super) struct FrameTable {
-    path: PathBuf,
-    file: BufWriter<File>,
-}
+pub(super) struct FrameTable(Csv);
 
 impl FrameTable {
     pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
-        let file = File::create(path).map_err(cannot_write(path))?;
-        let mut table = Self { path: path.to_owned(), file: BufWriter::new(file) };
-        table.line("frame,time_us,name,srs_regions,trs_regions,active_regions,pixels_forwarded")?;
-        Ok(table)
+        let heading = "frame,time_us,name,srs_regions,trs_regions,active_regions,pixels_forwarded";
+        Csv::create(path, heading).map(Self)
     }
 
     pub(super) fn push(&mut self, row: &Row<'_>) -> Result<(), SimulatorError> {
         let Row { frame, time_us, name, srs, trs, active, pixels_forwarded } = row;
         let name = quoted(name);
-        self.line(&format!("{frame},{time_us},{name},{srs},{trs},{active},{pixels_forwarded}"))
+        let line = format!("{frame},{time_us},{name},{srs},{trs},{active},{pixels_forwarded}");
+        self.0.line([line])
     }
 
-    pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
-        self.file.flush().map_err(cannot_write(&self.path))
-    }
-
-    fn line(&mut self, text: &str) -> Result<(), SimulatorError> {
-        writeln!(self.file, "{text}").map_err(cannot_write(&self.path))
-    }
-}
-
-/// A field of a CSV file (RFC 4180).
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_quoted_where_they_must_be() {
-        assert_eq!(quoted("a b.png"), "a b.png");
-        assert_eq!(quoted("a,\"b\".png"), "\"a,\"\"b\"\".png\"");
+    pub(super) fn finish(self) -> Result<(), SimulatorError> {
+        self.0.finish()
     }
 }

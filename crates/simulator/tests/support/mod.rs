@@ -5,10 +5,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use foveate_model::{Camera, Frame, Outcome};
+use foveate_scenes::{Scene, SceneSize};
 use foveate_simulator::{
     InputOptions, RunOptions, Silent, Simulation, SimulatorError, Summary, open,
 };
-use foveate_spec::Config;
+use foveate_spec::{Config, Design};
 
 /// Runs `inputs` with a configuration of default values and `overrides`.
 pub(crate) fn run<P: AsRef<Path>>(
@@ -20,6 +22,44 @@ pub(crate) fn run<P: AsRef<Path>>(
     let config = Config::from_toml_with("", overrides).unwrap();
     let source = open(inputs, &config, &InputOptions::default())?;
     Simulation::new(&config, source)?.run(output, options, &mut Silent)
+}
+
+/// A ragged street of five frames with two features.
+pub(crate) const STREET: [&str; 4] = [
+    "frame.width=45",
+    "frame.height=38",
+    "region.size=8",
+    r#"spatial=[{feature="edge"},{feature="mad",min_score=4}]"#,
+];
+
+/// Runs five frames of the street.
+pub(crate) fn street(output: &Path, overrides: &[&str], options: &RunOptions) -> Summary {
+    let config = Config::from_toml_with("", overrides).unwrap();
+    let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
+    let source = open(&["scene:street"], &config, &limit).unwrap();
+    Simulation::new(&config, source).unwrap().run(output, options, &mut Silent).unwrap()
+}
+
+/// The same five frames.
+pub(crate) fn frames(design: &Design) -> impl Iterator<Item = Frame> + use<> {
+    Scene::Street.frames(SceneSize {
+        width: design.width(),
+        height: design.height(),
+        bits: design.pixel_bits(),
+        region_size: design.region_size(),
+        frames: 5,
+    })
+}
+
+pub(crate) fn design(overrides: &[&str]) -> Design {
+    Config::from_toml_with("", overrides).unwrap().validate().unwrap()
+}
+
+/// What the model says of them.
+pub(crate) fn outcomes(overrides: &[&str]) -> Vec<Outcome> {
+    let design = design(overrides);
+    let mut camera = Camera::new(&design);
+    frames(&design).map(|frame| camera.step(&frame).unwrap().clone()).collect()
 }
 
 /// Writes an 8-bit grey image whose format follows from its extension.
@@ -51,7 +91,10 @@ pub(crate) struct Npy {
 
 impl Npy {
     pub(crate) fn read(path: &Path) -> Self {
-        let bytes = fs::read(path).unwrap();
+        Self::parse(&fs::read(path).unwrap())
+    }
+
+    pub(crate) fn parse(bytes: &[u8]) -> Self {
         assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
         let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
         assert_eq!((10 + length) % 64, 0, "NumPy asks for aligned data");
@@ -63,8 +106,15 @@ impl Npy {
         };
         let shape = between("'shape': (", ')');
         Self {
-            descr: between("'descr': '", '\''),
-            shape: shape.split(',').map(|number| number.trim().parse().unwrap()).collect(),
+            descr: match between("'descr': ", 'f').trim_end_matches([' ', ',', '\'']) {
+                list if list.starts_with('[') => list.to_owned(),
+                name => name.trim_matches('\'').to_owned(),
+            },
+            shape: shape
+                .split(',')
+                .filter(|number| !number.trim().is_empty())
+                .map(|number| number.trim().parse().unwrap())
+                .collect(),
             data: bytes[10 + length..].to_vec(),
         }
     }

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `explain`.
+
+use clap::Args;
+
+use super::DesignArgs;
+
+/// Say why a region of a frame was sent or dropped
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate explain scene:street --frame 3 --region 12,5
+          foveate explain frames/ --frame 0 --region 0,0 --json")]
+pub(crate) struct ExplainArgs {
+    /// Images (PNG, JPEG, BMP, PGM), folders, globs, or scene:NAME
+    #[arg(value_name = "INPUT", required = true)]
+    pub(crate) inputs: Vec<String>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Number of the frame, from 0; the frames before it are run through first
+    #[arg(long, value_name = "K")]
+    pub(crate) frame: u64,
+    /// Column and row of the region, from 0
+    #[arg(long, value_name = "X,Y", value_parser = parse_region)]
+    pub(crate) region: (u32, u32),
+    /// Frames of a scene, as in `foveate simulate`
+    #[arg(long, value_name = "N")]
+    pub(crate) frames: Option<u32>,
+    /// Frames per second of images, for the times of frames
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    pub(crate) fps: u32,
+    /// Print JSON, with every pixel
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn parse_region(text: &str) -> Result<(u32, u32), String> {
+    text.split_once(',')
+        .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
+        .ok_or_else(|| "expected COLUMN,ROW, for example 12,5".to_owned())
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `simulate` that say what is written.
+
+use clap::{Args, ValueEnum};
+use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
+use foveate_spec::Decimal;
+
+/// What `simulate` writes beside arrays, frames.csv and summary.json.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Outputs")]
+pub(crate) struct OutputArgs {
+    /// What is on the screen: numbered pictures, one lossless video (FFV1), or one for any player
+    /// (H.264); video needs ffmpeg
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Rendered::Png)]
+    pub(crate) rendered: Rendered,
+    /// The same as --rendered none
+    #[arg(long, conflicts_with = "rendered")]
+    pub(crate) no_rendered: bool,
+    /// The original frames with the decisions in colour
+    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
+    pub(crate) overlay: Option<Pictures>,
+    /// A map of every score
+    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
+    pub(crate) heatmap: Option<Pictures>,
+    /// A table with one row per region and frame; several formats with commas
+    #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',')]
+    pub(crate) events: Vec<EventFormat>,
+    /// Rows of the table to keep
+    #[arg(long, value_enum, value_name = "WHICH", requires = "events")]
+    pub(crate) only: Option<Only>,
+    /// Ordinary (x, y, t, p) events of the same frames, for comparison; several formats with commas
+    #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
+    pub(crate) pixel_events: Vec<PixelEventFormat>,
+    /// Change of a pixel that makes an event: grey levels [default: temporal.level + 1], or with --log
+    /// a natural logarithm [default: 0.2]
+    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse_decimal, requires = "pixel_events")]
+    pub(crate) contrast: Option<Decimal>,
+    /// Logarithmic pixels instead of linear ones
+    #[arg(long, requires = "pixel_events")]
+    pub(crate) log: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum Rendered {
+    Png,
+    /// Lossless video
+    #[value(alias = "video")]
+    Mkv,
+    /// Video for any player
+    Mp4,
+    None,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum Pictures {
+    Png,
+    /// Lossless video
+    #[value(alias = "video")]
+    Mkv,
+    /// Video for any player
+    Mp4,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum EventFormat {
+    Csv,
+    Parquet,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum Only {
+    /// Active regions
+    Active,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum PixelEventFormat {
+    Npz,
+    Csv,
+}
+
+impl OutputArgs {
+    /// What the options ask for.
+    pub(crate) fn options(&self) -> RunOptions {
+        let medium = |pictures| match pictures {
+            Pictures::Png => Medium::Png,
+            Pictures::Mkv => Medium::Mkv,
+            Pictures::Mp4 => Medium::Mp4,
+        };
+        let rendered = match self.rendered {
+            _ if self.no_rendered => None,
+            Rendered::None => None,
+            Rendered::Png => Some(Medium::Png),
+            Rendered::Mkv => Some(Medium::Mkv),
+            Rendered::Mp4 => Some(Medium::Mp4),
+        };
+        RunOptions {
+            rendered,
+            overlay: self.overlay.map(medium),
+            heatmap: self.heatmap.map(medium),
+            events: EventTables {
+                csv: self.events.contains(&EventFormat::Csv),
+                parquet: self.events.contains(&EventFormat::Parquet),
+                only_active: self.only == Some(Only::Active),
+            },
+            pixel_events: PixelEvents {
+                npz: self.pixel_events.contains(&PixelEventFormat::Npz),
+                csv: self.pixel_events.contains(&PixelEventFormat::Csv),
+                contrast: self.contrast,
+                log: self.log,
+            },
+            overwrite: false,
+        }
+    }
+}
+
+fn parse_decimal(text: &str) -> Result<Decimal, String> {
+    let value = text.parse().ok().and_then(Decimal::from_f64);
+    value.ok_or_else(|| "expected a number with at most nine digits after the point".to_owned())
+}

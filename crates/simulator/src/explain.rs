@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Why a region of a frame was sent or dropped: every pixel, score, threshold and vote that led there,
+//! and the row of the decision table that applied.
+//!
+//! The frames before are run through the same camera, so that reference and screen are what they were.
+//! Scores and bits are the camera's; the hits beside them are computed per pixel and must add up.
+
+mod gather;
+mod text;
+
+use foveate_model::Camera;
+use foveate_spec::{Config, FeatureKind, Filter};
+use serde::Serialize;
+
+use crate::{SimulatorError, Source};
+
+/// Rows of pixels.
+pub type Rows<T> = Vec<Vec<T>>;
+
+/// Why a region was sent or dropped.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Explanation {
+    /// Version of this format.
+    pub format_version: u32,
+    /// Fingerprint of the design.
+    pub design_fingerprint: String,
+    /// Number of the frame.
+    pub frame: u64,
+    /// Name of the frame.
+    pub name: String,
+    /// Time of the frame in microseconds.
+    pub t_us: u64,
+    /// The region.
+    pub region: Place,
+    /// Bits per pixel.
+    pub pixel_bits: u32,
+    /// The raw pixels.
+    pub raw: Rows<u16>,
+    /// The pixels that were scored, and how they came about.
+    pub denoised: Rows<u16>,
+    /// `none` or `median3x3`.
+    pub filter: Filter,
+    /// Every feature.
+    pub spatial: Vec<Spatial>,
+    /// How votes become SRS: `any` or `all`.
+    pub combine: &'static str,
+    /// Spatial relevance.
+    pub srs: bool,
+    /// The temporal score.
+    pub temporal: Change,
+    /// Temporal relevance.
+    pub trs: bool,
+    /// What became of the region on the screen: `forward`, `hold` or `blank`.
+    pub action: &'static str,
+    /// The row of the decision table (Table I of the paper) that applied.
+    pub rule: String,
+}
+
+/// A region and its pixels in the frame.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Place {
+    /// Column of the region.
+    pub x: u32,
+    /// Row of the region.
+    pub y: u32,
+    /// Column of its first pixel.
+    pub x0: u32,
+    /// Row of its first pixel.
+    pub y0: u32,
+    /// Pixels along each side.
+    pub size: u32,
+    /// Columns of regions in a frame.
+    pub columns: u32,
+    /// Rows of regions in a frame.
+    pub rows: u32,
+    /// Columns of pixels that are padding.
+    pub padding_right: u32,
+    /// Rows of pixels that are padding.
+    pub padding_below: u32,
+}
+
+/// A spatial score and its vote.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spatial {
+    /// `edge`, `corner`, `mad` or `variance`.
+    pub feature: FeatureKind,
+    /// Threshold of a pixel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<u32>,
+    /// Pixels that count, for `edge` and `corner`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hits: Option<Rows<bool>>,
+    /// The mean in units of `2^-f` grey levels, for `mad`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean: Option<u64>,
+    /// The score.
+    pub score: u64,
+    /// The least score that votes.
+    pub min_score: u64,
+    /// What a score of this feature is divided by to be in grey levels (squared, for `variance`), or
+    /// 1 for counts.
+    pub unit: u64,
+    /// Whether it votes.
+    pub vote: bool,
+}
+
+/// The temporal score.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Change {
+    /// What it is compared with: `previous` or `last-sent`.
+    pub against: &'static str,
+    /// The reference; without a valid one every pixel counts.
+    pub reference: Option<Rows<u16>>,
+    /// Threshold of a pixel.
+    pub level: u32,
+    /// Pixels that count.
+    pub hits: Rows<bool>,
+    /// The number of them.
+    pub count: u32,
+    /// The least count that makes TRS.
+    pub min_count: u32,
+}
+
+/// Runs a source up to frame `frame` and explains the region at column and row `region`.
+///
+/// # Errors
+/// When there is no such frame or region, or a frame cannot be read.
+pub fn explain(
+    config: &Config,
+    mut source: Box<dyn Source>,
+    frame: u64,
+    region: (u32, u32),
+) -> Result<Explanation, SimulatorError> {
+    let mut config = config.clone();
+    let (width, height) = source.size();
+    config.fit_frame(width, height)?;
+    let design = config.validate()?;
+    let (columns, rows) = (design.columns(), design.rows());
+    let (x, y) = region;
+    if x >= columns || y >= rows {
+        return Err(SimulatorError::NoSuchRegion { x, y, columns, rows });
+    }
+    let number = y * columns + x;
+    let mut camera = Camera::new(&design);
+    let mut frames = 0;
+    loop {
+        let Some(current) = source.next_frame()? else {
+            let inputs = source.inputs().join(", ");
+            return Err(SimulatorError::NoSuchFrame { frame, inputs, frames });
+        };
+        let reference = camera.reference(number);
+        let outcome = camera.step(&current.frame)?;
+        if frames == frame {
+            return Ok(gather::explanation(&design, frame, &current, number, reference, outcome));
+        }
+        frames += 1;
+    }
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Takes an explanation from the outcome of a frame, and the hits of single pixels from the model's
+//! arithmetic.
+
+use foveate_model::feature::{corner_strengths, edge_magnitudes, mad};
+use foveate_model::{Frame, Outcome, region_pixels};
+use foveate_spec::{Design, FeatureKind, Irrelevant, SpatialFeature};
+
+use super::{Change, Explanation, Place, Rows, Spatial};
+use crate::SourceFrame;
+
+/// Changes when a key changes its meaning or goes.
+const FORMAT_VERSION: u32 = 1;
+
+/// Everything about one region of a frame; `reference` is its reference before the frame.
+pub(super) fn explanation(
+    design: &Design,
+    frame: u64,
+    source: &SourceFrame,
+    region: u32,
+    reference: Option<Vec<u16>>,
+    outcome: &Outcome,
+) -> Explanation {
+    let at = region as usize;
+    let scores = design.features().iter().zip(&outcome.scores);
+    Explanation {
+        format_version: FORMAT_VERSION,
+        design_fingerprint: design.fingerprint(),
+        frame,
+        name: source.name.clone(),
+        t_us: source.time_us,
+        region: Place::of(design, region),
+        pixel_bits: design.pixel_bits(),
+        raw: rows(design, &pixels(design, &outcome.padded, region)),
+        denoised: rows(design, &pixels(design, &outcome.denoised, region)),
+        filter: design.filter(),
+        spatial: scores
+            .map(|(feature, scores)| Spatial::of(design, feature, outcome, region, scores[at]))
+            .collect(),
+        combine: design.combine().name(),
+        srs: outcome.srs[at],
+        temporal: Change::of(design, reference, outcome, region),
+        trs: outcome.trs[at],
+        action: outcome.actions[at].name(),
+        rule: rule(design, outcome.srs[at], outcome.trs[at]),
+    }
+}
+
+impl Place {
+    fn of(design: &Design, region: u32) -> Self {
+        let (size, columns) = (design.region_size(), design.columns());
+        let (x, y) = (region % columns, region / columns);
+        Self {
+            x,
+            y,
+            x0: x * size,
+            y0: y * size,
+            size,
+            columns,
+            rows: design.rows(),
+            padding_right: ((x + 1) * size).saturating_sub(design.width()),
+            padding_below: ((y + 1) * size).saturating_sub(design.height()),
+        }
+    }
+}
+
+impl Spatial {
+    fn of(
+        design: &Design,
+        feature: &SpatialFeature,
+        outcome: &Outcome,
+        region: u32,
+        score: u64,
+    ) -> Self {
+        let n = u64::from(design.region_pixels());
+        let level = feature.level().unwrap_or_default();
+        let denoised = &outcome.denoised;
+        let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
+        let (hits, mean, unit) = match feature.kind() {
+            FeatureKind::Edge => {
+                let magnitudes = edge_magnitudes(design, denoised, region).into_iter();
+                (Some(magnitudes.map(|magnitude| magnitude > level).collect()), None, 1)
+            }
+            FeatureKind::Corner => {
+                let strengths = corner_strengths(design, denoised, region).into_iter();
+                let hit = |strength: Option<u32>| strength.is_some_and(|most| level <= most);
+                (Some(strengths.map(hit).collect()), None, 1)
+            }
+            FeatureKind::Mad => {
+                let sum = pixels(design, denoised, region).into_iter().map(u64::from).sum();
+                (None, Some(mad::mean(sum, n, fraction_bits)), n << fraction_bits)
+            }
+            FeatureKind::Variance => (None, None, n * n),
+        };
+        Self {
+            feature: feature.kind(),
+            level: feature.level(),
+            hits: hits.map(|hits: Vec<bool>| rows(design, &hits)),
+            mean,
+            score,
+            min_score: feature.min_score(),
+            unit,
+            vote: score >= feature.min_score(),
+        }
+    }
+}
+
+impl Change {
+    fn of(design: &Design, reference: Option<Vec<u16>>, outcome: &Outcome, region: u32) -> Self {
+        let temporal = design.temporal();
+        let now = pixels(design, &outcome.denoised, region);
+        let hits = match &reference {
+            Some(then) => {
+                let pairs = now.iter().zip(then);
+                pairs.map(|(now, then)| u32::from(now.abs_diff(*then)) > temporal.level).collect()
+            }
+            None => vec![true; now.len()],
+        };
+        Self {
+            against: temporal.reference.name(),
+            reference: reference.map(|pixels| rows(design, &pixels)),
+            level: temporal.level,
+            hits: rows(design, &hits),
+            count: outcome.temporal_count[region as usize],
+            min_count: temporal.min_count,
+        }
+    }
+}
+
+fn pixels(design: &Design, padded: &Frame, region: u32) -> Vec<u16> {
+    let mut pixels = Vec::new();
+    region_pixels(design, padded, region, &mut pixels);
+    pixels
+}
+
+fn rows<T: Copy>(design: &Design, items: &[T]) -> Rows<T> {
+    items.chunks(design.region_size() as usize).map(<[T]>::to_vec).collect()
+}
+
+/// The row of the decision table in words.
+fn rule(design: &Design, srs: bool, trs: bool) -> String {
+    let payload = design.payload().name();
+    match (trs, srs) {
+        (true, true) => format!("TRS 1, SRS 1: active, its {payload} pixels are sent and shown"),
+        (false, true) => "TRS 0, SRS 1: inactive, the previous rendered pixels stay".to_owned(),
+        (_, false) => {
+            let then = match design.irrelevant() {
+                Irrelevant::Zero => "the region is rendered black (irrelevant = \"zero\")",
+                Irrelevant::Hold => "the previous rendered pixels stay (irrelevant = \"hold\")",
+            };
+            format!("TRS any, SRS 0: inactive, {then}")
+        }
+    }
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An explanation for people, at most 80 columns wide.
+//!
+//! Regions up to 16 x 16 are shown as numbers, hexadecimal above 8 bits, with a mark at every hit.
+//! Larger ones are shown with one character per pixel, which is cut nowhere: ten shades for pixels,
+//! `X` for a hit.
+
+use std::fmt::{self, Display, Formatter, Write as _};
+
+use super::{Change, Explanation, Rows, Spatial};
+
+/// Columns of a terminal.
+const WIDTH: usize = 80;
+/// The largest side that is shown as numbers.
+const NUMBERS: usize = 16;
+/// Shades from black to white.
+const SHADES: &[u8; 10] = b" .:-=+*#%@";
+
+impl Display for Explanation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let grid = Grid::of(self);
+        let place = &self.region;
+        writeln!(
+            f,
+            "frame {} ({}) at {} us\nregion {},{} of {} x {}, pixels x {} to {}, y {} to {}",
+            self.frame,
+            shortened(&self.name),
+            self.t_us,
+            place.x,
+            place.y,
+            place.columns,
+            place.rows,
+            place.x0,
+            place.x0 + place.size - 1,
+            place.y0,
+            place.y0 + place.size - 1,
+        )?;
+        if place.padding_right + place.padding_below > 0 {
+            let (right, below) = (place.padding_right, place.padding_below);
+            writeln!(f, "padding: the last {right} columns and the last {below} rows")?;
+        }
+        writeln!(f, "{}", grid.note())?;
+        grid.show(f, "raw", &self.raw, None)?;
+        let denoised = format!("scored ({})", self.filter);
+        grid.show(f, &denoised, &self.denoised, None)?;
+        for spatial in &self.spatial {
+            spatial.show_hits(f, &grid, &self.denoised)?;
+        }
+        self.temporal.show_hits(f, &grid)?;
+        writeln!(f)?;
+        for spatial in &self.spatial {
+            writeln!(f, "{}", spatial.line())?;
+        }
+        writeln!(f, "{:<9} SRS {} ({} of the votes)", "", u8::from(self.srs), self.combine)?;
+        let Change { count, min_count, .. } = self.temporal;
+        let sign = compared(self.trs);
+        let trs = u8::from(self.trs);
+        writeln!(f, "{:<9} {count} changed {sign} {min_count}: TRS {trs}", "temporal")?;
+        let then = self.rule.replacen(": ", "\n          ", 1);
+        writeln!(f, "{:<9} {then}", "Table I")
+    }
+}
+
+impl Spatial {
+    fn show_hits(&self, f: &mut Formatter<'_>, grid: &Grid, denoised: &Rows<u16>) -> fmt::Result {
+        match (&self.hits, self.level) {
+            (Some(hits), Some(level)) => {
+                let title = format!("{}: hits ({}), level {level}", self.feature, grid.mark());
+                grid.show(f, &title, denoised, Some(hits))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn line(&self) -> String {
+        let sign = compared(self.vote);
+        let vote = if self.vote { "votes" } else { "does not vote" };
+        let mut line =
+            format!("{:<9} {} {sign} {}: {vote}", self.feature.name(), self.score, self.min_score);
+        if self.unit > 1 {
+            // A string takes everything.
+            let _ = write!(line, "; {} per pixel", thousandths(self.score, self.unit));
+        }
+        line
+    }
+}
+
+impl Change {
+    fn show_hits(&self, f: &mut Formatter<'_>, grid: &Grid) -> fmt::Result {
+        match &self.reference {
+            Some(reference) => {
+                let mark = grid.mark();
+                let title =
+                    format!("reference ({}): changed ({mark}), level {}", self.against, self.level);
+                grid.show(f, &title, reference, Some(&self.hits))
+            }
+            None => {
+                writeln!(f, "\nreference ({}): none is valid, every pixel counts", self.against)
+            }
+        }
+    }
+}
+
+/// How squares of pixels are shown.
+struct Grid {
+    side: usize,
+    max: u16,
+    /// Digits of a number and whether they are hexadecimal.
+    digits: usize,
+    hexadecimal: bool,
+}
+
+impl Grid {
+    fn of(explanation: &Explanation) -> Self {
+        let max = u16::MAX >> (16 - explanation.pixel_bits);
+        let hexadecimal = explanation.pixel_bits > 8;
+        let digits = if hexadecimal { format!("{max:x}") } else { max.to_string() };
+        Self { side: explanation.raw.len(), max, digits: digits.len(), hexadecimal }
+    }
+
+    fn note(&self) -> &'static str {
+        match (self.side > NUMBERS, self.hexadecimal) {
+            (true, _) => {
+                "one character per pixel: ten shades from black to white (the numbers are in\n\
+                 --json), or X for a hit"
+            }
+            (false, true) => "pixels are hexadecimal",
+            (false, false) => "pixels are decimal",
+        }
+    }
+
+    fn mark(&self) -> char {
+        if self.side > NUMBERS { 'X' } else { '*' }
+    }
+
+    /// A titled square; hits are marked.
+    fn show(
+        &self,
+        f: &mut Formatter<'_>,
+        title: &str,
+        pixels: &Rows<u16>,
+        hits: Option<&Rows<bool>>,
+    ) -> fmt::Result {
+        writeln!(f, "\n{title}")?;
+        for (y, row) in pixels.iter().enumerate() {
+            let mut line = String::new();
+            for (x, &pixel) in row.iter().enumerate() {
+                let hit = hits.map(|hits| hits[y][x]);
+                self.cell(&mut line, pixel, hit)?;
+            }
+            debug_assert!(line.len() <= WIDTH, "a row of the region fits");
+            writeln!(f, "{}", line.trim_end())?;
+        }
+        Ok(())
+    }
+
+    fn cell(&self, line: &mut String, pixel: u16, hit: Option<bool>) -> fmt::Result {
+        let width = self.digits;
+        match (self.side > NUMBERS, hit) {
+            (true, Some(hit)) => line.push(if hit { self.mark() } else { '.' }),
+            (true, None) => {
+                let shade = usize::from(pixel) * (SHADES.len() - 1) / usize::from(self.max.max(1));
+                line.push(char::from(SHADES[shade]));
+            }
+            (false, hit) => {
+                if self.hexadecimal {
+                    write!(line, "{pixel:>width$x}")?;
+                } else {
+                    write!(line, "{pixel:>width$}")?;
+                }
+                line.push(if hit == Some(true) { self.mark() } else { ' ' });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn compared(reached: bool) -> &'static str {
+    if reached { ">=" } else { "<" }
+}
+
+/// `value / unit` with three digits after the point, cut.
+fn thousandths(value: u64, unit: u64) -> String {
+    let thousandths = u128::from(value) * 1000 / u128::from(unit);
+    format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
+}
+
+/// The end of a long name.
+fn shortened(name: &str) -> String {
+    const MOST: usize = 40;
+    let letters = name.chars().count();
+    if letters <= MOST {
+        return name.to_owned();
+    }
+    format!("...{}", name.chars().skip(letters - MOST + 3).collect::<String>())
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bytes and events of the region camera beside those of a camera with pixel events and raw video.
+//!
+//! | camera | an event | bytes |
+//! | --- | --- | --- |
+//! | raw video | | W * H * P / 8 per frame |
+//! | region | an active region of a frame | 2 bits (SRS, TRS) per region and frame, and P / 8 per forwarded pixel |
+//! | pixel | a pixel that crossed the contrast once | 4, a 32-bit word as in EVT 2.0 |
+//!
+//! Bits are summed over the run and rounded up to bytes once. All that a receiver needs is counted:
+//! the two bits say what becomes of every region, so no addresses are sent.
+
+use foveate_spec::Design;
+use serde::Serialize;
+
+/// Bytes of one event of a pixel.
+pub const PIXEL_EVENT_BYTES: u64 = 4;
+
+/// What one kind of camera sends. Rates are rounded to tenths; there is none where time stands still.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Traffic {
+    /// Events in all; raw video has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub events: Option<u64>,
+    /// Events per second.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub events_per_second: Option<f64>,
+    /// Bytes in all.
+    pub bytes: u64,
+    /// Bytes per second.
+    pub bytes_per_second: Option<f64>,
+}
+
+/// The comparison.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bandwidth {
+    /// From the first frame to the end of the last, which counts as long as the others on average.
+    /// None of a single frame.
+    pub duration_us: Option<u64>,
+    /// Every pixel of every frame.
+    pub raw: Traffic,
+    /// The region camera.
+    pub region: Traffic,
+    /// A camera with pixel events, if they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixel: Option<Traffic>,
+}
+
+/// Sums of a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    pub(super) frames: u64,
+    pub(super) active: u64,
+    pub(super) pixels_forwarded: u64,
+    pub(super) pixel_events: Option<u64>,
+    /// Times of the first and the last frame.
+    pub(super) times: Option<(u64, u64)>,
+}
+
+impl Bandwidth {
+    pub(super) fn of(design: &Design, sums: &Sums) -> Self {
+        let duration_us = duration(sums);
+        let pixels = u64::from(design.width()) * u64::from(design.height());
+        let depth = u64::from(design.pixel_bits());
+        let raw = (sums.frames * pixels * depth).div_ceil(8);
+        let map = 2 * u64::from(design.regions()) * sums.frames;
+        let region = (map + sums.pixels_forwarded * depth).div_ceil(8);
+        Self {
+            raw: Traffic::of(None, raw, duration_us),
+            region: Traffic::of(Some(sums.active), region, duration_us),
+            pixel: sums
+                .pixel_events
+                .map(|events| Traffic::of(Some(events), events * PIXEL_EVENT_BYTES, duration_us)),
+            duration_us,
+        }
+    }
+}
+
+impl Traffic {
+    fn of(events: Option<u64>, bytes: u64, duration_us: Option<u64>) -> Self {
+        Self {
+            events,
+            events_per_second: events.and_then(|events| rate(events, duration_us?)),
+            bytes,
+            bytes_per_second: duration_us.and_then(|duration| rate(bytes, duration)),
+        }
+    }
+}
+
+fn duration(sums: &Sums) -> Option<u64> {
+    let (first, last) = sums.times?;
+    let intervals = u128::from(sums.frames.checked_sub(1).filter(|&intervals| intervals > 0)?);
+    let span = u128::from(last.checked_sub(first).filter(|&span| span > 0)?);
+    u64::try_from((span * (intervals + 1) + intervals / 2) / intervals).ok()
+}
+
+/// Per second, rounded to tenths in integers, the same on every machine.
+fn rate(amount: u64, duration_us: u64) -> Option<f64> {
+    let duration = u128::from(duration_us);
+    let tenths = (u128::from(amount) * 10_000_000 + duration / 2).checked_div(duration)?;
+    format!("{}.{}", tenths / 10, tenths % 10).parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_of_thirty_frames_is_a_second() {
+        let sums = Sums { frames: 30, times: Some((0, 966_667)), ..Sums::default() };
+        assert_eq!(duration(&sums), Some(1_000_000));
+        assert_eq!(rate(1234, 1_000_000), Some(1234.0));
+        assert_eq!(rate(1, 3_000_000), Some(0.3));
+        assert_eq!(duration(&Sums { frames: 1, times: Some((5, 5)), ..sums }), None);
+    }
+}

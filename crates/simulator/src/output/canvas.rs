@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A colour picture to draw on, and the common layout of pictures of regions: the frame, enlarged if
+//! it is small, above a footer for a legend.
+
+use super::font;
+
+/// Red, green and blue.
+pub(super) type Colour = [u8; 3];
+
+pub(super) const BACKGROUND: Colour = [16, 16, 16];
+pub(super) const TEXT: Colour = [230, 230, 230];
+
+/// Frames are enlarged until they are this wide,
+const ENOUGH_WIDTH: u32 = 448;
+/// unless they become higher than this.
+const ENOUGH_HEIGHT: u32 = 1024;
+/// Dots across, from which their size follows.
+const ENOUGH_DOTS: u32 = 220;
+/// Room that a legend needs, in dots.
+const LEGEND_DOTS: u32 = 150;
+
+/// Where things are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    /// Pixels of the picture per pixel of the frame, along each side.
+    pub(super) scale: u32,
+    /// Pixels per dot of a letter.
+    pub(super) dot: u32,
+    pub(super) width: u32,
+    /// Height of the enlarged frame: where the footer begins.
+    pub(super) frame_height: u32,
+    pub(super) frame_width: u32,
+}
+
+impl Layout {
+    pub(super) fn new(width: u32, height: u32) -> Self {
+        let scale = (ENOUGH_WIDTH / width).min(ENOUGH_HEIGHT / height).max(1);
+        let (frame_width, frame_height) = (width * scale, height * scale);
+        let dot = (frame_width / ENOUGH_DOTS).clamp(1, 4);
+        Self { scale, dot, width: frame_width.max(LEGEND_DOTS), frame_height, frame_width }
+    }
+}
+
+/// The picture.
+pub(super) struct Canvas {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) rgb: Vec<u8>,
+}
+
+impl Canvas {
+    pub(super) fn new(width: u32, height: u32) -> Self {
+        let pixels = width as usize * height as usize;
+        Self { width, height, rgb: BACKGROUND.repeat(pixels) }
+    }
+
+    /// Fills a rectangle, as far as it is on the picture.
+    pub(super) fn fill(&mut self, left: u32, top: u32, width: u32, height: u32, colour: Colour) {
+        let right = left.saturating_add(width).min(self.width);
+        let bottom = top.saturating_add(height).min(self.height);
+        for y in top..bottom {
+            let row = y as usize * self.width as usize;
+            let pixels = 3 * (row + left.min(right) as usize)..3 * (row + right as usize);
+            for pixel in self.rgb[pixels].chunks_exact_mut(3) {
+                pixel.copy_from_slice(&colour);
+            }
+        }
+    }
+
+    /// Draws the border of a rectangle, inside of it.
+    pub(super) fn frame(&mut self, at: [u32; 4], line: u32, colour: Colour) {
+        let [left, top, width, height] = at;
+        let line = line.min(width).min(height);
+        self.fill(left, top, width, line, colour);
+        self.fill(left, top + height - line, width, line, colour);
+        self.fill(left, top, line, height, colour);
+        self.fill(left + width - line, top, line, height, colour);
+    }
+
+    /// Writes a line of text, `dot` pixels per dot; where it ends.
+    pub(super) fn text(&mut self, left: u32, top: u32, dot: u32, text: &str) -> u32 {
+        let mut at = left;
+        for letter in text.chars() {
+            for (x, y) in (0..font::SIZE.1).flat_map(|y| (0..font::SIZE.0).map(move |x| (x, y))) {
+                if font::dot(letter, x, y) {
+                    self.fill(at + x * dot, top + y * dot, dot, dot, TEXT);
+                }
+            }
+            at += (font::SIZE.0 + 1) * dot;
+        }
+        at
+    }
+}

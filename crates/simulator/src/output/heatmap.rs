@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Maps of one score: every region in the colour of its score, on the perceptually uniform scale
+//! viridis, dark for 0. The scale is that of the design, not of the frame, so that pictures can be
+//! compared: 0 to the largest possible score, by its square root for `variance`, which makes it the
+//! standard deviation. The bar below has a tick at the threshold.
+
+use colorous::VIRIDIS;
+use foveate_spec::{Design, FeatureKind, SpatialFeature};
+
+use super::canvas::{Canvas, Colour, Layout, TEXT};
+use super::font;
+use super::gallery::Painter;
+use super::sink::Step;
+
+/// Steps of the scale.
+const STEPS: u64 = 256;
+
+/// Draws one score.
+pub(super) struct Heatmap {
+    score: Score,
+    title: String,
+    max: u64,
+    /// The largest score as it is written beside the bar: in grey levels, or their square.
+    label: String,
+    threshold: u64,
+}
+
+#[derive(Clone, Copy)]
+enum Score {
+    /// By number of the feature, with its kind.
+    Spatial(usize, FeatureKind),
+    Temporal,
+}
+
+impl Heatmap {
+    /// A map for every score of a design, with its name.
+    pub(super) fn all(design: &Design) -> Vec<(String, Self)> {
+        let n = u64::from(design.region_pixels());
+        let spatial = design.features().iter().enumerate().map(|(index, feature)| Self {
+            score: Score::Spatial(index, feature.kind()),
+            title: feature.kind().to_string(),
+            max: feature.score_max(),
+            label: (feature.score_max() / unit(feature, n)).to_string(),
+            threshold: feature.min_score(),
+        });
+        let temporal = Self {
+            score: Score::Temporal,
+            title: "temporal".to_owned(),
+            max: n,
+            label: n.to_string(),
+            threshold: design.temporal().min_count.into(),
+        };
+        let all = spatial.chain([temporal]);
+        all.map(|map| (format!("heatmap_{}", map.title), map)).collect()
+    }
+
+    fn value(&self, step: &Step<'_>, region: usize) -> u64 {
+        match self.score {
+            Score::Spatial(index, _) => step.outcome.scores[index][region],
+            Score::Temporal => step.outcome.temporal_count[region].into(),
+        }
+    }
+
+    /// Place of a score on the scale, `0..STEPS`.
+    fn place(&self, score: u64) -> u64 {
+        let last = u128::from(STEPS - 1);
+        let (score, max) = (u128::from(score.min(self.max)), u128::from(self.max.max(1)));
+        let place = match self.score {
+            Score::Spatial(_, FeatureKind::Variance) => (score * last * last / max).isqrt(),
+            Score::Spatial(_, FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad)
+            | Score::Temporal => score * last / max,
+        };
+        u64::try_from(place).unwrap_or(STEPS - 1)
+    }
+
+    fn draw_bar(&self, canvas: &mut Canvas, layout: Layout) {
+        let dot = layout.dot;
+        let top = layout.frame_height + 2 * dot;
+        let height = font::SIZE.1 * dot;
+        let title = format!("{} 0", self.title);
+        let left = canvas.text(2 * dot, top, dot, &title) + dot;
+        let letters = u32::try_from(self.label.len()).unwrap_or_default();
+        let right = layout.width.saturating_sub((letters * (font::SIZE.0 + 1) + 3) * dot);
+        let width = right.saturating_sub(left).max(1);
+        for x in 0..width {
+            canvas.fill(left + x, top, 1, height, colour(u64::from(x) * STEPS / u64::from(width)));
+        }
+        canvas.text(right + dot, top, dot, &self.label);
+        let tick = self.place(self.threshold) * u64::from(width) / STEPS;
+        let tick = left + u32::try_from(tick).unwrap_or_default();
+        canvas.fill(tick, top - dot, dot, height + 2 * dot, TEXT);
+    }
+}
+
+impl Painter for Heatmap {
+    fn paint(&mut self, step: &Step<'_>) -> Canvas {
+        let (design, frame) = (step.design, &step.source.frame);
+        let layout = Layout::new(frame.width(), frame.height());
+        let footer = (font::SIZE.1 + 4) * layout.dot;
+        let mut canvas = Canvas::new(layout.width, layout.frame_height + footer);
+        let cell = design.region_size() * layout.scale;
+        for region in 0..design.regions() {
+            let (left, top) = (region % design.columns() * cell, region / design.columns() * cell);
+            let width = cell.min(layout.frame_width - left);
+            let height = cell.min(layout.frame_height - top);
+            let colour = colour(self.place(self.value(step, region as usize)));
+            canvas.fill(left, top, width, height, colour);
+        }
+        self.draw_bar(&mut canvas, layout);
+        canvas
+    }
+}
+
+/// What a score is divided by to be in grey levels, or their square.
+fn unit(feature: &SpatialFeature, n: u64) -> u64 {
+    match feature.kind() {
+        FeatureKind::Edge | FeatureKind::Corner => 1,
+        FeatureKind::Mad => n << feature.mean().map_or(0, |mean| mean.fraction_bits),
+        FeatureKind::Variance => n * n,
+    }
+}
+
+fn colour(place: u64) -> Colour {
+    let place = usize::try_from(place.min(STEPS - 1)).unwrap_or_default();
+    let colour = VIRIDIS.eval_rational(place, 256);
+    [colour.r, colour.g, colour.b]
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! NPZ: a ZIP archive of NPY files, stored, not compressed. The large array is written into its place
+//! as it grows; its sizes, its checksum and its length are filled in at the end. Every entry has
+//! ZIP64 sizes, so that nothing changes beyond 4 GiB.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+
+use crc32fast::Hasher;
+
+use super::npy;
+
+/// Bytes of an NPY header here; a multiple of 64.
+const HEADER: usize = 192;
+
+/// An archive with one entry in the making.
+pub(super) struct Npz {
+    file: BufWriter<File>,
+    at: u64,
+    done: Vec<Entry>,
+    open: Entry,
+    /// Checksum of the elements of the open entry.
+    crc: Hasher,
+}
+
+/// A file of the archive.
+struct Entry {
+    name: &'static str,
+    /// Type of an element as Python writes it.
+    descr: &'static str,
+    start: u64,
+    bytes: u64,
+    crc: u32,
+}
+
+impl Npz {
+    /// An archive whose first array is `name`, of elements `descr`.
+    pub(super) fn create(file: File, name: &'static str, descr: &'static str) -> io::Result<Self> {
+        let open = Entry { name, descr, start: 0, bytes: 0, crc: 0 };
+        let mut npz =
+            Self { file: BufWriter::new(file), at: 0, done: Vec::new(), open, crc: Hasher::new() };
+        npz.begin()?;
+        Ok(npz)
+    }
+
+    /// Appends elements to the open array.
+    pub(super) fn write(&mut self, elements: &[u8]) -> io::Result<()> {
+        self.crc.update(elements);
+        self.open.bytes += length(elements);
+        self.at += length(elements);
+        self.file.write_all(elements)
+    }
+
+    /// Closes the open array, which has `count` elements, and begins another.
+    pub(super) fn next(
+        &mut self,
+        count: u64,
+        name: &'static str,
+        descr: &'static str,
+    ) -> io::Result<()> {
+        self.close(count)?;
+        let next = Entry { name, descr, start: self.at, bytes: 0, crc: 0 };
+        let closed = std::mem::replace(&mut self.open, next);
+        self.done.push(closed);
+        self.begin()
+    }
+
+    /// Closes the open array and the archive.
+    pub(super) fn finish(mut self, count: u64) -> io::Result<()> {
+        self.close(count)?;
+        self.done.push(self.open);
+        let directory: Vec<u8> = self.done.iter().flat_map(Entry::central).collect();
+        self.file.write_all(&directory)?;
+        self.file.write_all(&end(self.at, length(&directory), length(&self.done)))?;
+        self.file.flush()
+    }
+
+    /// Leaves room for the headers of the open entry.
+    fn begin(&mut self) -> io::Result<()> {
+        self.crc = Hasher::new();
+        let room = [self.open.local(), npy::header::<HEADER>(self.open.descr, "0,")].concat();
+        self.at += length(&room);
+        self.file.write_all(&room)
+    }
+
+    fn close(&mut self, count: u64) -> io::Result<()> {
+        let header = npy::header::<HEADER>(self.open.descr, &format!("{count},"));
+        let mut crc = Hasher::new();
+        crc.update(&header);
+        crc.combine(&std::mem::take(&mut self.crc));
+        self.open.crc = crc.finalize();
+        self.open.bytes += length(&header);
+        self.file.seek(SeekFrom::Start(self.open.start))?;
+        self.file.write_all(&self.open.local())?;
+        self.file.write_all(&header)?;
+        self.file.seek(SeekFrom::Start(self.at)).map(drop)
+    }
+}
+
+impl Entry {
+    /// The header before the data.
+    fn local(&self) -> Vec<u8> {
+        let mut bytes = b"PK\x03\x04".to_vec();
+        bytes.extend(self.common());
+        let sizes = [self.bytes, self.bytes];
+        self.name_and_sizes(bytes, &[], &sizes)
+    }
+
+    /// The entry of the directory.
+    fn central(&self) -> Vec<u8> {
+        let mut bytes = b"PK\x01\x02\x2d\x03".to_vec();
+        bytes.extend(self.common());
+        let sizes = [self.bytes, self.bytes, self.start];
+        // No comment, first disk, no attributes but -rw-r--r--; the offset is among the long sizes.
+        let rest = [&[0; 6][..], &(0o100_644u32 << 16).to_le_bytes(), &[0xFF; 4]].concat();
+        self.name_and_sizes(bytes, &rest, &sizes)
+    }
+
+    /// Version 4.5, no flags, stored, 1980-01-01, checksum, and sizes that are elsewhere.
+    fn common(&self) -> Vec<u8> {
+        let fixed = [0x2d, 0, 0, 0, 0, 0, 0, 0, 0x21, 0];
+        [&fixed[..], &self.crc.to_le_bytes(), &[0xFF; 8]].concat()
+    }
+
+    fn name_and_sizes(&self, mut bytes: Vec<u8>, between: &[u8], sizes: &[u64]) -> Vec<u8> {
+        let size = u16::try_from(8 * sizes.len()).unwrap_or(u16::MAX);
+        let name = format!("{}.npy", self.name);
+        bytes.extend(u16::try_from(name.len()).unwrap_or(u16::MAX).to_le_bytes());
+        bytes.extend((size + 4).to_le_bytes());
+        bytes.extend(between);
+        bytes.extend(name.as_bytes());
+        bytes.extend(1u16.to_le_bytes());
+        bytes.extend(size.to_le_bytes());
+        bytes.extend(sizes.iter().flat_map(|size| size.to_le_bytes()));
+        bytes
+    }
+}
+
+/// The end of the directory, in its long and its short form.
+fn end(start: u64, size: u64, entries: u64) -> Vec<u8> {
+    let mut bytes = b"PK\x06\x06".to_vec();
+    bytes.extend(44u64.to_le_bytes());
+    bytes.extend([0x2d, 3, 0x2d, 0]);
+    bytes.extend([0; 8]);
+    for number in [entries, entries, size, start] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.extend(b"PK\x06\x07\x00\x00\x00\x00");
+    bytes.extend((start + size).to_le_bytes());
+    bytes.extend(1u32.to_le_bytes());
+    bytes.extend(b"PK\x05\x06\x00\x00\x00\x00");
+    bytes.extend([0xFF; 12]);
+    bytes.extend([0; 2]);
+    bytes
+}
+
+fn length<T>(items: &[T]) -> u64 {
+    u64::try_from(items.len()).unwrap_or(u64::MAX)
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The share of active regions from the first frame to this one, as bars below a picture.
+//!
+//! A bar is a frame until the strip is full; then two bars become one, the mean of both, and so on. So
+//! the strip shows the whole clip in constant memory without knowing how long it will be.
+
+use super::canvas::{Canvas, Colour, Layout};
+
+/// The line that means one half.
+const HALF: Colour = [70, 70, 70];
+
+/// The bars so far.
+pub(super) struct Strip {
+    /// Active regions of all frames of a bar; only the last may have fewer frames than the others.
+    bars: Vec<u64>,
+    frames_per_bar: u64,
+    frames_in_last: u64,
+}
+
+impl Default for Strip {
+    fn default() -> Self {
+        Self { bars: Vec::new(), frames_per_bar: 1, frames_in_last: 1 }
+    }
+}
+
+impl Strip {
+    /// Height in dots of a letter.
+    pub(super) const DOTS: u32 = 32;
+
+    /// Width of a bar.
+    pub(super) fn bar(layout: Layout) -> u32 {
+        2 * layout.dot
+    }
+
+    /// Adds a frame to a strip of at most `most` bars.
+    pub(super) fn push(&mut self, active: u64, most: usize) {
+        if self.frames_in_last < self.frames_per_bar {
+            self.frames_in_last += 1;
+            if let Some(last) = self.bars.last_mut() {
+                *last += active;
+            }
+            return;
+        }
+        if self.bars.len() >= most.max(2) {
+            let odd = self.bars.len() % 2;
+            self.bars = self.bars.chunks(2).map(|pair| pair.iter().sum()).collect();
+            self.frames_per_bar *= 2;
+            if odd == 1 {
+                self.frames_in_last = self.frames_per_bar / 2;
+                return self.push(active, most);
+            }
+        }
+        self.bars.push(active);
+        self.frames_in_last = 1;
+    }
+
+    /// Draws the bars at the bottom of a picture of frames with `regions` regions.
+    pub(super) fn draw(&self, canvas: &mut Canvas, layout: Layout, regions: u64, colour: Colour) {
+        let (bottom, height) = (canvas.height, Self::DOTS * layout.dot);
+        let bar = Self::bar(layout);
+        canvas.fill(0, bottom - height / 2, canvas.width, 1, HALF);
+        let last = self.bars.len().saturating_sub(1);
+        for (index, (&active, left)) in
+            self.bars.iter().zip((0..).step_by(bar as usize)).enumerate()
+        {
+            let frames = if index == last { self.frames_in_last } else { self.frames_per_bar };
+            let share = active * u64::from(height) / (regions * frames);
+            // A bar with any active region shows.
+            let share = u32::try_from(share).unwrap_or(height).max(u32::from(active > 0));
+            canvas.fill(left, bottom - share, bar, share, colour);
+        }
+        let right = canvas.width.saturating_sub(4 * 4 * layout.dot);
+        canvas.text(right, bottom - height, layout.dot, "100%");
+        canvas.text(right, bottom - height / 2 + layout.dot, layout.dot, " 50%");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_frame_counts_once_however_many_there_are() {
+        for most in [2, 5, 8] {
+            let mut strip = Strip::default();
+            for frame in 1..=100u64 {
+                strip.push(frame, most);
+                assert!(strip.bars.len() <= most, "{most} bars, {frame} frames");
+                assert_eq!(strip.bars.iter().sum::<u64>(), frame * (frame + 1) / 2);
+                let whole = strip.bars.len() as u64 - 1;
+                assert_eq!(whole * strip.frames_per_bar + strip.frames_in_last, frame);
+                let first: u64 = (1..=frame.min(strip.frames_per_bar)).sum();
+                assert_eq!(strip.bars[0], first);
+            }
+        }
+    }
+}
