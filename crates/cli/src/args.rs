@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use foveate_simulator::{Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selection, parse_time};
 use foveate_spec::{Config, Design, Preset};
 
 use crate::error::CliError;
@@ -188,13 +189,17 @@ pub(crate) struct EstimateArgs {
     pub(crate) quiet: bool,
 }
 
-/// Run the model over images and write scores, decisions and rendered frames
+/// Run the model over video or images and write scores, decisions and rendered frames
 #[derive(Args, Debug)]
-#[command(after_help = "Examples: foveate simulate scene:street -o out
+#[command(after_help = "Examples: foveate simulate street.mp4 -o out --overlay
+          foveate simulate scene:street -o out
           foveate simulate frames/ -o out --preset steady
-          foveate simulate 'clip/*.png' -o out --set region.size=16")]
+          foveate simulate clips/ -o out --fps 10 --resize 640x360
+          foveate simulate train-images-idx3-ubyte.gz -o out --max-frames 1000
+          ffmpeg -i street.mp4 -f yuv4mpegpipe - | foveate simulate - -o out")]
 pub(crate) struct SimulateArgs {
-    /// Images (PNG, JPEG, BMP, PGM), folders, globs, or scene:NAME; see `foveate presets --scenes`
+    /// Video, images, folders, globs, IDX or CIFAR files, scene:NAME, v4l2:/dev/video0 for a camera,
+    /// - for YUV4MPEG2 on standard input. Several videos, or a folder of them, run as a batch
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
@@ -211,18 +216,73 @@ pub(crate) struct SimulateArgs {
     /// Write an overlay of the decisions for every frame
     #[arg(long)]
     pub(crate) overlay: bool,
-    /// At most this many frames; of a scene, exactly this many
-    #[arg(long, value_name = "N")]
-    pub(crate) frames: Option<u32>,
-    /// Frames per second of images, for the times of frames
-    #[arg(long, value_name = "N", default_value_t = 30)]
-    pub(crate) fps: u32,
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
     /// No progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
+}
+
+/// How inputs are read.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Input options")]
+pub(crate) struct InputArgs {
+    /// At most this many frames, of every clip of a batch; of a scene, exactly this many
+    #[arg(long, visible_alias = "frames", value_name = "N")]
+    pub(crate) max_frames: Option<u32>,
+    /// At most this many frames per second, chosen by their times; none is repeated
+    #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
+    pub(crate) fps: Option<FrameRate>,
+    /// Frames per second of images, which have no times of their own
+    #[arg(long, value_name = "RATE", default_value = "30", value_parser = FrameRate::parse)]
+    pub(crate) rate: FrameRate,
+    /// Leave out what is before this time: seconds, or HH:MM:SS
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    pub(crate) start: Option<u64>,
+    /// Leave out what is at this time or later
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    pub(crate) end: Option<u64>,
+    /// Take this part of every frame
+    #[arg(long, value_name = "WxH+X+Y", value_parser = parse_crop)]
+    pub(crate) crop: Option<Crop>,
+    /// Scale every frame by area, after cropping
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) resize: Option<(u32, u32)>,
+    /// What image files are: frames of a clip, a set of unrelated images (sub-folders are labels),
+    /// or CIFAR sheets with one image per row
+    #[arg(long, value_enum, default_value_t = ImagesChoice::Clip)]
+    pub(crate) images: ImagesChoice,
+    /// Labels of an IDX file, if they are not beside it
+    #[arg(long, value_name = "FILE")]
+    pub(crate) labels: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum ImagesChoice {
+    Clip,
+    Set,
+    CifarSheet,
+}
+
+impl InputArgs {
+    pub(crate) fn options(&self) -> InputOptions {
+        InputOptions {
+            frames: self.max_frames,
+            frame_rate: self.rate,
+            selection: Selection { start_us: self.start, end_us: self.end, rate: self.fps },
+            crop: self.crop,
+            resize: self.resize,
+            images: match self.images {
+                ImagesChoice::Clip => ImagesAs::Clip,
+                ImagesChoice::Set => ImagesAs::Set,
+                ImagesChoice::CifarSheet => ImagesAs::CifarSheet,
+            },
+            labels: self.labels.clone(),
+        }
+    }
 }
 
 /// List the named configurations, or print one as a file
@@ -254,4 +314,20 @@ fn parse_grid(text: &str) -> Result<(u32, u32), String> {
     text.split_once('x')
         .and_then(|(columns, rows)| Some((side(columns)?, side(rows)?)))
         .ok_or_else(|| "expected COLUMNSxROWS, each 1 to 256, for example 4x3".to_owned())
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let side = |part: &str| part.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    text.split_once('x')
+        .and_then(|(width, height)| Some((side(width)?, side(height)?)))
+        .ok_or_else(|| format!("expected WIDTHxHEIGHT, each 1 to {MAX_SIDE}, for example 640x360"))
+}
+
+fn parse_crop(text: &str) -> Result<Crop, String> {
+    let wrong = || "expected WIDTHxHEIGHT+X+Y, for example 320x240+16+0".to_owned();
+    let mut parts = text.split('+');
+    let size = parts.next().and_then(|size| parse_size(size).ok()).ok_or_else(wrong)?;
+    let mut next = || parts.next().and_then(|part| part.parse().ok());
+    let at = next().zip(next()).ok_or_else(wrong)?;
+    if parts.next().is_some() { Err(wrong()) } else { Ok(Crop { size, at }) }
 }

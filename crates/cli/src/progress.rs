@@ -12,6 +12,25 @@ pub(crate) fn spinner(quiet: bool, message: &str) -> ProgressBar {
     bar
 }
 
+/// Frames with rate and time left; the time left needs a total.
+pub(crate) fn frames(quiet: bool) -> ProgressBar {
+    with_style(quiet, ProgressBar::new_spinner(), FRAMES_ONLY)
+}
+
+const FRAMES_ONLY: &str = "{spinner} {pos} frames [{elapsed}, {per_sec:.1}] {msg}";
+const FRAMES_OF_ALL: &str =
+    "{wide_bar} {pos}/{len} frames [{elapsed}, {per_sec:.1}, {eta} left] {msg}";
+
+/// Tells a bar of [`frames`] how many there will be.
+pub(crate) fn set_total(bar: &ProgressBar, total: u64) {
+    if bar.length() != Some(total) {
+        bar.set_length(total);
+        if let Ok(style) = ProgressStyle::with_template(FRAMES_OF_ALL) {
+            bar.set_style(style);
+        }
+    }
+}
+
 /// A bar over a known number of steps.
 pub(crate) fn bar(quiet: bool, length: u64, message: &str) -> ProgressBar {
     let style = "{msg} {wide_bar} {pos}/{len} [{elapsed}, {eta} left]";

@@ -76,11 +76,12 @@ impl Recorder {
         rendered.and(overlay)
     }
 
-    /// Completes every file and adds the summary.
+    /// Completes every file and adds the summary; `problem` is why the source ended early, if it did.
     pub(crate) fn finish(
         self,
         folder: &Path,
         inputs: &[String],
+        problem: Option<String>,
     ) -> Result<Summary, SimulatorError> {
         self.srs.finish()?;
         self.trs.finish()?;
@@ -88,7 +89,7 @@ impl Recorder {
         self.temporal_count.finish()?;
         self.scores.into_iter().try_for_each(NpyWriter::finish)?;
         self.table.finish()?;
-        let summary = self.totals.summary(&self.design, inputs);
+        let summary = self.totals.summary(&self.design, inputs, problem);
         summary.write(&folder.join("summary.json"))?;
         Ok(summary)
     }
@@ -119,8 +120,9 @@ impl Recorder {
             .map(|(region, _)| pixels_of(&self.design, region))
             .sum();
         let (frame, time_us, name) = (self.totals.frames, source.time_us, source.name.as_str());
+        let label = source.label.as_deref();
         self.totals.add(srs, trs, active, pixels_forwarded);
-        self.table.push(&Row { frame, time_us, name, srs, trs, active, pixels_forwarded })
+        self.table.push(&Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded })
     }
 }
 

@@ -39,6 +39,10 @@ pub struct Summary {
     pub foveate_version: &'static str,
     /// Fingerprint of the design.
     pub design_fingerprint: String,
+    /// Whether the source was run to its end.
+    pub complete: bool,
+    /// Why it was not.
+    pub problem: Option<String>,
     /// Inputs as they were given.
     pub inputs: Vec<String>,
     /// Number of frames.
@@ -92,7 +96,12 @@ impl Totals {
         self.extremes = Some((min.min(active), max.max(active)));
     }
 
-    pub(super) fn summary(&self, design: &Design, inputs: &[String]) -> Summary {
+    pub(super) fn summary(
+        &self,
+        design: &Design,
+        inputs: &[String],
+        problem: Option<String>,
+    ) -> Summary {
         let regions = u64::from(design.regions());
         let all = regions * self.frames;
         let (min, max) = self.extremes.unwrap_or_default();
@@ -100,6 +109,8 @@ impl Totals {
             format_version: FORMAT_VERSION,
             foveate_version: env!("CARGO_PKG_VERSION"),
             design_fingerprint: design.fingerprint(),
+            complete: problem.is_none(),
+            problem,
             inputs: inputs.to_vec(),
             frames: self.frames,
             width: design.width(),

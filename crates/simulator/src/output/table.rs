@@ -13,6 +13,7 @@ pub(super) struct Row<'a> {
     pub(super) frame: u64,
     pub(super) time_us: u64,
     pub(super) name: &'a str,
+    pub(super) label: Option<&'a str>,
     pub(super) srs: u64,
     pub(super) trs: u64,
     pub(super) active: u64,
@@ -29,14 +30,18 @@ impl FrameTable {
     pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
         let file = File::create(path).map_err(cannot_write(path))?;
         let mut table = Self { path: path.to_owned(), file: BufWriter::new(file) };
-        table.line("frame,time_us,name,srs_regions,trs_regions,active_regions,pixels_forwarded")?;
+        table.line(
+            "frame,time_us,name,label,srs_regions,trs_regions,active_regions,pixels_forwarded",
+        )?;
         Ok(table)
     }
 
     pub(super) fn push(&mut self, row: &Row<'_>) -> Result<(), SimulatorError> {
-        let Row { frame, time_us, name, srs, trs, active, pixels_forwarded } = row;
-        let name = quoted(name);
-        self.line(&format!("{frame},{time_us},{name},{srs},{trs},{active},{pixels_forwarded}"))
+        let Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded } = row;
+        let (name, label) = (quoted(name), quoted(label.unwrap_or_default()));
+        self.line(&format!(
+            "{frame},{time_us},{name},{label},{srs},{trs},{active},{pixels_forwarded}"
+        ))
     }
 
     pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
