@@ -91,6 +91,8 @@ impl Video {
             .args(medium.arguments())
             .args(["-map", "0:v:0", "-vf"])
             .arg(format!("{},showinfo=checksum=0", probe.conversion()))
+            // Frames stay as large as they are, and two never fall on one tick.
+            .args(["-autoscale", "0", "-enc_time_base", "1:1000000"])
             .args([passthrough, "passthrough", "-f", "rawvideo", "pipe:1"]);
         let stream = Stream::start(&invocation)?;
         Ok(Self {

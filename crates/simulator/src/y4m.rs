@@ -257,7 +257,7 @@ mod tests {
             match read(&bytes[..length], 8) {
                 Ok((frames, problem)) => {
                     assert_eq!(frames.len(), whole);
-                    assert_eq!(problem.is_some(), (length - start) % 30 != 0, "{length}");
+                    assert_eq!(problem.is_some(), !(length - start).is_multiple_of(30), "{length}");
                 }
                 Err(error) => assert!(whole == 0 && !error.to_string().contains('\n'), "{error}"),
             }

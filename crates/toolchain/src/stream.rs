@@ -114,14 +114,15 @@ fn apart(_: &mut Command) {}
 mod tests {
     use super::*;
 
-    fn sh(script: &str) -> Stream {
-        Stream::start(&Invocation::new("sh").args(["-c", script])).unwrap()
+    fn shell(script: &str) -> Invocation {
+        Invocation::new("sh").args(["-c", script])
     }
 
     #[test]
     fn output_and_lines_are_apart_and_neither_blocks_the_other() {
-        let mut stream = sh("head -c 1000000 /dev/zero | tr '\\0' x >&2; echo >&2; \
-             head -c 3000000 /dev/zero; echo last >&2; exit 3");
+        let script = "head -c 1000000 /dev/zero | tr '\\0' x >&2; echo >&2; \
+                      head -c 3000000 /dev/zero; echo last >&2; exit 3";
+        let mut stream = Stream::start(&shell(script)).unwrap();
         let mut bytes = Vec::new();
         stream.read_to_end(&mut bytes).unwrap();
         assert_eq!(bytes.len(), 3_000_000);
@@ -133,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_stream_that_is_dropped_ends_its_program() {
-        let stream = sh("echo $$ >&2; exec sleep 60");
+        let stream = Stream::start(&shell("echo $$ >&2; exec sleep 60")).unwrap();
         let pid = stream.next_line().unwrap();
         drop(stream);
         assert!(!std::path::Path::new(&format!("/proc/{pid}")).exists());

@@ -56,7 +56,7 @@ impl Tool {
             Self::Iverilog | Self::Vvp => Version::new("11.0", 11, 0),
             Self::Yosys => Version::new("0.23", 0, 23),
             Self::Cxx => Version::new("9.0", 9, 0),
-            Self::Ffmpeg | Self::Ffprobe => Version::new("4.3", 4, 3),
+            Self::Ffmpeg | Self::Ffprobe => Version::new("4.4", 4, 4),
         }
     }
 

@@ -101,6 +101,8 @@ fn fault(line: &str) -> Option<&str> {
     let component =
         |line: &&str| line.split_once("] ").is_some_and(|(name, _)| name.contains(" @ 0x"));
     let said = match Some(line).filter(component) {
+        // What takes the raw frames knows no times; those that it misses are no fault of the video.
+        Some(line) if line.starts_with("[rawvideo @ ") => return None,
         Some(line) => line.split_once("] ")?.1,
         None => line,
     };
@@ -158,6 +160,8 @@ mod tests {
     fn faults_are_counted_and_the_first_is_kept() {
         let mut report = Report::default();
         report.take("[warning] deprecated pixel format used");
+        report.take("[rawvideo @ 0x1] [error] Application provided invalid, non monotonically ...");
+        report.take("[info]   title : [error] s:1x1 fmt:gray pts:1");
         assert_eq!(report.problem(), None);
         report.take("[avi @ 0x1] [warning] Packet corrupt (stream = 0, dts = 60).");
         assert_eq!(
