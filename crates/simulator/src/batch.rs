@@ -3,8 +3,10 @@
 //! summary of all. A clip that fails does not lose the others.
 
 mod plan;
+mod summary;
 
 pub use plan::{Clip, Plan, plan};
+pub use summary::{BatchSummary, ClipSummary};
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -12,13 +14,9 @@ use std::sync::{Mutex, PoisonError};
 
 use foveate_spec::Config;
 use foveate_staging::StagedFolder;
-use serde::Serialize;
 
 use crate::simulation::{INTERRUPTED, SIMULATION};
 use crate::{Hooks, InputOptions, Progress, RunOptions, Simulation, SimulatorError, Summary, open};
-
-/// Changes when a key of the summary changes its meaning or goes.
-const FORMAT_VERSION: u32 = 1;
 
 /// How far a batch is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,46 +36,6 @@ pub trait BatchHooks: Sync {
 
     /// Whether to stop; what was done so far is then the result, marked as incomplete.
     fn cancelled(&self) -> bool;
-}
-
-/// One clip of a batch.
-#[derive(Clone, Debug, Serialize)]
-pub struct ClipSummary {
-    /// What was simulated.
-    pub inputs: Vec<String>,
-    /// Its class, if the inputs are a labelled tree.
-    pub label: Option<String>,
-    /// Its folder in the output; none if it failed.
-    pub output: Option<String>,
-    /// Whether it was run to its end.
-    pub complete: bool,
-    /// Why it was not.
-    pub problem: Option<String>,
-    /// Frames.
-    pub frames: u64,
-    /// Share of regions with SRS and TRS.
-    pub active_share: Option<f64>,
-    /// Pixels of all frames.
-    pub pixels_in: u64,
-    /// Pixels of all active regions.
-    pub pixels_forwarded: u64,
-}
-
-/// The summary of a batch, `summary.json` at the top of its folder.
-#[derive(Clone, Debug, Serialize)]
-pub struct BatchSummary {
-    /// Version of this format.
-    pub format_version: u32,
-    /// Version of the program.
-    pub foveate_version: &'static str,
-    /// Whether every clip was run to its end.
-    pub complete: bool,
-    /// Why not.
-    pub problem: Option<String>,
-    /// Frames of all clips.
-    pub frames: u64,
-    /// Every clip, in order.
-    pub clips: Vec<ClipSummary>,
 }
 
 /// Runs every clip, as many at a time as there are cores, into folders below `output`, which appears
@@ -196,7 +154,7 @@ impl Batch<'_> {
             (false, some) => Some(format!("{some} of {} clips are not complete", clips.len())),
         };
         Ok(BatchSummary {
-            format_version: FORMAT_VERSION,
+            format_version: summary::FORMAT_VERSION,
             foveate_version: env!("CARGO_PKG_VERSION"),
             complete: problem.is_none(),
             problem,
@@ -217,40 +175,5 @@ impl Hooks for Frames<'_> {
 
     fn cancelled(&self) -> bool {
         self.0.hooks.cancelled()
-    }
-}
-
-impl Clip {
-    fn done(&self, summary: Summary) -> ClipSummary {
-        ClipSummary {
-            output: Some(self.place.display().to_string()),
-            complete: summary.complete,
-            frames: summary.frames,
-            active_share: Some(summary.active_share),
-            pixels_in: summary.pixels_in,
-            pixels_forwarded: summary.pixels_forwarded,
-            ..self.failed(String::new())
-        }
-        .with_problem(summary.problem)
-    }
-
-    fn failed(&self, problem: String) -> ClipSummary {
-        ClipSummary {
-            inputs: self.inputs.iter().map(|input| input.display().to_string()).collect(),
-            label: self.label.clone(),
-            output: None,
-            complete: false,
-            problem: Some(problem),
-            frames: 0,
-            active_share: None,
-            pixels_in: 0,
-            pixels_forwarded: 0,
-        }
-    }
-}
-
-impl ClipSummary {
-    fn with_problem(self, problem: Option<String>) -> Self {
-        Self { problem, ..self }
     }
 }

@@ -1,62 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Video through ffmpeg: every coded frame once, with the container's time and the coded luma; what is
-//! broken is said. Clips are made on the spot; skipped visibly without ffmpeg.
+//! Video through ffmpeg: every coded frame once, with the container's time and the coded luma.
+//! Clips are made on the spot; skipped visibly without ffmpeg.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod support;
+#[path = "support/clips.rs"]
+mod clips;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
+use clips::{all, clip, ffmpeg, frames, opened, tools};
 use foveate_simulator::{
-    Crop, FrameRate, InputOptions, Selection, SimulatorError, Source, SourceFrame, convert_depth,
-    luma, open,
+    Crop, FrameRate, InputOptions, Selection, SourceFrame, convert_depth, luma,
 };
-use foveate_spec::Config;
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{data_folder, require_tools};
-use support::run;
-
-fn tools() -> bool {
-    require_tools(&[Tool::Ffmpeg, Tool::Ffprobe])
-}
-
-fn ffmpeg(args: &[&str]) {
-    let done = Command::new("ffmpeg").args(["-v", "error", "-nostdin", "-y"]).args(args).status();
-    assert!(done.unwrap().success(), "{args:?}");
-}
-
-/// A clip of the test picture, 100 frames at 25 per second unless `more` says otherwise.
-fn clip(folder: &Path, name: &str, more: &[&str]) -> PathBuf {
-    let path = folder.join(name);
-    let source = ["-f", "lavfi", "-i", "testsrc=size=80x60:rate=25:duration=4"];
-    ffmpeg(&[&source[..], more, &[path.to_str().unwrap()]].concat());
-    path
-}
-
-fn opened(
-    path: &Path,
-    bits: u32,
-    options: &InputOptions,
-) -> Result<Box<dyn Source>, SimulatorError> {
-    let bits = format!("frame.pixel_bits={bits}");
-    let overrides = [bits.as_str(), "spatial.0.level=0"];
-    open(&[path], &Config::from_toml_with("", &overrides).unwrap(), options)
-}
-
-fn frames(path: &Path, bits: u32, options: &InputOptions) -> (Vec<SourceFrame>, Option<String>) {
-    let mut source = opened(path, bits, options).unwrap();
-    let mut frames = Vec::new();
-    while let Some(frame) = source.next_frame().unwrap() {
-        frames.push(frame);
-    }
-    (frames, source.problem())
-}
-
-fn all(path: &Path) -> (Vec<SourceFrame>, Option<String>) {
-    frames(path, 8, &InputOptions::default())
-}
+use foveate_toolchain::testing::data_folder;
 
 /// What ffprobe says of every frame, in microseconds since the first.
 fn probed_times(path: &Path) -> Vec<u64> {
@@ -209,115 +167,6 @@ fn frames_are_chosen_by_their_times_and_keep_them() {
     let three = InputOptions { frames: Some(3), ..InputOptions::default() };
     assert_eq!(frames(&path, 8, &three).0.len(), 3);
     assert_eq!(opened(&path, 8, &InputOptions::default()).unwrap().frames(), Some(100));
-}
-
-#[test]
-fn a_truncated_video_gives_what_could_be_decoded_and_says_so() {
-    if !tools() {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    for (name, more) in [
-        ("a.mp4", &["-pix_fmt", "yuv420p", "-movflags", "+faststart"][..]),
-        ("a.mkv", &["-c:v", "mpeg4"]),
-        ("a.avi", &["-c:v", "mpeg4"]),
-    ] {
-        let path = clip(dir.path(), name, more);
-        let whole = fs::read(&path).unwrap();
-        let cut = dir.path().join(format!("cut-{name}"));
-        for tenths in [5, 7, 9] {
-            fs::write(&cut, &whole[..whole.len() * tenths / 10]).unwrap();
-            let (seen, problem) = all(&cut);
-            assert!((10..100).contains(&seen.len()), "{name} {tenths}: {} frames", seen.len());
-            let problem = problem.unwrap();
-            assert!(!problem.is_empty() && !problem.contains('\n'), "{problem}");
-        }
-        let output = dir.path().join(format!("out-{name}"));
-        let summary =
-            run(&[&cut], &[], &output, &foveate_simulator::RunOptions::default()).unwrap();
-        assert!(!summary.complete && summary.problem.is_some() && summary.frames > 10);
-        let written = fs::read_to_string(output.join("summary.json")).unwrap();
-        assert!(written.contains("\"complete\": false"));
-    }
-}
-
-#[test]
-fn a_damaged_video_is_not_complete() {
-    if !tools() {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    let path = clip(dir.path(), "a.avi", &["-c:v", "mpeg4"]);
-    let mut bytes = fs::read(&path).unwrap();
-    let middle = bytes.len() / 2;
-    bytes[middle..middle + 2000].fill(0x55);
-    fs::write(&path, bytes).unwrap();
-    let (seen, problem) = all(&path);
-    assert!(seen.len() > 40 && problem.unwrap().starts_with("ffmpeg reports"));
-}
-
-#[test]
-fn a_change_of_size_ends_the_clip_unless_frames_are_scaled() {
-    if !tools() {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    let mut joined = Vec::new();
-    for size in ["64x48", "80x64"] {
-        let part = dir.path().join(format!("{size}.ts"));
-        let source = format!("testsrc=size={size}:rate=25:duration=1");
-        ffmpeg(&["-f", "lavfi", "-i", &source, "-c:v", "mpeg2video", part.to_str().unwrap()]);
-        joined.extend(fs::read(part).unwrap());
-    }
-    let path = dir.path().join("joined.ts");
-    fs::write(&path, joined).unwrap();
-    let (seen, problem) = all(&path);
-    assert!((20..=25).contains(&seen.len()), "{}", seen.len());
-    let problem = problem.unwrap();
-    assert!(problem.contains("from 64x48 to 80x64 at"), "{problem}");
-    let scaled = InputOptions { resize: Some((32, 24)), ..InputOptions::default() };
-    assert!(frames(&path, 8, &scaled).0.len() > 40);
-}
-
-#[test]
-fn what_holds_no_video_is_refused_in_one_line() {
-    if !tools() {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    let at = |name: &str| dir.path().join(name);
-    fs::write(at("text.mp4"), "no video").unwrap();
-    fs::write(at("empty.mp4"), "").unwrap();
-    fs::write(at("real.gif"), b"GIF89a\x01\x00\x01\x00\x00\x00\x00;").unwrap();
-    ffmpeg(&["-f", "lavfi", "-i", "sine=duration=1", at("sound.wav").to_str().unwrap()]);
-    let whole = fs::read(clip(dir.path(), "a.mp4", &["-pix_fmt", "yuv420p"])).unwrap();
-    // Without its index, which comes last, an mp4 cannot be decoded.
-    fs::write(at("cut.mp4"), &whole[..whole.len() / 2]).unwrap();
-    for name in ["text.mp4", "empty.mp4", "real.gif", "sound.wav", "cut.mp4"] {
-        let error = opened(&at(name), 8, &InputOptions::default()).err().unwrap();
-        let message = error.to_string();
-        assert!(matches!(error, SimulatorError::Video { .. }), "{message}");
-        assert!(message.contains(name) && !message.contains('\n'), "{message}");
-    }
-    let late = Selection { start_us: Some(100_000_000), ..Selection::default() };
-    let late = InputOptions { selection: late, ..InputOptions::default() };
-    fs::write(at("whole.mp4"), whole).unwrap();
-    let error = opened(&at("whole.mp4"), 8, &late).err().unwrap();
-    assert!(error.to_string().contains("(as selected) holds no frame"), "{error}");
-}
-
-#[test]
-fn names_are_files_and_nothing_else() {
-    if !tools() {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    let path = clip(dir.path(), "a.mkv", &["-c:v", "ffv1", "-frames:v", "2"]);
-    for name in ["-i.mkv", "concat:x|y.mkv", "100%d.mkv", "a b'c.mkv", "http:x.mkv"] {
-        let odd = dir.path().join(name);
-        fs::copy(&path, &odd).unwrap();
-        assert_eq!(all(&odd).0.len(), 2, "{name}");
-    }
 }
 
 /// Real clips, where the environment variable FOVEATE_DATA names their folder.
