@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, iverilog, a C++ compiler.
+# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, iverilog, a C++ compiler, ffmpeg.
 set -euo pipefail
 
 missing=()
@@ -8,6 +8,7 @@ command -v verilator >/dev/null || missing+=(verilator)
 command -v yosys >/dev/null || missing+=(yosys)
 command -v iverilog >/dev/null || missing+=(iverilog)
 command -v g++ >/dev/null || missing+=(g++)
+{ command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)
 # FST waves of a Verilator model need zlib's header.
 [ -e /usr/include/zlib.h ] || missing+=(zlib1g-dev)
 [ ${#missing[@]} -eq 0 ] && exit 0

@@ -2,6 +2,7 @@
 //! The command line as clap sees it, and the design that its options describe.
 
 mod explain;
+mod input;
 mod outputs;
 
 use std::fs;
@@ -12,6 +13,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
 use foveate_spec::{Config, Design, Preset, SpecError};
 
+use self::input::InputArgs;
 use crate::error::CliError;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use outputs::OutputArgs;
@@ -202,13 +204,17 @@ pub(crate) struct EstimateArgs {
     pub(crate) quiet: bool,
 }
 
-/// Run the model over images and write scores, decisions and rendered frames
+/// Run the model over video or images and write scores, decisions and rendered frames
 #[derive(Args, Debug)]
-#[command(after_help = "Examples: foveate simulate scene:street -o out
-          foveate simulate frames/ -o out --preset steady --events parquet --overlay
-          foveate simulate 'clip/*.png' -o out --set region.size=16")]
+#[command(after_help = "Examples: foveate simulate street.mp4 -o out --overlay
+          foveate simulate scene:street -o out
+          foveate simulate frames/ -o out --preset steady --events parquet
+          foveate simulate clips/ -o out --fps 10 --resize 640x360
+          foveate simulate train-images-idx3-ubyte.gz -o out --max-frames 1000
+          ffmpeg -i street.mp4 -f yuv4mpegpipe - | foveate simulate - -o out")]
 pub(crate) struct SimulateArgs {
-    /// Images (PNG, JPEG, BMP, PGM), folders, globs, or scene:NAME; see `foveate presets --scenes`
+    /// Video, images, folders, globs, IDX or CIFAR files, scene:NAME, v4l2:/dev/video0 for a camera,
+    /// - for YUV4MPEG2 on standard input. Several videos, or a folder of them, run as a batch
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
@@ -219,12 +225,8 @@ pub(crate) struct SimulateArgs {
     /// Replace the folder if it holds a simulation
     #[arg(long)]
     pub(crate) force: bool,
-    /// At most this many frames; of a scene, exactly this many
-    #[arg(long, value_name = "N", value_parser = at_least_one())]
-    pub(crate) frames: Option<u32>,
-    /// Frames per second of images, for the times of frames
-    #[arg(long, value_name = "N", default_value_t = 30, value_parser = at_least_one())]
-    pub(crate) fps: u32,
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,

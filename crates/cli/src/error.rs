@@ -34,6 +34,9 @@ pub(crate) enum CliError {
     /// Arguments that are valid alone but not here.
     #[error("{0}")]
     Usage(String),
+    /// The user stopped it; what was done is there.
+    #[error("interrupted; what was done until then is in `{}`", path.display())]
+    Interrupted { path: PathBuf },
     /// The check that was asked for did not hold; what and where has been printed.
     #[error("{0}")]
     Failed(String),
@@ -48,9 +51,13 @@ impl CliError {
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Failed(_) => 1,
-            Self::Simulator(SimulatorError::Cancelled { .. }) => 130,
+            Self::Interrupted { .. } | Self::Simulator(SimulatorError::Cancelled) => 130,
             Self::Tool(_)
-            | Self::Simulator(SimulatorError::NoVideo(_) | SimulatorError::Video { .. })
+            | Self::Simulator(
+                SimulatorError::Tool(_)
+                | SimulatorError::NoVideo(_)
+                | SimulatorError::VideoOutput { .. },
+            )
             | Self::Cosim(CosimError::Tool(_) | CosimError::Short { .. })
             | Self::Estimate(_) => 3,
             _ => 2,

@@ -7,6 +7,9 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const SPINNER: &str = "{spinner} {msg} [{elapsed}]";
 const BAR: &str = "{msg} {wide_bar} {pos}/{len} [{elapsed}, {eta} left]";
+const FRAMES_ONLY: &str = "{spinner} {pos} frames [{elapsed}, {per_sec:.1}] {msg}";
+const FRAMES_OF_ALL: &str =
+    "{wide_bar} {pos}/{len} frames [{elapsed}, {per_sec:.1}, {eta} left] {msg}";
 
 /// A spinner with a message, hidden when quiet or when there is no terminal.
 pub(crate) fn spinner(quiet: bool, message: &str) -> ProgressBar {
@@ -19,6 +22,21 @@ pub(crate) fn spinner(quiet: bool, message: &str) -> ProgressBar {
 pub(crate) fn become_spinner(bar: &ProgressBar, message: &str) {
     set_style(bar, SPINNER);
     bar.set_message(message.to_owned());
+}
+
+/// Frames with rate and time left; the time left needs a total.
+pub(crate) fn frames(quiet: bool) -> ProgressBar {
+    let bar = shown(quiet, ProgressBar::new_spinner());
+    set_style(&bar, FRAMES_ONLY);
+    bar
+}
+
+/// Tells a bar of [`frames`] how many there will be.
+pub(crate) fn set_total(bar: &ProgressBar, total: u64) {
+    if bar.length() != Some(total) {
+        bar.set_length(total);
+        set_style(bar, FRAMES_OF_ALL);
+    }
 }
 
 /// A bar over a known number of steps.

@@ -74,23 +74,37 @@ fn bad_inputs_end_with_2_and_leave_nothing() {
     fail_in(dir.path(), 2, &["simulate", "small.pgm", "-o", "small.pgm/out"], &["small.pgm"]);
 }
 
-/// An interrupt ends a long run soon, says so, and leaves nothing half-written.
+/// An interrupt ends a long run soon, says so, and leaves what was done.
 #[cfg(unix)]
 #[test]
-fn ctrl_c_leaves_nothing() {
+fn ctrl_c_leaves_what_was_done() {
     let dir = tempfile::tempdir().unwrap();
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"))
+    let child = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"))
         .args(["simulate", "scene:street", "-o", "out", "--frames", "100000"])
         .current_dir(dir.path())
+        .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(1500));
+    // The hidden folder has its first picture when the first frame is done.
+    let done = || {
+        let hidden = fs::read_dir(dir.path()).unwrap().next()?.ok()?.path();
+        hidden.join("rendered/000001.png").exists().then_some(())
+    };
+    while done().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
     let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(kill.unwrap().success());
-    let status = child.wait().unwrap();
-    assert_eq!(status.code(), Some(130));
-    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("interrupted") && said.contains("`out`"), "{said}");
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    let summary = fs::read(dir.path().join("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_slice(&summary).unwrap();
+    assert_eq!((&summary["complete"], &summary["problem"]), (&false.into(), &"interrupted".into()));
+    assert!(summary["frames"].as_u64().unwrap() > 0);
 }
 
 /// Real images, where the environment variable FOVEATE_DATA names their folder.

@@ -11,6 +11,7 @@ use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
+use crate::Crop;
 use crate::picture::{MAX_FILE_GIB, MAX_SIDE};
 
 /// What the reader understands, for messages.
@@ -22,7 +23,7 @@ const TYPES: &str = "PNG, JPEG, BMP and PNM (PGM, PPM, PBM, PAM)";
 pub enum SimulatorError {
     /// Nothing to simulate was named.
     #[error(
-        "no input was given; name images, folders, patterns such as 'frames/*.png', or scene:NAME"
+        "no input was given; name a video, images, folders, patterns such as 'frames/*.png', or scene:NAME"
     )]
     NoInput,
     /// A file or folder that does not exist.
@@ -45,18 +46,78 @@ pub enum SimulatorError {
         /// What is wrong with it.
         problem: String,
     },
-    /// A folder without images.
-    #[error("folder `{}` holds no image; image types are {TYPES}", path.display())]
+    /// A folder without images or clips.
+    #[error("folder `{}` holds no image and no video; image types are {TYPES}", path.display())]
     EmptyFolder {
         /// The folder.
         path: PathBuf,
     },
-    /// Scenes do not mix with other inputs.
-    #[error("`{scene}` cannot be combined with other inputs; simulate it on its own")]
-    SceneNotAlone {
-        /// The scene as given.
-        scene: String,
+    /// Scenes, cameras, streams and videos do not mix with other inputs in one clip.
+    #[error("`{input}` cannot be combined with other inputs; simulate it on its own")]
+    NotAlone {
+        /// The input as given.
+        input: String,
     },
+    /// A video that gives no frame.
+    #[error(
+        "`{}` cannot be read as a video, and is no image ({TYPES}): {problem}; \
+         play it to see whether it is whole",
+        path.display()
+    )]
+    Video {
+        /// The file or device.
+        path: PathBuf,
+        /// What is wrong, as ffmpeg says it.
+        problem: String,
+    },
+    /// A raw stream that gives no frame.
+    #[error(
+        "`{name}` is no YUV4MPEG2 stream: {problem}; make one with `ffmpeg -i FILE -f yuv4mpegpipe -`"
+    )]
+    Y4m {
+        /// The file, or standard input.
+        name: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A file of many images that cannot be read.
+    #[error("data set `{}` cannot be read: {problem}; copy or fetch it again", path.display())]
+    DataSet {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A choice that does not fit.
+    #[error("{option} cannot be followed: {problem}")]
+    Option {
+        /// The option.
+        option: &'static str,
+        /// What is wrong, and what to do.
+        problem: String,
+    },
+    /// A part that is not inside the frame.
+    #[error(
+        "--crop {}x{}+{}+{} does not lie inside the frame of {}x{} pixels",
+        crop.size.0, crop.size.1, crop.at.0, crop.at.1, size.0, size.1
+    )]
+    Crop {
+        /// The part as given.
+        crop: Crop,
+        /// Width and height of the frame.
+        size: (u32, u32),
+    },
+    /// A clip of a batch without a result.
+    #[error("none of the {clips} clips could be simulated; the first: {first}")]
+    NoClip {
+        /// Number of clips.
+        clips: usize,
+        /// What was wrong with the first.
+        first: String,
+    },
+    /// ffmpeg is missing or cannot be started.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
     /// A file that cannot be read at all.
     #[error("cannot read `{}`: {problem}", path.display())]
     Unreadable {
@@ -108,7 +169,7 @@ pub enum SimulatorError {
     /// Frames of one run that differ in size.
     #[error(
         "frames of one run must have one size: `{first}` has {}x{} pixels, `{other}` has {}x{}; \
-         scale them, or simulate them apart",
+         scale them with --resize, or simulate them apart",
         first_size.0, first_size.1, other_size.0, other_size.1
     )]
     MixedSizes {
@@ -151,7 +212,7 @@ pub enum SimulatorError {
     NoVideo(#[source] ToolError),
     /// A video could not be written to its end.
     #[error("ffmpeg cannot write `{}`: {problem}; check space, or write pictures", path.display())]
-    Video {
+    VideoOutput {
         /// The file.
         path: PathBuf,
         /// What ffmpeg said.
@@ -163,6 +224,9 @@ pub enum SimulatorError {
         /// The contrast as given.
         contrast: String,
     },
+    /// Pixel events are differences in time.
+    #[error("images of a set have no order in time; pixel events need a clip")]
+    PixelEventsOfSet,
     /// There is no such frame to explain.
     #[error("there is no frame {frame}; {inputs} has {frames} frames, counted from 0")]
     NoSuchFrame {
@@ -185,12 +249,9 @@ pub enum SimulatorError {
         /// Rows of regions.
         rows: u32,
     },
-    /// The user stopped the run.
-    #[error("cancelled after {frames} frames; nothing was written")]
-    Cancelled {
-        /// Frames that were done.
-        frames: u64,
-    },
+    /// The user stopped the run before its first frame was done.
+    #[error("interrupted before the first frame was done; nothing was written")]
+    Cancelled,
     /// The configuration does not fit.
     #[error(transparent)]
     Spec(#[from] SpecError),

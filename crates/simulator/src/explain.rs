@@ -12,7 +12,7 @@ use foveate_model::Camera;
 use foveate_spec::{Config, FeatureKind, Filter};
 use serde::Serialize;
 
-use crate::{SimulatorError, Source};
+use crate::{Kind, SimulatorError, Source};
 
 /// Rows of pixels.
 pub type Rows<T> = Vec<Vec<T>>;
@@ -148,6 +148,9 @@ pub fn explain(
             let inputs = source.inputs().join(", ");
             return Err(SimulatorError::NoSuchFrame { frame, inputs, frames });
         };
+        if source.kind() == Kind::Set {
+            camera.reset();
+        }
         let reference = camera.reference(number);
         let outcome = camera.step(&current.frame)?;
         if frames == frame {

@@ -1,78 +1,179 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From what a user names to a source: `scene:NAME`, or files, folders and patterns.
+//! From what a user names to a source: a scene, a camera, standard input, files, folders, patterns.
 //!
 //! Arguments keep the order in which they are given; the files of one folder or pattern are in natural
-//! order. Folders are not searched below their first level, and hidden files are passed over.
+//! order. What a file is follows from its content, and from its extension where content is silent.
 
-use std::fs;
+mod find;
+mod sniff;
+
+pub(crate) use find::{VIDEO_EXTENSIONS, entries, extension_in, is_image_name};
+
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use foveate_scenes::{Scene, SceneSize};
 use foveate_spec::Config;
-use glob::{MatchOptions, Pattern};
 
-use crate::source::{ImageFiles, SceneSource};
-use crate::{FrameRate, SimulatorError, Source, natural_order};
+use crate::sets::cifar::{Batch, Sheet};
+use crate::sets::idx::Idx;
+use crate::sets::open_unpacked;
+use crate::source::feed::{Adjustment, Feed, Input};
+use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
+use crate::source::resize::Crop;
+use crate::source::select::Selection;
+use crate::video::{Medium, Video};
+use crate::y4m::Y4m;
+use crate::{FrameRate, Kind, SimulatorError, Source};
 
-/// Files with these extensions are taken from folders and patterns.
-const EXTENSIONS: [&str; 9] = ["png", "jpg", "jpeg", "bmp", "pgm", "ppm", "pbm", "pnm", "pam"];
 /// Side of a scene where the configuration does not say.
 const SCENE_SIDE: u32 = 224;
 
+/// What image files are to each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImagesAs {
+    /// Frames of one clip, in order.
+    #[default]
+    Clip,
+    /// A set: each is a first frame. Sub-folders are searched, and their names are labels.
+    Set,
+    /// CIFAR sheets: 1024 columns, and every row is an image of 32x32 pixels.
+    CifarSheet,
+}
+
 /// Choices on how inputs are read.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct InputOptions {
     /// At most this many frames; of a scene, exactly this many.
     pub frames: Option<u32>,
-    /// Frames per second, for the times of frames.
+    /// Frames per second of what has no times: images, scenes, streams without a rate.
     pub frame_rate: FrameRate,
+    /// Which frames of a clip to take.
+    pub selection: Selection,
+    /// The part of every frame to take.
+    pub crop: Option<Crop>,
+    /// Width and height to scale to, after cropping.
+    pub resize: Option<(u32, u32)>,
+    /// What image files are to each other.
+    pub images: ImagesAs,
+    /// The labels of an IDX file, if they are not beside it under their usual name.
+    pub labels: Option<PathBuf>,
 }
 
 /// Opens inputs as one source of frames with the configuration's bits per pixel. Scenes also take
 /// their size from it.
 ///
 /// # Errors
-/// When an input does not exist, holds no image, or its first image cannot be read.
+/// When an input does not exist, cannot be read, or there are several that are no images.
 pub fn open<P: AsRef<Path>>(
     inputs: &[P],
     config: &Config,
     options: &InputOptions,
 ) -> Result<Box<dyn Source>, SimulatorError> {
-    let scene = inputs.iter().find_map(|input| scene_name(input.as_ref()));
-    if let Some(name) = scene {
-        if inputs.len() > 1 {
-            return Err(SimulatorError::SceneNotAlone { scene: format!("scene:{name}") });
-        }
-        return scene_source(name, config, options);
+    let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
+    let adjustment = Adjustment {
+        selection: options.selection,
+        crop: options.crop,
+        size: options.resize,
+        frames: options.frames,
+    };
+    let feed = feed(&inputs, config, options)?;
+    let names = inputs.iter().map(|input| input.display().to_string()).collect();
+    Ok(Box::new(Input::new(names, feed, adjustment)?))
+}
+
+/// What follows a prefix, such as the name of a scene.
+fn after<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
+    input.to_str()?.strip_prefix(prefix)
+}
+
+/// Whether an input is a source by itself that is no file.
+pub(crate) fn is_special(input: &Path) -> bool {
+    input == Path::new("-") || ["scene:", "v4l2:"].iter().any(|p| after(p, input).is_some())
+}
+
+fn feed(
+    inputs: &[&Path],
+    config: &Config,
+    options: &InputOptions,
+) -> Result<Box<dyn Feed>, SimulatorError> {
+    if let (Some(special), 2..) = (inputs.iter().find(|input| is_special(input)), inputs.len()) {
+        return Err(SimulatorError::NotAlone { input: special.display().to_string() });
     }
-    let mut paths = Vec::new();
-    for input in inputs {
-        paths.append(&mut expand(input.as_ref())?);
-    }
-    if paths.is_empty() {
-        return Err(SimulatorError::NoInput);
-    }
-    if let Some(frames) = options.frames {
-        paths.truncate(frames as usize);
-    }
-    let names = inputs.iter().map(|input| input.as_ref().display().to_string()).collect();
     // A depth out of range is refused here, with the name of its key, not by a frame.
     let bits = config.validate()?.pixel_bits();
-    Ok(Box::new(ImageFiles::new(names, paths, bits, options.frame_rate)?))
+    let rate = options.frame_rate;
+    if let [input] = inputs {
+        if let Some(name) = after("scene:", input) {
+            return scene(name, config, options);
+        }
+        if let Some(device) = after("v4l2:", input) {
+            return Ok(Box::new(Video::open(Medium::Camera(device.into()), bits, rate)?));
+        }
+        if *input == Path::new("-") {
+            let stdin = Box::new(BufReader::new(std::io::stdin()));
+            return Ok(Box::new(Y4m::new("standard input".to_owned(), stdin, bits, rate)?));
+        }
+    }
+    let mut images = Vec::new();
+    let mut clips = Vec::new();
+    for input in inputs {
+        let mut paths = find::expand(input, options.images)?;
+        let (mut pictures, mut others) = find::split(&mut paths)?;
+        images.append(&mut pictures);
+        clips.append(&mut others);
+    }
+    match (images.is_empty(), clips.as_slice()) {
+        (true, []) => Err(SimulatorError::NoInput),
+        (true, [(path, kind)]) => file(path, *kind, bits, options),
+        (false, []) => pictures(images, bits, options),
+        (_, [(path, _), ..]) => Err(SimulatorError::NotAlone { input: path.display().to_string() }),
+    }
 }
 
-fn scene_name(input: &Path) -> Option<&str> {
-    input.to_str()?.strip_prefix("scene:")
+fn pictures(
+    files: Vec<ImageFile>,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<Box<dyn Feed>, SimulatorError> {
+    let kind = match (options.images, files.as_slice()) {
+        (ImagesAs::Clip, _) => Kind::Clip,
+        (ImagesAs::Set, _) => Kind::Set,
+        (ImagesAs::CifarSheet, [sheet]) => return Ok(Box::new(Sheet::open(&sheet.path, bits)?)),
+        (ImagesAs::CifarSheet, _) => {
+            let sheets =
+                format!("{} files are given; simulate one CIFAR sheet at a time", files.len());
+            return Err(SimulatorError::Option { option: "--images", problem: sheets });
+        }
+    };
+    Ok(Box::new(ImageFiles::new(files, bits, options.frame_rate, kind)))
 }
 
-fn scene_source(
+fn file(
+    path: &Path,
+    kind: sniff::FileKind,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<Box<dyn Feed>, SimulatorError> {
+    Ok(match kind {
+        sniff::FileKind::Idx => Box::new(Idx::open(path, options.labels.as_deref(), bits)?),
+        sniff::FileKind::CifarBatch => Box::new(Batch::open(path, bits)?),
+        sniff::FileKind::Y4m => {
+            let name = path.display().to_string();
+            Box::new(Y4m::new(name, open_unpacked(path)?, bits, options.frame_rate)?)
+        }
+        sniff::FileKind::Video => {
+            Box::new(Video::open(Medium::File(path.to_owned()), bits, options.frame_rate)?)
+        }
+    })
+}
+
+fn scene(
     name: &str,
     config: &Config,
     options: &InputOptions,
-) -> Result<Box<dyn Source>, SimulatorError> {
+) -> Result<Box<dyn Feed>, SimulatorError> {
     let scene = Scene::find(name)?;
-    // Sizes out of range are refused here, not brought into range silently.
-    config.validate()?;
     let size = SceneSize {
         width: config.frame.width.unwrap_or(SCENE_SIDE),
         height: config.frame.height.unwrap_or(SCENE_SIDE),
@@ -80,71 +181,5 @@ fn scene_source(
         region_size: config.region.size,
         frames: options.frames.unwrap_or(scene.default_frames()),
     };
-    Ok(Box::new(SceneSource::new(scene, size, options.frame_rate)))
-}
-
-/// The files that one argument stands for.
-fn expand(input: &Path) -> Result<Vec<PathBuf>, SimulatorError> {
-    if input.is_dir() {
-        return folder(input);
-    }
-    if input.exists() {
-        return Ok(vec![input.to_owned()]);
-    }
-    match input.to_str() {
-        Some(text) if text.contains(['*', '?', '[']) => pattern(text),
-        _ => Err(SimulatorError::Missing { path: input.to_owned() }),
-    }
-}
-
-fn folder(path: &Path) -> Result<Vec<PathBuf>, SimulatorError> {
-    let unreadable = |error: std::io::Error| SimulatorError::Unreadable {
-        path: path.to_owned(),
-        problem: error.to_string(),
-    };
-    let mut files = Vec::new();
-    for entry in fs::read_dir(path).map_err(unreadable)? {
-        files.push(entry.map_err(unreadable)?.path());
-    }
-    let images = images_of(files);
-    if images.is_empty() {
-        return Err(SimulatorError::EmptyFolder { path: path.to_owned() });
-    }
-    Ok(images)
-}
-
-fn pattern(text: &str) -> Result<Vec<PathBuf>, SimulatorError> {
-    let invalid = |error: glob::PatternError| SimulatorError::Pattern {
-        pattern: text.to_owned(),
-        problem: error.to_string(),
-    };
-    Pattern::new(text).map_err(invalid)?;
-    let options = MatchOptions { require_literal_leading_dot: true, ..MatchOptions::new() };
-    let mut files = Vec::new();
-    for found in glob::glob_with(text, options).map_err(invalid)? {
-        files.push(found.map_err(|error| SimulatorError::Unreadable {
-            path: error.path().to_owned(),
-            problem: error.error().to_string(),
-        })?);
-    }
-    let images = images_of(files);
-    if images.is_empty() {
-        return Err(SimulatorError::NoMatch { pattern: text.to_owned() });
-    }
-    Ok(images)
-}
-
-/// Keeps images, by name, and sorts them.
-fn images_of(files: Vec<PathBuf>) -> Vec<PathBuf> {
-    let hidden =
-        |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-    let image = |path: &Path| {
-        path.extension().is_some_and(|extension| {
-            EXTENSIONS.iter().any(|known| extension.eq_ignore_ascii_case(known))
-        })
-    };
-    let mut images: Vec<PathBuf> =
-        files.into_iter().filter(|path| image(path) && !hidden(path) && path.is_file()).collect();
-    images.sort_by(|a, b| natural_order(a, b));
-    images
+    Ok(Box::new(SceneFeed::new(scene, size, options.frame_rate)))
 }

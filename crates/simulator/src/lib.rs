@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Image sets in, arrays and rendered frames out.
+//! Video and image sets in, arrays and rendered frames out.
 //!
-//! [`open`] turns what a user names (files, folders, globs, `scene:NAME`) into a [`Source`] of frames,
-//! one at a time. A [`Simulation`] runs a design over a source and writes a folder of NumPy arrays,
-//! PNGs and a summary, which appears only when it is complete. Memory does not grow with the number
-//! of frames. The library never prints: progress and cancellation go through [`Hooks`].
+//! [`open`] turns what a user names (video, files, folders, globs, `scene:NAME`) into a [`Source`] of
+//! frames, one at a time. A [`Simulation`] runs a design over a source and writes a folder of NumPy
+//! arrays, PNGs and a summary, which appears at the end and says whether it is complete; [`plan`] and
+//! [`run_batch`] do that for many clips. Memory does not grow with the number of frames. The library
+//! never prints: progress and cancellation go through [`Hooks`].
 
+mod batch;
 mod depth;
 mod error;
 mod explain;
@@ -13,13 +15,19 @@ mod input;
 mod natural;
 mod output;
 mod picture;
+mod sets;
 mod simulation;
 mod source;
+mod video;
+mod y4m;
 
+pub use batch::{
+    BatchHooks, BatchProgress, BatchSummary, Clip, ClipSummary, Plan, plan, run_batch,
+};
 pub use depth::{convert_depth, display_depth};
 pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
-pub use input::{InputOptions, open};
+pub use input::{ImagesAs, InputOptions, open};
 pub use natural::natural_order;
 pub use output::{
     Bandwidth, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent, PixelEvents,
@@ -27,4 +35,6 @@ pub use output::{
 };
 pub use picture::{MAX_SIDE, decode, luma, read};
 pub use simulation::{Hooks, Progress, Silent, Simulation};
-pub use source::{FrameRate, Source, SourceFrame};
+pub use source::resize::Crop;
+pub use source::select::{Selection, parse_time};
+pub use source::{FrameRate, Kind, Source, SourceFrame};

@@ -84,6 +84,13 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, SimulatorError> {
     }
 }
 
+/// Whether a file starts as an image of a supported type does.
+pub(crate) fn is_image(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path).map(|file| file.take(16).read_to_end(&mut start));
+    matches!(read, Ok(Ok(_))) && supported(&start).is_some()
+}
+
 fn supported(bytes: &[u8]) -> Option<ImageFormat> {
     let format = image::guess_format(bytes).ok()?;
     let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Bmp, ImageFormat::Pnm];

@@ -5,10 +5,13 @@ use std::path::Path;
 
 use foveate_model::Camera;
 use foveate_spec::{Config, Design};
-use foveate_staging::{Kind, StagedFolder};
+use foveate_staging::{Kind as FolderKind, StagedFolder};
 
 use crate::output::Recorder;
-use crate::{RunOptions, SimulatorError, Source, Summary};
+use crate::{Kind, RunOptions, SimulatorError, Source, Summary};
+
+/// What a summary says of a run that the user stopped.
+pub(crate) const INTERRUPTED: &str = "interrupted";
 
 /// How far a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +27,7 @@ pub trait Hooks {
     /// Another frame is done.
     fn progress(&mut self, progress: Progress);
 
-    /// Whether to stop; nothing is left of the output then.
+    /// Whether to stop; what was done so far is then the result, marked as incomplete.
     fn cancelled(&self) -> bool;
 }
 
@@ -64,40 +67,54 @@ impl Simulation {
         &self.design
     }
 
-    /// Runs to the end of the source. The folder `output` appears when everything is written; on an
-    /// error nothing is left.
+    /// Runs to the end of the source, or until `hooks` cancels. The folder `output` appears when
+    /// everything is written; on an error nothing is left. A source that ends early, such as a
+    /// truncated video, and an interrupt leave what was done, with `complete: false` in the summary.
     ///
     /// # Errors
-    /// When a frame cannot be read, the output cannot be written, or `hooks` cancelled the run.
+    /// When a frame cannot be read, the output cannot be written, or there is no frame.
     pub fn run(
         mut self,
         output: &Path,
         options: &RunOptions,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, SimulatorError> {
+        if options.pixel_events.wanted() && self.source.kind() == Kind::Set {
+            return Err(SimulatorError::PixelEventsOfSet);
+        }
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
         let mut recorder = Recorder::create(staging.folder(), &self.design, options)?;
-        self.record(&mut recorder, hooks)?;
-        if recorder.frames() == 0 {
-            return Err(SimulatorError::NoFrames { inputs: self.source.inputs().join(", ") });
-        }
-        let summary = recorder.finish(staging.folder(), self.source.inputs())?;
+        let cancelled = self.record(&mut recorder, hooks)?;
+        let problem = match (cancelled, recorder.frames()) {
+            (true, 0) => return Err(SimulatorError::Cancelled),
+            (false, 0) => {
+                let inputs = self.source.inputs().join(", ");
+                return Err(SimulatorError::NoFrames { inputs });
+            }
+            (true, _) => Some(INTERRUPTED.to_owned()),
+            (false, _) => self.source.problem(),
+        };
+        let summary = recorder.finish(staging.folder(), self.source.inputs(), problem)?;
         staging.commit()?;
         Ok(summary)
     }
 
+    /// Whether it was cancelled.
     fn record(
         &mut self,
         recorder: &mut Recorder,
         hooks: &mut dyn Hooks,
-    ) -> Result<(), SimulatorError> {
+    ) -> Result<bool, SimulatorError> {
         let mut camera = Camera::new(&self.design);
         let source = &mut self.source;
         let total = source.frames();
         let mut next = source.next_frame()?;
         while let Some(current) = next {
             if hooks.cancelled() {
-                return Err(SimulatorError::Cancelled { frames: recorder.frames() });
+                return Ok(true);
+            }
+            if source.kind() == Kind::Set {
+                camera.reset();
             }
             let outcome = camera.step(&current.frame)?;
             // While a frame is written the one after it is read.
@@ -107,7 +124,7 @@ impl Simulation {
             next = read?;
             hooks.progress(Progress { done: recorder.frames(), total });
         }
-        Ok(())
+        Ok(false)
     }
 }
 
@@ -118,7 +135,8 @@ impl std::fmt::Debug for Simulation {
 }
 
 /// What a run leaves, and what it may replace.
-const SIMULATION: Kind = Kind { what: "a simulation (its summary.json)", is: is_simulation };
+pub(crate) const SIMULATION: FolderKind =
+    FolderKind { what: "a simulation (its summary.json)", is: is_simulation };
 
 fn is_simulation(folder: &Path) -> bool {
     let summary = std::fs::read(folder.join("summary.json")).unwrap_or_default();

@@ -1,22 +1,45 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where frames come from: image files and scenes here; video fits behind the same trait.
+//! Where frames come from, and what every frame knows of itself.
 
-use std::path::{Path, PathBuf};
+pub(crate) mod feed;
+pub(crate) mod files;
+pub(crate) mod resize;
+pub(crate) mod select;
 
 use foveate_model::Frame;
-use foveate_scenes::{Scene, SceneFrames, SceneSize};
 
-use crate::{SimulatorError, picture};
+use crate::SimulatorError;
 
 /// A frame with its name and time.
 #[derive(Clone, Debug)]
 pub struct SourceFrame {
     /// File name, or the name of the scene.
     pub name: String,
-    /// Time since the first frame in microseconds.
+    /// Time since the first frame of the clip in microseconds.
     pub time_us: u64,
+    /// The class of an image of a labelled set.
+    pub label: Option<String>,
     /// The pixels.
     pub frame: Frame,
+}
+
+/// How frames of a source belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// They follow each other in time.
+    Clip,
+    /// They have nothing to do with each other: each is a first frame.
+    Set,
+}
+
+impl Kind {
+    /// The time of a frame without one of its own: by the rate in a clip, zero in a set.
+    pub(crate) fn time_us(self, rate: FrameRate, frame: u64) -> u64 {
+        match self {
+            Self::Clip => rate.time_us(frame),
+            Self::Set => 0,
+        }
+    }
 }
 
 /// Frames of one size and depth, one at a time.
@@ -27,7 +50,8 @@ pub trait Source: Send {
     /// What the user named, for the summary.
     fn inputs(&self) -> &[String];
 
-    /// How many frames there are in all, if that is known.
+    /// How many frames there are in all, if that is known; of a video, what its container says,
+    /// which may be wrong.
     fn frames(&self) -> Option<u64>;
 
     /// The next frame, or `None` after the last.
@@ -35,6 +59,16 @@ pub trait Source: Send {
     /// # Errors
     /// When it cannot be read or does not have the size of the others.
     fn next_frame(&mut self) -> Result<Option<SourceFrame>, SimulatorError>;
+
+    /// Whether frames follow each other in time; of a set every frame is a first frame.
+    fn kind(&self) -> Kind {
+        Kind::Clip
+    }
+
+    /// After the last frame: why it ended before its end, if it did. What came before is good.
+    fn problem(&self) -> Option<String> {
+        None
+    }
 }
 
 /// Frames per second as a fraction; frame t of a set of images is at t / rate.
@@ -56,6 +90,31 @@ impl FrameRate {
         Ok(Self { frames, seconds })
     }
 
+    /// A rate as people write it: `30`, `29.97` or `30000/1001`.
+    ///
+    /// # Errors
+    /// What would be right, when it is none.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let wrong = || "expected frames per second, such as 30, 29.97 or 30000/1001".to_owned();
+        let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+        let (frames, seconds) = match (text.split_once('/'), text.split_once('.')) {
+            (Some((frames, seconds)), _) if digits(frames) => {
+                (frames.parse().ok(), seconds.parse().ok())
+            }
+            (None, Some((whole, part)))
+                if digits(whole) && digits(part) && (1..=6).contains(&part.len()) =>
+            {
+                let unit =
+                    u32::try_from(part.len()).ok().and_then(|power| 10u32.checked_pow(power));
+                (format!("{whole}{part}").parse().ok(), unit)
+            }
+            (None, None) if digits(text) => (text.parse().ok(), Some(1)),
+            _ => (None, None),
+        };
+        let (frames, seconds) = frames.zip(seconds).ok_or_else(wrong)?;
+        Self::new(frames, seconds).map_err(|_| wrong())
+    }
+
     /// Time of a frame in microseconds, rounded to the nearest.
     #[must_use]
     pub fn time_us(self, frame: u64) -> u64 {
@@ -63,118 +122,21 @@ impl FrameRate {
         let rounded = (scaled + u128::from(self.frames) / 2) / u128::from(self.frames);
         u64::try_from(rounded).unwrap_or(u64::MAX)
     }
+
+    /// How many whole frame times have passed at a time.
+    pub(crate) fn passed(self, time_us: u64) -> u128 {
+        u128::from(time_us) * u128::from(self.frames) / (u128::from(self.seconds) * 1_000_000)
+    }
+
+    /// An eighth of the time of a frame.
+    pub(crate) fn eighth_us(self) -> u64 {
+        u64::from(self.seconds) * 1_000_000 / (8 * u64::from(self.frames))
+    }
 }
 
 impl Default for FrameRate {
     fn default() -> Self {
         Self { frames: 30, seconds: 1 }
-    }
-}
-
-/// Image files in a given order.
-pub(crate) struct ImageFiles {
-    inputs: Vec<String>,
-    paths: Vec<PathBuf>,
-    next: usize,
-    /// The first frame, read to learn the size.
-    first: Option<Frame>,
-    size: (u32, u32),
-    bits: u32,
-    rate: FrameRate,
-}
-
-impl ImageFiles {
-    pub(crate) fn new(
-        inputs: Vec<String>,
-        paths: Vec<PathBuf>,
-        bits: u32,
-        rate: FrameRate,
-    ) -> Result<Self, SimulatorError> {
-        let first = match paths.first() {
-            Some(path) => picture::read(path, bits)?,
-            None => return Err(SimulatorError::NoFrames { inputs: inputs.join(", ") }),
-        };
-        let size = (first.width(), first.height());
-        Ok(Self { inputs, paths, next: 0, first: Some(first), size, bits, rate })
-    }
-
-    fn refuse_other_size(&self, path: &Path, frame: &Frame) -> Result<(), SimulatorError> {
-        let other_size = (frame.width(), frame.height());
-        if other_size == self.size {
-            return Ok(());
-        }
-        Err(SimulatorError::MixedSizes {
-            first: self.paths.first().map(|path| path.display().to_string()).unwrap_or_default(),
-            first_size: self.size,
-            other: path.display().to_string(),
-            other_size,
-        })
-    }
-}
-
-impl Source for ImageFiles {
-    fn size(&self) -> (u32, u32) {
-        self.size
-    }
-
-    fn inputs(&self) -> &[String] {
-        &self.inputs
-    }
-
-    fn frames(&self) -> Option<u64> {
-        u64::try_from(self.paths.len()).ok()
-    }
-
-    fn next_frame(&mut self) -> Result<Option<SourceFrame>, SimulatorError> {
-        let Some(path) = self.paths.get(self.next) else {
-            return Ok(None);
-        };
-        let frame = match self.first.take() {
-            Some(first) => first,
-            None => picture::read(path, self.bits)?,
-        };
-        self.refuse_other_size(path, &frame)?;
-        let time_us = self.rate.time_us(u64::try_from(self.next).unwrap_or(u64::MAX));
-        let name = path.display().to_string();
-        self.next += 1;
-        Ok(Some(SourceFrame { name, time_us, frame }))
-    }
-}
-
-/// The frames of a scene.
-pub(crate) struct SceneSource {
-    inputs: [String; 1],
-    size: SceneSize,
-    frames: SceneFrames,
-    next: u64,
-    rate: FrameRate,
-}
-
-impl SceneSource {
-    pub(crate) fn new(scene: Scene, size: SceneSize, rate: FrameRate) -> Self {
-        let inputs = [format!("scene:{scene}")];
-        Self { inputs, size, frames: scene.frames(size), next: 0, rate }
-    }
-}
-
-impl Source for SceneSource {
-    fn size(&self) -> (u32, u32) {
-        (self.size.width, self.size.height)
-    }
-
-    fn inputs(&self) -> &[String] {
-        &self.inputs
-    }
-
-    fn frames(&self) -> Option<u64> {
-        Some(self.size.frames.into())
-    }
-
-    fn next_frame(&mut self) -> Result<Option<SourceFrame>, SimulatorError> {
-        let time_us = self.rate.time_us(self.next);
-        self.next += 1;
-        let [name] = self.inputs.clone();
-        Ok(self.frames.next().map(|frame| SourceFrame { name, time_us, frame }))
     }
 }
 
@@ -190,5 +152,17 @@ mod tests {
         assert_eq!(rate.time_us(u64::MAX), u64::MAX);
         let message = FrameRate::new(0, 1).unwrap_err().to_string();
         assert!(message.starts_with("0 frames in 1 s are no frame rate"));
+    }
+
+    #[test]
+    fn rates_are_read_as_people_write_them() {
+        let rate = |frames, seconds| Ok(FrameRate { frames, seconds });
+        assert_eq!(FrameRate::parse("30"), rate(30, 1));
+        assert_eq!(FrameRate::parse("29.97"), rate(2997, 100));
+        assert_eq!(FrameRate::parse("0.5"), rate(5, 10));
+        assert_eq!(FrameRate::parse("30000/1001"), rate(30_000, 1001));
+        for text in ["", "0", "-5", "1/0", "a", "1.", "30/", "0.0", "1e3", "99999999999", "+5"] {
+            assert!(FrameRate::parse(text).is_err(), "{text}");
+        }
     }
 }

@@ -14,7 +14,7 @@ use foveate_simulator::{
 };
 use foveate_spec::Config;
 use foveate_staging::StagingError;
-use support::{grey, names, run};
+use support::{Npy, grey, names, run};
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];
 
@@ -93,11 +93,28 @@ fn run_with(output: &Path, hooks: &mut dyn Hooks) -> Result<(), SimulatorError> 
 }
 
 #[test]
-fn a_cancelled_run_leaves_nothing() {
+fn a_cancelled_run_leaves_what_was_done_and_says_so() {
     let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
     let mut hooks = StopAfter { frames: 2, seen: Vec::new() };
+    run_with(&output, &mut hooks).unwrap();
+    assert_eq!(names(folder.path()), ["out"]);
+    let summary: serde_json::Value =
+        serde_json::from_slice(&fs::read(output.join("summary.json")).unwrap()).unwrap();
+    assert_eq!((&summary["frames"], &summary["complete"]), (&2.into(), &false.into()));
+    assert_eq!(summary["problem"], "interrupted");
+    let array = Npy::read(&output.join("trs.npy"));
+    assert_eq!((array.shape, array.data.len()), (vec![2, 2, 2], 8));
+    assert_eq!(fs::read_to_string(output.join("frames.csv")).unwrap().lines().count(), 3);
+    assert_eq!(names(&output.join("rendered")).len(), 2);
+}
+
+#[test]
+fn a_run_that_is_cancelled_at_once_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut hooks = StopAfter { frames: 0, seen: Vec::new() };
     let error = run_with(&folder.path().join("out"), &mut hooks).unwrap_err();
-    assert!(matches!(error, SimulatorError::Cancelled { frames: 2 }), "{error}");
+    assert!(matches!(error, SimulatorError::Cancelled), "{error}");
     assert!(names(folder.path()).is_empty());
 }
 
@@ -189,7 +206,7 @@ impl Source for Foreign {
 
     fn next_frame(&mut self) -> Result<Option<SourceFrame>, SimulatorError> {
         let name = "frame".to_owned();
-        Ok(self.frames.pop().map(|frame| SourceFrame { name, time_us: 7, frame }))
+        Ok(self.frames.pop().map(|frame| SourceFrame { name, time_us: 7, label: None, frame }))
     }
 }
 

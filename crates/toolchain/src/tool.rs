@@ -18,12 +18,21 @@ pub enum Tool {
     Cxx,
     /// ffmpeg, which reads and writes video.
     Ffmpeg,
+    /// ffprobe, which says what is in a video; it comes with ffmpeg.
+    Ffprobe,
 }
 
 impl Tool {
     /// Every tool.
-    pub const ALL: [Self; 6] =
-        [Self::Verilator, Self::Iverilog, Self::Vvp, Self::Yosys, Self::Cxx, Self::Ffmpeg];
+    pub const ALL: [Self; 7] = [
+        Self::Verilator,
+        Self::Iverilog,
+        Self::Vvp,
+        Self::Yosys,
+        Self::Cxx,
+        Self::Ffmpeg,
+        Self::Ffprobe,
+    ];
 
     /// The name of the executable that is looked up in `PATH`.
     #[must_use]
@@ -35,6 +44,7 @@ impl Tool {
             Self::Yosys => "yosys",
             Self::Cxx => "g++",
             Self::Ffmpeg => "ffmpeg",
+            Self::Ffprobe => "ffprobe",
         }
     }
 
@@ -46,7 +56,7 @@ impl Tool {
             Self::Iverilog | Self::Vvp => Version::new("11.0", 11, 0),
             Self::Yosys => Version::new("0.23", 0, 23),
             Self::Cxx => Version::new("9.0", 9, 0),
-            Self::Ffmpeg => Version::new("4.0", 4, 0),
+            Self::Ffmpeg | Self::Ffprobe => Version::new("4.4", 4, 4),
         }
     }
 
@@ -60,6 +70,7 @@ impl Tool {
             Self::Yosys => "FOVEATE_YOSYS",
             Self::Cxx => "FOVEATE_CXX",
             Self::Ffmpeg => "FOVEATE_FFMPEG",
+            Self::Ffprobe => "FOVEATE_FFPROBE",
         }
     }
 
@@ -71,7 +82,7 @@ impl Tool {
             Self::Iverilog | Self::Vvp => "iverilog",
             Self::Yosys => "yosys",
             Self::Cxx => "g++",
-            Self::Ffmpeg => "ffmpeg",
+            Self::Ffmpeg | Self::Ffprobe => "ffmpeg",
         }
     }
 
@@ -80,7 +91,7 @@ impl Tool {
         match self {
             Self::Verilator | Self::Cxx => "--version",
             Self::Iverilog | Self::Vvp | Self::Yosys => "-V",
-            Self::Ffmpeg => "-version",
+            Self::Ffmpeg | Self::Ffprobe => "-version",
         }
     }
 }
@@ -114,6 +125,12 @@ impl Version {
         let major = parts.next()?.parse().ok()?;
         let minor = parts.next()?.parse().ok()?;
         Some(Self { text: word.trim_end_matches('.').to_owned().into(), numbers: (major, minor) })
+    }
+
+    /// Whether this version is `major.minor` or newer.
+    #[must_use]
+    pub fn reaches(&self, major: u32, minor: u32) -> bool {
+        self.numbers >= (major, minor)
     }
 
     /// Whether this version is not older than `other`.

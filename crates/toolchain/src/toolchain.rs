@@ -143,6 +143,7 @@ impl Toolchain {
 fn is_development_build(tool: Tool, banner: &str) -> bool {
     match tool {
         Tool::Ffmpeg => banner.starts_with("ffmpeg version N-"),
+        Tool::Ffprobe => banner.starts_with("ffprobe version N-"),
         Tool::Verilator => banner.contains("rev vUNKNOWN-built"),
         Tool::Iverilog | Tool::Vvp | Tool::Yosys | Tool::Cxx => false,
     }

@@ -4,13 +4,14 @@
 use clap::Args;
 
 use super::DesignArgs;
+use super::input::InputArgs;
 
 /// Say why a region of a frame was sent or dropped
 #[derive(Args, Debug)]
-#[command(after_help = "Examples: foveate explain scene:street --frame 3 --region 12,5
+#[command(after_help = "Examples: foveate explain street.mp4 --frame 3 --region 12,5
           foveate explain frames/ --frame 0 --region 0,0 --json")]
 pub(crate) struct ExplainArgs {
-    /// Images (PNG, JPEG, BMP, PGM), folders, globs, or scene:NAME
+    /// Video, images, folders, globs, data sets, scene:NAME: what `foveate simulate` takes
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
@@ -21,15 +22,11 @@ pub(crate) struct ExplainArgs {
     /// Column and row of the region, from 0
     #[arg(long, value_name = "X,Y", value_parser = parse_region)]
     pub(crate) region: (u32, u32),
-    /// Frames of a scene, as in `foveate simulate`
-    #[arg(long, value_name = "N")]
-    pub(crate) frames: Option<u32>,
-    /// Frames per second of images, for the times of frames
-    #[arg(long, value_name = "N", default_value_t = 30)]
-    pub(crate) fps: u32,
     /// Print JSON, with every pixel
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
 }
 
 fn parse_region(text: &str) -> Result<(u32, u32), String> {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate explain`: why a region was sent or dropped.
 
-use foveate_simulator::{FrameRate, InputOptions, explain, open};
+use foveate_simulator::{explain, open};
 
 use crate::args::ExplainArgs;
 use crate::error::CliError;
@@ -9,8 +9,7 @@ use crate::output;
 
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let config = args.design.read()?;
-    let input = InputOptions { frames: args.frames, frame_rate: FrameRate::new(args.fps, 1)? };
-    let source = open(&args.inputs, &config, &input)?;
+    let source = open(&args.inputs, &config, &args.input.options())?;
     let explanation = explain(&config, source, args.frame, args.region)?;
     if args.json { output::json(&explanation) } else { output::text(&explanation.to_string()) }
 }

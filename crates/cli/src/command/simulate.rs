@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate simulate`: images in; arrays, tables, pictures and video out.
+//! `foveate simulate`: video or images in; arrays, tables, pictures and video out.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_simulator::{
-    Bandwidth, FrameRate, Hooks, InputOptions, Progress, RunOptions, Simulation, Summary, Traffic,
-    open,
+    Bandwidth, BatchHooks, BatchProgress, BatchSummary, Hooks, Plan, Progress, RunOptions,
+    Simulation, Summary, Traffic, open, plan, run_batch,
 };
 use indicatif::ProgressBar;
 
@@ -16,15 +16,36 @@ use crate::{output, progress};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let config = args.design.read()?;
-    let input = InputOptions { frames: args.frames, frame_rate: FrameRate::new(args.fps, 1)? };
-    let source = open(&args.inputs, &config, &input)?;
-    let simulation = Simulation::new(&config, source)?;
+    let input = args.input.options();
     let options = RunOptions { overwrite: args.force, ..args.outputs.options() };
+    let plan = plan(&args.inputs, &input)?;
     let mut hooks = Terminal::new(args.quiet)?;
-    let summary = simulation.run(&args.output, &options, &mut hooks);
-    hooks.bar.finish_and_clear();
-    let summary = summary?;
-    if args.json { output::json(&summary) } else { output::text(&text(args, &summary)) }
+    match plan {
+        Plan::One => {
+            let source = open(&args.inputs, &config, &input)?;
+            let simulation = Simulation::new(&config, source)?;
+            let summary = simulation.run(&args.output, &options, &mut hooks);
+            hooks.bar.finish_and_clear();
+            let summary = summary?;
+            let printed = if args.json {
+                output::json(&summary)
+            } else {
+                output::text(&text(args, &summary))
+            };
+            printed.and_then(|()| hooks.verdict(args, summary.problem))
+        }
+        Plan::Batch(clips) => {
+            let summary = run_batch(&clips, &config, &input, &args.output, &options, &hooks);
+            hooks.bar.finish_and_clear();
+            let summary = summary?;
+            let printed = if args.json {
+                output::json(&summary)
+            } else {
+                output::text(&batch_text(args, &summary))
+            };
+            printed.and_then(|()| hooks.verdict(args, summary.problem))
+        }
+    }
 }
 
 /// Draws progress and listens for Ctrl-C.
@@ -37,16 +58,32 @@ impl Terminal {
     fn new(quiet: bool) -> Result<Self, CliError> {
         let interrupted = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&interrupted);
-        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        // The first one ends the run in good order; the second is for a source that says nothing.
+        let stop = move || {
+            if flag.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+        };
+        ctrlc::set_handler(stop)
             .map_err(|e| CliError::Usage(format!("cannot listen for Ctrl-C: {e}")))?;
-        Ok(Self { bar: progress::bar(quiet, 0, "frames"), interrupted })
+        Ok(Self { bar: progress::frames(quiet), interrupted })
+    }
+
+    /// What a result that is there, but not complete, means for the exit code.
+    fn verdict(&self, args: &SimulateArgs, problem: Option<String>) -> Result<(), CliError> {
+        let Some(problem) = problem else { return Ok(()) };
+        if self.interrupted.load(Ordering::Relaxed) {
+            return Err(CliError::Interrupted { path: args.output.clone() });
+        }
+        let place = args.output.display();
+        Err(CliError::Failed(format!("`{place}` is not complete: {problem}")))
     }
 }
 
 impl Hooks for Terminal {
     fn progress(&mut self, progress: Progress) {
         if let Some(total) = progress.total {
-            self.bar.set_length(total);
+            progress::set_total(&self.bar, total.max(progress.done));
         }
         self.bar.set_position(progress.done);
     }
@@ -54,6 +91,36 @@ impl Hooks for Terminal {
     fn cancelled(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
+}
+
+impl BatchHooks for Terminal {
+    fn progress(&self, progress: BatchProgress) {
+        self.bar.set_position(progress.frames);
+        self.bar.set_message(format!("{}/{} clips", progress.clips, progress.all));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+}
+
+fn batch_text(args: &SimulateArgs, summary: &BatchSummary) -> String {
+    let mut text = format!(
+        "{}: {} clips, {} frames\n",
+        args.output.display(),
+        summary.clips.len(),
+        summary.frames
+    );
+    for clip in &summary.clips {
+        let inputs = clip.inputs.join(" ");
+        let result = match (clip.active_share, &clip.problem) {
+            (Some(share), None) => format!("{} frames, active {:.1} %", clip.frames, 100.0 * share),
+            (Some(_), Some(problem)) => format!("{} frames, NOT COMPLETE: {problem}", clip.frames),
+            (None, problem) => format!("FAILED: {}", problem.as_deref().unwrap_or("not started")),
+        };
+        text.push_str(&format!("  {inputs}: {result}\n"));
+    }
+    text
 }
 
 fn text(args: &SimulateArgs, summary: &Summary) -> String {

@@ -76,16 +76,17 @@ impl Recorder {
         pixels.and(sinks)
     }
 
-    /// Completes every file and adds the summary.
+    /// Completes every file and adds the summary; `problem` is why the source ended early, if it did.
     pub(crate) fn finish(
         self,
         folder: &Path,
         inputs: &[String],
+        problem: Option<String>,
     ) -> Result<Summary, SimulatorError> {
         self.table.finish()?;
         self.sinks.into_iter().try_for_each(Sink::finish)?;
         let pixel_events = self.pixels.map(PixelRecorder::finish).transpose()?;
-        let summary = self.totals.summary(&self.design, inputs, pixel_events);
+        let summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
         summary.write(&folder.join("summary.json"))?;
         Ok(summary)
     }
@@ -104,9 +105,10 @@ impl Recorder {
             .map(|(region, _)| pixels_of(&self.design, region))
             .sum();
         let (frame, time_us, name) = (self.totals.frames, source.time_us, source.name.as_str());
+        let label = source.label.as_deref();
         self.totals.add(srs, trs, active, pixels_forwarded);
         self.totals.at(time_us);
-        self.table.push(&Row { frame, time_us, name, srs, trs, active, pixels_forwarded })
+        self.table.push(&Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded })
     }
 }
 

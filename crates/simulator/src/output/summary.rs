@@ -40,6 +40,10 @@ pub struct Summary {
     pub foveate_version: &'static str,
     /// Fingerprint of the design.
     pub design_fingerprint: String,
+    /// Whether the source was run to its end.
+    pub complete: bool,
+    /// Why it was not.
+    pub problem: Option<String>,
     /// Inputs as they were given.
     pub inputs: Vec<String>,
     /// Number of frames.
@@ -106,6 +110,7 @@ impl Totals {
         &self,
         design: &Design,
         inputs: &[String],
+        problem: Option<String>,
         pixel_events: Option<u64>,
     ) -> Summary {
         let sums = Sums {
@@ -122,6 +127,8 @@ impl Totals {
             format_version: FORMAT_VERSION,
             foveate_version: env!("CARGO_PKG_VERSION"),
             design_fingerprint: design.fingerprint(),
+            complete: problem.is_none(),
+            problem,
             inputs: inputs.to_vec(),
             frames: self.frames,
             width: design.width(),

@@ -11,6 +11,7 @@ pub(super) struct Row<'a> {
     pub(super) frame: u64,
     pub(super) time_us: u64,
     pub(super) name: &'a str,
+    pub(super) label: Option<&'a str>,
     pub(super) srs: u64,
     pub(super) trs: u64,
     pub(super) active: u64,
@@ -22,15 +23,16 @@ pub(super) struct FrameTable(Csv);
 
 impl FrameTable {
     pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
-        let heading = "frame,time_us,name,srs_regions,trs_regions,active_regions,pixels_forwarded";
+        let heading =
+            "frame,time_us,name,label,srs_regions,trs_regions,active_regions,pixels_forwarded";
         Csv::create(path, heading).map(Self)
     }
 
     pub(super) fn push(&mut self, row: &Row<'_>) -> Result<(), SimulatorError> {
-        let Row { frame, time_us, name, srs, trs, active, pixels_forwarded } = row;
-        let name = quoted(name);
-        let line = format!("{frame},{time_us},{name},{srs},{trs},{active},{pixels_forwarded}");
-        self.0.line([line])
+        let Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded } = row;
+        let (name, label) = (quoted(name), quoted(label.unwrap_or_default()));
+        let counts = format!("{srs},{trs},{active},{pixels_forwarded}");
+        self.0.line([format!("{frame},{time_us},{name},{label},{counts}")])
     }
 
     pub(super) fn finish(self) -> Result<(), SimulatorError> {

@@ -140,7 +140,7 @@ impl VideoFile {
             said = complaints.unwrap_or_default();
         }
         let problem = said.lines().map(str::trim).rfind(|line| !line.is_empty());
-        SimulatorError::Video {
+        SimulatorError::VideoOutput {
             path: self.path.clone(),
             problem: problem.unwrap_or("ffmpeg ended too early").to_owned(),
         }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options that say how inputs of `foveate simulate` are read.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use foveate_simulator::{Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selection, parse_time};
+
+/// How inputs are read.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Input options")]
+pub(crate) struct InputArgs {
+    /// At most this many frames, of every clip of a batch; of a scene, exactly this many
+    #[arg(long, visible_alias = "frames", value_name = "N")]
+    pub(crate) max_frames: Option<u32>,
+    /// At most this many frames per second, chosen by their times; none is repeated
+    #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
+    pub(crate) fps: Option<FrameRate>,
+    /// Frames per second of images, which have no times of their own
+    #[arg(long, value_name = "RATE", default_value = "30", value_parser = FrameRate::parse)]
+    pub(crate) rate: FrameRate,
+    /// Leave out what is before this time: seconds, or HH:MM:SS
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    pub(crate) start: Option<u64>,
+    /// Leave out what is at this time or later
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    pub(crate) end: Option<u64>,
+    /// Take this part of every frame
+    #[arg(long, value_name = "WxH+X+Y", value_parser = parse_crop)]
+    pub(crate) crop: Option<Crop>,
+    /// Scale every frame by area, after cropping
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) resize: Option<(u32, u32)>,
+    /// What image files are: frames of a clip, a set of unrelated images (sub-folders are labels),
+    /// or CIFAR sheets with one image per row
+    #[arg(long, value_enum, default_value_t = ImagesChoice::Clip)]
+    pub(crate) images: ImagesChoice,
+    /// Labels of an IDX file, if they are not beside it
+    #[arg(long, value_name = "FILE")]
+    pub(crate) labels: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum ImagesChoice {
+    Clip,
+    Set,
+    CifarSheet,
+}
+
+impl InputArgs {
+    pub(crate) fn options(&self) -> InputOptions {
+        InputOptions {
+            frames: self.max_frames,
+            frame_rate: self.rate,
+            selection: Selection { start_us: self.start, end_us: self.end, rate: self.fps },
+            crop: self.crop,
+            resize: self.resize,
+            images: match self.images {
+                ImagesChoice::Clip => ImagesAs::Clip,
+                ImagesChoice::Set => ImagesAs::Set,
+                ImagesChoice::CifarSheet => ImagesAs::CifarSheet,
+            },
+            labels: self.labels.clone(),
+        }
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let side = |part: &str| part.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    text.split_once('x')
+        .and_then(|(width, height)| Some((side(width)?, side(height)?)))
+        .ok_or_else(|| format!("expected WIDTHxHEIGHT, each 1 to {MAX_SIDE}, for example 640x360"))
+}
+
+fn parse_crop(text: &str) -> Result<Crop, String> {
+    let wrong = || "expected WIDTHxHEIGHT+X+Y, for example 320x240+16+0".to_owned();
+    let mut parts = text.split('+');
+    let size = parts.next().and_then(|size| parse_size(size).ok()).ok_or_else(wrong)?;
+    let mut next = || parts.next().and_then(|part| part.parse().ok());
+    let at = next().zip(next()).ok_or_else(wrong)?;
+    if parts.next().is_some() { Err(wrong()) } else { Ok(Crop { size, at }) }
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Many clips in one run: one output folder per clip, in a tree like that of the inputs, and one
+//! summary of all. A clip that fails does not lose the others.
+
+mod plan;
+mod summary;
+
+pub use plan::{Clip, Plan, plan};
+pub use summary::{BatchSummary, ClipSummary};
+
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use foveate_spec::Config;
+use foveate_staging::StagedFolder;
+
+use crate::simulation::{INTERRUPTED, SIMULATION};
+use crate::{Hooks, InputOptions, Progress, RunOptions, Simulation, SimulatorError, Summary, open};
+
+/// How far a batch is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BatchProgress {
+    /// Clips that are done or have failed.
+    pub clips: usize,
+    /// Clips in all.
+    pub all: usize,
+    /// Frames of all clips so far.
+    pub frames: u64,
+}
+
+/// What a batch asks and tells its caller, from several threads.
+pub trait BatchHooks: Sync {
+    /// Another frame or clip is done.
+    fn progress(&self, progress: BatchProgress);
+
+    /// Whether to stop; what was done so far is then the result, marked as incomplete.
+    fn cancelled(&self) -> bool;
+}
+
+/// Runs every clip, as many at a time as there are cores, into folders below `output`, which appears
+/// at the end.
+///
+/// # Errors
+/// When the output cannot be written, or no clip could be simulated at all.
+pub fn run_batch(
+    clips: &[Clip],
+    config: &Config,
+    input: &InputOptions,
+    output: &Path,
+    options: &RunOptions,
+    hooks: &dyn BatchHooks,
+) -> Result<BatchSummary, SimulatorError> {
+    let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
+    let batch = Batch {
+        clips,
+        config,
+        input,
+        options,
+        hooks,
+        folder: staging.folder(),
+        next: AtomicUsize::new(0),
+        done: AtomicUsize::new(0),
+        frames: AtomicU64::new(0),
+    };
+    let summary = batch.run()?;
+    // Plain data with text keys: this cannot fail.
+    let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
+    staging.write("summary.json", text.as_bytes())?;
+    staging.commit()?;
+    Ok(summary)
+}
+
+/// A batch at work.
+struct Batch<'a> {
+    clips: &'a [Clip],
+    config: &'a Config,
+    input: &'a InputOptions,
+    options: &'a RunOptions,
+    hooks: &'a dyn BatchHooks,
+    folder: &'a Path,
+    next: AtomicUsize,
+    done: AtomicUsize,
+    frames: AtomicU64,
+}
+
+impl Batch<'_> {
+    fn run(&self) -> Result<BatchSummary, SimulatorError> {
+        let results: Vec<Mutex<Option<ClipSummary>>> =
+            self.clips.iter().map(|_| Mutex::new(None)).collect();
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        // Threads of their own: one of rayon would start another clip while it waits within one.
+        std::thread::scope(|scope| {
+            for _ in 0..cores.min(self.clips.len()) {
+                scope.spawn(|| self.work(&results));
+            }
+        });
+        let result = |slot: Mutex<Option<ClipSummary>>| {
+            slot.into_inner().unwrap_or_else(PoisonError::into_inner)
+        };
+        let clips: Vec<ClipSummary> = results
+            .into_iter()
+            .zip(self.clips)
+            .map(|(slot, clip)| {
+                result(slot).unwrap_or_else(|| clip.failed("not started".to_owned()))
+            })
+            .collect();
+        self.conclude(clips)
+    }
+
+    /// Takes clips until there are no more.
+    fn work(&self, results: &[Mutex<Option<ClipSummary>>]) {
+        while !self.hooks.cancelled() {
+            let number = self.next.fetch_add(1, Ordering::Relaxed);
+            let (Some(clip), Some(slot)) = (self.clips.get(number), results.get(number)) else {
+                return;
+            };
+            let summary = match self.simulate(clip) {
+                Ok(summary) => clip.done(summary),
+                Err(error) => clip.failed(error.to_string()),
+            };
+            *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(summary);
+            self.done.fetch_add(1, Ordering::Relaxed);
+            self.tell();
+        }
+    }
+
+    fn simulate(&self, clip: &Clip) -> Result<Summary, SimulatorError> {
+        let source = open(&clip.inputs, self.config, self.input)?;
+        let output = self.folder.join(&clip.place);
+        Simulation::new(self.config, source)?.run(&output, self.options, &mut Frames(self))
+    }
+
+    fn tell(&self) {
+        self.hooks.progress(BatchProgress {
+            clips: self.done.load(Ordering::Relaxed),
+            all: self.clips.len(),
+            frames: self.frames.load(Ordering::Relaxed),
+        });
+    }
+
+    fn conclude(&self, clips: Vec<ClipSummary>) -> Result<BatchSummary, SimulatorError> {
+        let partial = clips.iter().filter(|clip| !clip.complete).count();
+        if clips.iter().all(|clip| clip.output.is_none()) {
+            if self.hooks.cancelled() {
+                return Err(SimulatorError::Cancelled);
+            }
+            let first = clips.iter().find_map(|clip| clip.problem.clone()).unwrap_or_default();
+            return Err(SimulatorError::NoClip { clips: clips.len(), first });
+        }
+        let problem = match (self.hooks.cancelled(), partial) {
+            (_, 0) => None,
+            (true, _) => Some(INTERRUPTED.to_owned()),
+            (false, some) => Some(format!("{some} of {} clips are not complete", clips.len())),
+        };
+        Ok(BatchSummary {
+            format_version: summary::FORMAT_VERSION,
+            foveate_version: env!("CARGO_PKG_VERSION"),
+            complete: problem.is_none(),
+            problem,
+            frames: clips.iter().map(|clip| clip.frames).sum(),
+            clips,
+        })
+    }
+}
+
+/// Counts the frames of one clip into the batch.
+struct Frames<'a>(&'a Batch<'a>);
+
+impl Hooks for Frames<'_> {
+    fn progress(&mut self, _: Progress) {
+        self.0.frames.fetch_add(1, Ordering::Relaxed);
+        self.0.tell();
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.hooks.cancelled()
+    }
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sets of small images in one file: IDX (MNIST and its kin) and CIFAR. Every image is a first frame.
+
+pub(crate) mod cifar;
+pub(crate) mod idx;
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+use std::path::Path;
+
+use flate2::bufread::MultiGzDecoder;
+
+use crate::SimulatorError;
+
+/// Opens a file, unpacked if it is gzipped.
+pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, SimulatorError> {
+    let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
+    if file.fill_buf().map_err(unreadable(path))?.starts_with(&[0x1F, 0x8B]) {
+        return Ok(Box::new(BufReader::new(MultiGzDecoder::new(file))));
+    }
+    Ok(Box::new(file))
+}
+
+fn unreadable(path: &Path) -> impl Fn(io::Error) -> SimulatorError + '_ {
+    |error| SimulatorError::Unreadable { path: path.to_owned(), problem: error.to_string() }
+}
+
+/// Names the file in what is wrong with it.
+fn damaged(path: &Path, problem: impl Into<String>) -> SimulatorError {
+    SimulatorError::DataSet { path: path.to_owned(), problem: problem.into() }
+}
+
+fn cut(path: &Path) -> impl Fn(io::Error) -> SimulatorError + '_ {
+    |error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => damaged(path, "it ends before its last image"),
+        _ => damaged(path, error.to_string()),
+    }
+}

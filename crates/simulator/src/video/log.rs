@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What ffmpeg says while it decodes: frames announced by `showinfo`, and faults.
+
+/// Faults that are kept in words.
+const LENGTH: usize = 200;
+
+/// The layout of raw pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Format {
+    /// Bits per sample.
+    pub(super) bits: u32,
+    /// Red, green and blue instead of one value.
+    pub(super) colour: bool,
+}
+
+impl Format {
+    pub(super) fn parse(name: &str) -> Option<Self> {
+        let (bits, colour) = match name {
+            "gray" => (8, false),
+            "gray9le" => (9, false),
+            "gray10le" => (10, false),
+            "gray12le" => (12, false),
+            "gray14le" => (14, false),
+            "gray16le" => (16, false),
+            "rgb24" => (8, true),
+            "rgb48le" => (16, true),
+            _ => return None,
+        };
+        Some(Self { bits, colour })
+    }
+
+    pub(super) fn channels(self) -> usize {
+        if self.colour { 3 } else { 1 }
+    }
+
+    pub(super) fn bytes_per_sample(self) -> usize {
+        if self.bits > 8 { 2 } else { 1 }
+    }
+}
+
+/// A frame that is on its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Shown {
+    /// In units of the time base.
+    pub(super) pts: Option<i64>,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) format: Format,
+}
+
+/// What a line says.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Info {
+    Frame(Shown),
+}
+
+/// What was said so far.
+#[derive(Debug)]
+pub(super) struct Report {
+    /// Seconds per unit of time, as a fraction.
+    pub(super) time_base: (u32, u32),
+    faults: u64,
+    first_fault: Option<String>,
+}
+
+impl Default for Report {
+    fn default() -> Self {
+        Self { time_base: (1, 1_000_000), faults: 0, first_fault: None }
+    }
+}
+
+impl Report {
+    pub(super) fn take(&mut self, line: &str) -> Option<Info> {
+        if line.starts_with("[Parsed_showinfo_") {
+            if let Some((_, base)) = line.split_once("] config in time_base: ") {
+                self.time_base = fraction(base).unwrap_or(self.time_base);
+            }
+            return frame(line).map(Info::Frame);
+        }
+        let said = fault(line)?;
+        self.faults += 1;
+        if self.first_fault.is_none() {
+            let plain: String = said.replace(char::is_control, " ");
+            self.first_fault = Some(plain.trim().chars().take(LENGTH).collect());
+        }
+        None
+    }
+
+    /// The faults in one line, if there were any.
+    pub(super) fn problem(&self) -> Option<String> {
+        let first = self.first_fault.as_ref()?;
+        Some(match self.faults {
+            1 => format!("ffmpeg reports: {first}"),
+            more => format!("ffmpeg reports {more} faults, the first: {first}"),
+        })
+    }
+}
+
+/// What is wrong: `[h264 @ 0x1] [error] ...`, `[error] ...`, or a warning of damage.
+fn fault(line: &str) -> Option<&str> {
+    let component =
+        |line: &&str| line.split_once("] ").is_some_and(|(name, _)| name.contains(" @ 0x"));
+    let said = match Some(line).filter(component) {
+        // What takes the raw frames knows no times; those that it misses are no fault of the video.
+        Some(line) if line.starts_with("[rawvideo @ ") => return None,
+        Some(line) => line.split_once("] ")?.1,
+        None => line,
+    };
+    let faults = ["[error] ", "[fatal] ", "[panic] "];
+    faults.iter().find_map(|level| said.strip_prefix(level)).or_else(|| {
+        said.strip_prefix("[warning] ").filter(|said| said.to_lowercase().contains("corrupt"))
+    })
+}
+
+/// `1/12800, frame_rate: ...`
+fn fraction(text: &str) -> Option<(u32, u32)> {
+    let (numerator, rest) = text.split_once('/')?;
+    let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+    Some((numerator.parse().ok()?, digits.parse().ok().filter(|&d| d > 0)?))
+}
+
+/// `... n:   1 pts:    512 pts_time:0.04 ... fmt:gray sar:1/1 s:320x240 ...`
+fn frame(line: &str) -> Option<Shown> {
+    let value =
+        |key: &str| line.split_once(key).and_then(|(_, rest)| rest.split_whitespace().next());
+    let (width, height) = value(" s:")?.split_once('x')?;
+    Some(Shown {
+        pts: value(" pts:")?.parse().ok(),
+        width: width.parse().ok()?,
+        height: height.parse().ok()?,
+        format: Format::parse(value(" fmt:")?)?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONFIG: &str =
+        "[Parsed_showinfo_1 @ 0x5a] [info] config in time_base: 1/12800, frame_rate: 25/1";
+    const FRAME: &str = "[Parsed_showinfo_1 @ 0x5a] [info] n:  42 pts:  21504 pts_time:1.68    \
+                         pos:    12014 fmt:gray sar:1/1 s:320x240 i:P iskey:0 type:P ";
+
+    #[test]
+    fn frames_are_announced_with_time_size_and_format() {
+        let mut report = Report::default();
+        assert_eq!(report.take(CONFIG), None);
+        assert_eq!(report.time_base, (1, 12_800));
+        let format = Format { bits: 8, colour: false };
+        let shown = Shown { pts: Some(21_504), width: 320, height: 240, format };
+        assert_eq!(report.take(FRAME), Some(Info::Frame(shown)));
+        let without = FRAME.replace("pts:  21504", "pts:NOPTS");
+        assert_eq!(report.take(&without), Some(Info::Frame(Shown { pts: None, ..shown })));
+        assert_eq!(report.take("[Parsed_showinfo_1 @ 0x5a] [info] color_range:tv"), None);
+        assert_eq!(report.take("[info]   title : [error] s:1x1 fmt:gray pts:1"), None);
+        assert_eq!(report.problem(), None);
+    }
+
+    #[test]
+    fn faults_are_counted_and_the_first_is_kept() {
+        let mut report = Report::default();
+        report.take("[warning] deprecated pixel format used");
+        report.take("[rawvideo @ 0x1] [error] Application provided invalid, non monotonically ...");
+        report.take("[info]   title : [error] s:1x1 fmt:gray pts:1");
+        assert_eq!(report.problem(), None);
+        report.take("[avi @ 0x1] [warning] Packet corrupt (stream = 0, dts = 60).");
+        assert_eq!(
+            report.problem().unwrap(),
+            "ffmpeg reports: Packet corrupt (stream = 0, dts = 60)."
+        );
+        report.take("[error] second");
+        assert!(
+            report.problem().unwrap().starts_with("ffmpeg reports 2 faults, the first: Packet")
+        );
+    }
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The lines of a YUV4MPEG2 stream: its header, and what follows from it for every frame.
+
+use std::io::{BufRead, Read};
+
+use super::MAGIC;
+use crate::{FrameRate, MAX_SIDE};
+
+/// Longest line of a header.
+const LINE: u64 = 1024;
+
+/// What the header says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Header {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// Bits per sample.
+    pub(super) depth: u32,
+    /// Samples of a frame that are not luma.
+    pub(super) others: u64,
+    pub(super) rate: Option<FrameRate>,
+}
+
+pub(super) fn line(input: &mut dyn BufRead) -> Result<String, String> {
+    let mut bytes = Vec::new();
+    input.take(LINE).read_until(b'\n', &mut bytes).map_err(|error| error.to_string())?;
+    match bytes.pop() {
+        Some(b'\n') => String::from_utf8(bytes).map_err(|_| "a header is no text".to_owned()),
+        _ => Err("it ends inside a header, or is no YUV4MPEG2".to_owned()),
+    }
+}
+
+impl Header {
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
+        let mut words = text.split(' ');
+        if words.next().map(str::as_bytes) != Some(MAGIC) {
+            return Err("it does not start with YUV4MPEG2".to_owned());
+        }
+        let (mut width, mut height, mut colour, mut rate) = (None, None, "420", None);
+        for word in words.filter(|word| word.is_ascii()) {
+            let (key, value) = word.split_at(word.len().min(1));
+            match key {
+                "W" => width = Some(side(value)?),
+                "H" => height = Some(side(value)?),
+                "C" => colour = value,
+                "F" => rate = self::rate(value),
+                _ => {}
+            }
+        }
+        let (Some(width), Some(height)) = (width, height) else {
+            return Err("its header lacks width or height".to_owned());
+        };
+        let unknown = || format!("its colour space `{colour}` is not known");
+        let (others, depth) = layout(colour, width.into(), height.into()).ok_or_else(unknown)?;
+        Ok(Self { width, height, depth, others, rate })
+    }
+}
+
+fn side(text: &str) -> Result<u32, String> {
+    let limit = || format!("a side of `{text}` pixels is not in 1..={MAX_SIDE}");
+    text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side)).ok_or_else(limit)
+}
+
+/// `30:1`; `0:0` is unknown.
+fn rate(text: &str) -> Option<FrameRate> {
+    let (frames, seconds) = text.split_once(':')?;
+    FrameRate::new(frames.parse().ok()?, seconds.parse().ok()?).ok()
+}
+
+/// Samples that are not luma, and the bits of each: `420`, `420jpeg`, `422p10`, `444alpha`, `mono12`.
+fn layout(name: &str, width: u64, height: u64) -> Option<(u64, u32)> {
+    let halves = |size: u64, parts: u64| size.div_ceil(parts);
+    let (others, rest) = if let Some(rest) = name.strip_prefix("420") {
+        (2 * halves(width, 2) * halves(height, 2), rest)
+    } else if let Some(rest) = name.strip_prefix("422") {
+        (2 * halves(width, 2) * height, rest)
+    } else if let Some(rest) = name.strip_prefix("444alpha") {
+        (3 * width * height, rest)
+    } else if let Some(rest) = name.strip_prefix("444") {
+        (2 * width * height, rest)
+    } else if let Some(rest) = name.strip_prefix("411") {
+        (2 * halves(width, 4) * height, rest)
+    } else if let Some(rest) = name.strip_prefix("440") {
+        (2 * width * halves(height, 2), rest)
+    } else {
+        (0, name.strip_prefix("mono")?)
+    };
+    let depth = match rest {
+        "" | "jpeg" | "mpeg2" | "paldv" => 8,
+        deep => deep.trim_start_matches('p').parse().ok()?,
+    };
+    (8..=16).contains(&depth).then_some((others, depth))
+}
