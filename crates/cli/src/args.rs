@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The command line as clap sees it, and the design that its options describe.
 
+mod analyze;
 mod explain;
 mod input;
 mod outputs;
@@ -15,6 +16,7 @@ use foveate_spec::{Config, Design, Preset, SpecError};
 
 use self::input::InputArgs;
 use crate::error::CliError;
+pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use outputs::OutputArgs;
 
@@ -38,6 +40,7 @@ pub(crate) enum Command {
     Estimate(EstimateArgs),
     Simulate(SimulateArgs),
     Explain(ExplainArgs),
+    Analyze(AnalyzeArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),
 }

@@ -9,6 +9,7 @@ use foveate_estimate::EstimateError;
 use foveate_simulator::SimulatorError;
 use foveate_spec::SpecError;
 use foveate_staging::StagingError;
+use foveate_studies::StudyError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
@@ -26,6 +27,8 @@ pub(crate) enum CliError {
     Estimate(#[from] EstimateError),
     #[error(transparent)]
     Simulator(#[from] SimulatorError),
+    #[error(transparent)]
+    Study(#[from] StudyError),
     #[error(transparent)]
     Output(#[from] StagingError),
     /// A file or folder could not be used.
@@ -51,13 +54,16 @@ impl CliError {
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Failed(_) => 1,
-            Self::Interrupted { .. } | Self::Simulator(SimulatorError::Cancelled) => 130,
+            Self::Interrupted { .. }
+            | Self::Simulator(SimulatorError::Cancelled)
+            | Self::Study(StudyError::Cancelled) => 130,
             Self::Tool(_)
             | Self::Simulator(
                 SimulatorError::Tool(_)
                 | SimulatorError::NoVideo(_)
                 | SimulatorError::VideoOutput { .. },
             )
+            | Self::Study(StudyError::Simulator(SimulatorError::Tool(_)))
             | Self::Cosim(CosimError::Tool(_) | CosimError::Short { .. })
             | Self::Estimate(_) => 3,
             _ => 2,

@@ -34,6 +34,7 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Estimate(args) => command::estimate::run(args),
         Command::Simulate(args) => command::simulate::run(args),
         Command::Explain(args) => command::explain::run(args),
+        Command::Analyze(args) => command::analyze::run(args),
         Command::Presets(args) => command::presets::run(args),
         Command::Completions(args) => command::completions::run(args),
     }

@@ -49,13 +49,13 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
 }
 
 /// Draws progress and listens for Ctrl-C.
-struct Terminal {
-    bar: ProgressBar,
+pub(super) struct Terminal {
+    pub(super) bar: ProgressBar,
     interrupted: Arc<AtomicBool>,
 }
 
 impl Terminal {
-    fn new(quiet: bool) -> Result<Self, CliError> {
+    pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
         let interrupted = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&interrupted);
         // The first one ends the run in good order; the second is for a source that says nothing.

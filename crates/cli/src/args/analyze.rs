@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `analyze`.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
+use foveate_studies::Study;
+
+use super::DesignArgs;
+use super::input::InputArgs;
+
+/// Run one of the paper's studies over clips or sets and write its table and charts
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate analyze temporal street.mp4 bus.mp4 -o out
+          foveate analyze size clips/ -o out --max-frames 60 --resize 640x360
+          foveate analyze redundancy photos/ -o out --images set --resize 224x224
+          foveate analyze sensor frames/ -o out --rate 25 --sensor-events events.csv.gz --sensor-start 1000")]
+pub(crate) struct AnalyzeArgs {
+    /// What to study
+    #[arg(value_enum, value_name = "STUDY")]
+    pub(crate) study: StudyChoice,
+    /// Clips or sets, each a line or row: what `foveate simulate` takes, several scenes too
+    #[arg(value_name = "INPUT", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Folder to write
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Replace the folder if it holds a study
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// For `sensor`: the sensor's own events, CSV with the columns t_us, x, y, packed (.gz) or not
+    #[arg(long, value_name = "FILE")]
+    pub(crate) sensor_events: Option<PathBuf>,
+    /// For `sensor`: the time of the first frame on the clock of the events, in microseconds
+    #[arg(long, value_name = "T_US", default_value_t = 0)]
+    pub(crate) sensor_start: u64,
+    /// Print the table as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+}
+
+/// A study as a value of the command line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StudyChoice(pub(crate) Study);
+
+impl ValueEnum for StudyChoice {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [StudyChoice; Study::ALL.len()] = {
+            let mut all = [StudyChoice(Study::Activity); Study::ALL.len()];
+            let mut at = 0;
+            while at < all.len() {
+                all[at] = StudyChoice(Study::ALL[at]);
+                at += 1;
+            }
+            all
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self.0 {
+            Study::Activity => "Active, SRS and TRS share over time, a line per clip",
+            Study::Temporal => "Active, SRS and TRS share of whole clips",
+            Study::Redundancy => "Share of regions with SRS = 0, per set and feature",
+            Study::MadHistogram => "How the mean absolute deviation of regions is distributed",
+            Study::Size => "Active share against region sizes 4, 8, 16 and 32",
+            Study::Threshold => "Active share against each threshold",
+            Study::Sensor => "Rank correlation with the events of a real sensor, over regions",
+        };
+        Some(PossibleValue::new(self.0.name()).help(help))
+    }
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate analyze`: the paper's studies as tables and charts.
+
+use foveate_studies::{Report, Request, Study, analyze};
+
+use super::simulate::Terminal;
+use crate::args::AnalyzeArgs;
+use crate::error::CliError;
+use crate::output;
+
+pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
+    let config = args.design.read()?;
+    let input = args.input.options();
+    let request = Request {
+        study: args.study.0,
+        inputs: &args.inputs,
+        input: &input,
+        config: &config,
+        sensor_events: args.sensor_events.as_deref(),
+        sensor_start_us: args.sensor_start,
+    };
+    let hooks = Terminal::new(args.quiet)?;
+    let report = analyze(&request, &args.output, args.force, &hooks);
+    hooks.bar.finish_and_clear();
+    let report = report?;
+    if args.json {
+        output::json(&report)?
+    } else {
+        output::text(&text(args, &report))?
+    }
+    if report.problems.is_empty() {
+        return Ok(());
+    }
+    let place = args.output.display();
+    Err(CliError::Failed(format!("`{place}` is not complete: {}", report.problems.join("; "))))
+}
+
+/// The table, unless it has a row for everything that the chart shows better.
+fn text(args: &AnalyzeArgs, report: &Report) -> String {
+    let files = format!("{}: {}\n", args.output.display(), report.files.join(", "));
+    match args.study.0 {
+        Study::Activity | Study::MadHistogram => files,
+        Study::Temporal | Study::Redundancy | Study::Size | Study::Threshold | Study::Sensor => {
+            files + &report.markdown()
+        }
+    }
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One drawing for every backend: axes, series, legend beside them, caption below.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::{Bars, Chart, Line, SIZE, Shape};
+
+/// Okabe and Ito, without yellow, which is lost on white.
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
+];
+/// Columns of pixels for the legend, and letters of a name in it.
+const LEGEND: u32 = 210;
+const LETTERS: usize = 25;
+const CAPTION: u32 = 24;
+/// With more points than this a line has no dots.
+const DOTS: usize = 40;
+
+type Result<DB> = std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+
+pub(super) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shift>) -> Result<DB> {
+    root.fill(&WHITE)?;
+    let (above, caption) = root.split_vertically(SIZE.1 - CAPTION);
+    let (plot, legend) = above.split_horizontally(SIZE.0 - LEGEND);
+    let small = ("sans-serif", 11).into_font().color(&RGBColor(90, 90, 90));
+    caption.draw(&Text::new(chart.caption.clone(), (12, 4), small))?;
+    let names: Vec<&str> = match &chart.shape {
+        Shape::Lines(lines) => {
+            draw_lines::<DB>(chart, lines, &plot)?;
+            lines.iter().map(|line| line.name.as_str()).collect()
+        }
+        Shape::Bars { groups, series } => {
+            draw_bars::<DB>(chart, groups, series, &plot)?;
+            series.iter().map(|bars| bars.name.as_str()).collect()
+        }
+    };
+    draw_legend::<DB>(&names, matches!(chart.shape, Shape::Bars { .. }), &legend)?;
+    root.present()
+}
+
+fn colour(number: usize) -> RGBColor {
+    COLOURS.get(number % COLOURS.len()).copied().unwrap_or(BLACK)
+}
+
+fn dashed(number: usize) -> bool {
+    number >= COLOURS.len()
+}
+
+/// A little more than the largest, so that nothing touches the frame.
+fn top(values: impl Iterator<Item = f64>) -> f64 {
+    let largest = values.fold(0.0, f64::max);
+    if largest > 0.0 { 1.05 * largest } else { 1.0 }
+}
+
+fn draw_lines<DB: DrawingBackend>(
+    chart: &Chart,
+    lines: &[Line],
+    area: &DrawingArea<DB, Shift>,
+) -> Result<DB> {
+    let points = || lines.iter().flat_map(|line| line.points.iter().copied());
+    let last = points().map(|point| point.0).fold(0.0, f64::max);
+    let last = if last > 0.0 { last } else { 1.0 };
+    let mut context = ChartBuilder::on(area)
+        .caption(&chart.title, ("sans-serif", 20))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(64)
+        .build_cartesian_2d(0.0..last, 0.0..top(points().map(|point| point.1)))?;
+    context
+        .configure_mesh()
+        .x_desc(&chart.x)
+        .y_desc(&chart.y)
+        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 15))
+        .light_line_style(WHITE)
+        .bold_line_style(RGBColor(225, 225, 225))
+        .draw()?;
+    for (number, line) in lines.iter().enumerate() {
+        let style = colour(number).stroke_width(2);
+        let points = line.points.iter().copied();
+        if dashed(number) {
+            context.draw_series(DashedLineSeries::new(points.clone(), 6, 4, style))?;
+        } else {
+            context.draw_series(LineSeries::new(points.clone(), style))?;
+        }
+        if line.points.len() <= DOTS {
+            let dot = |point| Circle::new(point, 3, colour(number).filled());
+            context.draw_series(points.map(dot))?;
+        }
+    }
+    Ok(())
+}
+
+fn draw_bars<DB: DrawingBackend>(
+    chart: &Chart,
+    groups: &[String],
+    series: &[Bars],
+    area: &DrawingArea<DB, Shift>,
+) -> Result<DB> {
+    let number = |count: usize| f64::from(u32::try_from(count).unwrap_or(u32::MAX));
+    let tops = series.iter().flat_map(|bars| {
+        bars.values.iter().copied().chain(bars.ranges.iter().map(|range| range.1))
+    });
+    let mut context = ChartBuilder::on(area)
+        .caption(&chart.title, ("sans-serif", 20))
+        .margin(12)
+        .x_label_area_size(150)
+        .y_label_area_size(64)
+        .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..top(tops))?;
+    context
+        .configure_mesh()
+        .disable_x_mesh()
+        .x_labels(0)
+        .y_desc(&chart.y)
+        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 15))
+        .light_line_style(WHITE)
+        .bold_line_style(RGBColor(225, 225, 225))
+        .draw()?;
+    let wide = 0.8 / number(series.len().max(1));
+    for (at, bars) in series.iter().enumerate() {
+        let left = |group: usize| number(group) + 0.1 + wide * number(at);
+        let bar = |(group, &value): (usize, &f64)| {
+            let corners = [(left(group), 0.0), (left(group) + 0.9 * wide, value)];
+            Rectangle::new(corners, colour(at).filled())
+        };
+        context.draw_series(bars.values.iter().enumerate().map(bar))?;
+        let whisker = |(group, &(from, to)): (usize, &(f64, f64))| {
+            let middle = left(group) + 0.45 * wide;
+            PathElement::new(vec![(middle, from), (middle, to)], BLACK.stroke_width(2))
+        };
+        context.draw_series(bars.ranges.iter().enumerate().map(whisker))?;
+    }
+    // Names of clips are long: they are written upwards, ending below their group.
+    let style = ("sans-serif", 13)
+        .into_font()
+        .transform(FontTransform::Rotate270)
+        .color(&BLACK)
+        .pos(Pos::new(HPos::Right, VPos::Center));
+    for (group, name) in groups.iter().enumerate() {
+        let (x, y) = context.backend_coord(&(number(group) + 0.5, 0.0));
+        let (x0, y0) = (area.get_base_pixel().0, area.get_base_pixel().1);
+        area.draw(&Text::new(cut(name, 20), (x - x0, y - y0 + 8), style.clone()))?;
+    }
+    let (width, height) = area.dim_in_pixel();
+    let axis =
+        ("sans-serif", 15).into_font().color(&BLACK).pos(Pos::new(HPos::Center, VPos::Bottom));
+    let below = (i32::try_from(width / 2).unwrap_or(0), i32::try_from(height).unwrap_or(0) - 2);
+    area.draw(&Text::new(chart.x.clone(), below, axis))
+}
+
+fn draw_legend<DB: DrawingBackend>(
+    names: &[&str],
+    blocks: bool,
+    area: &DrawingArea<DB, Shift>,
+) -> Result<DB> {
+    let font = ("sans-serif", 13).into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
+    for (number, (name, y)) in names.iter().zip((56..).step_by(22)).enumerate() {
+        if blocks {
+            area.draw(&Rectangle::new([(4, y - 6), (18, y + 6)], colour(number).filled()))?;
+        } else {
+            let pieces: &[(i32, i32)] =
+                if dashed(number) { &[(4, 11), (16, 23)] } else { &[(4, 23)] };
+            for &(from, to) in pieces {
+                let style = colour(number).stroke_width(3);
+                area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
+            }
+        }
+        area.draw(&Text::new(cut(name, LETTERS), (29, y), font.clone()))?;
+    }
+    Ok(())
+}
+
+fn cut(name: &str, letters: usize) -> String {
+    if name.chars().count() <= letters {
+        return name.to_owned();
+    }
+    name.chars().take(letters - 1).chain(['…']).collect()
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can go wrong in a study. Every message names the thing and says what to do.
+
+use std::path::PathBuf;
+
+use foveate_model::ModelError;
+use foveate_simulator::SimulatorError;
+use foveate_spec::SpecError;
+use foveate_staging::StagingError;
+use thiserror::Error;
+
+/// A study that cannot be started or finished; nothing is written then.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// An input cannot be read.
+    #[error(transparent)]
+    Simulator(#[from] SimulatorError),
+    /// A point of the study is no design.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// The model refused a frame.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The folder cannot be written.
+    #[error(transparent)]
+    Output(#[from] StagingError),
+    /// Images without order in a study of change.
+    #[error("`{name}` is a set of unrelated images, in which nothing changes; {study} needs clips")]
+    Set {
+        /// The input.
+        name: String,
+        /// The study.
+        study: &'static str,
+    },
+    /// The events of the sensor are missing.
+    #[error(
+        "the study `sensor` compares with a sensor's own events; name their file with --sensor-events"
+    )]
+    NoSensorEvents,
+    /// The study is about one recording.
+    #[error("the study `sensor` takes one clip, not {clips}")]
+    OneClip {
+        /// How many there are.
+        clips: usize,
+    },
+    /// The events of the sensor cannot be read.
+    #[error("cannot read sensor events `{}`: {problem}; expected CSV with the columns t_us, x, y in order of time", path.display())]
+    SensorEvents {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Charts cannot be drawn.
+    #[error("cannot draw the chart `{name}`: {problem}")]
+    Chart {
+        /// The chart.
+        name: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The user stopped it.
+    #[error("interrupted; nothing was written")]
+    Cancelled,
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The paper's studies as commands: how active region cameras are over clips, how redundant sets are,
+//! and what region size and thresholds do to it, as CSV, SVG and PNG.
+//!
+//! [`analyze`] runs a [`Study`] over inputs and writes a folder that is there whole or not at all.
+//! Every file names the design by its fingerprint and the inputs. Clips are decoded once and frame by
+//! frame for all points of a study, and the same inputs give the same bytes on any number of cores.
+
+mod chart;
+mod clip;
+mod error;
+mod number;
+mod rank;
+mod report;
+mod study;
+mod table;
+mod tally;
+mod watch;
+
+pub use error::StudyError;
+pub use rank::spearman;
+pub use report::{Report, Request, analyze};
+pub use study::Study;

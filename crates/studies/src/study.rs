@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which studies there are.
+
+mod activity;
+mod histogram;
+mod redundancy;
+mod sensor;
+mod sweep;
+mod temporal;
+
+use foveate_simulator::Kind;
+
+use crate::StudyError;
+use crate::report::{Findings, Request};
+use crate::watch::{Watched, Watcher};
+
+/// A study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Study {
+    /// Active, SRS and TRS share over time.
+    Activity,
+    /// Shares over whole clips.
+    Temporal,
+    /// Share of regions without relevance, per feature.
+    Redundancy,
+    /// How the mean absolute deviation is distributed.
+    MadHistogram,
+    /// Active share against the region size.
+    Size,
+    /// Active share against the thresholds.
+    Threshold,
+    /// Rank correlation with a real sensor's own events.
+    Sensor,
+}
+
+impl Study {
+    /// All of them, in the order of the documentation.
+    pub const ALL: [Self; 7] = [
+        Self::Activity,
+        Self::Temporal,
+        Self::Redundancy,
+        Self::MadHistogram,
+        Self::Size,
+        Self::Threshold,
+        Self::Sensor,
+    ];
+
+    /// Its name on the command line and in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Activity => "activity",
+            Self::Temporal => "temporal",
+            Self::Redundancy => "redundancy",
+            Self::MadHistogram => "mad-histogram",
+            Self::Size => "size",
+            Self::Threshold => "threshold",
+            Self::Sensor => "sensor",
+        }
+    }
+
+    pub(crate) fn run(
+        self,
+        watcher: &Watcher<'_>,
+        request: &Request<'_>,
+    ) -> Result<Findings, StudyError> {
+        match self {
+            Self::Activity => activity::run(watcher),
+            Self::Temporal => temporal::run(watcher),
+            Self::Redundancy => redundancy::run(watcher),
+            Self::MadHistogram => histogram::run(watcher),
+            Self::Size => sweep::size(watcher),
+            Self::Threshold => sweep::threshold(watcher),
+            Self::Sensor => sensor::run(watcher, request),
+        }
+    }
+}
+
+/// Refuses sets where change is studied.
+fn clips_only<T>(study: Study, watched: &[Watched<T>]) -> Result<(), StudyError> {
+    match watched.iter().find(|clip| clip.kind == Kind::Set) {
+        Some(set) => Err(StudyError::Set { name: set.name.clone(), study: study.name() }),
+        None => Ok(()),
+    }
+}

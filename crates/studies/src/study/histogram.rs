@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How the mean absolute deviation of regions is distributed, in 128 bins from 0 to half of full scale,
+//! which is its largest value; at 8 bits a bin is one grey level.
+
+use foveate_spec::{Config, Design, FeatureKind, SpatialConfig};
+
+use super::Study;
+use crate::StudyError;
+use crate::chart::{Chart, Line, Shape};
+use crate::number::{coordinate, percent, share};
+use crate::report::Findings;
+use crate::table::Table;
+use crate::watch::Watcher;
+
+const COLUMNS: [&str; 6] = ["set", "mad_from", "mad_to", "regions", "share", "design"];
+const BINS: u64 = 128;
+
+#[derive(Default)]
+struct Histogram {
+    all: u64,
+    bins: Vec<u64>,
+}
+
+pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+    let own = watcher.config.spatial.iter().find(|entry| entry.feature == FeatureKind::Mad);
+    let mad = own.cloned().unwrap_or_else(|| SpatialConfig::new(FeatureKind::Mad));
+    let config = Config { spatial: vec![mad], ..watcher.config.clone() };
+    let watched = watcher.watch(&[config], |histogram: &mut Histogram, design, seen| {
+        histogram.bins.resize(usize::try_from(BINS).unwrap_or_default(), 0);
+        for &score in seen.outcome.scores.iter().flatten() {
+            histogram.all += 1;
+            histogram.bins[bin(design, score)] += 1;
+        }
+    })?;
+    let mut table = Table::new(&COLUMNS);
+    let mut lines = Vec::new();
+    for set in &watched {
+        for (design, histogram) in &set.points {
+            let width = bin_width(design);
+            let used = histogram.bins.iter().rposition(|&count| count > 0).map_or(0, |at| at + 1);
+            let bins = || (0_u32..).zip(histogram.bins.iter().copied());
+            for (at, count) in bins() {
+                table.rows.push(vec![
+                    set.name.clone(),
+                    (f64::from(at) * width).to_string(),
+                    (f64::from(at + 1) * width).to_string(),
+                    count.to_string(),
+                    share(count, histogram.all),
+                    design.fingerprint(),
+                ]);
+            }
+            let steps = bins().take(used).flat_map(|(at, count)| {
+                let height = percent(count, histogram.all);
+                [(f64::from(at) * width, height), (f64::from(at + 1) * width, height)]
+            });
+            lines.push(Line { name: set.name.clone(), points: steps.collect() });
+        }
+    }
+    let mut findings = Findings::new(Study::MadHistogram, &watched, table);
+    let width = watched.first().and_then(|set| set.points.first()).map_or(1.0, |p| bin_width(&p.0));
+    let chart = Chart {
+        file: "mad-histogram".to_owned(),
+        title: "Mean absolute deviation (MAD) of regions".to_owned(),
+        x: "MAD [grey levels]".to_owned(),
+        y: format!("share of regions [%] per {width} grey level"),
+        caption: String::new(),
+        shape: Shape::Lines(lines),
+    };
+    findings.chart(chart, &watched);
+    Ok(findings)
+}
+
+/// Grey levels per bin.
+fn bin_width(design: &Design) -> f64 {
+    coordinate(u64::from(design.pixel_max()) + 1) / 256.0
+}
+
+/// The bin of a score, which is MAD times the pixels of a region and the unit of the mean.
+fn bin(design: &Design, score: u64) -> usize {
+    let feature = design.feature(FeatureKind::Mad);
+    let fraction = feature.and_then(|mad| mad.mean()).map_or(0, |mean| mean.fraction_bits);
+    let unit = u128::from(design.region_pixels()) << fraction;
+    let half = (u128::from(design.pixel_max()) + 1) / 2;
+    let bin = u128::from(score) * u128::from(BINS) / (unit * half);
+    usize::try_from(bin.min(u128::from(BINS) - 1)).unwrap_or_default()
+}

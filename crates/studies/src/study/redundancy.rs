@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Spatial redundancy: the share of regions that a feature by itself calls irrelevant.
+
+use foveate_spec::{Config, FeatureKind, SpatialConfig};
+
+use super::Study;
+use crate::StudyError;
+use crate::chart::{Bars, Chart, Shape};
+use crate::number::{percent, share};
+use crate::report::Findings;
+use crate::table::Table;
+use crate::watch::Watcher;
+
+const COLUMNS: [&str; 8] =
+    ["set", "images", "regions", "edge", "corner", "mad", "variance", "design"];
+
+/// Regions, and those below the threshold of every feature.
+#[derive(Default)]
+struct Below {
+    all: u64,
+    by_feature: Vec<u64>,
+}
+
+pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+    let config = with_every_feature(watcher.config);
+    let watched = watcher.watch(&[config], |below: &mut Below, design, seen| {
+        below.all += u64::from(design.regions());
+        below.by_feature.resize(design.features().len(), 0);
+        let scored = design.features().iter().zip(&seen.outcome.scores);
+        for (sum, (feature, scores)) in below.by_feature.iter_mut().zip(scored) {
+            let low = scores.iter().filter(|&&score| score < feature.min_score()).count();
+            *sum += u64::try_from(low).unwrap_or(u64::MAX);
+        }
+    })?;
+    let mut table = Table::new(&COLUMNS);
+    for set in &watched {
+        for (design, below) in &set.points {
+            let mut row = vec![set.name.clone(), set.frames.to_string(), below.all.to_string()];
+            row.extend(below.by_feature.iter().map(|&low| share(low, below.all)));
+            row.push(design.fingerprint());
+            table.rows.push(row);
+        }
+    }
+    let mut findings = Findings::new(Study::Redundancy, &watched, table);
+    let points = || watched.iter().flat_map(|set| set.points.iter().map(|(_, below)| below));
+    let bars = |(at, kind): (usize, &FeatureKind)| Bars {
+        name: kind.name().to_owned(),
+        values: points().map(|below| percent(below.by_feature[at], below.all)).collect(),
+        ranges: Vec::new(),
+    };
+    let chart = Chart {
+        file: "redundancy".to_owned(),
+        title: "Spatial redundancy: regions with SRS = 0".to_owned(),
+        x: "set".to_owned(),
+        y: "share of regions [%]".to_owned(),
+        caption: String::new(),
+        shape: Shape::Bars {
+            groups: watched.iter().map(|set| set.name.clone()).collect(),
+            series: FeatureKind::ALL.iter().enumerate().map(bars).collect(),
+        },
+    };
+    findings.chart(chart, &watched);
+    Ok(findings)
+}
+
+/// Every feature in the order of the columns, with the thresholds of the configuration or defaults.
+fn with_every_feature(config: &Config) -> Config {
+    let entry = |&kind: &FeatureKind| {
+        let own = config.spatial.iter().find(|entry| entry.feature == kind);
+        own.cloned().unwrap_or_else(|| SpatialConfig::new(kind))
+    };
+    Config { spatial: FeatureKind::ALL.iter().map(entry).collect(), ..config.clone() }
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether regions are active where a real event sensor saw something: the rank correlation, over
+//! regions, of what the model counts with the events that the sensor itself sent meanwhile.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use std::slice::from_ref;
+
+use flate2::read::MultiGzDecoder;
+use foveate_spec::Design;
+
+use super::{Study, clips_only};
+use crate::StudyError;
+use crate::rank::spearman;
+use crate::report::{Findings, Request};
+use crate::table::Table;
+use crate::watch::Watcher;
+
+const COLUMNS: [&str; 5] = ["count_per_region", "spearman", "regions", "sensor_events", "design"];
+
+/// Counts per region over all frames but the first, which has no reference.
+#[derive(Default)]
+struct Counts {
+    active: Vec<u64>,
+    changed: Vec<u64>,
+    pixels: Vec<u64>,
+    last_us: u64,
+}
+
+pub(super) fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyError> {
+    let path = request.sensor_events.ok_or(StudyError::NoSensorEvents)?;
+    if watcher.subjects.len() != 1 {
+        return Err(StudyError::OneClip { clips: watcher.subjects.len() });
+    }
+    let watched = watcher.watch(from_ref(watcher.config), |counts: &mut Counts, _, seen| {
+        let outcome = seen.outcome;
+        for (sums, votes) in
+            [(&mut counts.active, &outcome.active), (&mut counts.changed, &outcome.trs)]
+        {
+            sums.resize(votes.len(), 0);
+            for (sum, &vote) in sums.iter_mut().zip(votes) {
+                *sum += u64::from(vote && !seen.without_reference);
+            }
+        }
+        counts.pixels.resize(outcome.temporal_count.len(), 0);
+        for (sum, &count) in counts.pixels.iter_mut().zip(&outcome.temporal_count) {
+            *sum += if seen.without_reference { 0 } else { u64::from(count) };
+        }
+        counts.last_us = seen.time_us;
+    })?;
+    clips_only(Study::Sensor, &watched)?;
+    let mut table = Table::new(&COLUMNS);
+    for (design, counts) in watched.iter().flat_map(|clip| &clip.points) {
+        let start = request.sensor_start_us;
+        let times = (start, start.saturating_add(counts.last_us));
+        let events = events_per_region(path, design, times)?;
+        for (name, own) in [
+            ("active frames", &counts.active),
+            ("frames with TRS", &counts.changed),
+            ("changed pixels", &counts.pixels),
+        ] {
+            table.rows.push(vec![
+                name.to_owned(),
+                spearman(own, &events).map_or("undefined".to_owned(), |rho| format!("{rho:.4}")),
+                design.regions().to_string(),
+                events.iter().sum::<u64>().to_string(),
+                design.fingerprint(),
+            ]);
+        }
+    }
+    let mut findings = Findings::new(Study::Sensor, &watched, table);
+    findings.notes.push(format!("sensor events {}", path.display()));
+    Ok(findings)
+}
+
+/// Events with first < t <= last in every region; others, and those outside the frame, are left out.
+fn events_per_region(
+    path: &Path,
+    design: &Design,
+    (first, last): (u64, u64),
+) -> Result<Vec<u64>, StudyError> {
+    let wrong = |problem: String| StudyError::SensorEvents { path: path.to_owned(), problem };
+    let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
+    let packed = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
+    let reader: Box<dyn Read> =
+        if packed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
+    let mut lines = BufReader::new(reader).lines().enumerate();
+    let header = match lines.next() {
+        Some((_, line)) => line.map_err(|error| wrong(error.to_string()))?,
+        None => return Err(wrong("it is empty".to_owned())),
+    };
+    let column = |name: &str| {
+        let at = header.split(',').position(|column| column.trim() == name);
+        at.ok_or_else(|| wrong(format!("there is no column `{name}`")))
+    };
+    let places = [column("t_us")?, column("x")?, column("y")?];
+    let mut counts = vec![0; usize::try_from(design.regions()).unwrap_or_default()];
+    for (number, line) in lines {
+        let line = line.map_err(|error| wrong(error.to_string()))?;
+        let cells: Vec<&str> = line.split(',').collect();
+        let value = |place: usize| {
+            let cell = cells.get(place).and_then(|cell| cell.trim().parse::<u64>().ok());
+            cell.ok_or_else(|| wrong(format!("line {} has no number there", number + 1)))
+        };
+        let [t, x, y] = [value(places[0])?, value(places[1])?, value(places[2])?];
+        let inside = x < u64::from(design.width()) && y < u64::from(design.height());
+        if inside && t > first && t <= last {
+            let size = u64::from(design.region_size());
+            let region = y / size * u64::from(design.columns()) + x / size;
+            counts[usize::try_from(region).unwrap_or_default()] += 1;
+        }
+    }
+    Ok(counts)
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Active share against one number of the design: region size, and each threshold by itself.
+
+use foveate_simulator::Kind;
+use foveate_spec::{Config, Decimal, FeatureKind};
+
+use super::Study;
+use crate::StudyError;
+use crate::chart::{Chart, Line, Shape};
+use crate::number::{coordinate, percent, share};
+use crate::report::Findings;
+use crate::table::Table;
+use crate::tally::{Regions, Tally};
+use crate::watch::{Watched, Watcher};
+
+const COLUMNS: [&str; 7] =
+    ["clip", "key", "value", "active_share", "srs_share", "trs_share", "design"];
+const SIZES: [u32; 4] = [4, 8, 16, 32];
+const COUNTS: [u64; 9] = [1, 2, 3, 5, 8, 13, 21, 34, 55];
+const LEVELS: [u64; 10] = [0, 1, 2, 4, 6, 8, 12, 16, 24, 32];
+const SQUARES: [u64; 9] = [1, 5, 10, 25, 50, 100, 200, 400, 800];
+
+/// One number and the values that it takes.
+struct Key {
+    name: String,
+    /// What it means, with its unit, for the axis.
+    axis: &'static str,
+    /// Of the charts.
+    file: &'static str,
+    /// Whether it is about change, of which a set has none.
+    temporal: bool,
+    points: Vec<(u64, Config)>,
+}
+
+pub(super) fn size(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+    let point = |&size: &u32| {
+        let mut config = watcher.config.clone();
+        config.region.size = size;
+        (u64::from(size), config)
+    };
+    let key = Key {
+        name: "region.size".to_owned(),
+        axis: "region size N [pixels]",
+        file: "size",
+        temporal: false,
+        points: SIZES.iter().map(point).collect(),
+    };
+    run(Study::Size, watcher, &[key])
+}
+
+pub(super) fn threshold(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+    run(
+        Study::Threshold,
+        watcher,
+        &[min_score(watcher.config), level(watcher.config), min_count(watcher.config)],
+    )
+}
+
+/// Of the first feature; the others keep theirs.
+fn min_score(config: &Config) -> Key {
+    let n = pixels(config);
+    let kind = config.spatial.first().map_or(FeatureKind::Edge, |entry| entry.feature);
+    let (axis, values) = match kind {
+        FeatureKind::Edge => ("min_score of edge [pixels of a region]", within(&COUNTS, n)),
+        FeatureKind::Corner => ("min_score of corner [pixels of a region]", within(&COUNTS, n)),
+        FeatureKind::Mad => ("min_score of mad [grey levels]", scaled(&COUNTS, config)),
+        FeatureKind::Variance => {
+            ("min_score of variance [grey levels squared]", scaled(&SQUARES, config))
+        }
+    };
+    let point = |value| {
+        let mut config = config.clone();
+        if let Some(entry) = config.spatial.first_mut() {
+            entry.min_score = Some(Decimal::whole(value));
+        }
+        (value, config)
+    };
+    let points = values.into_iter().map(point).collect();
+    let name = "spatial.0.min_score".to_owned();
+    Key { name, axis, file: "threshold-min-score", temporal: false, points }
+}
+
+fn level(config: &Config) -> Key {
+    let point = |value| {
+        let mut config = config.clone();
+        config.temporal.level = u32::try_from(value).unwrap_or(u32::MAX);
+        (value, config)
+    };
+    Key {
+        name: "temporal.level".to_owned(),
+        axis: "temporal.level [grey levels]",
+        file: "threshold-level",
+        temporal: true,
+        points: scaled(&LEVELS, config).into_iter().map(point).collect(),
+    }
+}
+
+fn min_count(config: &Config) -> Key {
+    let point = |value| {
+        let mut config = config.clone();
+        config.temporal.min_count = u32::try_from(value).unwrap_or(u32::MAX);
+        (value, config)
+    };
+    Key {
+        name: "temporal.min_count".to_owned(),
+        axis: "temporal.min_count [pixels of a region]",
+        file: "threshold-count",
+        temporal: true,
+        points: within(&COUNTS, pixels(config)).into_iter().map(point).collect(),
+    }
+}
+
+fn pixels(config: &Config) -> u64 {
+    u64::from(config.region.size) * u64::from(config.region.size)
+}
+
+fn within(values: &[u64], most: u64) -> Vec<u64> {
+    values.iter().copied().filter(|&value| value <= most).collect()
+}
+
+/// Grey levels of 8 bits, in those of the design; few bits leave few of them.
+fn scaled(values: &[u64], config: &Config) -> Vec<u64> {
+    let bits = config.frame.pixel_bits;
+    let max = (1_u64 << bits.min(16)) - 1;
+    within(
+        &values.iter().map(|value| value << bits.saturating_sub(8).min(8)).collect::<Vec<_>>(),
+        max,
+    )
+}
+
+fn run(study: Study, watcher: &Watcher<'_>, keys: &[Key]) -> Result<Findings, StudyError> {
+    let configs: Vec<Config> =
+        keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone())).collect();
+    let watched = watcher.watch(&configs, |tally: &mut Tally, _, seen| tally.add(seen))?;
+    let mut table = Table::new(&COLUMNS);
+    let mut charts = Vec::new();
+    let mut first = 0;
+    for key in keys {
+        let range = first..first + key.points.len();
+        first = range.end;
+        let mut lines = Vec::new();
+        for clip in watched.iter().filter(|clip| !key.temporal || clip.kind == Kind::Clip) {
+            let points = clip.points.get(range.clone()).unwrap_or_default();
+            for ((value, _), (design, tally)) in key.points.iter().zip(points) {
+                let sum = tally.sum();
+                let mut row = vec![clip.name.clone(), key.name.clone(), value.to_string()];
+                row.extend([sum.active, sum.srs, sum.trs].map(|part| share(part, sum.all)));
+                row.push(design.fingerprint());
+                table.rows.push(row);
+            }
+            lines.push(line(clip, key, range.start));
+        }
+        charts.push(Chart {
+            file: key.file.to_owned(),
+            title: format!("Active regions against {}", key.name),
+            x: key.axis.to_owned(),
+            y: "active share of regions [%]".to_owned(),
+            caption: String::new(),
+            shape: Shape::Lines(lines),
+        });
+    }
+    let mut findings = Findings::new(study, &watched, table);
+    for chart in charts {
+        findings.chart(chart, &watched);
+    }
+    Ok(findings)
+}
+
+fn line(clip: &Watched<Tally>, key: &Key, first: usize) -> Line {
+    let tallies = clip.points.iter().skip(first).map(|(_, tally)| tally.sum());
+    let point = |((value, _), sum): (&(u64, Config), Regions)| {
+        (coordinate(*value), percent(sum.active, sum.all))
+    };
+    Line { name: clip.name.clone(), points: key.points.iter().zip(tallies).map(point).collect() }
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tables as CSV for programs and Markdown for people.
+
+use std::fmt::Write as _;
+
+/// A table. Cells are text that is already rounded.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Table {
+    pub(crate) columns: Vec<&'static str>,
+    pub(crate) rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub(crate) fn new(columns: &[&'static str]) -> Self {
+        Self { columns: columns.to_vec(), rows: Vec::new() }
+    }
+
+    /// CSV with `notes` in front, a comment line each.
+    pub(crate) fn csv(&self, notes: &[String]) -> String {
+        let mut text = String::new();
+        for note in notes {
+            let _ = writeln!(text, "# {}", note.replace(['\n', '\r'], " "));
+        }
+        let _ = writeln!(text, "{}", self.columns.join(","));
+        for row in &self.rows {
+            let cells: Vec<String> = row.iter().map(|cell| quoted(cell)).collect();
+            let _ = writeln!(text, "{}", cells.join(","));
+        }
+        text
+    }
+
+    /// A Markdown table.
+    pub(crate) fn markdown(&self) -> String {
+        let mut text =
+            format!("| {} |\n|{}\n", self.columns.join(" | "), " --- |".repeat(self.columns.len()));
+        for row in &self.rows {
+            let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            let _ = writeln!(text, "| {} |", cells.join(" | "));
+        }
+        text
+    }
+}
+
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_quoted_where_they_must_be() {
+        let mut table = Table::new(&["a", "b"]);
+        table.rows.push(vec!["x, \"y\"".to_owned(), "1|2".to_owned()]);
+        assert_eq!(table.csv(&["of\nme".to_owned()]), "# of me\na,b\n\"x, \"\"y\"\"\",1|2\n");
+        assert_eq!(table.markdown(), "| a | b |\n| --- | --- |\n| x, \"y\" | 1\\|2 |\n");
+    }
+}

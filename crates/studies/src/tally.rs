@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sums over the frames of a clip.
+
+use crate::number::count;
+use crate::watch::Seen;
+
+/// Regions of one frame, or of many.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Regions {
+    pub(crate) all: u64,
+    pub(crate) srs: u64,
+    pub(crate) trs: u64,
+    pub(crate) active: u64,
+}
+
+impl Regions {
+    pub(crate) fn of(seen: &Seen<'_>) -> Self {
+        let outcome = seen.outcome;
+        Self {
+            all: u64::try_from(outcome.srs.len()).unwrap_or(u64::MAX),
+            srs: count(&outcome.srs),
+            trs: count(&outcome.trs),
+            active: count(&outcome.active),
+        }
+    }
+}
+
+/// A whole clip or set. Frame 0 of a clip has no reference, so that all of its regions have changed,
+/// which says nothing: it counts only in a clip that has no other.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Tally {
+    sum: Regions,
+    without_reference: Regions,
+    /// Active regions of the frame with the fewest and of the one with the most.
+    extremes: Option<(u64, u64)>,
+}
+
+impl Tally {
+    pub(crate) fn add(&mut self, seen: &Seen<'_>) {
+        let frame = Regions::of(seen);
+        if seen.without_reference {
+            self.without_reference = frame;
+            return;
+        }
+        self.sum.all += frame.all;
+        self.sum.srs += frame.srs;
+        self.sum.trs += frame.trs;
+        self.sum.active += frame.active;
+        let (min, max) = self.extremes.unwrap_or((frame.active, frame.active));
+        self.extremes = Some((min.min(frame.active), max.max(frame.active)));
+    }
+
+    pub(crate) fn sum(&self) -> Regions {
+        if self.extremes.is_some() { self.sum } else { self.without_reference }
+    }
+
+    pub(crate) fn extremes(&self) -> (u64, u64) {
+        let only = self.without_reference.active;
+        self.extremes.unwrap_or((only, only))
+    }
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Clips through cameras: every clip is decoded once, frame by frame, for all designs of a study.
+//! Clips run side by side in threads of their own, the cameras of one clip in rayon's.
+
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use foveate_model::{Camera, Outcome};
+use foveate_simulator::{BatchHooks, BatchProgress, InputOptions, Kind, SimulatorError, open};
+use foveate_spec::{Config, Design};
+use rayon::prelude::*;
+
+use crate::StudyError;
+use crate::clip::Subject;
+
+/// What was seen of one clip: a value per design.
+#[derive(Debug)]
+pub(crate) struct Watched<T> {
+    pub(crate) name: String,
+    pub(crate) inputs: Vec<String>,
+    pub(crate) kind: Kind,
+    pub(crate) frames: u64,
+    /// Why it ended before its end, if it did.
+    pub(crate) problem: Option<String>,
+    pub(crate) points: Vec<(Design, T)>,
+}
+
+/// One frame as a camera saw it.
+pub(crate) struct Seen<'a> {
+    /// The first of a clip, where every region counts as changed.
+    pub(crate) without_reference: bool,
+    pub(crate) time_us: u64,
+    pub(crate) outcome: &'a Outcome,
+}
+
+/// The inputs of a study and its caller.
+pub(crate) struct Watcher<'a> {
+    pub(crate) subjects: &'a [Subject],
+    /// Says how clips are opened: bits per pixel, size of scenes.
+    pub(crate) config: &'a Config,
+    pub(crate) input: &'a InputOptions,
+    pub(crate) hooks: &'a dyn BatchHooks,
+}
+
+impl Watcher<'_> {
+    /// Shows every clip to a camera of each configuration. `see` folds a frame into what `T` is.
+    /// The results are in the order of clips and configurations, whatever ran first.
+    pub(crate) fn watch<T: Default + Send>(
+        &self,
+        configs: &[Config],
+        see: impl Fn(&mut T, &Design, &Seen<'_>) + Sync,
+    ) -> Result<Vec<Watched<T>>, StudyError> {
+        let (next, done, frames) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicU64::new(0));
+        let results: Vec<Mutex<Option<_>>> =
+            self.subjects.iter().map(|_| Mutex::new(None)).collect();
+        let tell = || {
+            self.hooks.progress(BatchProgress {
+                clips: done.load(Ordering::Relaxed),
+                all: self.subjects.len(),
+                frames: frames.load(Ordering::Relaxed),
+            });
+        };
+        let work = || {
+            loop {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                let (Some(subject), Some(slot)) = (self.subjects.get(number), results.get(number))
+                else {
+                    return;
+                };
+                let count = || {
+                    frames.fetch_add(1, Ordering::Relaxed);
+                    tell();
+                };
+                let result = self.one(subject, configs, &see, &count);
+                *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+                done.fetch_add(1, Ordering::Relaxed);
+                tell();
+            }
+        };
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        std::thread::scope(|scope| {
+            for _ in 0..cores.min(self.subjects.len()) {
+                scope.spawn(work);
+            }
+        });
+        let result = |slot: Mutex<Option<Result<_, _>>>| {
+            let slot = slot.into_inner().unwrap_or_else(PoisonError::into_inner);
+            slot.unwrap_or(Err(StudyError::Cancelled))
+        };
+        results.into_iter().map(result).collect()
+    }
+
+    fn one<T: Default + Send>(
+        &self,
+        subject: &Subject,
+        configs: &[Config],
+        see: &(impl Fn(&mut T, &Design, &Seen<'_>) + Sync),
+        count: &dyn Fn(),
+    ) -> Result<Watched<T>, StudyError> {
+        let mut source = open(&subject.inputs, self.config, self.input)?;
+        let (width, height) = source.size();
+        let design = |config: &Config| -> Result<Design, StudyError> {
+            let mut config = config.clone();
+            config.fit_frame(width, height)?;
+            Ok(config.validate()?)
+        };
+        let designs = configs.iter().map(design).collect::<Result<Vec<_>, _>>()?;
+        let mut points: Vec<(Camera, T)> =
+            designs.iter().map(|design| (Camera::new(design), T::default())).collect();
+        let mut frame = 0;
+        while let Some(current) = source.next_frame()? {
+            if self.hooks.cancelled() {
+                return Err(StudyError::Cancelled);
+            }
+            let set = source.kind() == Kind::Set;
+            points.par_iter_mut().zip(&designs).try_for_each(|((camera, value), design)| {
+                if set {
+                    camera.reset();
+                }
+                let outcome = camera.step(&current.frame)?;
+                let (without_reference, time_us) = (!set && frame == 0, current.time_us);
+                see(value, design, &Seen { without_reference, time_us, outcome });
+                Ok::<_, StudyError>(())
+            })?;
+            frame += 1;
+            count();
+        }
+        let inputs = source.inputs().to_vec();
+        if frame == 0 {
+            return Err(SimulatorError::NoFrames { inputs: inputs.join(", ") }.into());
+        }
+        Ok(Watched {
+            name: subject.name.clone(),
+            inputs,
+            kind: source.kind(),
+            frames: frame,
+            problem: source.problem(),
+            points: designs.into_iter().zip(points.into_iter().map(|(_, value)| value)).collect(),
+        })
+    }
+}
