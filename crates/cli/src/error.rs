@@ -53,6 +53,11 @@ impl CliError {
 
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
+            Self::Study(StudyError::Simulator(error))
+                if matches!(**error, SimulatorError::Tool(_)) =>
+            {
+                3
+            }
             Self::Failed(_) => 1,
             Self::Interrupted { .. }
             | Self::Simulator(SimulatorError::Cancelled)
@@ -63,7 +68,6 @@ impl CliError {
                 | SimulatorError::NoVideo(_)
                 | SimulatorError::VideoOutput { .. },
             )
-            | Self::Study(StudyError::Simulator(SimulatorError::Tool(_)))
             | Self::Cosim(CosimError::Tool(_) | CosimError::Short { .. })
             | Self::Estimate(_) => 3,
             _ => 2,

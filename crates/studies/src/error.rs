@@ -15,7 +15,7 @@ use thiserror::Error;
 pub enum StudyError {
     /// An input cannot be read.
     #[error(transparent)]
-    Simulator(#[from] SimulatorError),
+    Simulator(Box<SimulatorError>),
     /// A point of the study is no design.
     #[error(transparent)]
     Spec(#[from] SpecError),
@@ -63,4 +63,10 @@ pub enum StudyError {
     /// The user stopped it.
     #[error("interrupted; nothing was written")]
     Cancelled,
+}
+
+impl From<SimulatorError> for StudyError {
+    fn from(error: SimulatorError) -> Self {
+        Self::Simulator(Box::new(error))
+    }
 }

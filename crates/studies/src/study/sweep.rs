@@ -129,12 +129,13 @@ fn scaled(values: &[u64], config: &Config) -> Vec<u64> {
 }
 
 fn run(study: Study, watcher: &Watcher<'_>, keys: &[Key]) -> Result<Findings, StudyError> {
-    let configs: Vec<Config> =
-        keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone())).collect();
+    // The design as it is comes first, for the notes.
+    let points = keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone()));
+    let configs: Vec<Config> = std::iter::once(watcher.config.clone()).chain(points).collect();
     let watched = watcher.watch(&configs, |tally: &mut Tally, _, seen| tally.add(seen))?;
     let mut table = Table::new(&COLUMNS);
     let mut charts = Vec::new();
-    let mut first = 0;
+    let mut first = 1;
     for key in keys {
         let range = first..first + key.points.len();
         first = range.end;
