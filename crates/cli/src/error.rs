@@ -28,7 +28,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Simulator(#[from] SimulatorError),
     #[error(transparent)]
-    Study(#[from] StudyError),
+    Study(Box<StudyError>),
     #[error(transparent)]
     Output(#[from] StagingError),
     /// A file or folder could not be used.
@@ -53,15 +53,13 @@ impl CliError {
 
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Study(StudyError::Simulator(error))
-                if matches!(**error, SimulatorError::Tool(_)) =>
-            {
-                3
-            }
+            Self::Study(error) => match error.as_ref() {
+                StudyError::Cancelled => 130,
+                StudyError::Simulator(error) if matches!(**error, SimulatorError::Tool(_)) => 3,
+                _ => 2,
+            },
             Self::Failed(_) => 1,
-            Self::Interrupted { .. }
-            | Self::Simulator(SimulatorError::Cancelled)
-            | Self::Study(StudyError::Cancelled) => 130,
+            Self::Interrupted { .. } | Self::Simulator(SimulatorError::Cancelled) => 130,
             Self::Tool(_)
             | Self::Simulator(
                 SimulatorError::Tool(_)
@@ -72,6 +70,12 @@ impl CliError {
             | Self::Estimate(_) => 3,
             _ => 2,
         })
+    }
+}
+
+impl From<StudyError> for CliError {
+    fn from(error: StudyError) -> Self {
+        Self::Study(Box::new(error))
     }
 }
 

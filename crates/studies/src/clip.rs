@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use foveate_simulator::{InputOptions, Plan, plan};
+use foveate_simulator::{ImagesAs, InputOptions, Plan, plan};
 
 use crate::StudyError;
 
@@ -16,13 +16,14 @@ pub(crate) struct Subject {
     pub(crate) inputs: Vec<PathBuf>,
 }
 
-/// Image files together are one clip, as everywhere; else every input stands for itself.
+/// Image files together are one clip, as everywhere, unless they are sheets of many; else every input stands for itself.
 pub(crate) fn subjects(
     inputs: &[PathBuf],
     options: &InputOptions,
 ) -> Result<Vec<Subject>, StudyError> {
     let mut found = Vec::new();
-    if inputs.len() > 1 && matches!(plan(inputs, options), Ok(Plan::One)) {
+    let sheets = options.images == ImagesAs::CifarSheet;
+    if inputs.len() > 1 && !sheets && matches!(plan(inputs, options), Ok(Plan::One)) {
         let name = inputs.first().map(|path| name_of(path)).unwrap_or_default();
         return Ok(vec![Subject { name, inputs: inputs.to_vec() }]);
     }
@@ -55,9 +56,18 @@ fn stem(name: &std::ffi::OsStr) -> &std::ffi::OsStr {
     Path::new(once).file_stem().unwrap_or(once)
 }
 
+/// Names that are there twice get the folder in front, and a number if that does not help.
 fn set_apart(subjects: &mut [Subject]) {
+    let mut times: HashMap<String, u32> = HashMap::new();
+    for subject in subjects.iter() {
+        *times.entry(subject.name.clone()).or_insert(0) += 1;
+    }
     let mut seen: HashMap<String, u32> = HashMap::new();
     for subject in subjects {
+        let folder = subject.inputs.first().and_then(|path| path.parent()?.file_name());
+        if let (Some(2..), Some(folder)) = (times.get(&subject.name), folder) {
+            subject.name = format!("{}/{}", folder.to_string_lossy(), subject.name);
+        }
         let number = seen.entry(subject.name.clone()).or_insert(0);
         *number += 1;
         if *number > 1 {
@@ -81,5 +91,6 @@ mod tests {
         assert_eq!(names(&["scene:street", "scene:fade"]), ["street", "fade"]);
         assert_eq!(names(&["scene:zero", "scene:zero"]), ["zero", "zero (2)"]);
         assert_eq!(names(&["a.png", "b.png"]), ["a"]);
+        assert_eq!(names(&["-", "x/a.png", "y/a.png"]), ["-", "x/a", "y/a"]);
     }
 }

@@ -24,9 +24,9 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
     hooks.bar.finish_and_clear();
     let report = report?;
     if args.json {
-        output::json(&report)?
+        output::json(&report)?;
     } else {
-        output::text(&text(args, &report))?
+        output::text(&text(args, &report))?;
     }
     if report.problems.is_empty() {
         return Ok(());

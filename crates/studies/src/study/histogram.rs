@@ -80,7 +80,7 @@ fn bin(design: &Design, score: u64) -> usize {
     let feature = design.feature(FeatureKind::Mad);
     let fraction = feature.and_then(|mad| mad.mean()).map_or(0, |mean| mean.fraction_bits);
     let unit = u128::from(design.region_pixels()) << fraction;
-    let half = (u128::from(design.pixel_max()) + 1) / 2;
+    let half = 1_u128 << (design.pixel_bits() - 1);
     let bin = u128::from(score) * u128::from(BINS) / (unit * half);
     usize::try_from(bin.min(u128::from(BINS) - 1)).unwrap_or_default()
 }
