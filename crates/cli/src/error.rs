@@ -26,7 +26,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Estimate(#[from] EstimateError),
     #[error(transparent)]
-    Simulator(#[from] SimulatorError),
+    Simulator(Box<SimulatorError>),
     #[error(transparent)]
     Study(Box<StudyError>),
     #[error(transparent)]
@@ -53,23 +53,35 @@ impl CliError {
 
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
+            Self::Simulator(error) => of_simulator(error),
             Self::Study(error) => match error.as_ref() {
                 StudyError::Cancelled => 130,
-                StudyError::Simulator(error) if matches!(**error, SimulatorError::Tool(_)) => 3,
+                StudyError::Simulator(error) => of_simulator(error),
                 _ => 2,
             },
             Self::Failed(_) => 1,
-            Self::Interrupted { .. } | Self::Simulator(SimulatorError::Cancelled) => 130,
+            Self::Interrupted { .. } => 130,
             Self::Tool(_)
-            | Self::Simulator(
-                SimulatorError::Tool(_)
-                | SimulatorError::NoVideo(_)
-                | SimulatorError::VideoOutput { .. },
-            )
             | Self::Cosim(CosimError::Tool(_) | CosimError::Short { .. })
             | Self::Estimate(_) => 3,
             _ => 2,
         })
+    }
+}
+
+fn of_simulator(error: &SimulatorError) -> u8 {
+    match error {
+        SimulatorError::Cancelled => 130,
+        SimulatorError::Tool(_)
+        | SimulatorError::NoVideo(_)
+        | SimulatorError::VideoOutput { .. } => 3,
+        _ => 2,
+    }
+}
+
+impl From<SimulatorError> for CliError {
+    fn from(error: SimulatorError) -> Self {
+        Self::Simulator(Box::new(error))
     }
 }
 

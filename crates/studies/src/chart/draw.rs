@@ -112,7 +112,7 @@ fn draw_bars<DB: DrawingBackend>(
     let mut context = ChartBuilder::on(area)
         .caption(&chart.title, ("sans-serif", 20))
         .margin(12)
-        .x_label_area_size(128)
+        .x_label_area_size(168)
         .y_label_area_size(64)
         .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..top(tops))?;
     context
