@@ -84,12 +84,15 @@ fn draw_lines<DB: DrawingBackend>(
         .bold_line_style(RGBColor(225, 225, 225))
         .draw()?;
     for (number, line) in lines.iter().enumerate() {
-        let style = colour(number).stroke_width(2);
         let points = line.points.iter().copied();
         if dashed(number) {
+            let style = colour(number).stroke_width(1);
             context.draw_series(DashedLineSeries::new(points.clone(), 6, 4, style))?;
         } else {
-            context.draw_series(LineSeries::new(points.clone(), style))?;
+            // Piece by piece: at a sharp corner a thick line as a whole gets a spike across the page.
+            let style = colour(number).stroke_width(2);
+            let piece = |ends: &[(f64, f64)]| PathElement::new(ends.to_vec(), style);
+            context.draw_series(line.points.windows(2).map(piece))?;
         }
         if line.points.len() <= DOTS {
             let dot = |point| Circle::new(point, 3, colour(number).filled());
