@@ -2,50 +2,13 @@
 //! Every study over small scenes whose answers are known.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod support;
+
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use foveate_simulator::{BatchHooks, BatchProgress, FrameRate, ImagesAs, InputOptions};
 use foveate_spec::Config;
-use foveate_studies::{Report, Request, Study, StudyError, analyze};
-
-struct Silent;
-
-impl BatchHooks for Silent {
-    fn progress(&self, _: BatchProgress) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
-
-fn config(text: &str) -> Config {
-    Config::from_toml_with("frame.width = 32\nframe.height = 16", &[text]).unwrap()
-}
-
-fn run(
-    study: Study,
-    inputs: &[&str],
-    config: &Config,
-    output: &Path,
-) -> Result<Report, StudyError> {
-    let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
-    let input = InputOptions { frames: Some(5), ..InputOptions::default() };
-    let request = Request {
-        study,
-        inputs: &inputs,
-        input: &input,
-        config,
-        sensor_events: None,
-        sensor_start_us: 0,
-    };
-    analyze(&request, output, true, &Silent)
-}
-
-fn cells<'a>(report: &'a Report, column: &str) -> Vec<&'a str> {
-    let at = report.columns.iter().position(|name| *name == column).unwrap();
-    report.rows.iter().map(|row| row[at].as_str()).collect()
-}
+use foveate_studies::Study;
+use support::{cells, config, run};
 
 #[test]
 fn the_temporal_table_of_known_scenes_is_golden() {
@@ -149,73 +112,6 @@ fn charts_are_well_formed_labelled_and_the_same_every_time() {
         let png = fs::read(out.join(&report.files[2])).unwrap();
         assert!(png.starts_with(b"\x89PNG") && png.len() > 5000);
     }
-}
-
-#[test]
-fn what_cannot_be_studied_is_refused_and_leaves_nothing() {
-    let dir = tempfile::tempdir().unwrap();
-    let out = dir.path().join("out");
-    let config = Config::default();
-    let message =
-        |study, inputs: &[&str]| run(study, inputs, &config, &out).unwrap_err().to_string();
-    assert!(message(Study::Temporal, &["scene:zero", "nowhere.mp4"]).contains("nowhere.mp4"));
-    assert!(message(Study::Sensor, &["scene:zero"]).contains("--sensor-events"));
-    assert!(message(Study::Size, &["scene:stret"]).contains("street"));
-    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
-}
-
-#[test]
-fn sets_have_no_change_to_study() {
-    let dir = tempfile::tempdir().unwrap();
-    let image = dir.path().join("a.pgm");
-    fs::write(&image, [b"P5 16 16 255\n".as_slice(), &[7; 256]].concat()).unwrap();
-    let input = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
-    let config = Config::default();
-    let request = |study| Request {
-        study,
-        inputs: std::slice::from_ref(&image),
-        input: &input,
-        config: &config,
-        sensor_events: None,
-        sensor_start_us: 0,
-    };
-    let out = dir.path().join("out");
-    let refused = analyze(&request(Study::Temporal), &out, false, &Silent).unwrap_err();
-    assert!(refused.to_string().contains("set of unrelated images"), "{refused}");
-    let report = analyze(&request(Study::Threshold), &out, false, &Silent).unwrap();
-    assert!(report.rows.iter().all(|row| row[1] == "spatial.0.min_score"));
-}
-
-#[test]
-fn a_sensor_that_sees_the_same_correlates_fully() {
-    let dir = tempfile::tempdir().unwrap();
-    // The region on the left changes in every frame, the middle one once, the right one never.
-    for (frame, values) in [[0, 0, 0], [200, 200, 0], [0, 200, 0], [200, 200, 0]].iter().enumerate()
-    {
-        let row: Vec<u8> = values.iter().flat_map(|&value| [value; 8]).collect();
-        let image = [b"P5 24 8 255\n".to_vec(), row.repeat(8)].concat();
-        fs::write(dir.path().join(format!("{frame}.pgm")), image).unwrap();
-    }
-    let events = dir.path().join("events.csv");
-    let csv = "t_us,x,y,on\n500,1,1,1\n1001,1,1,1\n1002,3,7,0\n90000,9,0,1\n900000,23,0,1\n";
-    fs::write(&events, csv).unwrap();
-    let input = InputOptions { frame_rate: FrameRate::default(), ..InputOptions::default() };
-    let request = Request {
-        study: Study::Sensor,
-        inputs: &[dir.path().join("*.pgm")],
-        input: &input,
-        config: &Config::default(),
-        sensor_events: Some(&events),
-        sensor_start_us: 1000,
-    };
-    let out = dir.path().join("out");
-    let report = analyze(&request, &out, true, &Silent).unwrap();
-    // What comes before the first frame and after the last is left out.
-    assert_eq!(cells(&report, "sensor_events"), ["3"; 3]);
-    assert_eq!(cells(&report, "spearman"), ["undefined", "1.0000", "1.0000"]);
-    fs::write(&events, "t_us,x,y\n1,2\n").unwrap();
-    let refused = analyze(&request, &out, true, &Silent).unwrap_err().to_string();
-    assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");
 }
 
 /// Real clips, where the environment variable FOVEATE_DATA names their folder.
