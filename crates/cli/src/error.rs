@@ -25,7 +25,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Estimate(#[from] EstimateError),
     #[error(transparent)]
-    Simulator(#[from] SimulatorError),
+    Simulator(Box<SimulatorError>),
     #[error(transparent)]
     Output(#[from] StagingError),
     /// A file or folder could not be used.
@@ -51,17 +51,29 @@ impl CliError {
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Failed(_) => 1,
-            Self::Interrupted { .. } | Self::Simulator(SimulatorError::Cancelled) => 130,
+            Self::Interrupted { .. } => 130,
             Self::Tool(_)
-            | Self::Simulator(
-                SimulatorError::Tool(_)
-                | SimulatorError::NoVideo(_)
-                | SimulatorError::VideoOutput { .. },
-            )
             | Self::Cosim(CosimError::Tool(_) | CosimError::Short { .. })
             | Self::Estimate(_) => 3,
+            Self::Simulator(error) => simulator_code(error),
             _ => 2,
         })
+    }
+}
+
+fn simulator_code(error: &SimulatorError) -> u8 {
+    match error {
+        SimulatorError::Cancelled => 130,
+        SimulatorError::Tool(_)
+        | SimulatorError::NoVideo(_)
+        | SimulatorError::VideoOutput { .. } => 3,
+        _ => 2,
+    }
+}
+
+impl From<SimulatorError> for CliError {
+    fn from(error: SimulatorError) -> Self {
+        Self::Simulator(Box::new(error))
     }
 }
 
