@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub enum CosimError {
     /// A tool is missing, too old, or refused its input.
     #[error(transparent)]
-    Tool(#[from] ToolError),
+    Tool(ToolError),
 
     /// The design does not allow what was asked for.
     #[error(transparent)]
@@ -35,6 +35,26 @@ pub enum CosimError {
         /// The port.
         port: String,
     },
+
+    /// A port of the Verilog's top module is not as wide as the design's.
+    #[error(
+        "module `{top}` has `{port}` with {found} bits, the design has {wanted}; \
+         is the Verilog that of another design?"
+    )]
+    PortWidth {
+        /// The module.
+        top: String,
+        /// The port.
+        port: String,
+        /// Its bits in the Verilog.
+        found: u32,
+        /// Its bits in the design.
+        wanted: u32,
+    },
+
+    /// There is nothing to simulate, which must not look like agreement.
+    #[error("nothing to simulate: no frames and rounds = 0; give frames, or rounds of 1 or more")]
+    Nothing,
 
     /// A frame does not fit the design.
     #[error(
@@ -86,6 +106,19 @@ pub enum CosimError {
         /// The reason.
         source: std::io::Error,
     },
+}
+
+impl From<ToolError> for CosimError {
+    /// Verilog that does not fit the design is no failure of the tool that noticed.
+    fn from(error: ToolError) -> Self {
+        match error {
+            ToolError::PortWidth { top, port, found, wanted } => {
+                Self::PortWidth { top, port, found, wanted }
+            }
+            ToolError::NoPort { top, port } => Self::NoPort { top, port },
+            error => Self::Tool(error),
+        }
+    }
 }
 
 impl CosimError {

@@ -154,6 +154,7 @@ impl Run<'_> {
                 let job = iverilog::IverilogJob {
                     sources,
                     top: bench_name(&dut.top),
+                    exact_ports: Some((dut.top.clone(), bench_file(&dut.top))),
                     ..Default::default()
                 };
                 iverilog::compile(self.toolchain, self.cache, &job)?
@@ -192,6 +193,7 @@ impl Run<'_> {
             vlt: (!vlt.is_empty()).then(|| format!("`verilator_config\n{vlt}")),
             trace: self.trace,
             lint: Lint::Lenient,
+            port_bits: dut.ports.iter().map(|port| (port.name.clone(), port.bits())).collect(),
             extra_args: unknown_start.into_iter().chain(parameters).collect(),
             ..VerilatorJob::default()
         }

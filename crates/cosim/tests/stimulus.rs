@@ -124,6 +124,14 @@ fn frames_of_the_caller_are_streamed_region_by_region() {
 }
 
 #[test]
+fn nothing_to_simulate_is_refused() {
+    let design = design(&config(""), (1, 1));
+    let stimulus = Stimulus { rounds: 0, ..Stimulus::default() };
+    let error = stimulus.record(&design, &mut |_, _| {}).unwrap_err().to_string();
+    assert!(error.starts_with("nothing to simulate: no frames and rounds = 0"), "{error}");
+}
+
+#[test]
 fn frames_of_another_kind_are_refused() {
     let design = design(&config(""), (3, 2));
     let frames = vec![Frame::filled(24, 16, 8, 0).unwrap(), Frame::filled(24, 15, 8, 0).unwrap()];

@@ -117,6 +117,31 @@ pub enum ToolError {
         tail: String,
     },
 
+    /// A port of the simulated module is not as wide as it must be.
+    #[error(
+        "module `{top}` has `{port}` with {found} bits, the design has {wanted}; \
+         is the Verilog that of another design?"
+    )]
+    PortWidth {
+        /// The module.
+        top: String,
+        /// The port.
+        port: String,
+        /// Its bits in the Verilog.
+        found: u32,
+        /// The bits that it must have.
+        wanted: u32,
+    },
+
+    /// The simulated module lacks a port.
+    #[error("module `{top}` has no port `{port}`; is the Verilog that of another design?")]
+    NoPort {
+        /// The module.
+        top: String,
+        /// The port.
+        port: String,
+    },
+
     /// A source has a name that would leave the folder it is written to.
     #[error("source name `{name}` is not valid; use a relative path without `..`")]
     BadName {

@@ -56,7 +56,7 @@ impl Stimulus {
         design: &Design,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, CosimError> {
-        self.check_frames(design)?;
+        self.check(design)?;
         let design = self.level.design(design)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&design))?;
         let mut random = Random::new(self.seed);
@@ -73,7 +73,11 @@ impl Stimulus {
         recorder.finish()
     }
 
-    fn check_frames(&self, design: &Design) -> Result<(), CosimError> {
+    /// What can be refused before anything is made.
+    fn check(&self, design: &Design) -> Result<(), CosimError> {
+        if self.rounds == 0 && self.frames.is_empty() {
+            return Err(CosimError::Nothing);
+        }
         let kind = |width, height, bits| format!("{width}x{height} pixels of {bits} bits");
         let wanted = kind(design.width(), design.height(), design.pixel_bits());
         for (index, frame) in self.frames.iter().enumerate() {

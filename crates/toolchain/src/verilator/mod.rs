@@ -17,6 +17,7 @@ use crate::error::ToolError;
 use crate::files::{self, Source};
 use crate::invocation::Invocation;
 use crate::key::{Key, KeyBuilder};
+use crate::ports::{self, PortBits};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 use compile::Compiler;
@@ -82,6 +83,8 @@ pub struct VerilatorJob {
     pub optimize: Optimize,
     /// What to do about questionable Verilog.
     pub lint: Lint,
+    /// Ports of the top module and the widths that they must have; others are not looked at.
+    pub port_bits: Vec<PortBits>,
     /// Further arguments for Verilator, such as `--assert`.
     pub extra_args: Vec<String>,
 }
@@ -127,6 +130,7 @@ impl VerilatorJob {
         let key = tools_key("verilator", toolchain)?
             .list("flags", &self.flags())
             .list("compiler flags", &compile::flags(self.trace))
+            .field("port bits", format!("{:?}", self.port_bits))
             .field("optimize", self.optimize.flag())
             .field("main", &self.cpp_main)
             .field("vlt", self.vlt.as_deref().unwrap_or_default());
@@ -160,6 +164,9 @@ fn build_in(
     let verilate = toolchain.invocation(Tool::Verilator)?.args(job.flags());
     let verilate = with_sources(verilate, dir, &job.sources, job.vlt.as_deref())?;
     toolchain.run_checked(&verilate)?;
+    let header = dir.join(format!("{}.h", job.prefix()));
+    let header = fs::read_to_string(&header).map_err(ToolError::io("read", &header))?;
+    ports::check_header(&job.top, &header, &job.port_bits)?;
     files::write(dir, MAIN, job.cpp_main.as_bytes())?;
     let makefile = Makefile::read(dir, &job.prefix())?;
     let compiler = Compiler::new(toolchain, include_dir(toolchain)?, job.trace)?;
