@@ -54,7 +54,7 @@ pub fn compile(
     job: &IverilogJob,
 ) -> Result<PathBuf, ToolError> {
     let key = Key::builder("iverilog")
-        .field("version", toolchain.find(Tool::Iverilog)?.banner)
+        .field("version", toolchain.find(Tool::Iverilog)?.identity())
         .list("flags", &job.flags())
         .field("strict", job.strict.to_string())
         .field("exact ports", format!("{:?}", job.exact_ports))

@@ -117,8 +117,8 @@ pub fn lint(
     top: &str,
     vlt: Option<&str>,
 ) -> Result<(), ToolError> {
-    let dir =
-        tempfile::tempdir().map_err(ToolError::io("create a folder in", Path::new("/tmp")))?;
+    let dir = tempfile::tempdir()
+        .map_err(ToolError::temporary("create a folder in", &std::env::temp_dir()))?;
     let args = ["--lint-only", "--no-timing", "-Wall", "--top-module", top];
     let invocation = toolchain.invocation(Tool::Verilator)?.args(args);
     let invocation = with_sources(invocation, dir.path(), sources, vlt)?;
@@ -205,7 +205,7 @@ fn tools_key(kind: &str, toolchain: &Toolchain) -> Result<KeyBuilder, ToolError>
     let verilator = toolchain.find(Tool::Verilator)?;
     let compiler = toolchain.find(Tool::Cxx)?;
     Ok(Key::builder(kind)
-        .field("verilator", verilator.banner)
+        .field("verilator", verilator.identity())
         .field("path", verilator.path.as_os_str().as_encoded_bytes())
-        .field("compiler", compiler.banner))
+        .field("compiler", compiler.identity()))
 }
