@@ -56,6 +56,22 @@ pub enum CosimError {
     #[error("nothing to simulate: no frames and rounds = 0; give frames, or rounds of 1 or more")]
     Nothing,
 
+    /// The array is larger than what fits into memory.
+    #[error(
+        "an array of {regions} regions that take {pixels} pixels per frame is too large to simulate, at \
+         most {max_regions} regions and {max_pixels} pixels are; simulate a part of it as `rcm`"
+    )]
+    TooLarge {
+        /// Its regions.
+        regions: u64,
+        /// Pixels that they take per frame, those of their neighborhoods included.
+        pixels: u64,
+        /// The most regions.
+        max_regions: u64,
+        /// The most pixels.
+        max_pixels: u64,
+    },
+
     /// A frame does not fit the design.
     #[error(
         "frame {index} is {found}, the design takes {wanted}; \
@@ -96,6 +112,20 @@ pub enum CosimError {
     #[error(transparent)]
     Output(#[from] StagingError),
 
+    /// The vectors, which lie among the temporary files, cannot be written.
+    #[error(
+        "cannot {action} `{}`: {source}; set TMPDIR to a folder with space that can be written",
+        path.display()
+    )]
+    Temporary {
+        /// What was tried, such as "write".
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The reason.
+        source: std::io::Error,
+    },
+
     /// A file could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {
@@ -122,6 +152,30 @@ impl From<ToolError> for CosimError {
 }
 
 impl CosimError {
+    /// Whether the user has asked to stop.
+    #[must_use]
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self, Self::Tool(error) if error.is_interrupted())
+    }
+
+    /// Whether a place is at fault that the user chooses, and no tool.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        match self {
+            Self::Tool(error) => error.is_environment(),
+            Self::Temporary { .. } | Self::Output(_) | Self::Io { .. } => true,
+            _ => false,
+        }
+    }
+
+    /// For `map_err`: the folder of temporary files is at fault.
+    pub(crate) fn temporary(
+        action: &'static str,
+        path: &Path,
+    ) -> impl FnOnce(std::io::Error) -> Self {
+        move |source| Self::Temporary { action, path: path.to_owned(), source }
+    }
+
     /// For `map_err`: names the file and what was tried with it.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Io { action, path: path.to_owned(), source }

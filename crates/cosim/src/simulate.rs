@@ -213,6 +213,10 @@ impl Run<'_> {
             .stdout_file(&actual)
             .timeout(self.limit);
         let output = self.toolchain.run(&invocation)?;
+        if output.log().contains("cannot write the outputs") {
+            let full = std::io::ErrorKind::StorageFull.into();
+            return Err(CosimError::temporary("write", &actual)(full));
+        }
         let compared = compare(recording, &actual)?;
         let complete = compared.records == recording.clocks() && output.is_success();
         if compared.difference.is_none() && !complete {

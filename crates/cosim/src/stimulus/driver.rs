@@ -9,12 +9,15 @@ use crate::error::CosimError;
 use crate::recording::Recorder;
 use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
 use foveate_spec::{Design, Thresholds as Mode};
+use foveate_toolchain::ToolError;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Streams frames into the model.
 pub(crate) struct Driver<'a> {
     machine: Machine,
     /// An RPU of its own, which tells when a decision comes: it is the same clock in every lane.
     scout: PipelinedRpu,
+    cancel: &'a AtomicBool,
     recorder: &'a mut Recorder,
     codec: Codec,
     pub(crate) ranges: Ranges,
@@ -39,11 +42,13 @@ impl<'a> Driver<'a> {
         lanes: usize,
         recorder: &'a mut Recorder,
         random: Random,
+        cancel: &'a AtomicBool,
     ) -> Self {
         let configured = Thresholds::of(design);
         Self {
             machine,
             scout: PipelinedRpu::new(design),
+            cancel,
             input: recorder.inputs().record(),
             expected: recorder.outputs().record(),
             recorder,
@@ -134,6 +139,9 @@ impl<'a> Driver<'a> {
         valid: bool,
         pixels: Option<&[u16]>,
     ) -> Result<(), CosimError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted.into());
+        }
         if self.aim == Aim::Restless {
             self.ranges.shake(&mut self.thresholds, &mut self.random);
         }
