@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The engine for one width of lanes: the planes between frames, and their division among workers.
+
+use rayon::prelude::*;
+
+use crate::aligned::Aligned;
+use crate::change::{Policy, Step};
+use crate::lane::Lane;
+use crate::outcome::{Outcome, split_off};
+use crate::pixels::Pixels;
+use crate::plan::Plan;
+use crate::scratch::Scratch;
+use crate::simd::Level;
+use crate::strip::{Look, Strip};
+use foveate_spec::Reference;
+
+/// Strips per thread: enough that a thread that is interrupted does not hold up the others.
+const STRIPS_PER_THREAD: usize = 4;
+
+/// How to run.
+#[derive(Debug)]
+pub(crate) struct Workers {
+    pub(crate) level: Level,
+    /// None: everything on the thread that asks.
+    pub(crate) pool: Option<rayon::ThreadPool>,
+}
+
+impl Workers {
+    fn strips(&self, bands: usize) -> usize {
+        let threads = self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads);
+        if threads == 1 { 1 } else { (threads * STRIPS_PER_THREAD).min(bands) }
+    }
+}
+
+/// The state between frames.
+#[derive(Debug)]
+pub(crate) struct Core<T: Lane> {
+    plan: Plan<T>,
+    denoised: Aligned<T>,
+    reference: Aligned<T>,
+    pub(crate) screen: Vec<T>,
+    valid: Vec<bool>,
+    black: Vec<bool>,
+    /// The last frame, without padding, while the policy wants it.
+    copy: Vec<T>,
+    changed: Vec<bool>,
+    policy: Policy,
+    skip: bool,
+    /// By strip.
+    scratch: Vec<(Scratch<T>, usize)>,
+}
+
+impl<T: Lane> Core<T> {
+    pub(crate) fn new(plan: Plan<T>, skip: bool, workers: &Workers) -> Self {
+        let plane = plan.stride() * plan.rows * plan.side;
+        let reference = match plan.reference {
+            Reference::Previous => 0,
+            Reference::LastSent => plane,
+        };
+        let scratch = Scratch::new(&plan);
+        Self {
+            denoised: Aligned::new(plane),
+            reference: Aligned::new(reference),
+            screen: vec![T::default(); plan.width * plan.height],
+            valid: vec![false; plan.regions()],
+            black: vec![true; plan.regions()],
+            copy: vec![T::default(); if skip { plan.width * plan.height } else { 0 }],
+            changed: vec![true; plan.regions()],
+            policy: Policy::new(skip),
+            skip,
+            scratch: vec![(scratch, 0); workers.strips(plan.rows)],
+            plan,
+        }
+    }
+
+    pub(crate) fn reset(&mut self) {
+        self.valid.fill(false);
+        self.black.fill(true);
+        self.screen.fill(T::default());
+        self.policy = Policy::new(self.skip);
+    }
+
+    /// Takes the next frame.
+    pub(crate) fn step(&mut self, raw: Pixels<'_, T>, workers: &Workers, outcome: &mut Outcome) {
+        let step = self.policy.next();
+        if step != Step::Rest {
+            self.look(raw, workers, step);
+        }
+        self.compute(raw, workers, step == Step::Compare, outcome);
+        outcome.skipped = self.scratch.iter().map(|(_, skipped)| skipped).sum();
+        if step == Step::Compare {
+            self.policy.found(outcome.skipped, self.plan.regions());
+        }
+    }
+
+    fn look(&mut self, raw: Pixels<'_, T>, workers: &Workers, step: Step) {
+        let plan = &self.plan;
+        let share = plan.rows.div_ceil(self.scratch.len());
+        let (mut copy, mut changed) = (&mut self.copy[..], &mut self.changed[..]);
+        let looks = (0..plan.rows).step_by(share).map(|first| Look {
+            plan,
+            raw,
+            bands: first..(first + share).min(plan.rows),
+            step,
+            copy: split_off(&mut copy, share * plan.side * plan.width),
+            changed: split_off(&mut changed, share * plan.columns),
+        });
+        run_all(workers, looks);
+    }
+
+    fn compute(
+        &mut self,
+        raw: Pixels<'_, T>,
+        workers: &Workers,
+        compared: bool,
+        outcome: &mut Outcome,
+    ) {
+        let plan = &self.plan;
+        let changed = compared.then_some(&self.changed[..]);
+        let share = plan.rows.div_ceil(self.scratch.len());
+        let rows = share * plan.side;
+        let (mut denoised, mut reference) = (&mut self.denoised[..], &mut self.reference[..]);
+        let (mut valid, mut black) = (&mut self.valid[..], &mut self.black[..]);
+        let (mut screen, mut results) = (&mut self.screen[..], outcome.results());
+        let firsts = (0..plan.rows).step_by(share);
+        let strips = firsts.zip(&mut self.scratch).map(|(first, (scratch, skipped))| {
+            let bands = first..(first + share).min(plan.rows);
+            let regions = bands.len() * plan.columns;
+            Strip {
+                plan,
+                raw,
+                bands,
+                denoised: split_off(&mut denoised, rows * plan.stride()),
+                reference: split_off(&mut reference, rows * plan.stride()),
+                screen: split_off(&mut screen, rows * plan.width),
+                valid: split_off(&mut valid, regions),
+                black: split_off(&mut black, regions),
+                results: results.split_off(regions),
+                scratch,
+                changed,
+                skipped,
+            }
+        });
+        run_all(workers, strips);
+    }
+}
+
+/// Runs tasks that share nothing, in any order.
+fn run_all<W: crate::simd::Task + Send>(workers: &Workers, tasks: impl Iterator<Item = W>) {
+    match &workers.pool {
+        None => tasks.for_each(|task| workers.level.run(task)),
+        Some(pool) => {
+            let tasks: Vec<W> = tasks.collect();
+            pool.install(|| tasks.into_par_iter().for_each(|task| workers.level.run(task)));
+        }
+    }
+}

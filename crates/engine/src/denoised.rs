@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Denoised rows on demand: the last three are kept, so that a window's rows are computed once.
+
+use std::ops::Range;
+
+use crate::kernel::median::{self, Seams};
+use crate::kernel::{Line, Windows};
+use crate::lane::{BLOCK, Block, Lane};
+use crate::pixels::Pixels;
+use crate::plan::{Plan, SeamMasks};
+use crate::scratch::{DenoisedRow, Row};
+
+impl<T: Lane> SeamMasks<T> {
+    #[inline(always)]
+    fn over(&self, span: &Range<usize>) -> Seams<'_, T> {
+        Seams { first: &self.first.blocks()[span.clone()], last: &self.last.blocks()[span.clone()] }
+    }
+}
+
+/// The rows of one run of blocks, padding and borders as the contract says.
+#[derive(Debug)]
+pub(crate) struct Denoiser<'a, T: Lane> {
+    pub(crate) plan: &'a Plan<T>,
+    pub(crate) raw: Pixels<'a, T>,
+    pub(crate) sorted: &'a mut [Row<T>; 3],
+    pub(crate) tail: &'a mut [Block<T>; 3],
+    pub(crate) rows: &'a mut [DenoisedRow<T>; 3],
+    /// First and last row that windows may reach.
+    pub(crate) reach: (usize, usize),
+    /// The blocks that are wanted.
+    pub(crate) run: Range<usize>,
+}
+
+impl<T: Lane> Denoiser<'_, T> {
+    /// Row `y` of the blocks that are wanted.
+    #[inline(always)]
+    pub(crate) fn row(&mut self, y: usize) -> &[Block<T>] {
+        self.ensure(y);
+        self.rows[y % 3].center.line(&self.run).center
+    }
+
+    /// The windows of row `y`.
+    #[inline(always)]
+    pub(crate) fn windows(&mut self, y: usize) -> Windows<'_, T> {
+        let (above, below) = (y.saturating_sub(1).max(self.reach.0), (y + 1).min(self.reach.1));
+        self.ensure(above);
+        self.ensure(y);
+        self.ensure(below);
+        let line = |y: usize| self.line(&self.rows[y % 3]);
+        Windows { above: line(above), here: line(y), below: line(below) }
+    }
+
+    #[inline(always)]
+    fn line<'r>(&self, row: &'r DenoisedRow<T>) -> Line<'r, T> {
+        let plain = row.center.line(&self.run);
+        if self.plan.seams.is_none() {
+            return plain;
+        }
+        Line {
+            west: row.west.line(&self.run).center,
+            center: plain.center,
+            east: row.east.line(&self.run).center,
+        }
+    }
+
+    #[inline(always)]
+    fn ensure(&mut self, y: usize) {
+        let held = &self.rows[y % 3].holds;
+        if !held.as_ref().is_some_and(|(row, run)| *row == y && *run == self.run) {
+            self.compute(y);
+        }
+    }
+
+    /// One block more on each side than is wanted, since the windows of features reach there.
+    #[inline(always)]
+    fn span(&self) -> Range<usize> {
+        self.run.start.saturating_sub(1)..(self.run.end + 1).min(self.plan.blocks)
+    }
+
+    #[inline(always)]
+    fn compute(&mut self, y: usize) {
+        let (plan, span) = (self.plan, self.span());
+        if plan.median {
+            let above = y.saturating_sub(1).max(self.reach.0);
+            let below = (y + 1).min(self.reach.1);
+            self.sort([above, y, below], &span);
+        }
+        let row = &mut self.rows[y % 3];
+        if plan.median {
+            let lines = self.sorted.each_ref().map(|row| row.line(&span));
+            let seams = plan.seams.as_ref().map(|seams| seams.over(&span));
+            median::combine(lines, seams, row.center.blocks_mut(&span));
+            row.center.repeat_border(plan.padded_width(), plan.padded_width());
+        } else {
+            let columns = span.start * BLOCK..(span.end * BLOCK).min(plan.width);
+            let raw = self.raw.row(y);
+            row.center.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
+            row.center.repeat_border(plan.width, plan.padded_width());
+        }
+        if let Some(seams) = &plan.seams
+            && plan.has_windows()
+        {
+            let (west, east) = (row.west.blocks_mut(&span), row.east.blocks_mut(&span));
+            median::clamp(row.center.line(&span), seams.over(&span), west, east);
+        }
+        row.holds = Some((y, self.run.clone()));
+    }
+
+    /// Sorts the columns of three raw rows.
+    #[inline(always)]
+    fn sort(&mut self, rows: [usize; 3], span: &Range<usize>) {
+        let width = self.plan.width;
+        let rows = rows.map(|y| self.raw.row(y));
+        let whole = span.start..span.end.min(width / BLOCK);
+        let blocks = rows.map(|row| &row.as_chunks().0[whole.clone()]);
+        let [low, mid, high] = &mut *self.sorted;
+        let sorted = [&mut *low, &mut *mid, &mut *high].map(|row| row.blocks_mut(&whole));
+        median::sort_columns(blocks, sorted);
+        if whole.end < span.end {
+            // The last block that is not whole: together with pixels before it, or by itself.
+            let start = width.saturating_sub(BLOCK);
+            if start == 0 {
+                for (tail, row) in self.tail.iter_mut().zip(rows) {
+                    tail[..width].copy_from_slice(row);
+                }
+                let sorted = [low, mid, high].map(|row| row.blocks_mut(&(0..1)));
+                median::sort_columns(self.tail.each_ref().map(std::slice::from_ref), sorted);
+            } else {
+                let blocks = rows.map(|row| row[start..].as_chunks().0);
+                let sorted = [low, mid, high]
+                    .map(|row| row.values_mut()[start..][..BLOCK].as_chunks_mut().0);
+                median::sort_columns(blocks, sorted);
+            }
+        }
+        for row in &mut *self.sorted {
+            row.repeat_border(width, self.plan.padded_width());
+        }
+    }
+}

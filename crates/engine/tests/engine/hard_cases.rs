@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cases that random designs would meet too seldom.
+
+use foveate_engine::Options;
+use foveate_model::Frame;
+use foveate_spec::{
+    Config, Design, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
+};
+
+use crate::film::{Change, film};
+use crate::properties::check;
+
+fn design(width: u32, height: u32, side: u32, change: impl FnOnce(&mut Config)) -> Design {
+    let mut config = Config::default();
+    (config.frame.width, config.frame.height) = (Some(width), Some(height));
+    config.region.size = side;
+    change(&mut config);
+    config.validate().unwrap()
+}
+
+fn every_feature(config: &mut Config) {
+    config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+}
+
+/// The largest sums there are: 64 x 64 regions of extreme pixels, in both lane widths.
+#[test]
+fn the_largest_sums_stay_inside_their_lanes() {
+    for bits in [8, 16] {
+        let design = design(128, 128, 64, |config| {
+            every_feature(config);
+            config.frame.pixel_bits = bits;
+            config.spatial[0].level = Some(0);
+            config.spatial[1].level = Some(0);
+            config.spatial[2].mean_fraction_bits = Some(12);
+        });
+        let max = u16::try_from(design.pixel_max()).unwrap();
+        let full = Frame::filled(128, 128, bits, max).unwrap();
+        let stripes = |x: u32, _| if x / 2 % 2 == 0 { 0 } else { max };
+        let stripes = Frame::from_fn(128, 128, bits, stripes).unwrap();
+        let halves = Frame::from_fn(128, 128, bits, |_, y| if y < 32 { 0 } else { max }).unwrap();
+        check(&design, &[full, stripes, halves], Options::default());
+    }
+}
+
+/// A scene that stands still is skipped for every rule of reference and screen, and nothing is
+/// lost by it when it moves again.
+#[test]
+fn stillness_is_skipped_and_exact() {
+    use Change::{Noise, Patch, Spot, Still};
+    let script = [
+        Still,
+        Still,
+        Still,
+        Spot(0.5, 0.5),
+        Still,
+        Patch(0.2, 0.6),
+        Still,
+        Still,
+        Noise,
+        Still,
+        Still,
+        Still,
+        Still,
+        Still,
+        Still,
+        Still,
+        Spot(0.99, 0.0),
+        Still,
+    ];
+    for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
+        for reference in [Reference::Previous, Reference::LastSent] {
+            for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
+                for min_count in [0, 1, 40] {
+                    let design = design(250, 70, 8, |config| {
+                        every_feature(config);
+                        config.region.neighborhood = neighborhood;
+                        config.temporal.reference = reference;
+                        config.temporal.min_count = min_count;
+                        config.render.irrelevant = irrelevant;
+                        config.spatial[0].level = Some(400);
+                    });
+                    let frames = film(&design, 77, &script);
+                    for threads in [1, 2] {
+                        let options = Options { threads, ..Options::default() };
+                        assert!(check(&design, &frames, options) > 1000);
+                        assert_eq!(check(&design, &frames, Options { skip: false, ..options }), 0);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A spot changes what its neighbors' windows see, two pixels away and no further: each spot near
+/// a region's border, in a scene that is skipped everywhere else.
+#[test]
+fn the_halo_of_a_skipped_region_is_watched() {
+    let design = design(200, 24, 8, |config| {
+        every_feature(config);
+        config.region.neighborhood = Neighborhood::Shared;
+        config.spatial[0].level = Some(10);
+        config.spatial[1].level = Some(3);
+    });
+    for x in 60u32..70 {
+        for y in 5u32..11 {
+            let spots = [Change::Still, Change::Patch(f64::from(x) / 200.0, f64::from(y) / 24.0)];
+            check(&design, &film(&design, u64::from(100 * x + y), &spots), Options::default());
+        }
+    }
+}
+
+/// Other columns of one block are computed again, and stay what they were.
+#[test]
+fn regions_that_share_a_block_with_a_change_stay_exact() {
+    for side in [3, 5, 6, 7, 12, 48] {
+        let design = design(300, 3 * side, side, every_feature);
+        let script =
+            [Change::Still, Change::Spot(0.45, 0.5), Change::Still, Change::Spot(0.9, 0.1)];
+        check(&design, &film(&design, 5, &script), Options::default());
+    }
+}
