@@ -87,8 +87,12 @@ impl<T: Lane> Denoiser<'_, T> {
         }
         let row = &mut self.rows[y % 3];
         if plan.median {
-            let lines = self.sorted.each_ref().map(|row| row.line(&span));
-            let seams = plan.seams.as_ref().map(|seams| seams.over(&span));
+            let [low, mid, high] = &*self.sorted;
+            let lines = [low.line(&span), mid.line(&span), high.line(&span)];
+            let seams = match &plan.seams {
+                None => None,
+                Some(seams) => Some(seams.over(&span)),
+            };
             median::combine(lines, seams, row.center.blocks_mut(&span));
             row.center.repeat_border(plan.padded_width(), plan.padded_width());
         } else {
@@ -110,30 +114,34 @@ impl<T: Lane> Denoiser<'_, T> {
     #[inline(always)]
     fn sort(&mut self, rows: [usize; 3], span: &Range<usize>) {
         let width = self.plan.width;
-        let rows = rows.map(|y| self.raw.row(y));
+        let [a, b, c] = rows;
+        let rows = [self.raw.row(a), self.raw.row(b), self.raw.row(c)];
         let whole = span.start..span.end.min(width / BLOCK);
-        let blocks = rows.map(|row| &row.as_chunks().0[whole.clone()]);
         let [low, mid, high] = &mut *self.sorted;
-        let sorted = [&mut *low, &mut *mid, &mut *high].map(|row| row.blocks_mut(&whole));
-        median::sort_columns(blocks, sorted);
+        let sorted = [low.blocks_mut(&whole), mid.blocks_mut(&whole), high.blocks_mut(&whole)];
+        median::sort_columns(each(rows, whole.start * BLOCK), sorted);
         if whole.end < span.end {
             // The last block that is not whole: together with pixels before it, or by itself.
             let start = width.saturating_sub(BLOCK);
-            if start == 0 {
+            let sorted = [low.blocks_at(start), mid.blocks_at(start), high.blocks_at(start)];
+            if start > 0 {
+                median::sort_columns(each(rows, start), sorted);
+            } else {
                 for (tail, row) in self.tail.iter_mut().zip(rows) {
                     tail[..width].copy_from_slice(row);
                 }
-                let sorted = [low, mid, high].map(|row| row.blocks_mut(&(0..1)));
-                median::sort_columns(self.tail.each_ref().map(std::slice::from_ref), sorted);
-            } else {
-                let blocks = rows.map(|row| row[start..].as_chunks().0);
-                let sorted = [low, mid, high]
-                    .map(|row| row.values_mut()[start..][..BLOCK].as_chunks_mut().0);
-                median::sort_columns(blocks, sorted);
+                let [a, b, c] = &*self.tail;
+                median::sort_columns([&[*a], &[*b], &[*c]], sorted);
             }
         }
         for row in &mut *self.sorted {
             row.repeat_border(width, self.plan.padded_width());
         }
     }
+}
+
+/// Blocks of three rows from a column on.
+#[inline(always)]
+fn each<T>([a, b, c]: [&[T]; 3], start: usize) -> [&[Block<T>]; 3] {
+    [a[start..].as_chunks().0, b[start..].as_chunks().0, c[start..].as_chunks().0]
 }

@@ -86,19 +86,28 @@ impl Results<'_> {
     /// The results of some of the regions.
     #[inline(always)]
     pub(crate) fn rows(&mut self, regions: Range<usize>) -> Results<'_> {
-        let within = |len: usize| regions.start.min(len)..regions.end.min(len);
+        let [a, b, c, d] = &mut self.scores;
         Results {
             srs: &mut self.srs[regions.clone()],
             trs: &mut self.trs[regions.clone()],
             active: &mut self.active[regions.clone()],
             actions: &mut self.actions[regions.clone()],
             temporal_count: &mut self.temporal_count[regions.clone()],
-            scores: self.scores.each_mut().map(|scores| {
-                let within = within(scores.len());
-                &mut scores[within]
-            }),
+            scores: [
+                within(a, &regions),
+                within(b, &regions),
+                within(c, &regions),
+                within(d, &regions),
+            ],
         }
     }
+}
+
+/// Some of the values, or none where there are none.
+#[inline(always)]
+fn within<'s, T>(values: &'s mut [T], range: &Range<usize>) -> &'s mut [T] {
+    let len = values.len();
+    &mut values[range.start.min(len)..range.end.min(len)]
 }
 
 /// Cuts the first `len` values off, or all that are there.

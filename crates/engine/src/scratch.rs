@@ -23,6 +23,12 @@ impl<T: Lane> Row<T> {
         &mut self.0.blocks_mut()[1 + span.start..1 + span.end]
     }
 
+    /// One block from any column on, to be written.
+    #[inline(always)]
+    pub(crate) fn blocks_at(&mut self, start: usize) -> &mut [Block<T>] {
+        self.0[BLOCK + start..][..BLOCK].as_chunks_mut().0
+    }
+
     /// The values, to be written; the first is that of column 0.
     #[inline(always)]
     pub(crate) fn values_mut(&mut self) -> &mut [T] {
@@ -32,17 +38,27 @@ impl<T: Lane> Row<T> {
     /// What is left of, at, and right of every column of some blocks.
     #[inline(always)]
     pub(crate) fn line(&self, span: &Range<usize>) -> Line<'_, T> {
-        let from = |start: usize| self.0[start..][..span.len() * BLOCK].as_chunks().0;
         let start = (1 + span.start) * BLOCK;
-        Line { west: from(start - 1), center: from(start), east: from(start + 1) }
+        // One check for all three.
+        let near = &self.0[start - 1..start + span.len() * BLOCK + 1];
+        let len = near.len() - 2;
+        Line {
+            west: near[..len].as_chunks().0,
+            center: near[1..len + 1].as_chunks().0,
+            east: near[2..].as_chunks().0,
+        }
     }
 
     /// Repeats the border pixels of a row of `width` outwards.
     #[inline(always)]
     pub(crate) fn repeat_border(&mut self, width: usize, padded: usize) {
-        self.0[BLOCK - 1] = self.0[BLOCK];
-        let last = self.0[BLOCK + width - 1];
-        self.0[BLOCK + width..=BLOCK + padded].fill(last);
+        let values = &mut self.0[..];
+        values[BLOCK - 1] = values[BLOCK];
+        let last = values[BLOCK + width - 1];
+        values[BLOCK + padded] = last;
+        if padded > width {
+            values[BLOCK + width..BLOCK + padded].fill(last);
+        }
     }
 }
 

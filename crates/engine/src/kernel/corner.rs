@@ -10,7 +10,9 @@ use crate::lane::{BLOCK, Block, Lane};
 /// Adds one to every lane that is a corner at `level`.
 #[inline(always)]
 pub(crate) fn count<T: Lane>(windows: Windows<'_, T>, level: T, hits: &mut [Block<T>]) {
+    let blocks = hits.len();
     let Windows { above, here, below } = windows;
+    let (above, here, below) = (above.of(blocks), here.of(blocks), below.of(blocks));
     for (at, hits) in hits.iter_mut().enumerate() {
         for i in 0..BLOCK {
             let ring = [

@@ -10,7 +10,9 @@ use crate::lane::{BLOCK, Block, Lane};
 /// Adds one to every lane whose window is an edge; `half` is half of the level, rounded down.
 #[inline(always)]
 pub(crate) fn count<T: Lane>(windows: Windows<'_, T>, half: T::Signed, hits: &mut [Block<T>]) {
+    let blocks = hits.len();
     let Windows { above, here, below } = windows;
+    let (above, here, below) = (above.of(blocks), here.of(blocks), below.of(blocks));
     for (at, hits) in hits.iter_mut().enumerate() {
         for i in 0..BLOCK {
             let pixel = |row: &[Block<T>]| T::Signed::from(row[at][i]);

@@ -10,8 +10,12 @@ use crate::lane::{BLOCK, Block, Lane};
 #[inline(always)]
 pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
     let ([a, b, c], [low, mid, high]) = (rows, sorted);
-    let sorted = low.iter_mut().zip(mid).zip(high);
-    for (((a, b), c), ((low, mid), high)) in a.iter().zip(b).zip(c).zip(sorted) {
+    let blocks = low.len();
+    let (a, b, c) = (&a[..blocks], &b[..blocks], &c[..blocks]);
+    let (mid, high) = (&mut mid[..blocks], &mut high[..blocks]);
+    for at in 0..blocks {
+        let (a, b, c) = (&a[at], &b[at], &c[at]);
+        let (low, mid, high) = (&mut low[at], &mut mid[at], &mut high[at]);
         for i in 0..BLOCK {
             let (p, q, r) = (a[i], b[i], c[i]);
             let (p, q) = (p.min(q), p.max(q));
@@ -28,6 +32,8 @@ pub(crate) fn combine<T: Lane>(
     seams: Option<Seams<'_, T>>,
     out: &mut [Block<T>],
 ) {
+    let blocks = out.len();
+    let (low, mid, high) = (low.of(blocks), mid.of(blocks), high.of(blocks));
     match seams {
         None => {
             for (at, out) in out.iter_mut().enumerate() {
@@ -39,13 +45,14 @@ pub(crate) fn combine<T: Lane>(
             }
         }
         Some(seams) => {
+            let (first, last) = (&seams.first[..blocks], &seams.last[..blocks]);
             for (at, out) in out.iter_mut().enumerate() {
                 let pick = |line: Line<'_, T>, i| {
                     let center = line.center[at][i];
                     (
-                        select(seams.first[at][i], center, line.west[at][i]),
+                        select(first[at][i], center, line.west[at][i]),
                         center,
-                        select(seams.last[at][i], center, line.east[at][i]),
+                        select(last[at][i], center, line.east[at][i]),
                     )
                 };
                 for i in 0..BLOCK {
@@ -72,11 +79,14 @@ pub(crate) fn clamp<T: Lane>(
     west: &mut [Block<T>],
     east: &mut [Block<T>],
 ) {
-    for (at, (west, east)) in west.iter_mut().zip(east).enumerate() {
+    let blocks = west.len();
+    let (line, east) = (line.of(blocks), &mut east[..blocks]);
+    let (first, last) = (&seams.first[..blocks], &seams.last[..blocks]);
+    for at in 0..blocks {
         for i in 0..BLOCK {
             let center = line.center[at][i];
-            west[i] = select(seams.first[at][i], center, line.west[at][i]);
-            east[i] = select(seams.last[at][i], center, line.east[at][i]);
+            west[at][i] = select(first[at][i], center, line.west[at][i]);
+            east[at][i] = select(last[at][i], center, line.east[at][i]);
         }
     }
 }

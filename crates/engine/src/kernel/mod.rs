@@ -32,3 +32,15 @@ pub(crate) struct Line<'a, T> {
     pub(crate) center: &'a [Block<T>],
     pub(crate) east: &'a [Block<T>],
 }
+
+impl<'a, T> Line<'a, T> {
+    /// The same, known to the compiler to have as many blocks as another slice.
+    #[inline(always)]
+    pub(crate) fn of(self, blocks: usize) -> Self {
+        Self {
+            west: &self.west[..blocks],
+            center: &self.center[..blocks],
+            east: &self.east[..blocks],
+        }
+    }
+}
