@@ -6,7 +6,7 @@ use std::ops::Range;
 use foveate_spec::Reference;
 
 use crate::denoised::Denoiser;
-use crate::kernel::{corner, edge, mad, sums, temporal};
+use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};
 use crate::lane::{BLOCK, Block, Lane, threshold};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
@@ -27,6 +27,23 @@ fn blocks_mut<'a, T>(
     run: &Range<usize>,
 ) -> &'a mut [Block<T>] {
     plane[y * stride + run.start * BLOCK..][..run.len() * BLOCK].as_chunks_mut().0
+}
+
+/// Counts what the features that look at windows find in a row.
+#[inline(always)]
+fn features<T: Lane>(
+    plan: &Plan<T>,
+    windows: Windows<'_, T>,
+    sides: impl Sides<T>,
+    columns: &mut Columns<T>,
+    run: &Range<usize>,
+) {
+    if let Some(half) = plan.edge {
+        edge::count(windows, sides, half, &mut columns.edge.blocks_mut()[run.clone()]);
+    }
+    if let Some(level) = plan.corner {
+        corner::count(windows, sides, level, &mut columns.corner.blocks_mut()[run.clone()]);
+    }
 }
 
 /// A band of regions with its part of the planes.
@@ -84,11 +101,9 @@ impl<T: Lane> Band<'_, T> {
             let y = top + row;
             if plan.has_windows() {
                 let windows = denoiser.windows(y);
-                if let Some(half) = plan.edge {
-                    edge::count(windows, half, &mut columns.edge.blocks_mut()[run.clone()]);
-                }
-                if let Some(level) = plan.corner {
-                    corner::count(windows, level, &mut columns.corner.blocks_mut()[run.clone()]);
+                match &plan.seams {
+                    None => features(plan, windows, Open, columns, run),
+                    Some(seams) => features(plan, windows, seams.over(run), columns, run),
                 }
             }
             let now = denoiser.row(y);

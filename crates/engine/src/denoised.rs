@@ -3,16 +3,16 @@
 
 use std::ops::Range;
 
-use crate::kernel::median::{self, Seams};
-use crate::kernel::{Line, Windows};
+use crate::kernel::{Open, Seams, Windows, median};
 use crate::lane::{BLOCK, Block, Lane};
 use crate::pixels::Pixels;
 use crate::plan::{Plan, SeamMasks};
 use crate::scratch::{DenoisedRow, Row};
 
 impl<T: Lane> SeamMasks<T> {
+    /// Those of some blocks.
     #[inline(always)]
-    fn over(&self, span: &Range<usize>) -> Seams<'_, T> {
+    pub(crate) fn over(&self, span: &Range<usize>) -> Seams<'_, T> {
         Seams { first: &self.first.blocks()[span.clone()], last: &self.last.blocks()[span.clone()] }
     }
 }
@@ -36,7 +36,7 @@ impl<T: Lane> Denoiser<'_, T> {
     #[inline(always)]
     pub(crate) fn row(&mut self, y: usize) -> &[Block<T>] {
         self.ensure(y);
-        self.rows[y % 3].center.line(&self.run).center
+        self.rows[y % 3].pixels.blocks(&self.run)
     }
 
     /// The windows of row `y`.
@@ -46,21 +46,8 @@ impl<T: Lane> Denoiser<'_, T> {
         self.ensure(above);
         self.ensure(y);
         self.ensure(below);
-        let line = |y: usize| self.line(&self.rows[y % 3]);
-        Windows { above: line(above), here: line(y), below: line(below) }
-    }
-
-    #[inline(always)]
-    fn line<'r>(&self, row: &'r DenoisedRow<T>) -> Line<'r, T> {
-        let plain = row.center.line(&self.run);
-        if self.plan.seams.is_none() {
-            return plain;
-        }
-        Line {
-            west: row.west.line(&self.run).center,
-            center: plain.center,
-            east: row.east.line(&self.run).center,
-        }
+        let near = |y: usize| self.rows[y % 3].pixels.near(&self.run);
+        Windows { above: near(above), here: near(y), below: near(below) }
     }
 
     #[inline(always)]
@@ -88,24 +75,18 @@ impl<T: Lane> Denoiser<'_, T> {
         let row = &mut self.rows[y % 3];
         if plan.median {
             let [low, mid, high] = &*self.sorted;
-            let lines = [low.line(&span), mid.line(&span), high.line(&span)];
-            let seams = match &plan.seams {
-                None => None,
-                Some(seams) => Some(seams.over(&span)),
-            };
-            median::combine(lines, seams, row.center.blocks_mut(&span));
-            row.center.repeat_border(plan.padded_width(), plan.padded_width());
+            let sorted = [low.near(&span), mid.near(&span), high.near(&span)];
+            let pixels = row.pixels.blocks_mut(&span);
+            match &plan.seams {
+                None => median::combine(sorted, Open, pixels),
+                Some(seams) => median::combine(sorted, seams.over(&span), pixels),
+            }
+            row.pixels.repeat_border(plan.padded_width(), plan.padded_width());
         } else {
             let columns = span.start * BLOCK..(span.end * BLOCK).min(plan.width);
             let raw = self.raw.row(y);
-            row.center.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
-            row.center.repeat_border(plan.width, plan.padded_width());
-        }
-        if let Some(seams) = &plan.seams
-            && plan.has_windows()
-        {
-            let (west, east) = (row.west.blocks_mut(&span), row.east.blocks_mut(&span));
-            median::clamp(row.center.line(&span), seams.over(&span), west, east);
+            row.pixels.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
+            row.pixels.repeat_border(plan.width, plan.padded_width());
         }
         row.holds = Some((y, self.run.clone()));
     }

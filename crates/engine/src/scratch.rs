@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use crate::aligned::Aligned;
-use crate::kernel::Line;
+use crate::kernel::Near;
 use crate::lane::{BLOCK, Block, Lane};
 use crate::plan::Plan;
 
@@ -35,18 +35,16 @@ impl<T: Lane> Row<T> {
         &mut self.0[BLOCK..]
     }
 
-    /// What is left of, at, and right of every column of some blocks.
+    /// The values of some blocks.
     #[inline(always)]
-    pub(crate) fn line(&self, span: &Range<usize>) -> Line<'_, T> {
-        let start = (1 + span.start) * BLOCK;
-        // One check for all three.
-        let near = &self.0[start - 1..start + span.len() * BLOCK + 1];
-        let len = near.len() - 2;
-        Line {
-            west: near[..len].as_chunks().0,
-            center: near[1..len + 1].as_chunks().0,
-            east: near[2..].as_chunks().0,
-        }
+    pub(crate) fn blocks(&self, span: &Range<usize>) -> &[Block<T>] {
+        &self.0.blocks()[1 + span.start..1 + span.end]
+    }
+
+    /// The same with one lane more on each side.
+    #[inline(always)]
+    pub(crate) fn near(&self, span: &Range<usize>) -> Near<'_, T> {
+        &self.0[(1 + span.start) * BLOCK - 1..=(1 + span.end) * BLOCK]
     }
 
     /// Repeats the border pixels of a row of `width` outwards.
@@ -62,14 +60,12 @@ impl<T: Lane> Row<T> {
     }
 }
 
-/// A denoised row, with its neighbors where they are not simply those of the row.
+/// A denoised row.
 #[derive(Clone, Debug)]
 pub(crate) struct DenoisedRow<T: Lane> {
     /// Which row and blocks of the current frame this is.
     pub(crate) holds: Option<(usize, Range<usize>)>,
-    pub(crate) center: Row<T>,
-    pub(crate) west: Row<T>,
-    pub(crate) east: Row<T>,
+    pub(crate) pixels: Row<T>,
 }
 
 /// Column sums of one band.
@@ -116,9 +112,7 @@ pub(crate) struct Scratch<T: Lane> {
 impl<T: Lane> Scratch<T> {
     pub(crate) fn new(plan: &Plan<T>) -> Self {
         let row = || Row::new(plan.blocks);
-        let clamped = || Row::new(if plan.seams.is_some() { plan.blocks } else { 0 });
-        let denoised =
-            || DenoisedRow { holds: None, center: row(), west: clamped(), east: clamped() };
+        let denoised = || DenoisedRow { holds: None, pixels: row() };
         let regions = || vec![0; plan.columns];
         let width = plan.stride();
         Self {

@@ -4,28 +4,26 @@
 //! The best arc of five of the ring is the largest of eight minima. Two arcs that share four pixels
 //! are `min(four, max(pixel before, pixel after))`, so four groups of four serve all eight arcs.
 
-use crate::kernel::Windows;
+use crate::kernel::{Sides, Windows, near};
 use crate::lane::{BLOCK, Block, Lane};
 
 /// Adds one to every lane that is a corner at `level`.
 #[inline(always)]
-pub(crate) fn count<T: Lane>(windows: Windows<'_, T>, level: T, hits: &mut [Block<T>]) {
-    let blocks = hits.len();
-    let Windows { above, here, below } = windows;
-    let (above, here, below) = (above.of(blocks), here.of(blocks), below.of(blocks));
+pub(crate) fn count<T: Lane>(
+    windows: Windows<'_, T>,
+    sides: impl Sides<T>,
+    level: T,
+    hits: &mut [Block<T>],
+) {
     for (at, hits) in hits.iter_mut().enumerate() {
+        let above = near(windows.above, at);
+        let here = near(windows.here, at);
+        let below = near(windows.below, at);
         for i in 0..BLOCK {
-            let ring = [
-                above.west[at][i],
-                above.center[at][i],
-                above.east[at][i],
-                here.east[at][i],
-                below.east[at][i],
-                below.center[at][i],
-                below.west[at][i],
-                here.west[at][i],
-            ];
-            let center = here.center[at][i];
+            let (nw, n, ne) = sides.see(above, at, i);
+            let (w, center, e) = sides.see(here, at, i);
+            let (sw, s, se) = sides.see(below, at, i);
+            let ring = [nw, n, ne, e, se, s, sw, w];
             let bright = best_arc(ring, T::min, T::max) > center.plus(level);
             let dark = best_arc(ring, T::max, T::min) < center.minus(level);
             hits[i] += T::hit(bright | dark);

@@ -4,24 +4,29 @@
 //! `|Gx| + |Gy|` is the larger of `|Gx + Gy|` and `|Gx - Gy|`. Both are even, and half of each is a
 //! sum of three differences of pixels, which is compared with half the level, rounded down.
 
-use crate::kernel::Windows;
+use crate::kernel::{Sides, Windows, near};
 use crate::lane::{BLOCK, Block, Lane};
 
 /// Adds one to every lane whose window is an edge; `half` is half of the level, rounded down.
 #[inline(always)]
-pub(crate) fn count<T: Lane>(windows: Windows<'_, T>, half: T::Signed, hits: &mut [Block<T>]) {
-    let blocks = hits.len();
-    let Windows { above, here, below } = windows;
-    let (above, here, below) = (above.of(blocks), here.of(blocks), below.of(blocks));
+pub(crate) fn count<T: Lane>(
+    windows: Windows<'_, T>,
+    sides: impl Sides<T>,
+    half: T::Signed,
+    hits: &mut [Block<T>],
+) {
     for (at, hits) in hits.iter_mut().enumerate() {
+        let above = near(windows.above, at);
+        let here = near(windows.here, at);
+        let below = near(windows.below, at);
         for i in 0..BLOCK {
-            let pixel = |row: &[Block<T>]| T::Signed::from(row[at][i]);
-            let across = pixel(here.east) - pixel(here.west);
-            let down = pixel(below.center) - pixel(above.center);
-            let falling = pixel(below.east) - pixel(above.west);
-            let rising = pixel(above.east) - pixel(below.west);
-            let sum = across + down + falling;
-            let difference = across - down + rising;
+            let (nw, n, ne) = sides.see(above, at, i);
+            let (w, _, e) = sides.see(here, at, i);
+            let (sw, s, se) = sides.see(below, at, i);
+            let minus = |a, b| T::Signed::from(a) - T::Signed::from(b);
+            let (across, down) = (minus(e, w), minus(s, n));
+            let sum = across + down + minus(se, nw);
+            let difference = across - down + minus(ne, sw);
             let larger = sum.max(-sum).max(difference.max(-difference));
             hits[i] += T::hit(larger > half);
         }
