@@ -84,7 +84,7 @@ impl<T: Lane> Band<'_, T> {
 
     #[inline(always)]
     fn first_pass(&mut self, scratch: &mut Scratch<T>, run: &Range<usize>) {
-        let (plan, stride) = (self.plan, self.plan.stride());
+        let plan = self.plan;
         let Scratch { sorted, tail, denoised, columns, .. } = scratch;
         let top = self.number * plan.side;
         let mut denoiser = Denoiser {
@@ -97,33 +97,52 @@ impl<T: Lane> Band<'_, T> {
             run: run.clone(),
         };
         columns.clear(plan, run);
-        for row in 0..plan.side {
-            let y = top + row;
+        for first in (0..plan.side).step_by(plan.batch()) {
+            let rows = first..(first + plan.batch()).min(plan.side);
+            let [above, ..] = denoiser.around(top + rows.start);
+            let [.., below] = denoiser.around(top + rows.end - 1);
             if plan.has_windows() {
-                let windows = denoiser.windows(y);
-                match &plan.seams {
-                    None => features(plan, windows, Open, columns, run),
-                    Some(seams) => features(plan, windows, seams.over(run), columns, run),
+                denoiser.ensure(above..below + 1);
+                for y in top + rows.start..top + rows.end {
+                    let windows = denoiser.windows(y);
+                    match &plan.seams {
+                        None => features(plan, windows, Open, columns, run),
+                        Some(seams) => features(plan, windows, seams.over(run), columns, run),
+                    }
                 }
+            } else {
+                denoiser.ensure(top + rows.start..top + rows.end);
             }
-            let now = denoiser.row(y);
-            let changed = &mut columns.changed.blocks_mut()[run.clone()];
-            let store = blocks_mut(self.denoised, stride, row, run);
-            match plan.reference {
-                Reference::Previous => {
-                    temporal::count_and_replace(now, store, plan.level, changed);
-                }
-                Reference::LastSent => {
-                    let reference = blocks(self.reference, stride, row, run);
-                    temporal::count_and_store(now, reference, plan.level, changed, store);
-                }
+            for row in rows {
+                self.compare(denoiser.row(top + row), row, columns, run);
             }
-            if plan.mad.is_some() || plan.variance {
-                sums::add(now, &mut columns.sum.blocks_mut()[run.clone()]);
+        }
+    }
+
+    /// Compares a row with its reference, keeps it, and adds it up.
+    #[inline(always)]
+    fn compare(
+        &mut self,
+        now: &[Block<T>],
+        row: usize,
+        columns: &mut Columns<T>,
+        run: &Range<usize>,
+    ) {
+        let (plan, stride) = (self.plan, self.plan.stride());
+        let changed = &mut columns.changed.blocks_mut()[run.clone()];
+        let store = blocks_mut(self.denoised, stride, row, run);
+        match plan.reference {
+            Reference::Previous => temporal::count_and_replace(now, store, plan.level, changed),
+            Reference::LastSent => {
+                let reference = blocks(self.reference, stride, row, run);
+                temporal::count_and_store(now, reference, plan.level, changed, store);
             }
-            if plan.variance {
-                sums::add_squares(now, &mut columns.square.blocks_mut()[run.clone()]);
-            }
+        }
+        if plan.mad.is_some() || plan.variance {
+            sums::add(now, &mut columns.sum.blocks_mut()[run.clone()]);
+        }
+        if plan.variance {
+            sums::add_squares(now, &mut columns.square.blocks_mut()[run.clone()]);
         }
     }
 

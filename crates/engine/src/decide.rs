@@ -7,7 +7,7 @@ use foveate_spec::{Combine, FeatureKind, Irrelevant, Reference};
 use crate::kernel::mad;
 use crate::lane::Lane;
 use crate::outcome::Results;
-use crate::plan::{Feature, Plan};
+use crate::plan::Plan;
 use crate::scratch::Sums;
 
 impl<T: Lane> Plan<T> {
@@ -21,50 +21,66 @@ impl<T: Lane> Plan<T> {
         valid: &[bool],
         results: &mut Results<'_>,
     ) {
-        let n = self.region_pixels();
-        for at in 0..self.columns {
-            if affected[at] {
-                let changed = u32::try_from(sums.changed[at]).unwrap_or(n);
-                results.temporal_count[at] = if valid[at] { changed } else { n };
-                for (feature, scores) in self.features.iter().zip(&mut results.scores) {
-                    scores[at] = self.score(*feature, sums, at);
-                }
-                results.srs[at] = self.votes(results, at);
-            } else {
-                let last = (results.actions[at], results.temporal_count[at]);
-                results.temporal_count[at] = self.count_of_identical(last, n);
-            }
-            let (srs, trs) = (results.srs[at], results.temporal_count[at] >= self.min_count);
-            results.trs[at] = trs;
-            results.active[at] = srs && trs;
-            results.actions[at] = self.action(srs, trs);
-        }
-    }
-
-    #[inline(always)]
-    fn score(&self, feature: Feature, sums: &Sums, at: usize) -> u64 {
+        self.count(sums, affected, valid, results);
         let n = u64::from(self.region_pixels());
-        match feature.kind {
-            FeatureKind::Edge => sums.edge[at],
-            FeatureKind::Corner => sums.corner[at],
-            FeatureKind::Mad => {
-                let fraction_bits = self.mad.unwrap_or_default();
-                mad::score(n, fraction_bits, sums.sum[at], sums.above[at], sums.over[at])
+        for (feature, scores) in self.features.iter().zip(&mut results.scores) {
+            match feature.kind {
+                FeatureKind::Edge => fill(scores, affected, |at| sums.edge[at]),
+                FeatureKind::Corner => fill(scores, affected, |at| sums.corner[at]),
+                FeatureKind::Mad => {
+                    let bits = self.mad.unwrap_or_default();
+                    let score =
+                        |at| mad::score(n, bits, sums.sum[at], sums.above[at], sums.over[at]);
+                    fill(scores, affected, score);
+                }
+                FeatureKind::Variance => {
+                    fill(scores, affected, |at| n * sums.square[at] - sums.sum[at] * sums.sum[at]);
+                }
             }
-            FeatureKind::Variance => n * sums.square[at] - sums.sum[at] * sums.sum[at],
+        }
+        self.vote(results);
+        let bits = results.srs.iter().zip(&mut *results.trs).zip(&*results.temporal_count);
+        for ((((&srs, trs), &count), active), action) in
+            bits.zip(&mut *results.active).zip(&mut *results.actions)
+        {
+            *trs = count >= self.min_count;
+            *active = srs & *trs;
+            *action = self.action(srs, *trs);
         }
     }
 
+    /// Temporal counts, from the last actions where no pixel has changed.
     #[inline(always)]
-    fn votes(&self, results: &Results<'_>, at: usize) -> bool {
-        let mut votes = self
-            .features
-            .iter()
-            .zip(&results.scores)
-            .map(|(feature, scores)| scores[at] >= feature.min_score);
-        match self.combine {
-            Combine::Any => votes.any(|vote| vote),
-            Combine::All => votes.all(|vote| vote),
+    fn count(&self, sums: &Sums, affected: &[bool], valid: &[bool], results: &mut Results<'_>) {
+        let n = self.region_pixels();
+        let regions = sums.changed.iter().zip(affected).zip(valid);
+        let last = results.temporal_count.iter_mut().zip(&*results.actions);
+        for (((&changed, &affected), &valid), (count, &action)) in regions.zip(last) {
+            let changed = u32::try_from(changed).unwrap_or(n);
+            *count = match affected {
+                true => {
+                    if valid {
+                        changed
+                    } else {
+                        n
+                    }
+                }
+                false => self.count_of_identical((action, *count), n),
+            };
+        }
+    }
+
+    /// Spatial relevance from the scores.
+    #[inline(always)]
+    fn vote(&self, results: &mut Results<'_>) {
+        let srs = &mut *results.srs;
+        srs.fill(self.combine == Combine::All);
+        for (feature, scores) in self.features.iter().zip(&results.scores) {
+            let votes = scores.iter().map(|&score| score >= feature.min_score);
+            match self.combine {
+                Combine::Any => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs |= vote),
+                Combine::All => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs &= vote),
+            }
         }
     }
 
@@ -88,6 +104,16 @@ impl<T: Lane> Plan<T> {
                 Irrelevant::Zero => Action::Blank,
                 Irrelevant::Hold => Action::Hold,
             },
+        }
+    }
+}
+
+/// Puts new scores where regions are affected.
+#[inline(always)]
+fn fill(scores: &mut [u64], affected: &[bool], new: impl Fn(usize) -> u64) {
+    for (at, (score, &affected)) in scores.iter_mut().zip(affected).enumerate() {
+        if affected {
+            *score = new(at);
         }
     }
 }

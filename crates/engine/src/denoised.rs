@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Denoised rows on demand: the last three are kept, so that a window's rows are computed once.
+//! Denoised rows on demand: those around a batch are kept, so that a window's rows are computed once.
 
 use std::ops::Range;
 
@@ -17,14 +17,17 @@ impl<T: Lane> SeamMasks<T> {
     }
 }
 
+/// Rows between the one that is sorted and the one that is asked for.
+const AHEAD: usize = 3;
+
 /// The rows of one run of blocks, padding and borders as the contract says.
 #[derive(Debug)]
 pub(crate) struct Denoiser<'a, T: Lane> {
     pub(crate) plan: &'a Plan<T>,
     pub(crate) raw: Pixels<'a, T>,
-    pub(crate) sorted: &'a mut [Row<T>; 3],
+    pub(crate) sorted: &'a mut [[Row<T>; 3]],
     pub(crate) tail: &'a mut [Block<T>; 3],
-    pub(crate) rows: &'a mut [DenoisedRow<T>; 3],
+    pub(crate) rows: &'a mut [DenoisedRow<T>],
     /// First and last row that windows may reach.
     pub(crate) reach: (usize, usize),
     /// The blocks that are wanted.
@@ -32,54 +35,67 @@ pub(crate) struct Denoiser<'a, T: Lane> {
 }
 
 impl<T: Lane> Denoiser<'_, T> {
-    /// Row `y` of the blocks that are wanted.
+    /// Makes some rows available, no more than a batch and one on each side.
     #[inline(always)]
-    pub(crate) fn row(&mut self, y: usize) -> &[Block<T>] {
-        self.ensure(y);
-        self.rows[y % 3].pixels.blocks(&self.run)
-    }
-
-    /// The windows of row `y`.
-    #[inline(always)]
-    pub(crate) fn windows(&mut self, y: usize) -> Windows<'_, T> {
-        let (above, below) = (y.saturating_sub(1).max(self.reach.0), (y + 1).min(self.reach.1));
-        self.ensure(above);
-        self.ensure(y);
-        self.ensure(below);
-        let near = |y: usize| self.rows[y % 3].pixels.near(&self.run);
-        Windows { above: near(above), here: near(y), below: near(below) }
-    }
-
-    #[inline(always)]
-    fn ensure(&mut self, y: usize) {
-        let held = &self.rows[y % 3].holds;
-        if !held.as_ref().is_some_and(|(row, run)| *row == y && *run == self.run) {
-            self.compute(y);
+    pub(crate) fn ensure(&mut self, rows: Range<usize>) {
+        let held = |y: usize| {
+            let held = &self.slot(y).holds;
+            held.as_ref().is_some_and(|(row, run)| *row == y && *run == self.run)
+        };
+        let mut missing = rows;
+        while missing.start < missing.end && held(missing.start) {
+            missing.start += 1;
+        }
+        let plan = self.plan;
+        // One block more on each side than is wanted: the windows of features reach there.
+        let span = self.run.start.saturating_sub(1)..(self.run.end + 1).min(plan.blocks);
+        if plan.median {
+            for y in missing.clone() {
+                self.sort(y, &span, y - missing.start);
+            }
+        }
+        for y in missing.clone() {
+            self.fill(y, &span, y - missing.start);
         }
     }
 
-    /// One block more on each side than is wanted, since the windows of features reach there.
+    /// Row `y` of the blocks that are wanted, once it is available.
     #[inline(always)]
-    fn span(&self) -> Range<usize> {
-        self.run.start.saturating_sub(1)..(self.run.end + 1).min(self.plan.blocks)
+    pub(crate) fn row(&self, y: usize) -> &[Block<T>] {
+        self.slot(y).pixels.blocks(&self.run)
+    }
+
+    /// The windows of row `y`, once its neighbors are available.
+    #[inline(always)]
+    pub(crate) fn windows(&self, y: usize) -> Windows<'_, T> {
+        let [above, here, below] = self.around(y);
+        let near = |y: usize| self.slot(y).pixels.near(&self.run);
+        Windows { above: near(above), here: near(here), below: near(below) }
+    }
+
+    /// The rows that a window in row `y` sees.
+    #[inline(always)]
+    pub(crate) fn around(&self, y: usize) -> [usize; 3] {
+        [y.saturating_sub(1).max(self.reach.0), y, (y + 1).min(self.reach.1)]
     }
 
     #[inline(always)]
-    fn compute(&mut self, y: usize) {
-        let (plan, span) = (self.plan, self.span());
+    fn slot(&self, y: usize) -> &DenoisedRow<T> {
+        &self.rows[y % self.rows.len()]
+    }
+
+    /// Fills row `y`, from the sorted columns number `at` or from raw pixels.
+    #[inline(always)]
+    fn fill(&mut self, y: usize, span: &Range<usize>, at: usize) {
+        let (plan, slots) = (self.plan, self.rows.len());
+        let row = &mut self.rows[y % slots];
         if plan.median {
-            let above = y.saturating_sub(1).max(self.reach.0);
-            let below = (y + 1).min(self.reach.1);
-            self.sort([above, y, below], &span);
-        }
-        let row = &mut self.rows[y % 3];
-        if plan.median {
-            let [low, mid, high] = &*self.sorted;
-            let sorted = [low.near(&span), mid.near(&span), high.near(&span)];
-            let pixels = row.pixels.blocks_mut(&span);
+            let [low, mid, high] = &self.sorted[at];
+            let sorted = [low.near(span), mid.near(span), high.near(span)];
+            let pixels = row.pixels.blocks_mut(span);
             match &plan.seams {
                 None => median::combine(sorted, Open, pixels),
-                Some(seams) => median::combine(sorted, seams.over(&span), pixels),
+                Some(seams) => median::combine(sorted, seams.over(span), pixels),
             }
             row.pixels.repeat_border(plan.padded_width(), plan.padded_width());
         } else {
@@ -91,38 +107,46 @@ impl<T: Lane> Denoiser<'_, T> {
         row.holds = Some((y, self.run.clone()));
     }
 
-    /// Sorts the columns of three raw rows.
+    /// Sorts the columns of the three raw rows around `y`.
     #[inline(always)]
-    fn sort(&mut self, rows: [usize; 3], span: &Range<usize>) {
+    fn sort(&mut self, y: usize, span: &Range<usize>, at: usize) {
         let width = self.plan.width;
-        let [a, b, c] = rows;
+        let [a, b, c] = self.around(y);
         let rows = [self.raw.row(a), self.raw.row(b), self.raw.row(c)];
+        let ahead = self.raw.row(y + AHEAD);
         let whole = span.start..span.end.min(width / BLOCK);
-        let [low, mid, high] = &mut *self.sorted;
+        let [low, mid, high] = &mut self.sorted[at];
         let sorted = [low.blocks_mut(&whole), mid.blocks_mut(&whole), high.blocks_mut(&whole)];
-        median::sort_columns(each(rows, whole.start * BLOCK), sorted);
+        let start = whole.start * BLOCK;
+        median::sort_columns(each(rows, start), blocks_of(ahead, start), sorted);
         if whole.end < span.end {
             // The last block that is not whole: together with pixels before it, or by itself.
             let start = width.saturating_sub(BLOCK);
             let sorted = [low.blocks_at(start), mid.blocks_at(start), high.blocks_at(start)];
             if start > 0 {
-                median::sort_columns(each(rows, start), sorted);
+                median::sort_columns(each(rows, start), blocks_of(ahead, start), sorted);
             } else {
                 for (tail, row) in self.tail.iter_mut().zip(rows) {
                     tail[..width].copy_from_slice(row);
                 }
                 let [a, b, c] = &*self.tail;
-                median::sort_columns([&[*a], &[*b], &[*c]], sorted);
+                median::sort_columns([&[*a], &[*b], &[*c]], &[*a], sorted);
             }
         }
-        for row in &mut *self.sorted {
+        for row in [low, mid, high] {
             row.repeat_border(width, self.plan.padded_width());
         }
     }
 }
 
-/// Blocks of three rows from a column on.
+/// The blocks of a row from a column on.
+#[inline(always)]
+fn blocks_of<T>(row: &[T], start: usize) -> &[Block<T>] {
+    row[start..].as_chunks().0
+}
+
+/// The same of three rows.
 #[inline(always)]
 fn each<T>([a, b, c]: [&[T]; 3], start: usize) -> [&[Block<T>]; 3] {
-    [a[start..].as_chunks().0, b[start..].as_chunks().0, c[start..].as_chunks().0]
+    [blocks_of(a, start), blocks_of(b, start), blocks_of(c, start)]
 }

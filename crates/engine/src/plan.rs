@@ -11,6 +11,9 @@ use crate::lane::{BLOCK, Lane, threshold};
 /// Features a design can have.
 pub(crate) const FEATURES: usize = 4;
 
+/// Blocks in a batch of rows.
+const BATCH: usize = 32;
+
 /// What a design asks for.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan<T: Lane> {
@@ -113,6 +116,12 @@ impl<T: Lane> Plan<T> {
     /// Whether a feature looks at windows.
     pub(crate) fn has_windows(&self) -> bool {
         self.edge.is_some() || self.corner.is_some()
+    }
+
+    /// Rows that go through each step together: in narrow frames several, since a step that reads
+    /// what the one before has only just written waits for it.
+    pub(crate) fn batch(&self) -> usize {
+        (BATCH / self.blocks).clamp(1, self.side)
     }
 
     /// Pixels of a region.

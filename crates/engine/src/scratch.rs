@@ -97,10 +97,12 @@ pub(crate) struct Sums {
 /// Working memory of one worker.
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch<T: Lane> {
-    pub(crate) sorted: [Row<T>; 3],
+    /// Low, mid and high of the columns of each row of a batch.
+    pub(crate) sorted: Vec<[Row<T>; 3]>,
     /// A row short of a whole block, three rows of a window.
     pub(crate) tail: [Block<T>; 3],
-    pub(crate) denoised: [DenoisedRow<T>; 3],
+    /// The rows of a batch and those around it.
+    pub(crate) denoised: Vec<DenoisedRow<T>>,
     pub(crate) columns: Columns<T>,
     pub(crate) sums: Sums,
     /// Blocks of the band that have to be computed.
@@ -111,14 +113,14 @@ pub(crate) struct Scratch<T: Lane> {
 
 impl<T: Lane> Scratch<T> {
     pub(crate) fn new(plan: &Plan<T>) -> Self {
-        let row = || Row::new(plan.blocks);
+        let (rows, row) = (plan.batch() + 2, || Row::new(plan.blocks));
         let denoised = || DenoisedRow { holds: None, pixels: row() };
         let regions = || vec![0; plan.columns];
         let width = plan.stride();
         Self {
-            sorted: [row(), row(), row()],
+            sorted: (0..rows).map(|_| [row(), row(), row()]).collect(),
             tail: [[T::default(); BLOCK]; 3],
-            denoised: [denoised(), denoised(), denoised()],
+            denoised: (0..rows).map(|_| denoised()).collect(),
             columns: Columns {
                 changed: Aligned::new(width),
                 edge: Aligned::new(width),

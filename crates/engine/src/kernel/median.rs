@@ -5,15 +5,22 @@
 
 use crate::kernel::{Near, Sides, near};
 use crate::lane::{BLOCK, Block, Lane};
+use crate::simd::prefetch;
 
-/// The three pixels of every column, sorted.
+/// The three pixels of every column, sorted. What will be sorted some rows later, `ahead`, is asked
+/// for meanwhile.
 #[inline(always)]
-pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
+pub(crate) fn sort_columns<T: Lane>(
+    rows: [&[Block<T>]; 3],
+    ahead: &[Block<T>],
+    sorted: [&mut [Block<T>]; 3],
+) {
     let ([a, b, c], [low, mid, high]) = (rows, sorted);
     let blocks = low.len();
-    let (a, b, c) = (&a[..blocks], &b[..blocks], &c[..blocks]);
+    let (a, b, c, ahead) = (&a[..blocks], &b[..blocks], &c[..blocks], &ahead[..blocks]);
     let (mid, high) = (&mut mid[..blocks], &mut high[..blocks]);
     for at in 0..blocks {
+        prefetch(&ahead[at]);
         let (a, b, c) = (&a[at], &b[at], &c[at]);
         let (low, mid, high) = (&mut low[at], &mut mid[at], &mut high[at]);
         for i in 0..BLOCK {
@@ -73,7 +80,8 @@ mod tests {
             let mut sorted = [[0; 3 * BLOCK]; 3];
             let [low, mid, high] = &mut sorted;
             let blocks = [low, mid, high].map(|row| row.as_chunks_mut().0);
-            sort_columns(rows.each_ref().map(|row| row.as_chunks().0), blocks);
+            let rows = rows.each_ref().map(|row| row.as_chunks().0);
+            sort_columns(rows, rows[0], blocks);
             let mut out = [[9; BLOCK]];
             combine(sorted.each_ref().map(|row| &row[BLOCK - 1..]), Open, &mut out);
             assert_eq!(out[0][0], u8::from(bits.count_ones() >= 5), "window {bits:09b}");
