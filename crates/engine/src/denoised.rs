@@ -18,7 +18,7 @@ impl<T: Lane> SeamMasks<T> {
 }
 
 /// Rows between the one that is sorted and the one that is asked for.
-const AHEAD: usize = 3;
+const AHEAD: usize = 6;
 
 /// The rows of one run of blocks, padding and borders as the contract says.
 #[derive(Debug)]
@@ -93,9 +93,11 @@ impl<T: Lane> Denoiser<'_, T> {
             let [low, mid, high] = &self.sorted[at];
             let sorted = [low.near(span), mid.near(span), high.near(span)];
             let pixels = row.pixels.blocks_mut(span);
+            let ahead = self.raw.row(y + AHEAD);
+            let ahead = blocks_of(ahead, (span.start * BLOCK).min(plan.width));
             match &plan.seams {
-                None => median::combine(sorted, Open, pixels),
-                Some(seams) => median::combine(sorted, seams.over(span), pixels),
+                None => median::combine(sorted, Open, ahead, pixels),
+                Some(seams) => median::combine(sorted, seams.over(span), ahead, pixels),
             }
             row.pixels.repeat_border(plan.padded_width(), plan.padded_width());
         } else {
@@ -113,24 +115,23 @@ impl<T: Lane> Denoiser<'_, T> {
         let width = self.plan.width;
         let [a, b, c] = self.around(y);
         let rows = [self.raw.row(a), self.raw.row(b), self.raw.row(c)];
-        let ahead = self.raw.row(y + AHEAD);
         let whole = span.start..span.end.min(width / BLOCK);
         let [low, mid, high] = &mut self.sorted[at];
         let sorted = [low.blocks_mut(&whole), mid.blocks_mut(&whole), high.blocks_mut(&whole)];
         let start = whole.start * BLOCK;
-        median::sort_columns(each(rows, start), blocks_of(ahead, start), sorted);
+        median::sort_columns(each(rows, start), sorted);
         if whole.end < span.end {
             // The last block that is not whole: together with pixels before it, or by itself.
             let start = width.saturating_sub(BLOCK);
             let sorted = [low.blocks_at(start), mid.blocks_at(start), high.blocks_at(start)];
             if start > 0 {
-                median::sort_columns(each(rows, start), blocks_of(ahead, start), sorted);
+                median::sort_columns(each(rows, start), sorted);
             } else {
                 for (tail, row) in self.tail.iter_mut().zip(rows) {
                     tail[..width].copy_from_slice(row);
                 }
                 let [a, b, c] = &*self.tail;
-                median::sort_columns([&[*a], &[*b], &[*c]], &[*a], sorted);
+                median::sort_columns([&[*a], &[*b], &[*c]], sorted);
             }
         }
         for row in [low, mid, high] {

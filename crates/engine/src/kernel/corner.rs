@@ -19,6 +19,7 @@ pub(crate) fn count<T: Lane>(
         let above = near(windows.above, at);
         let here = near(windows.here, at);
         let below = near(windows.below, at);
+        let mut sums = *hits;
         for i in 0..BLOCK {
             let (nw, n, ne) = sides.see(above, at, i);
             let (w, center, e) = sides.see(here, at, i);
@@ -26,8 +27,9 @@ pub(crate) fn count<T: Lane>(
             let ring = [nw, n, ne, e, se, s, sw, w];
             let bright = best_arc(ring, T::min, T::max) > center.plus(level);
             let dark = best_arc(ring, T::max, T::min) < center.minus(level);
-            hits[i] += T::hit(bright | dark);
+            sums[i] += T::hit(bright | dark);
         }
+        *hits = sums;
     }
 }
 

@@ -19,6 +19,7 @@ pub(crate) fn count<T: Lane>(
         let above = near(windows.above, at);
         let here = near(windows.here, at);
         let below = near(windows.below, at);
+        let mut sums = *hits;
         for i in 0..BLOCK {
             let (nw, n, ne) = sides.see(above, at, i);
             let (w, _, e) = sides.see(here, at, i);
@@ -28,7 +29,8 @@ pub(crate) fn count<T: Lane>(
             let sum = across + down + minus(se, nw);
             let difference = across - down + minus(ne, sw);
             let larger = sum.max(-sum).max(difference.max(-difference));
-            hits[i] += T::hit(larger > half);
+            sums[i] += T::hit(larger > half);
         }
+        *hits = sums;
     }
 }

@@ -7,44 +7,47 @@ use crate::kernel::{Near, Sides, near};
 use crate::lane::{BLOCK, Block, Lane};
 use crate::simd::prefetch;
 
-/// The three pixels of every column, sorted. What will be sorted some rows later, `ahead`, is asked
-/// for meanwhile.
+/// The three pixels of every column, sorted.
 #[inline(always)]
-pub(crate) fn sort_columns<T: Lane>(
-    rows: [&[Block<T>]; 3],
-    ahead: &[Block<T>],
-    sorted: [&mut [Block<T>]; 3],
-) {
+pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
     let ([a, b, c], [low, mid, high]) = (rows, sorted);
     let blocks = low.len();
-    let (a, b, c, ahead) = (&a[..blocks], &b[..blocks], &c[..blocks], &ahead[..blocks]);
+    let (a, b, c) = (&a[..blocks], &b[..blocks], &c[..blocks]);
     let (mid, high) = (&mut mid[..blocks], &mut high[..blocks]);
     for at in 0..blocks {
-        prefetch(&ahead[at]);
         let (a, b, c) = (&a[at], &b[at], &c[at]);
-        let (low, mid, high) = (&mut low[at], &mut mid[at], &mut high[at]);
+        let (mut lows, mut mids, mut highs) =
+            ([T::default(); BLOCK], [T::default(); BLOCK], [T::default(); BLOCK]);
         for i in 0..BLOCK {
             let (p, q, r) = (a[i], b[i], c[i]);
             let (p, q) = (p.min(q), p.max(q));
             let (q, r) = (q.min(r), q.max(r));
-            (low[i], mid[i], high[i]) = (p.min(q), p.max(q), r);
+            (lows[i], mids[i], highs[i]) = (p.min(q), p.max(q), r);
         }
+        (low[at], mid[at], high[at]) = (lows, mids, highs);
     }
 }
 
-/// The median of every window, from its three sorted columns.
+/// The median of every window, from its three sorted columns. Raw pixels that will be sorted some
+/// rows later, `ahead`, are asked for meanwhile.
 #[inline(always)]
 pub(crate) fn combine<T: Lane>(
     [low, mid, high]: [Near<'_, T>; 3],
     sides: impl Sides<T>,
+    ahead: &[Block<T>],
     out: &mut [Block<T>],
 ) {
     for (at, out) in out.iter_mut().enumerate() {
+        if let Some(ahead) = ahead.get(at) {
+            prefetch(ahead);
+        }
         let (low, mid, high) = (near(low, at), near(mid, at), near(high, at));
+        let mut medians = [T::default(); BLOCK];
         for i in 0..BLOCK {
-            out[i] =
+            medians[i] =
                 of_columns(sides.see(low, at, i), sides.see(mid, at, i), sides.see(high, at, i));
         }
+        *out = medians;
     }
 }
 
@@ -81,9 +84,9 @@ mod tests {
             let [low, mid, high] = &mut sorted;
             let blocks = [low, mid, high].map(|row| row.as_chunks_mut().0);
             let rows = rows.each_ref().map(|row| row.as_chunks().0);
-            sort_columns(rows, rows[0], blocks);
+            sort_columns(rows, blocks);
             let mut out = [[9; BLOCK]];
-            combine(sorted.each_ref().map(|row| &row[BLOCK - 1..]), Open, &mut out);
+            combine(sorted.each_ref().map(|row| &row[BLOCK - 1..]), Open, &[], &mut out);
             assert_eq!(out[0][0], u8::from(bits.count_ones() >= 5), "window {bits:09b}");
         }
     }

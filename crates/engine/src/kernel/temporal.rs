@@ -12,10 +12,12 @@ pub(crate) fn count_and_replace<T: Lane>(
     hits: &mut [Block<T>],
 ) {
     for ((now, reference), hits) in now.iter().zip(reference).zip(hits) {
+        let mut sums = *hits;
         for i in 0..BLOCK {
-            hits[i] += changed(now[i], reference[i], level);
-            reference[i] = now[i];
+            sums[i] += changed(now[i], reference[i], level);
         }
+        *hits = sums;
+        *reference = *now;
     }
 }
 
@@ -29,10 +31,12 @@ pub(crate) fn count_and_store<T: Lane>(
     store: &mut [Block<T>],
 ) {
     for (((now, reference), hits), store) in now.iter().zip(reference).zip(hits).zip(store) {
+        let mut sums = *hits;
         for i in 0..BLOCK {
-            hits[i] += changed(now[i], reference[i], level);
-            store[i] = now[i];
+            sums[i] += changed(now[i], reference[i], level);
         }
+        *hits = sums;
+        *store = *now;
     }
 }
 
