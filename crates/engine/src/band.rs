@@ -93,12 +93,14 @@ impl<T: Lane> Band<'_, T> {
             sorted,
             tail,
             rows: denoised,
+            slots: plan.batch(run.len()) + 2,
             reach: plan.reach(self.number),
             run: run.clone(),
         };
         columns.clear(plan, run);
-        for first in (0..plan.side).step_by(plan.batch()) {
-            let rows = first..(first + plan.batch()).min(plan.side);
+        let batch = plan.batch(run.len());
+        for first in (0..plan.side).step_by(batch) {
+            let rows = first..(first + batch).min(plan.side);
             let [above, ..] = denoiser.around(top + rows.start);
             let [.., below] = denoiser.around(top + rows.end - 1);
             if plan.has_windows() {

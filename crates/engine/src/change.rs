@@ -24,8 +24,10 @@ pub(crate) enum Step {
 
 /// Frames to rest after the first comparison that found little; doubled up to the second.
 const RESTS: (u32, u32) = (4, 32);
-/// A comparison pays when more than one of this many regions was skipped.
-const PAYS: usize = 16;
+/// A comparison pays when it saves more than one in this many blocks.
+const PAYS: usize = 4;
+/// The share of a band's blocks from which on it is computed as a whole.
+const NEARLY: (usize, usize) = (4, 5);
 
 /// When to compare.
 #[derive(Clone, Copy, Debug)]
@@ -58,8 +60,8 @@ impl Policy {
     }
 
     /// Learns what a comparison has found.
-    pub(crate) fn found(&mut self, skipped: usize, regions: usize) {
-        if skipped * PAYS > regions {
+    pub(crate) fn found(&mut self, saved: usize, blocks: usize) {
+        if saved * PAYS > blocks {
             self.rest = RESTS.0;
         } else {
             (self.kept, self.left) = (false, self.rest);
@@ -78,25 +80,18 @@ pub(crate) fn compare<T: Lane>(
     copy: &mut [T],
     changed: &mut [bool],
 ) {
-    let top = number * plan.side;
-    let height = plan.side.min(plan.height - top);
     changed.fill(false);
-    for y in 0..height {
-        compare_row(raw.row(top + y), &copy[y * plan.width..][..plan.width], plan.side, changed);
-        if changed.iter().all(|&changed| changed) {
-            break;
+    let mut every = false;
+    for (y, last) in copy.chunks_exact_mut(plan.width).enumerate() {
+        let now = raw.row(number * plan.side + y);
+        if !every {
+            if now == last {
+                continue;
+            }
+            compare_row(now, last, plan.side, changed);
+            every = changed.iter().all(|&changed| changed);
         }
-    }
-    if changed.iter().all(|&changed| changed) {
-        keep(plan, raw, number, copy);
-        return;
-    }
-    for (column, _) in changed.iter().enumerate().filter(|(_, changed)| **changed) {
-        let columns = column * plan.side..((column + 1) * plan.side).min(plan.width);
-        for y in 0..height {
-            let to = &mut copy[y * plan.width..][columns.clone()];
-            to.copy_from_slice(&raw.row(top + y)[columns.clone()]);
-        }
+        last.copy_from_slice(now);
     }
 }
 
@@ -157,20 +152,29 @@ pub(crate) fn affected<T: Lane>(
     }
 }
 
-/// The blocks under the affected regions, as runs.
-pub(crate) fn runs(affected: &[bool], side: usize, runs: &mut Vec<Range<usize>>) {
+/// The blocks under the affected regions, as runs. Each run costs `margin` blocks on each side: what
+/// lies closer together is one run, and where nearly all of the blocks are wanted it is all of them.
+pub(crate) fn runs<T: Lane>(plan: &Plan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
     runs.clear();
+    let (side, margin) = (plan.side, plan.margin());
     for (column, _) in affected.iter().enumerate().filter(|(_, affected)| **affected) {
         let (start, end) = (column * side / BLOCK, ((column + 1) * side).div_ceil(BLOCK));
         match runs.last_mut() {
-            Some(last) if start <= last.end => last.end = end,
+            Some(last) if start <= last.end + 2 * margin => last.end = end,
             _ => runs.push(start..end),
         }
+    }
+    let cost: usize = runs.iter().map(|run| run.len() + 2 * margin).sum();
+    if cost * NEARLY.1 > plan.blocks * NEARLY.0 {
+        runs.clear();
+        runs.push(0..plan.blocks);
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use foveate_spec::{Config, Neighborhood};
+
     use super::*;
 
     #[test]
@@ -196,14 +200,23 @@ mod tests {
 
     #[test]
     fn runs_cover_affected_regions_and_merge() {
-        let mut found = Vec::new();
-        let affected = |columns: &[usize]| -> Vec<bool> {
-            (0..30).map(|column| columns.contains(&column)).collect()
+        let found = |width: u32, side: u32, neighborhood, columns: &[usize]| {
+            let mut config = Config::default();
+            (config.frame.width, config.frame.height) = (Some(width), Some(side));
+            (config.region.size, config.region.neighborhood) = (side, neighborhood);
+            let plan = Plan::<u8>::new(&config.validate().unwrap());
+            let affected: Vec<bool> = (0..plan.columns).map(|x| columns.contains(&x)).collect();
+            let mut found = Vec::new();
+            runs(&plan, &affected, &mut found);
+            found
         };
-        runs(&affected(&[0, 7, 8, 24]), 8, &mut found);
-        assert_eq!(found, [0..2, 3..4]);
+        use Neighborhood::{Isolated, Shared};
+        assert_eq!(found(640, 8, Isolated, &[0, 7, 8, 24]), [0..2, 3..4]);
+        assert_eq!(found(1280, 8, Shared, &[0, 7, 8, 24, 56]), [0..4, 7..8]);
         // Region 10 of 6 columns lies in two blocks.
-        runs(&affected(&[10]), 6, &mut found);
-        assert_eq!(found, [0..2]);
+        assert_eq!(found(600, 6, Isolated, &[10]), [0..2]);
+        // Nearly everything is everything; nothing is nothing.
+        assert_eq!(found(256, 8, Shared, &[0, 24]), [0..4]);
+        assert_eq!(found(640, 8, Shared, &[]), []);
     }
 }

@@ -11,7 +11,7 @@ use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::scratch::Scratch;
 use crate::simd::Level;
-use crate::strip::{Look, Strip};
+use crate::strip::{Look, Skipped, Strip};
 use foveate_spec::Reference;
 
 /// Strips per thread: enough that a thread that is interrupted does not hold up the others.
@@ -47,7 +47,7 @@ pub(crate) struct Core<T: Lane> {
     policy: Policy,
     skip: bool,
     /// By strip.
-    scratch: Vec<(Scratch<T>, usize)>,
+    scratch: Vec<(Scratch<T>, Skipped)>,
 }
 
 impl<T: Lane> Core<T> {
@@ -68,7 +68,7 @@ impl<T: Lane> Core<T> {
             changed: vec![true; plan.regions()],
             policy: Policy::new(skip),
             skip,
-            scratch: vec![(scratch, 0); workers.strips(plan.rows)],
+            scratch: vec![(scratch, Skipped::default()); workers.strips(plan.rows)],
             plan,
         }
     }
@@ -87,9 +87,11 @@ impl<T: Lane> Core<T> {
             self.look(raw, workers, step);
         }
         self.compute(raw, workers, step == Step::Compare, outcome);
-        outcome.skipped = self.scratch.iter().map(|(_, skipped)| skipped).sum();
+        let mut all = Skipped::default();
+        self.scratch.iter().for_each(|(_, skipped)| all += *skipped);
+        outcome.skipped = all.regions;
         if step == Step::Compare {
-            self.policy.found(outcome.skipped, self.plan.regions());
+            self.policy.found(all.blocks, self.plan.blocks * self.plan.rows);
         }
     }
 

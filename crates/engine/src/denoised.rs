@@ -28,6 +28,8 @@ pub(crate) struct Denoiser<'a, T: Lane> {
     pub(crate) sorted: &'a mut [[Row<T>; 3]],
     pub(crate) tail: &'a mut [Block<T>; 3],
     pub(crate) rows: &'a mut [DenoisedRow<T>],
+    /// How many of them are in use.
+    pub(crate) slots: usize,
     /// First and last row that windows may reach.
     pub(crate) reach: (usize, usize),
     /// The blocks that are wanted.
@@ -47,8 +49,9 @@ impl<T: Lane> Denoiser<'_, T> {
             missing.start += 1;
         }
         let plan = self.plan;
-        // One block more on each side than is wanted: the windows of features reach there.
-        let span = self.run.start.saturating_sub(1)..(self.run.end + 1).min(plan.blocks);
+        // More blocks than are wanted: the windows of features reach there.
+        let margin = plan.margin();
+        let span = self.run.start.saturating_sub(margin)..(self.run.end + margin).min(plan.blocks);
         if plan.median {
             for y in missing.clone() {
                 self.sort(y, &span, y - missing.start);
@@ -81,14 +84,14 @@ impl<T: Lane> Denoiser<'_, T> {
 
     #[inline(always)]
     fn slot(&self, y: usize) -> &DenoisedRow<T> {
-        &self.rows[y % self.rows.len()]
+        &self.rows[y % self.slots]
     }
 
     /// Fills row `y`, from the sorted columns number `at` or from raw pixels.
     #[inline(always)]
     fn fill(&mut self, y: usize, span: &Range<usize>, at: usize) {
-        let (plan, slots) = (self.plan, self.rows.len());
-        let row = &mut self.rows[y % slots];
+        let plan = self.plan;
+        let row = &mut self.rows[y % self.slots];
         if plan.median {
             let [low, mid, high] = &self.sorted[at];
             let sorted = [low.near(span), mid.near(span), high.near(span)];

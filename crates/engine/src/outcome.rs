@@ -23,7 +23,7 @@ pub struct Outcome {
     pub temporal_count: Vec<u32>,
     /// Scores, by feature in the order of the design and then by region.
     pub scores: Vec<Vec<u64>>,
-    /// Regions that were not computed because their pixels (and, where neighbors are seen, those of
+    /// Regions whose results were kept because their pixels (and, where neighbors are seen, those of
     /// the regions around) were bit-identical to those of the frame before.
     pub skipped: usize,
 }

@@ -118,10 +118,16 @@ impl<T: Lane> Plan<T> {
         self.edge.is_some() || self.corner.is_some()
     }
 
-    /// Rows that go through each step together: in narrow frames several, since a step that reads
+    /// Rows of a run of blocks that go through each step together: in narrow ones several, since a step that reads
     /// what the one before has only just written waits for it.
-    pub(crate) fn batch(&self) -> usize {
-        (BATCH / self.blocks).clamp(1, self.side)
+    pub(crate) fn batch(&self, run: usize) -> usize {
+        (BATCH / run).clamp(1, self.side)
+    }
+
+    /// Blocks that have to be denoised on each side of a run, for the windows at its ends.
+    pub(crate) fn margin(&self) -> usize {
+        // Without a look over seams, and with none across the end of a block, there are none.
+        usize::from(self.seams.is_none() || !BLOCK.is_multiple_of(self.side))
     }
 
     /// Pixels of a region.

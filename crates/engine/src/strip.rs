@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Consecutive bands as one worker's share of a frame.
 
-use std::ops::Range;
+use std::ops::{AddAssign, Range};
 
 use crate::band::Band;
 use crate::change::{self, Step};
@@ -41,6 +41,22 @@ impl<T: Lane> Task for Look<'_, T> {
     }
 }
 
+/// What did not have to be computed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Skipped {
+    /// Regions whose results cannot have changed.
+    pub(crate) regions: usize,
+    /// Blocks that were left out: a block is computed for each of its regions that needs it.
+    pub(crate) blocks: usize,
+}
+
+impl AddAssign for Skipped {
+    fn add_assign(&mut self, other: Self) {
+        self.regions += other.regions;
+        self.blocks += other.blocks;
+    }
+}
+
 /// Takes one frame through some bands.
 #[derive(Debug)]
 pub(crate) struct Strip<'a, T: Lane> {
@@ -56,8 +72,7 @@ pub(crate) struct Strip<'a, T: Lane> {
     pub(crate) scratch: &'a mut Scratch<T>,
     /// Which regions of the frame have changed, where that is known.
     pub(crate) changed: Option<&'a [bool]>,
-    /// Regions that were skipped.
-    pub(crate) skipped: &'a mut usize,
+    pub(crate) skipped: &'a mut Skipped,
 }
 
 impl<T: Lane> Task for Strip<'_, T> {
@@ -66,7 +81,7 @@ impl<T: Lane> Task for Strip<'_, T> {
         for row in &mut self.scratch.denoised {
             row.holds = None;
         }
-        *self.skipped = 0;
+        *self.skipped = Skipped::default();
         let bands = self.bands.clone();
         for (row, band) in bands.enumerate() {
             self.band(row, band);
@@ -114,8 +129,10 @@ impl<T: Lane> Strip<'_, T> {
         match self.changed {
             Some(changed) => {
                 change::affected(plan, changed, number, &mut scratch.affected);
-                change::runs(&scratch.affected, plan.side, &mut scratch.runs);
-                *self.skipped += scratch.affected.iter().filter(|affected| !**affected).count();
+                change::runs(plan, &scratch.affected, &mut scratch.runs);
+                let computed: usize = scratch.runs.iter().map(Range::len).sum();
+                let skipped = scratch.affected.iter().filter(|affected| !**affected).count();
+                *self.skipped += Skipped { regions: skipped, blocks: plan.blocks - computed };
             }
             None => {
                 scratch.affected.fill(true);
