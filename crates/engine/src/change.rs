@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which regions are bit-identical to the last frame, and when it pays to ask.
-//!
-//! Asking costs a copy of every frame, so the engine asks only while the answer is worth it: after a
-//! comparison that found little it rests for some frames, longer each time. Results never depend on
-//! it.
+//! Which regions are bit-identical to the last frame, and what has to be computed for the others.
 
 use std::ops::Range;
 
@@ -11,64 +7,8 @@ use crate::lane::{BLOCK, Lane};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 
-/// What to do with a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
-    /// Nothing.
-    Rest,
-    /// Keep a copy for the next frame.
-    Keep,
-    /// Compare with the copy, and keep what has changed.
-    Compare,
-}
-
-/// Frames to rest after the first comparison that found little; doubled up to the second.
-const RESTS: (u32, u32) = (4, 32);
-/// A comparison pays when it saves more than one in this many blocks.
-const PAYS: usize = 4;
 /// The share of a band's blocks from which on it is computed as a whole.
 const NEARLY: (usize, usize) = (4, 5);
-
-/// When to compare.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Policy {
-    on: bool,
-    kept: bool,
-    left: u32,
-    rest: u32,
-}
-
-impl Policy {
-    pub(crate) fn new(on: bool) -> Self {
-        Self { on, kept: false, left: 0, rest: RESTS.0 }
-    }
-
-    /// What to do with the next frame.
-    pub(crate) fn next(&mut self) -> Step {
-        if !self.on {
-            return Step::Rest;
-        }
-        if self.kept {
-            return Step::Compare;
-        }
-        if self.left > 0 {
-            self.left -= 1;
-            return Step::Rest;
-        }
-        self.kept = true;
-        Step::Keep
-    }
-
-    /// Learns what a comparison has found.
-    pub(crate) fn found(&mut self, saved: usize, blocks: usize) {
-        if saved * PAYS > blocks {
-            self.rest = RESTS.0;
-        } else {
-            (self.kept, self.left) = (false, self.rest);
-            self.rest = (2 * self.rest).min(RESTS.1);
-        }
-    }
-}
 
 /// Compares band `number` with its copy of the last frame, brings the copy up to date, and says of
 /// every region whether a pixel has changed.
@@ -133,6 +73,7 @@ fn compare_any<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]
 
 /// Which regions of band `number` may have other results than in the last frame: those that have
 /// changed, and where neighbors are seen those around them. Two pixels of halo are at most a region.
+#[inline(always)]
 pub(crate) fn affected<T: Lane>(
     plan: &Plan<T>,
     changed: &[bool],
@@ -141,19 +82,24 @@ pub(crate) fn affected<T: Lane>(
 ) {
     let columns = plan.columns;
     let band = |number: usize| &changed[number * columns..][..columns];
-    affected.copy_from_slice(band(number));
+    let here = band(number);
     if plan.seams.is_some() {
+        affected.copy_from_slice(here);
         return;
     }
-    for row in number.saturating_sub(1)..(number + 2).min(plan.rows) {
-        for (column, _) in band(row).iter().enumerate().filter(|(_, changed)| **changed) {
-            affected[column.saturating_sub(1)..(column + 2).min(columns)].fill(true);
-        }
+    let (above, below) = (band(number.saturating_sub(1)), band((number + 1).min(plan.rows - 1)));
+    let column = |x: usize| above[x] | here[x] | below[x];
+    let last = columns - 1;
+    for (x, affected) in affected.iter_mut().enumerate().take(last).skip(1) {
+        *affected = column(x - 1) | column(x) | column(x + 1);
     }
+    affected[0] = column(0) | column(1.min(last));
+    affected[last] = column(last.saturating_sub(1)) | column(last);
 }
 
 /// The blocks under the affected regions, as runs. Each run costs `margin` blocks on each side: what
 /// lies closer together is one run, and where nearly all of the blocks are wanted it is all of them.
+#[inline(always)]
 pub(crate) fn runs<T: Lane>(plan: &Plan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
     runs.clear();
     let (side, margin) = (plan.side, plan.margin());
@@ -176,27 +122,6 @@ mod tests {
     use foveate_spec::{Config, Neighborhood};
 
     use super::*;
-
-    #[test]
-    fn rests_grow_while_nothing_is_found_and_end_when_it_pays() {
-        let mut policy = Policy::new(true);
-        let mut film = |skipped: usize, frames: usize| -> String {
-            let step = |_| match policy.next() {
-                Step::Rest => '.',
-                Step::Keep => 'k',
-                Step::Compare => {
-                    policy.found(skipped, 100);
-                    'c'
-                }
-            };
-            (0..frames).map(step).collect()
-        };
-        assert_eq!(film(0, 18), "kc....kc........kc");
-        assert_eq!(film(0, 16), "................");
-        assert_eq!(film(50, 5), "kcccc");
-        assert_eq!(film(0, 6), "c....k");
-        assert_eq!(Policy::new(false).next(), Step::Rest);
-    }
 
     #[test]
     fn runs_cover_affected_regions_and_merge() {

@@ -4,11 +4,11 @@
 use rayon::prelude::*;
 
 use crate::aligned::Aligned;
-use crate::change::{Policy, Step};
 use crate::lane::Lane;
 use crate::outcome::{Outcome, split_off};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
+use crate::policy::{Policy, SAMPLE, Step};
 use crate::scratch::Scratch;
 use crate::simd::Level;
 use crate::strip::{Look, Skipped, Strip};
@@ -86,13 +86,26 @@ impl<T: Lane> Core<T> {
         if step != Step::Rest {
             self.look(raw, workers, step);
         }
+        if step == Step::Judge {
+            let (identical, regions) = self.sample();
+            if self.policy.judge(identical, regions) {
+                self.look(raw, workers, Step::Keep);
+            }
+        }
         self.compute(raw, workers, step == Step::Compare, outcome);
         let mut all = Skipped::default();
         self.scratch.iter().for_each(|(_, skipped)| all += *skipped);
         outcome.skipped = all.regions;
         if step == Step::Compare {
-            self.policy.found(all.blocks, self.plan.blocks * self.plan.rows);
+            self.policy.saved(all.blocks, self.plan.blocks * self.plan.rows);
         }
+    }
+
+    /// Regions of the sample that are identical, of how many.
+    fn sample(&self) -> (usize, usize) {
+        let bands = self.changed.chunks_exact(self.plan.columns).step_by(SAMPLE);
+        let same = |band: &[bool]| band.iter().filter(|changed| !**changed).count();
+        (bands.clone().map(same).sum(), bands.len() * self.plan.columns)
     }
 
     fn look(&mut self, raw: Pixels<'_, T>, workers: &Workers, step: Step) {

@@ -23,6 +23,7 @@ mod lane;
 mod outcome;
 mod pixels;
 mod plan;
+mod policy;
 mod render;
 mod scratch;
 mod simd;

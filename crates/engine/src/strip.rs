@@ -4,11 +4,12 @@
 use std::ops::{AddAssign, Range};
 
 use crate::band::Band;
-use crate::change::{self, Step};
+use crate::change;
 use crate::lane::Lane;
 use crate::outcome::Results;
 use crate::pixels::Pixels;
 use crate::plan::Plan;
+use crate::policy::Step;
 use crate::render::Canvas;
 use crate::scratch::Scratch;
 use crate::simd::Task;
@@ -32,10 +33,13 @@ impl<T: Lane> Task for Look<'_, T> {
         let copies = copy.chunks_mut(plan.side * plan.width);
         let bands = bands.zip(copies).zip(changed.chunks_exact_mut(plan.columns));
         for ((band, copy), changed) in bands {
+            if !step.concerns(band) {
+                continue;
+            }
             match step {
                 Step::Rest => {}
-                Step::Keep => change::keep(plan, raw, band, copy),
-                Step::Compare => change::compare(plan, raw, band, copy, changed),
+                Step::Sample | Step::Keep => change::keep(plan, raw, band, copy),
+                Step::Judge | Step::Compare => change::compare(plan, raw, band, copy, changed),
             }
         }
     }
