@@ -41,6 +41,7 @@ pub(crate) struct Core<T: Lane> {
     pub(crate) screen: Vec<T>,
     valid: Vec<bool>,
     black: Vec<bool>,
+    settled: Vec<bool>,
     /// The last frame, without padding, while the policy wants it.
     copy: Vec<T>,
     changed: Vec<bool>,
@@ -64,6 +65,7 @@ impl<T: Lane> Core<T> {
             screen: vec![T::default(); plan.width * plan.height],
             valid: vec![false; plan.regions()],
             black: vec![true; plan.regions()],
+            settled: vec![false; plan.rows],
             copy: vec![T::default(); if skip { plan.width * plan.height } else { 0 }],
             changed: vec![true; plan.regions()],
             policy: Policy::new(skip),
@@ -76,6 +78,7 @@ impl<T: Lane> Core<T> {
     pub(crate) fn reset(&mut self) {
         self.valid.fill(false);
         self.black.fill(true);
+        self.settled.fill(false);
         self.screen.fill(T::default());
         self.policy = Policy::new(self.skip);
     }
@@ -136,6 +139,7 @@ impl<T: Lane> Core<T> {
         let rows = share * plan.side;
         let (mut denoised, mut reference) = (&mut self.denoised[..], &mut self.reference[..]);
         let (mut valid, mut black) = (&mut self.valid[..], &mut self.black[..]);
+        let mut settled = &mut self.settled[..];
         let (mut screen, mut results) = (&mut self.screen[..], outcome.results());
         let firsts = (0..plan.rows).step_by(share);
         let strips = firsts.zip(&mut self.scratch).map(|(first, (scratch, skipped))| {
@@ -150,6 +154,7 @@ impl<T: Lane> Core<T> {
                 screen: split_off(&mut screen, rows * plan.width),
                 valid: split_off(&mut valid, regions),
                 black: split_off(&mut black, regions),
+                settled: split_off(&mut settled, share),
                 results: results.split_off(regions),
                 scratch,
                 changed,

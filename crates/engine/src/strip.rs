@@ -72,6 +72,8 @@ pub(crate) struct Strip<'a, T: Lane> {
     pub(crate) screen: &'a mut [T],
     pub(crate) valid: &'a mut [bool],
     pub(crate) black: &'a mut [bool],
+    /// By band: no result, reference or pixel of the screen would change if it stood still again.
+    pub(crate) settled: &'a mut [bool],
     pub(crate) results: Results<'a>,
     pub(crate) scratch: &'a mut Scratch<T>,
     /// Which regions of the frame have changed, where that is known.
@@ -102,8 +104,14 @@ impl<T: Lane> Strip<'_, T> {
         let regions = row * plan.columns..(row + 1) * plan.columns;
         let lines = row * plan.side * plan.width;
         self.select(number);
+        let still = self.scratch.runs.is_empty();
+        if still && self.settled[row] {
+            return;
+        }
+        // Any count and action is followed by the same ones from the second still frame on.
+        self.settled[row] = still;
         let reference = rows.start.min(self.reference.len())..rows.end.min(self.reference.len());
-        if !self.scratch.runs.is_empty() {
+        if !still {
             let mut band = Band {
                 plan,
                 raw: self.raw,
