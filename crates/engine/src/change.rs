@@ -139,9 +139,9 @@ mod tests {
         assert_eq!(found(640, 8, Isolated, &[0, 7, 8, 24]), [0..2, 3..4]);
         assert_eq!(found(1280, 8, Shared, &[0, 7, 8, 24, 56]), [0..4, 7..8]);
         // Region 10 of 6 columns lies in two blocks.
-        assert_eq!(found(600, 6, Isolated, &[10]), [0..2]);
+        assert_eq!(found(600, 6, Isolated, &[10]), vec![0..2]);
         // Nearly everything is everything; nothing is nothing.
-        assert_eq!(found(256, 8, Shared, &[0, 24]), [0..4]);
+        assert_eq!(found(256, 8, Shared, &[0, 24]), vec![0..4]);
         assert_eq!(found(640, 8, Shared, &[]), []);
     }
 }

@@ -1,36 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The engine for one width of lanes: the planes between frames, and their division among workers.
 
-use rayon::prelude::*;
+use std::ops::Range;
+
+use foveate_spec::Reference;
 
 use crate::aligned::Aligned;
+use crate::change;
 use crate::lane::Lane;
 use crate::outcome::{Outcome, split_off};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::policy::{Policy, SAMPLE, Step};
 use crate::scratch::Scratch;
-use crate::simd::Level;
 use crate::strip::{Look, Skipped, Strip};
-use foveate_spec::Reference;
-
-/// Strips per thread: enough that a thread that is interrupted does not hold up the others.
-const STRIPS_PER_THREAD: usize = 4;
-
-/// How to run.
-#[derive(Debug)]
-pub(crate) struct Workers {
-    pub(crate) level: Level,
-    /// None: everything on the thread that asks.
-    pub(crate) pool: Option<rayon::ThreadPool>,
-}
-
-impl Workers {
-    fn strips(&self, bands: usize) -> usize {
-        let threads = self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads);
-        if threads == 1 { 1 } else { (threads * STRIPS_PER_THREAD).min(bands) }
-    }
-}
+use crate::workers::Workers;
 
 /// The state between frames.
 #[derive(Debug)]
@@ -70,7 +54,7 @@ impl<T: Lane> Core<T> {
             changed: vec![true; plan.regions()],
             policy: Policy::new(skip),
             skip,
-            scratch: vec![(scratch, Skipped::default()); workers.strips(plan.rows)],
+            scratch: vec![(scratch, Skipped::default()); workers.strips(plan.rows, plane)],
             plan,
         }
     }
@@ -90,8 +74,8 @@ impl<T: Lane> Core<T> {
             self.look(raw, workers, step);
         }
         if step == Step::Judge {
-            let (identical, regions) = self.sample();
-            if self.policy.judge(identical, regions) {
+            let (saved, blocks) = self.sample();
+            if self.policy.judge(saved, blocks) {
                 self.look(raw, workers, Step::Keep);
             }
         }
@@ -104,11 +88,16 @@ impl<T: Lane> Core<T> {
         }
     }
 
-    /// Regions of the sample that are identical, of how many.
+    /// Blocks of the sample that would be saved, of how many.
     fn sample(&self) -> (usize, usize) {
-        let bands = self.changed.chunks_exact(self.plan.columns).step_by(SAMPLE);
-        let same = |band: &[bool]| band.iter().filter(|changed| !**changed).count();
-        (bands.clone().map(same).sum(), bands.len() * self.plan.columns)
+        let plan = &self.plan;
+        let (mut saved, mut blocks, mut runs) = (0, 0, Vec::new());
+        for changed in self.changed.chunks_exact(plan.columns).step_by(SAMPLE) {
+            change::runs(plan, changed, &mut runs);
+            saved += plan.blocks - runs.iter().map(Range::len).sum::<usize>();
+            blocks += plan.blocks;
+        }
+        (saved, blocks)
     }
 
     fn look(&mut self, raw: Pixels<'_, T>, workers: &Workers, step: Step) {
@@ -123,7 +112,7 @@ impl<T: Lane> Core<T> {
             copy: split_off(&mut copy, share * plan.side * plan.width),
             changed: split_off(&mut changed, share * plan.columns),
         });
-        run_all(workers, looks);
+        workers.run(looks);
     }
 
     fn compute(
@@ -161,17 +150,6 @@ impl<T: Lane> Core<T> {
                 skipped,
             }
         });
-        run_all(workers, strips);
-    }
-}
-
-/// Runs tasks that share nothing, in any order.
-fn run_all<W: crate::simd::Task + Send>(workers: &Workers, tasks: impl Iterator<Item = W>) {
-    match &workers.pool {
-        None => tasks.for_each(|task| workers.level.run(task)),
-        Some(pool) => {
-            let tasks: Vec<W> = tasks.collect();
-            pool.install(|| tasks.into_par_iter().for_each(|task| workers.level.run(task)));
-        }
+        workers.run(strips);
     }
 }

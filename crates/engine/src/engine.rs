@@ -4,16 +4,18 @@
 use foveate_model::Frame;
 use foveate_spec::Design;
 
-use crate::core::{Core, Workers};
+use crate::core::Core;
 use crate::lane::Lane;
 use crate::pixels::Pixels;
 use crate::plan::{Plan, index};
+use crate::workers::Workers;
 use crate::{EngineError, Level, Outcome};
 
 /// How an engine runs; what it computes does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Threads; 0 takes one per processor.
+    /// Threads, that of the caller among them; 0 takes one per processor. Frames of fewer than some
+    /// ten thousand pixels are not worth dividing, and stay on the thread of the caller.
     pub threads: usize,
     /// Whether regions that are bit-identical to the last frame may be skipped.
     pub skip: bool,
@@ -59,7 +61,7 @@ impl Engine {
     #[must_use]
     pub fn new(design: &Design) -> Self {
         let options = Options::default();
-        Self::on(design, options, Workers { level: options.level, pool: None })
+        Self::on(design, options, Workers::alone(options.level))
     }
 
     /// An engine that runs as asked.
@@ -67,15 +69,16 @@ impl Engine {
     /// # Errors
     /// When the system does not give the threads.
     pub fn with_options(design: &Design, options: Options) -> Result<Self, EngineError> {
-        let threads = options.threads;
-        let pool =
-            match threads {
-                1 => None,
-                _ => Some(rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(
-                    |error| EngineError::Threads { threads, reason: error.to_string() },
-                )?),
-            };
-        Ok(Self::on(design, options, Workers { level: options.level, pool }))
+        let threads = match options.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        };
+        let refused = |error: rayon::ThreadPoolBuildError| EngineError::Threads {
+            threads,
+            reason: error.to_string(),
+        };
+        let workers = Workers::new(options.level, threads).map_err(refused)?;
+        Ok(Self::on(design, options, workers))
     }
 
     fn on(design: &Design, options: Options, workers: Workers) -> Self {

@@ -28,6 +28,7 @@ mod render;
 mod scratch;
 mod simd;
 mod strip;
+mod workers;
 
 pub use engine::{Engine, Options, Rendered};
 pub use error::EngineError;

@@ -37,8 +37,9 @@ pub(crate) const SAMPLE: usize = 8;
 /// Frames to rest after the first judgement that found little; doubled up to the second.
 const RESTS: (u32, u32) = (4, 32);
 /// A comparison pays when it saves more than one in this many blocks.
-const PAYS: usize = 4;
-/// A sample is promising when more than one in this many of its regions is identical.
+const PAYS: usize = 3;
+/// A sample is promising when more than one in this many of its blocks could be saved; a comparison
+/// that saves as much makes the next rest short again.
 const PROMISES: usize = 2;
 
 #[derive(Clone, Copy, Debug)]
@@ -78,9 +79,9 @@ impl Policy {
         }
     }
 
-    /// Learns how many regions of the sample are identical; says whether to keep this frame.
-    pub(crate) fn judge(&mut self, identical: usize, regions: usize) -> bool {
-        let promising = identical * PROMISES > regions;
+    /// Learns how many blocks of the sample could be saved; says whether to keep this frame.
+    pub(crate) fn judge(&mut self, saved: usize, blocks: usize) -> bool {
+        let promising = saved * PROMISES > blocks;
         if promising {
             self.phase = Phase::Kept;
         } else {
@@ -91,9 +92,9 @@ impl Policy {
 
     /// Learns how many blocks a comparison has saved.
     pub(crate) fn saved(&mut self, saved: usize, blocks: usize) {
-        if saved * PAYS > blocks {
+        if saved * PROMISES > blocks {
             self.rest = RESTS.0;
-        } else {
+        } else if saved * PAYS <= blocks {
             self.give_up();
         }
     }
@@ -111,11 +112,11 @@ mod tests {
     #[test]
     fn rests_grow_while_nothing_is_found_and_end_when_it_pays() {
         let mut policy = Policy::new(true);
-        let mut film = |identical: usize, saved: usize, frames: usize| -> String {
+        let mut film = |sample: usize, saved: usize, frames: usize| -> String {
             let step = |_| match policy.next() {
                 Step::Rest => '.',
                 Step::Sample => 's',
-                Step::Judge => match policy.judge(identical, 100) {
+                Step::Judge => match policy.judge(sample, 100) {
                     true => 'K',
                     false => 'j',
                 },
@@ -129,7 +130,7 @@ mod tests {
         };
         assert_eq!(film(0, 0, 18), "sj....sj........sj");
         assert_eq!(film(0, 0, 16), "................");
-        assert_eq!(film(60, 50, 5), "sKccc");
+        assert_eq!(film(60, 60, 5), "sKccc");
         assert_eq!(film(60, 10, 9), "c....sKc.");
         assert_eq!(Policy::new(false).next(), Step::Rest);
     }

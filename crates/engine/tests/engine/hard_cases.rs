@@ -35,7 +35,7 @@ fn the_largest_sums_stay_inside_their_lanes() {
         });
         let max = u16::try_from(design.pixel_max()).unwrap();
         let full = Frame::filled(128, 128, bits, max).unwrap();
-        let stripes = |x: u32, _| if x / 2 % 2 == 0 { 0 } else { max };
+        let stripes = |x: u32, _| if (x / 2).is_multiple_of(2) { 0 } else { max };
         let stripes = Frame::from_fn(128, 128, bits, stripes).unwrap();
         let halves = Frame::from_fn(128, 128, bits, |_, y| if y < 32 { 0 } else { max }).unwrap();
         check(&design, &[full, stripes, halves], Options::default());
@@ -103,8 +103,10 @@ fn the_halo_of_a_skipped_region_is_watched() {
     });
     for x in 60u32..70 {
         for y in 5u32..11 {
-            let spots = [Change::Still, Change::Patch(f64::from(x) / 200.0, f64::from(y) / 24.0)];
-            check(&design, &film(&design, u64::from(100 * x + y), &spots), Options::default());
+            let place = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let spots = [Change::Still, Change::Spot(place.0 / 200.0, place.1 / 24.0)];
+            let frames = film(&design, u64::from(100 * x + y), &spots);
+            assert!(check(&design, &frames, Options::default()) > 50);
         }
     }
 }
@@ -117,5 +119,29 @@ fn regions_that_share_a_block_with_a_change_stay_exact() {
         let script =
             [Change::Still, Change::Spot(0.45, 0.5), Change::Still, Change::Spot(0.9, 0.1)];
         check(&design, &film(&design, 5, &script), Options::default());
+    }
+}
+
+/// Frames that are large enough to be divided among threads: strips see their neighbors' pixels, and
+/// the results are those of one thread.
+#[test]
+fn strips_of_several_threads_meet_without_a_seam() {
+    use Change::{Noise, Patch, Spot, Still};
+    let script = [Still, Still, Patch(0.4, 0.2), Still, Noise, Still, Spot(0.5, 0.5)];
+    for side in [5, 8, 32] {
+        for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
+            for reference in [Reference::Previous, Reference::LastSent] {
+                let design = design(530, 270, side, |config| {
+                    every_feature(config);
+                    config.region.neighborhood = neighborhood;
+                    config.temporal.reference = reference;
+                });
+                let frames = film(&design, 3, &script);
+                for threads in [2, 3] {
+                    let options = Options { threads, ..Options::default() };
+                    check(&design, &frames, options);
+                }
+            }
+        }
     }
 }
