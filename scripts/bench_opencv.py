@@ -65,13 +65,13 @@ def against_opencv():
 
 
 # Bytes per pixel between core and memory or last-level cache, in the case that was measured: the
-# frame is read, the reference is read and replaced; the screen is written where regions are active.
+# frame is read, the reference is read and replaced, and the screen is written where regions are active.
 def roofline(engine, copies):
     rows = []
     for size, copy in (("1920x1080", "copy_frame_gb_s"), ("224x224", "copy_small_gb_s")):
         bandwidth = middle(run[copy] for run in copies)
         runs = engine[size, "edge", "shared"]
-        moved = 3 + 2 * middle(run["active"] for run in runs)
+        moved = 3 + middle(run["active"] for run in runs)
         limit = 1000 * bandwidth / moved
         memory = 1000 * middle(run["copy_memory_gb_s"] for run in copies)
         fast = middle(run["mpixel_s"] for run in runs)
@@ -81,6 +81,22 @@ def roofline(engine, copies):
     header = ("frame", "bytes/pixel", "copy GB/s, planes in cache", "limit Mpx/s")
     header += ("limit of reading frames from memory, Mpx/s", "engine Mpx/s", "of the cache limit")
     table("Roofline of `edge`; copies count read and written bytes.", header, rows)
+
+
+def instructions():
+    rows = []
+    for level in ("portable", "avx2", "avx512"):
+        runs = {size: [] for size in SIZES}
+        for _ in range(ROUNDS):
+            for size, (clip, side) in SIZES.items():
+                path = os.path.join(CLIPS, clip)
+                try:
+                    runs[size].append(ours(path, "--side", side, "--level", level, "--seconds", "0.4"))
+                except subprocess.CalledProcessError:
+                    pass  # Not on this processor.
+        found = [f"{middle(run['mpixel_s'] for run in own):.0f}" if own else "-" for own in runs.values()]
+        rows.append((level, *found))
+    table("Instructions, `edge`, `shared`, Mpx/s.", ("level", *SIZES), rows)
 
 
 def threads():
@@ -132,5 +148,6 @@ def decode(video):
 
 
 against_opencv()
+instructions()
 threads()
 skipping()

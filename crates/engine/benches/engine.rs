@@ -54,7 +54,7 @@ fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
         places
             .map(|(x, y)| {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                let pattern = if ((x + shift) / 40 + y / 40) % 2 == 0 { 60 } else { 180 };
+                let pattern = if ((x + shift) / 40 + y / 40).is_multiple_of(2) { 60 } else { 180 };
                 pattern + state.to_le_bytes()[3] % 8
             })
             .collect()
