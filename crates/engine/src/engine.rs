@@ -213,16 +213,14 @@ fn checked<'a, T: Lane>(
     }
     let raw = Pixels { values, stride, width, height };
     let max = u64::from(design.pixel_max());
-    if max < T::MAX.into() {
-        for y in 0..height {
-            let too_large = |(x, &value): (usize, &T)| {
-                let value = value.into();
-                (value > max).then_some((x, value))
-            };
-            if let Some((x, value)) = raw.row(y).iter().enumerate().find_map(too_large) {
-                let (bits, max) = (design.pixel_bits(), design.pixel_max());
-                return Err(EngineError::PixelRange { x, y, value, bits, max });
-            }
+    // Where the type holds no more than the bits, there is nothing to look for.
+    let rows = if max < T::MAX.into() { 0..height } else { 0..0 };
+    for y in rows {
+        let largest = raw.row(y).iter().copied().fold(T::default(), T::max);
+        if largest.into() > max {
+            let x = raw.row(y).iter().position(|&pixel| pixel == largest).unwrap_or_default();
+            let (bits, max) = (design.pixel_bits(), design.pixel_max());
+            return Err(EngineError::PixelRange { x, y, value: largest.into(), bits, max });
         }
     }
     Ok(raw)
