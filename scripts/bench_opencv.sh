@@ -5,7 +5,7 @@
 # FOVEATE_ANCHOR  folder with cv_pipeline.py and make_clip.py (required)
 # FOVEATE_CLIPS   where clips are made and kept (default: target/clips)
 # FOVEATE_VIDEOS  videos, separated by spaces, on which skipping is measured (default: none)
-# ROUNDS          rounds; the median of each figure is taken (default: 3)
+# ROUNDS          rounds; the best of each figure is taken, on both sides (default: 5)
 set -eu
 cd "$(dirname "$0")/.."
 

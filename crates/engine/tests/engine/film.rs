@@ -17,6 +17,8 @@ pub(crate) enum Change {
     Spot(f64, f64),
     /// A square of a quarter of the width anew.
     Patch(f64, f64),
+    /// The same square, of one value: what was relevant there is no longer.
+    Wipe(f64, f64),
     /// One value everywhere.
     Flat,
     /// Two values, so that hits and ties are many.
@@ -32,6 +34,7 @@ pub(crate) fn scripts() -> impl Strategy<Value = (u64, Vec<Change>)> {
         5 => Just(Change::Still),
         3 => place().prop_map(|(x, y)| Change::Spot(x, y)),
         2 => place().prop_map(|(x, y)| Change::Patch(x, y)),
+        2 => place().prop_map(|(x, y)| Change::Wipe(x, y)),
         1 => Just(Change::Flat),
         1 => Just(Change::Binary),
         1 => Just(Change::Fade),
@@ -57,13 +60,14 @@ pub(crate) fn film(design: &Design, seed: u64, script: &[Change]) -> Vec<Frame> 
                 pixels.fill_with(|| values[usize::from(random.below(1))]);
             }
             Change::Fade => pixels.iter_mut().for_each(|p| *p = p.saturating_add(1).min(max)),
-            Change::Spot(x, y) | Change::Patch(x, y) => {
+            Change::Spot(x, y) | Change::Patch(x, y) | Change::Wipe(x, y) => {
+                let wiped = matches!(change, Change::Wipe(..)).then(|| random.below(max));
                 let side = if matches!(change, Change::Spot(..)) { 1 } else { width / 4 + 1 };
                 let (x, y) = (floor(x * area.0), floor(y * area.1));
                 for y in y..(y + side).min(height) {
                     for x in x..(x + side).min(width) {
                         let at = usize::try_from(y * width + x).unwrap();
-                        pixels[at] = random.below(max);
+                        pixels[at] = wiped.unwrap_or_else(|| random.below(max));
                     }
                 }
             }

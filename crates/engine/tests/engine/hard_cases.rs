@@ -111,6 +111,28 @@ fn the_halo_of_a_skipped_region_is_watched() {
     }
 }
 
+/// A region that was sent, is wiped and then stands still: what its reference is worth changes in
+/// frames in which its pixels do not.
+#[test]
+fn what_is_still_after_a_wipe_loses_its_reference() {
+    let script = [
+        Change::Still,
+        Change::Still,
+        Change::Wipe(0.3, 0.1),
+        Change::Still,
+        Change::Still,
+        Change::Patch(0.3, 0.1),
+        Change::Still,
+    ];
+    for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
+        let design = design(600, 64, 8, |config| {
+            config.temporal.reference = Reference::LastSent;
+            config.render.irrelevant = irrelevant;
+        });
+        assert!(check(&design, &film(&design, 9, &script), Options::default()) > 1000);
+    }
+}
+
 /// Other columns of one block are computed again, and stay what they were.
 #[test]
 fn regions_that_share_a_block_with_a_change_stay_exact() {
