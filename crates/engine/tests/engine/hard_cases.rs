@@ -111,6 +111,30 @@ fn the_halo_of_a_skipped_region_is_watched() {
     }
 }
 
+/// Changes far apart in one band are computed as several runs, none of which takes rows of another.
+#[test]
+fn several_runs_of_one_band_do_not_mix() {
+    for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
+        for side in [8, 12] {
+            let design = design(1000, 40, side, |config| {
+                every_feature(config);
+                config.region.neighborhood = neighborhood;
+            });
+            let mut frames = film(&design, 21, &[Change::Still]);
+            for round in 0..3 {
+                let last = frames.last().unwrap().clone();
+                let spots = [40 + round, 450 + round, 905 + round];
+                let pixel = |x, y| match last.get(x, y) {
+                    pixel if spots.contains(&x) && y % 8 == 3 => 255 - pixel,
+                    pixel => pixel,
+                };
+                frames.push(Frame::from_fn(1000, 40, 8, pixel).unwrap());
+            }
+            assert!(check(&design, &frames, Options::default()) > 500);
+        }
+    }
+}
+
 /// A region that was sent, is wiped and then stands still: what its reference is worth changes in
 /// frames in which its pixels do not.
 #[test]
