@@ -93,7 +93,7 @@ impl<T: Lane> Band<'_, T> {
             sorted,
             tail,
             rows: denoised,
-            slots: plan.batch(run.len()) + 2,
+            slots: plan.slots(run.len()),
             reach: plan.reach(self.number),
             run: run.clone(),
         };

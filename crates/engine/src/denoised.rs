@@ -28,7 +28,7 @@ pub(crate) struct Denoiser<'a, T: Lane> {
     pub(crate) sorted: &'a mut [[Row<T>; 3]],
     pub(crate) tail: &'a mut [Block<T>; 3],
     pub(crate) rows: &'a mut [DenoisedRow<T>],
-    /// How many of them are in use.
+    /// How many of them are in use, a power of two.
     pub(crate) slots: usize,
     /// First and last row that windows may reach.
     pub(crate) reach: (usize, usize),
@@ -84,14 +84,14 @@ impl<T: Lane> Denoiser<'_, T> {
 
     #[inline(always)]
     fn slot(&self, y: usize) -> &DenoisedRow<T> {
-        &self.rows[y % self.slots]
+        &self.rows[y & (self.slots - 1)]
     }
 
     /// Fills row `y`, from the sorted columns number `at` or from raw pixels.
     #[inline(always)]
     fn fill(&mut self, y: usize, span: &Range<usize>, at: usize) {
         let plan = self.plan;
-        let row = &mut self.rows[y % self.slots];
+        let row = &mut self.rows[y & (self.slots - 1)];
         if plan.median {
             let [low, mid, high] = &self.sorted[at];
             let sorted = [low.near(span), mid.near(span), high.near(span)];

@@ -124,6 +124,12 @@ impl<T: Lane> Plan<T> {
         (BATCH / run).clamp(1, self.side)
     }
 
+    /// Rows to keep for a batch and the rows around it: a power of two, so that the place of a row is
+    /// found without a division.
+    pub(crate) fn slots(&self, run: usize) -> usize {
+        (self.batch(run) + 2).next_power_of_two()
+    }
+
     /// Blocks that have to be denoised on each side of a run, for the windows at its ends.
     pub(crate) fn margin(&self) -> usize {
         // Without a look over seams, and with none across the end of a block, there are none.

@@ -113,7 +113,7 @@ pub(crate) struct Scratch<T: Lane> {
 
 impl<T: Lane> Scratch<T> {
     pub(crate) fn new(plan: &Plan<T>) -> Self {
-        let (rows, row) = (plan.batch(1) + 2, || Row::new(plan.blocks));
+        let (rows, row) = (plan.slots(1), || Row::new(plan.blocks));
         let denoised = || DenoisedRow { holds: None, pixels: row() };
         let regions = || vec![0; plan.columns];
         let width = plan.stride();
