@@ -170,11 +170,11 @@ impl<T: Lane> Band<'_, T> {
     #[inline(always)]
     fn spread_means(&self, scratch: &mut Scratch<T>, fraction_bits: u32) {
         let n = u64::from(self.plan.region_pixels());
-        let means = scratch.columns.mean.chunks_exact_mut(self.plan.side);
-        for (columns, &sum) in means.zip(&scratch.sums.sum) {
+        let mean = |sum| {
             let mean = mad::mean(sum, n, fraction_bits) >> fraction_bits;
-            columns.fill(threshold(u32::try_from(mean).unwrap_or(u32::MAX)));
-        }
+            threshold(u32::try_from(mean).unwrap_or(u32::MAX))
+        };
+        sums::spread(&scratch.sums.sum, self.plan.side, mean, &mut scratch.columns.mean);
     }
 
     #[inline(always)]
@@ -184,7 +184,9 @@ impl<T: Lane> Band<'_, T> {
         let over = &mut columns.over.blocks_mut()[run.clone()];
         let mean = &columns.mean.blocks()[run.clone()];
         above.fill([T::Sum::default(); BLOCK]);
-        over.fill([T::default(); BLOCK]);
+        if fraction_bits > 0 {
+            over.fill([T::default(); BLOCK]);
+        }
         for row in 0..self.plan.side {
             let now = blocks(self.denoised, stride, row, run);
             mad::add_above(now, mean, above);

@@ -47,3 +47,35 @@ fn by_constant<const SIDE: usize, V: Copy + Into<u64>>(columns: &[V], regions: &
         *region = columns.iter().map(|&column| column.into()).sum();
     }
 }
+
+/// Puts a value of each region under its columns.
+#[inline(always)]
+pub(crate) fn spread<T: Copy>(
+    regions: &[u64],
+    side: usize,
+    value: impl Fn(u64) -> T,
+    columns: &mut [T],
+) {
+    match side {
+        8 => spread_constant::<8, T>(regions, value, columns),
+        16 => spread_constant::<16, T>(regions, value, columns),
+        32 => spread_constant::<32, T>(regions, value, columns),
+        64 => spread_constant::<64, T>(regions, value, columns),
+        _ => {
+            for (columns, &region) in columns.chunks_exact_mut(side).zip(regions) {
+                columns.fill(value(region));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn spread_constant<const SIDE: usize, T: Copy>(
+    regions: &[u64],
+    value: impl Fn(u64) -> T,
+    columns: &mut [T],
+) {
+    for (columns, &region) in columns.as_chunks_mut::<SIDE>().0.iter_mut().zip(regions) {
+        *columns = [value(region); SIDE];
+    }
+}
