@@ -4,6 +4,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use foveate_engine::EngineError;
 use foveate_model::ModelError;
 use foveate_scenes::SceneError;
 use foveate_spec::SpecError;
@@ -255,6 +256,9 @@ pub enum SimulatorError {
     /// The configuration does not fit.
     #[error(transparent)]
     Spec(#[from] SpecError),
+    /// The engine refused a frame.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
     /// The model refused a frame.
     #[error(transparent)]
     Model(#[from] ModelError),

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_model::Camera;
+use foveate_engine::Engine;
 use foveate_spec::{Config, Design};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 
@@ -105,7 +105,7 @@ impl Simulation {
         recorder: &mut Recorder,
         hooks: &mut dyn Hooks,
     ) -> Result<bool, SimulatorError> {
-        let mut camera = Camera::new(&self.design);
+        let mut engine = Engine::new(&self.design);
         let source = &mut self.source;
         let total = source.frames();
         let mut next = source.next_frame()?;
@@ -114,12 +114,12 @@ impl Simulation {
                 return Ok(true);
             }
             if source.kind() == Kind::Set {
-                camera.reset();
+                engine.reset();
             }
-            let outcome = camera.step(&current.frame)?;
+            engine.step(&current.frame)?;
             // While a frame is written the one after it is read.
             let (written, read) =
-                rayon::join(|| recorder.push(&current, outcome), || source.next_frame());
+                rayon::join(|| recorder.push(&current, &engine), || source.next_frame());
             written?;
             next = read?;
             hooks.progress(Progress { done: recorder.frames(), total });

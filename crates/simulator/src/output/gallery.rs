@@ -89,7 +89,7 @@ impl Sink for Gallery {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let picture = match &mut self.painter {
             Some(painter) => painter.paint(step).into(),
-            None => Picture::grey(&step.outcome.rendered),
+            None => Picture::grey(step.rendered()?),
         };
         match &mut self.series {
             Series::Folder(series) => series.push(&picture),

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_model::Outcome;
+use foveate_engine::{Engine, Outcome};
 use foveate_spec::Design;
 use rayon::prelude::*;
 
@@ -59,16 +59,16 @@ impl Recorder {
         })
     }
 
-    /// Writes what came of one frame.
+    /// Writes what came of one frame, the last that `engine` has taken.
     pub(crate) fn push(
         &mut self,
         source: &SourceFrame,
-        outcome: &Outcome,
+        engine: &Engine,
     ) -> Result<(), SimulatorError> {
         let number = self.totals.frames;
-        self.push_row(source, outcome)?;
-        let Self { design, pixels, sinks, .. } = self;
-        let step = Step { design, number, source, outcome };
+        self.push_row(source, engine.outcome())?;
+        let Self { pixels, sinks, .. } = self;
+        let step = Step::new(engine, number, source);
         let (pixels, sinks) = rayon::join(
             || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(&step)),
             || sinks.par_iter_mut().try_for_each(|sink| sink.push(&step)),
