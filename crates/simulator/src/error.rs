@@ -117,7 +117,7 @@ pub enum SimulatorError {
     },
     /// ffmpeg is missing or cannot be started.
     #[error(transparent)]
-    Tool(#[from] ToolError),
+    Tool(Box<ToolError>),
     /// A file that cannot be read at all.
     #[error("cannot read `{}`: {problem}", path.display())]
     Unreadable {
@@ -209,7 +209,7 @@ pub enum SimulatorError {
     },
     /// No video can be written on this machine.
     #[error("video cannot be written: {0}; or write pictures, for example with --rendered png")]
-    NoVideo(#[source] ToolError),
+    NoVideo(#[source] Box<ToolError>),
     /// A video could not be written to its end.
     #[error("ffmpeg cannot write `{}`: {problem}; check space, or write pictures", path.display())]
     VideoOutput {
@@ -270,4 +270,10 @@ pub enum SimulatorError {
     /// The scene does not exist.
     #[error(transparent)]
     Scene(#[from] SceneError),
+}
+
+impl From<ToolError> for SimulatorError {
+    fn from(error: ToolError) -> Self {
+        Self::Tool(Box::new(error))
+    }
 }

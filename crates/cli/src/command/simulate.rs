@@ -14,7 +14,7 @@ use indicatif::ProgressBar;
 
 use crate::args::SimulateArgs;
 use crate::error::CliError;
-use crate::{output, progress};
+use crate::{interrupt, output, progress};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     run_job(&Job {
@@ -77,17 +77,7 @@ struct Terminal {
 
 impl Terminal {
     fn new(quiet: bool) -> Result<Self, CliError> {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        // The first one ends the run in good order; the second is for a source that says nothing.
-        let stop = move || {
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        };
-        ctrlc::set_handler(stop)
-            .map_err(|e| CliError::Usage(format!("cannot listen for Ctrl-C: {e}")))?;
-        Ok(Self { bar: progress::frames(quiet), interrupted })
+        Ok(Self { bar: progress::frames(quiet), interrupted: interrupt::flag()? })
     }
 
     /// What a result that is there, but not complete, means for the exit code.
