@@ -17,7 +17,7 @@ fn names(folder: &Path) -> Vec<String> {
 /// Two images of 16x16 pixels.
 fn idx(folder: &Path, name: &str) {
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
-    let pixels = (0..512u32).map(|pixel| (pixel * pixel / 16) as u8);
+    let pixels = (0..512u32).map(|pixel| (pixel * pixel / 16).to_le_bytes()[0]);
     fs::write(folder.join(name), header.into_iter().chain(pixels).collect::<Vec<u8>>()).unwrap();
 }
 
@@ -60,6 +60,10 @@ fn a_folder_is_a_set_here_unless_someone_says_otherwise() {
     let clip = ["dataset", "pets/cat", "-o", "no", "--images", "clip"];
     fail_in(dir.path(), 2, &clip, &["pets/cat is a clip", "--images set", "foveate simulate"]);
     fail_in(dir.path(), 2, &["dataset", "scene:street", "-o", "no"], &["scene:street is a clip"]);
+    fs::create_dir(dir.path().join("clips")).unwrap();
+    fs::write(dir.path().join("clips/a.y4m"), "").unwrap();
+    let clips = ["`clips` holds clips and no images", "foveate simulate"];
+    fail_in(dir.path(), 2, &["dataset", "clips", "-o", "no"], &clips);
     let timed = ["dataset", "pets", "-o", "no", "--fps", "5"];
     fail_in(dir.path(), 2, &timed, &["images of a set have no times"]);
     assert!(!dir.path().join("no").exists());

@@ -2,92 +2,16 @@
 //! Data sets out: the form, names and labels of the set that came in, with what the camera renders.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+#[path = "support/made.rs"]
+mod made;
 mod support;
 
 use std::fs;
-use std::io::{Read as _, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use flate2::Compression;
-use flate2::read::GzDecoder;
-use flate2::write::GzEncoder;
-use foveate_model::Camera;
-use foveate_simulator::{
-    Hooks, ImagesAs, InputOptions, Progress, RunOptions, Silent, Simulation, SimulatorError,
-    Summary, convert_depth, open,
-};
-use foveate_spec::Config;
+use foveate_simulator::{Hooks, InputOptions, Progress, Silent};
+use made::{LABELS, images, made, packed, pixels, rendered, set, unpacked, unpacked_any};
 use support::{Npy, grey, names};
-
-fn made<P: AsRef<Path>>(
-    inputs: &[P],
-    overrides: &[&str],
-    input: &InputOptions,
-    output: &Path,
-    hooks: &mut dyn Hooks,
-) -> Result<Summary, Box<SimulatorError>> {
-    let config = Config::from_toml_with("", overrides).unwrap();
-    let source = open(inputs, &config, input)?;
-    let options = RunOptions { rendered: None, data_set: true, ..RunOptions::default() };
-    Ok(Simulation::new(&config, source)?.run(output, &options, hooks)?)
-}
-
-fn set() -> InputOptions {
-    InputOptions { images: ImagesAs::Set, ..InputOptions::default() }
-}
-
-/// Seven ragged images, each with a bright square where it alone has one.
-fn pixels() -> Vec<u8> {
-    let pixel = |i: u8, x: u8, y: u8| if (x / 4 + y / 4) % 7 == i { 250 - x - y } else { x };
-    (0..7).flat_map(|i| (0..10).flat_map(move |y| (0..13).map(move |x| pixel(i, x, y)))).collect()
-}
-
-fn images() -> Vec<u8> {
-    [&[0, 0, 8, 3, 0, 0, 0, 7, 0, 0, 0, 10, 0, 0, 0, 13][..], &pixels()].concat()
-}
-
-const LABELS: [u8; 15] = [0, 0, 8, 1, 0, 0, 0, 7, 3, 1, 4, 1, 5, 255, 0];
-
-fn packed(bytes: &[u8]) -> Vec<u8> {
-    let mut zip = GzEncoder::new(Vec::new(), Compression::fast());
-    zip.write_all(bytes).unwrap();
-    zip.finish().unwrap()
-}
-
-/// One gzip member and nothing after it.
-fn unpacked(path: &Path) -> Vec<u8> {
-    let bytes = fs::read(path).unwrap();
-    assert_eq!(bytes[4..8], [0; 4], "no time");
-    let mut zip = GzDecoder::new(&bytes[..]);
-    let mut plain = Vec::new();
-    zip.read_to_end(&mut plain).unwrap();
-    assert!(zip.into_inner().is_empty());
-    plain
-}
-
-/// What the camera renders of 8-bit images that are first frames, with SRS and TRS.
-fn rendered(
-    config: &[&str],
-    size: (u32, u32),
-    images: impl Iterator<Item = Vec<u8>>,
-) -> [Vec<u8>; 3] {
-    let mut config = Config::from_toml_with("", config).unwrap();
-    config.fit_frame(size.0, size.1).unwrap();
-    let design = config.validate().unwrap();
-    let bits = design.pixel_bits();
-    let mut result = [const { Vec::new() }; 3];
-    for image in images {
-        let pixels = image.iter().map(|&pixel| convert_depth(pixel.into(), 8, bits)).collect();
-        let frame = foveate_model::Frame::new(size.0, size.1, bits, pixels).unwrap();
-        let mut camera = Camera::new(&design);
-        let outcome = camera.step(&frame).unwrap();
-        let shown = outcome.rendered.pixels().iter();
-        result[0].extend(shown.map(|&pixel| convert_depth(pixel, bits, 8) as u8));
-        result[1].extend(outcome.srs.iter().map(|&bit| u8::from(bit)));
-        result[2].extend(outcome.trs.iter().map(|&bit| u8::from(bit)));
-    }
-    result
-}
 
 #[test]
 fn idx_becomes_idx_byte_by_byte() {
@@ -202,7 +126,8 @@ fn a_tree_becomes_a_tree_with_the_same_names() {
 fn cifar_becomes_a_labelled_tree() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("batch.bin");
-    let record = |label: u8| [vec![label], (0..3072u32).map(|p| (p * p / 64) as u8).collect()];
+    let record =
+        |label: u8| [vec![label], (0..3072u32).map(|p| (p * p / 64).to_le_bytes()[0]).collect()];
     fs::write(&path, [record(9), record(0), record(9)].concat().concat()).unwrap();
     let out = dir.path().join("out");
     made(&[&path], &[], &InputOptions::default(), &out, &mut Silent).unwrap();
@@ -225,6 +150,25 @@ fn a_clip_is_no_set_and_the_message_says_what_is() {
     }
 }
 
+#[test]
+fn labels_have_a_name_of_their_own() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    fs::create_dir(at("labels")).unwrap();
+    fs::write(at("a.idx"), images()).unwrap();
+    fs::write(at("labels/a.idx"), LABELS).unwrap();
+    fs::write(at("labels/b.idx"), LABELS).unwrap();
+    let run = |labels: &str| {
+        let input = InputOptions { labels: Some(at(labels)), ..InputOptions::default() };
+        made(&[at("a.idx")], &[], &input, &at("out"), &mut Silent)
+    };
+    let said = run("labels/a.idx").unwrap_err().to_string();
+    assert!(said.contains("--labels") && said.contains("both called `a.idx`"), "{said}");
+    assert!(!at("out").exists());
+    run("labels/b.idx").unwrap();
+    assert_eq!(fs::read(at("out/b.idx")).unwrap(), LABELS);
+}
+
 /// The real MNIST, where the environment variable FOVEATE_DATA names the folder of real data.
 #[test]
 fn mnist_becomes_mnist() {
@@ -245,10 +189,4 @@ fn mnist_becomes_mnist() {
     let labels = unpacked_any(&data.join("mnist/t10k-labels-idx1-ubyte.gz"));
     let kept = unpacked(&out.join("t10k-labels-idx1-ubyte.gz"));
     assert_eq!((&kept[4..8], &kept[8..]), (&[0, 0, 0, 200][..], &labels[8..208]));
-}
-
-fn unpacked_any(path: &Path) -> Vec<u8> {
-    let mut plain = Vec::new();
-    GzDecoder::new(fs::File::open(path).unwrap()).read_to_end(&mut plain).unwrap();
-    plain
 }

@@ -19,6 +19,11 @@ pub(super) fn sinks(
     images: &IdxFile,
     labels: Option<&IdxFile>,
 ) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
+    if let Some(labels) = labels.filter(|labels| labels.name == images.name) {
+        let name = &labels.name;
+        let problem = format!("images and labels are both called `{name}`; rename one of them");
+        return Err(SimulatorError::Option { option: "--labels", problem });
+    }
     let file = HeadedFile::create(&folder.join(&images.name), images.packed)?;
     let mut sinks: Vec<Box<dyn Sink>> =
         vec![Box::new(Images { file, count: 0, size: (0, 0), bytes: Vec::new() })];
