@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The command line as clap sees it, and the design that its options describe.
 
+mod dataset;
 mod explain;
 mod input;
 mod outputs;
@@ -15,6 +16,7 @@ use foveate_spec::{Config, Design, Preset, SpecError};
 
 use self::input::InputArgs;
 use crate::error::CliError;
+pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use outputs::OutputArgs;
 
@@ -37,6 +39,7 @@ pub(crate) enum Command {
     Cosim(CosimArgs),
     Estimate(EstimateArgs),
     Simulate(SimulateArgs),
+    Dataset(DatasetArgs),
     Explain(ExplainArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),

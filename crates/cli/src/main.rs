@@ -34,6 +34,7 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Cosim(args) => command::cosim::run(args),
         Command::Estimate(args) => command::estimate::run(args),
         Command::Simulate(args) => command::simulate::run(args),
+        Command::Dataset(args) => command::dataset::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Presets(args) => command::presets::run(args),
         Command::Completions(args) => command::completions::run(args),

@@ -228,6 +228,15 @@ pub enum SimulatorError {
     /// Pixel events are differences in time.
     #[error("images of a set have no order in time; pixel events need a clip")]
     PixelEventsOfSet,
+    /// A data set is made of images that have nothing to do with each other.
+    #[error(
+        "{inputs} is a clip, whose frames follow each other in time, and a data set is made of a set: \
+         IDX or CIFAR files, or image files with --images set; for a clip take `foveate simulate`"
+    )]
+    NotASet {
+        /// The inputs as given.
+        inputs: String,
+    },
     /// There is no such frame to explain.
     #[error("there is no frame {frame}; {inputs} has {frames} frames, counted from 0")]
     NoSuchFrame {

@@ -82,8 +82,12 @@ impl Simulation {
         if options.pixel_events.wanted() && self.source.kind() == Kind::Set {
             return Err(SimulatorError::PixelEventsOfSet);
         }
+        if options.data_set && self.source.kind() == Kind::Clip {
+            return Err(SimulatorError::NotASet { inputs: self.source.inputs().join(", ") });
+        }
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
-        let mut recorder = Recorder::create(staging.folder(), &self.design, options)?;
+        let mut recorder =
+            Recorder::create(staging.folder(), &self.design, &self.source.form(), options)?;
         let cancelled = self.record(&mut recorder, hooks)?;
         let problem = match (cancelled, recorder.frames()) {
             (true, 0) => return Err(SimulatorError::Cancelled),

@@ -43,7 +43,7 @@ impl From<Canvas> for Picture {
 
 impl Picture {
     /// A grey frame at the depth that [`display_depth`] gives it.
-    fn grey(frame: &Frame) -> Self {
+    pub(super) fn grey(frame: &Frame) -> Self {
         let depth = display_depth(frame.bits());
         let values = frame.pixels().iter().map(|&value| convert_depth(value, frame.bits(), depth));
         let (samples, bytes) = if depth == 8 {
