@@ -2,6 +2,7 @@
 //! The command line as clap sees it, and the design that its options describe.
 
 mod analyze;
+mod dataset;
 mod explain;
 mod input;
 mod outputs;
@@ -17,6 +18,7 @@ use foveate_spec::{Config, Design, Preset, SpecError};
 use self::input::InputArgs;
 use crate::error::CliError;
 pub(crate) use analyze::AnalyzeArgs;
+pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use outputs::OutputArgs;
 
@@ -39,6 +41,7 @@ pub(crate) enum Command {
     Cosim(CosimArgs),
     Estimate(EstimateArgs),
     Simulate(SimulateArgs),
+    Dataset(DatasetArgs),
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
     Presets(PresetsArgs),

@@ -13,6 +13,8 @@ use foveate_studies::StudyError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
+use crate::interrupt;
+
 /// Why a command did not end well. The message is all that the user sees.
 #[derive(Debug, Error)]
 pub(crate) enum CliError {
@@ -53,29 +55,45 @@ impl CliError {
 
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Simulator(error) => of_simulator(error),
             Self::Study(error) => match error.as_ref() {
-                StudyError::Cancelled => 130,
-                StudyError::Simulator(error) => of_simulator(error),
-                _ => 2,
+                StudyError::Cancelled => interrupt::EXIT_CODE,
+                StudyError::Simulator(error) => simulator_code(error),
+                _ => INPUT,
             },
             Self::Failed(_) => 1,
-            Self::Interrupted { .. } => 130,
-            Self::Tool(_)
-            | Self::Cosim(CosimError::Tool(_) | CosimError::Short { .. })
-            | Self::Estimate(_) => 3,
-            _ => 2,
+            Self::Interrupted { .. } => interrupt::EXIT_CODE,
+            Self::Tool(error) => tool_code(error),
+            Self::Cosim(CosimError::Tool(error)) => tool_code(error),
+            Self::Cosim(CosimError::Short { .. }) => TOOL,
+            Self::Estimate(EstimateError::Tool(error)) => tool_code(error),
+            Self::Estimate(_) => TOOL,
+            Self::Simulator(error) => simulator_code(error),
+            _ => INPUT,
         })
     }
 }
 
-fn of_simulator(error: &SimulatorError) -> u8 {
+/// Bad usage or input.
+const INPUT: u8 = 2;
+/// A tool is missing or failed.
+const TOOL: u8 = 3;
+
+fn tool_code(error: &ToolError) -> u8 {
     match error {
-        SimulatorError::Cancelled => 130,
-        SimulatorError::Tool(_)
-        | SimulatorError::NoVideo(_)
-        | SimulatorError::VideoOutput { .. } => 3,
-        _ => 2,
+        _ if error.is_interrupted() => interrupt::EXIT_CODE,
+        // A cache or temporary folder that cannot be used is for the user to choose.
+        ToolError::Unusable { .. } => TOOL,
+        _ if error.is_environment() => INPUT,
+        _ => TOOL,
+    }
+}
+
+fn simulator_code(error: &SimulatorError) -> u8 {
+    match error {
+        SimulatorError::Cancelled => interrupt::EXIT_CODE,
+        SimulatorError::Tool(error) | SimulatorError::NoVideo(error) => tool_code(error),
+        SimulatorError::VideoOutput { .. } => TOOL,
+        _ => INPUT,
     }
 }
 

@@ -8,6 +8,7 @@
 mod args;
 mod command;
 mod error;
+mod interrupt;
 mod output;
 mod progress;
 
@@ -33,6 +34,7 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Cosim(args) => command::cosim::run(args),
         Command::Estimate(args) => command::estimate::run(args),
         Command::Simulate(args) => command::simulate::run(args),
+        Command::Dataset(args) => command::dataset::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Analyze(args) => command::analyze::run(args),
         Command::Presets(args) => command::presets::run(args),

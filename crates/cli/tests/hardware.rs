@@ -123,6 +123,31 @@ fn a_replay_folder_that_is_not_one_is_refused_before_anything_runs() {
     fail_in(dir.path(), 2, &["cosim", "--replay", "mine"], &["`mine`", "replay"]);
 }
 
+/// An interrupt stops the compiler, too, and leaves no folder behind.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_a_build() {
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let temporary = dir.path().join("tmp");
+    fs::create_dir(&temporary).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_foveate"))
+        .args(["cosim", "--full", "--rounds", "0", "scene:street"])
+        .current_dir(dir.path())
+        .env("FOVEATE_CACHE", "off")
+        .env("TMPDIR", &temporary)
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let left: Vec<_> = fs::read_dir(&temporary).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
 #[test]
 fn the_area_is_beside_the_papers() {
     if !require_tools(&[Tool::Yosys]) {

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub enum CosimError {
     /// A tool is missing, too old, or refused its input.
     #[error(transparent)]
-    Tool(#[from] ToolError),
+    Tool(ToolError),
 
     /// The design does not allow what was asked for.
     #[error(transparent)]
@@ -34,6 +34,42 @@ pub enum CosimError {
         top: String,
         /// The port.
         port: String,
+    },
+
+    /// A port of the Verilog's top module is not as wide as the design's.
+    #[error(
+        "module `{top}` has `{port}` with {found} bits, the design has {wanted}; \
+         is the Verilog that of another design?"
+    )]
+    PortWidth {
+        /// The module.
+        top: String,
+        /// The port.
+        port: String,
+        /// Its bits in the Verilog.
+        found: u32,
+        /// Its bits in the design.
+        wanted: u32,
+    },
+
+    /// There is nothing to simulate, which must not look like agreement.
+    #[error("nothing to simulate: no frames and rounds = 0; give frames, or rounds of 1 or more")]
+    Nothing,
+
+    /// The array is larger than what fits into memory.
+    #[error(
+        "an array of {regions} regions that take {pixels} pixels per frame is too large to simulate, at \
+         most {max_regions} regions and {max_pixels} pixels are; simulate a part of it as `rcm`"
+    )]
+    TooLarge {
+        /// Its regions.
+        regions: u64,
+        /// Pixels that they take per frame, those of their neighborhoods included.
+        pixels: u64,
+        /// The most regions.
+        max_regions: u64,
+        /// The most pixels.
+        max_pixels: u64,
     },
 
     /// A frame does not fit the design.
@@ -76,6 +112,20 @@ pub enum CosimError {
     #[error(transparent)]
     Output(#[from] StagingError),
 
+    /// The vectors, which lie among the temporary files, cannot be written.
+    #[error(
+        "cannot {action} `{}`: {source}; set TMPDIR to a folder with space that can be written",
+        path.display()
+    )]
+    Temporary {
+        /// What was tried, such as "write".
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The reason.
+        source: std::io::Error,
+    },
+
     /// A file could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {
@@ -88,7 +138,44 @@ pub enum CosimError {
     },
 }
 
+impl From<ToolError> for CosimError {
+    /// Verilog that does not fit the design is no failure of the tool that noticed.
+    fn from(error: ToolError) -> Self {
+        match error {
+            ToolError::PortWidth { top, port, found, wanted } => {
+                Self::PortWidth { top, port, found, wanted }
+            }
+            ToolError::NoPort { top, port } => Self::NoPort { top, port },
+            error => Self::Tool(error),
+        }
+    }
+}
+
 impl CosimError {
+    /// Whether the user has asked to stop.
+    #[must_use]
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self, Self::Tool(error) if error.is_interrupted())
+    }
+
+    /// Whether a place is at fault that the user chooses, and no tool.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        match self {
+            Self::Tool(error) => error.is_environment(),
+            Self::Temporary { .. } | Self::Output(_) | Self::Io { .. } => true,
+            _ => false,
+        }
+    }
+
+    /// For `map_err`: the folder of temporary files is at fault.
+    pub(crate) fn temporary(
+        action: &'static str,
+        path: &Path,
+    ) -> impl FnOnce(std::io::Error) -> Self {
+        move |source| Self::Temporary { action, path: path.to_owned(), source }
+    }
+
     /// For `map_err`: names the file and what was tried with it.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Io { action, path: path.to_owned(), source }

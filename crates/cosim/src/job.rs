@@ -77,7 +77,8 @@ impl Job {
     ///
     /// # Errors
     /// When there is no result: a tool is missing or fails, a frame does not fit, a folder cannot
-    /// be written.
+    /// be written, or the toolchain's flag has stopped it. An earlier replay in the folder of the
+    /// output is gone then as well: what is there after a run is of that run.
     pub fn run(
         &self,
         toolchain: &Toolchain,
@@ -89,11 +90,14 @@ impl Job {
         for &tool in self.simulator.tools() {
             toolchain.find(tool)?;
         }
+        replay::remove(&self.output)?;
         let dut = self.dut(&design);
         let start = Instant::now();
-        let recording = self.stimulus.record(&self.design, &mut |done, total| {
-            progress(Progress::Vectors { done, total });
-        })?;
+        let recording = self.stimulus.record_until(
+            &self.design,
+            toolchain.cancel_flag(),
+            &mut |done, total| progress(Progress::Vectors { done, total }),
+        )?;
         let vectors = start.elapsed();
         progress(Progress::Simulation { clocks: recording.clocks() });
         let run = Run {

@@ -160,9 +160,9 @@ impl Recorder {
         let folder = tempfile::Builder::new()
             .prefix("foveate-cosim-")
             .tempdir_in(&parent)
-            .map_err(CosimError::io("create a folder in", &parent))?;
+            .map_err(CosimError::temporary("create a folder in", &parent))?;
         let create = |path: PathBuf| {
-            let file = File::create(&path).map_err(CosimError::io("write", &path))?;
+            let file = File::create(&path).map_err(CosimError::temporary("write", &path))?;
             Ok::<_, CosimError>(BufWriter::with_capacity(1 << 18, file))
         };
         Ok(Self {
@@ -211,8 +211,8 @@ impl Recorder {
     /// When the files cannot be written.
     pub fn push(&mut self, input: &[u8], expected: &[u8]) -> Result<(), CosimError> {
         let folder = self.recording.folder.path();
-        self.input.write_all(input).map_err(CosimError::io("write", folder))?;
-        self.expected.write_all(expected).map_err(CosimError::io("write", folder))?;
+        self.input.write_all(input).map_err(CosimError::temporary("write", folder))?;
+        self.expected.write_all(expected).map_err(CosimError::temporary("write", folder))?;
         self.recording.clocks += 1;
         Ok(())
     }
@@ -223,8 +223,8 @@ impl Recorder {
     /// When the files cannot be written.
     pub fn finish(mut self) -> Result<Recording, CosimError> {
         let folder = self.recording.folder.path();
-        self.input.flush().map_err(CosimError::io("write", folder))?;
-        self.expected.flush().map_err(CosimError::io("write", folder))?;
+        self.input.flush().map_err(CosimError::temporary("write", folder))?;
+        self.expected.flush().map_err(CosimError::temporary("write", folder))?;
         Ok(self.recording)
     }
 }

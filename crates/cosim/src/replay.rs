@@ -12,6 +12,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const SCRIPT: &str = "replay.sh";
+const README: &str = "README.md";
+/// The first words of the README.
+const TITLE: &str = "# A mismatch, to replay";
 /// What is written, and what makes way for it.
 const REPLAY: Kind = Kind {
     what: "a replay (its replay.sh) or waves (its waves.fst)",
@@ -55,6 +58,19 @@ pub(crate) struct About<'a> {
 /// Refuses a folder that holds something else, before anything is simulated.
 pub(crate) fn check(folder: &Path) -> Result<(), CosimError> {
     Ok(StagedFolder::check(folder, REPLAY, true)?)
+}
+
+/// Removes what an earlier run has left, so that it is not taken for what this one leaves. Only what is
+/// all a run's is removed: a replay, told by its script, vectors and README, or waves alone.
+pub(crate) fn remove(folder: &Path) -> Result<(), CosimError> {
+    let names = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let waves_alone = names.collect::<Vec<_>>() == [WAVES_FILE];
+    let files = [SCRIPT, VECTORS_FILE].iter().all(|name| folder.join(name).is_file());
+    let readme = || fs::read_to_string(folder.join(README)).unwrap_or_default();
+    if waves_alone || (files && readme().starts_with(TITLE)) {
+        fs::remove_dir_all(folder).map_err(CosimError::io("remove the earlier replay", folder))?;
+    }
+    Ok(())
 }
 
 /// Writes the folder beside its place, then puts it there; an earlier replay makes way.
@@ -120,7 +136,7 @@ fn fill(
         put(dir, name, contents)?;
     }
     put(dir, &bench_file(&dut.top), &bench)?;
-    put(dir, "README.md", &readme)?;
+    put(dir, README, &readme)?;
     put(dir, SCRIPT, &script)?;
     make_executable(&dir.join(SCRIPT))?;
     recording.write_hex(&dir.join(VECTORS_FILE), limit)?;

@@ -50,10 +50,10 @@ pub struct CosimReport {
 }
 
 impl CosimReport {
-    /// Whether model and RTL agree.
+    /// Whether model and RTL agree. Without a single comparison they do not.
     #[must_use]
     pub fn passed(&self) -> bool {
-        self.mismatch.is_none()
+        self.mismatch.is_none() && self.comparisons > 0
     }
 }
 
@@ -105,6 +105,7 @@ impl fmt::Display for CosimReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, frames, clocks, comparisons, .. } = self;
         match &self.mismatch {
+            None if !self.passed() => write!(f, "{name}: nothing was compared"),
             None => write!(
                 f,
                 "{name}: {frames} frames, {clocks} clocks, {comparisons} values compared, no mismatch"

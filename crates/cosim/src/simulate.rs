@@ -154,6 +154,7 @@ impl Run<'_> {
                 let job = iverilog::IverilogJob {
                     sources,
                     top: bench_name(&dut.top),
+                    exact_ports: Some((dut.top.clone(), bench_file(&dut.top))),
                     ..Default::default()
                 };
                 iverilog::compile(self.toolchain, self.cache, &job)?
@@ -192,6 +193,7 @@ impl Run<'_> {
             vlt: (!vlt.is_empty()).then(|| format!("`verilator_config\n{vlt}")),
             trace: self.trace,
             lint: Lint::Lenient,
+            port_bits: dut.ports.iter().map(|port| (port.name.clone(), port.bits())).collect(),
             extra_args: unknown_start.into_iter().chain(parameters).collect(),
             ..VerilatorJob::default()
         }
@@ -211,6 +213,10 @@ impl Run<'_> {
             .stdout_file(&actual)
             .timeout(self.limit);
         let output = self.toolchain.run(&invocation)?;
+        if output.log().contains("cannot write the outputs") {
+            let full = std::io::ErrorKind::StorageFull.into();
+            return Err(CosimError::temporary("write", &actual)(full));
+        }
         let compared = compare(recording, &actual)?;
         let complete = compared.records == recording.clocks() && output.is_success();
         if compared.difference.is_none() && !complete {

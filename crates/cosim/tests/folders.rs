@@ -5,13 +5,16 @@
 mod common;
 
 use common::{cosimulate, design, directed};
-use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator};
+use foveate_cosim::{CosimError, CosimReport, Job, Level, Progress, Simulator};
 use foveate_spec::Config;
 use foveate_staging::StagingError;
 use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Toolchain};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 const SIMULATOR: Simulator = Simulator::Iverilog;
 
@@ -72,6 +75,49 @@ fn a_replay_replaces_a_replay_and_nothing_else() {
     assert!(matches!(error, CosimError::Output(StagingError::Foreign { .. })), "{error}");
     assert_eq!(names(&precious), ["thesis.tex"]);
     assert_eq!(names(dir.path()), ["out", "precious"]);
+}
+
+#[test]
+fn a_passing_run_leaves_no_earlier_replay() {
+    if !require_tools(SIMULATOR.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let output = dir.path().join("out");
+    run(&output, break_it).unwrap();
+    assert!(output.is_dir());
+    assert!(run(&output, |_| {}).unwrap().passed());
+    assert_eq!(names(dir.path()), Vec::<String>::new());
+    run(&output, |job| job.trace = true).unwrap();
+    run(&output, |_| {}).unwrap();
+    assert_eq!(names(dir.path()), Vec::<String>::new());
+
+    // Something of the same names is not a replay.
+    fs::create_dir(&output).unwrap();
+    for name in ["replay.sh", "vectors.hex", "README.md"] {
+        fs::write(output.join(name), "mine").unwrap();
+    }
+    run(&output, |_| {}).unwrap();
+    assert_eq!(names(&output).len(), 3);
+}
+
+#[test]
+fn an_interrupt_ends_the_simulation_and_leaves_nothing() {
+    if !require_tools(SIMULATOR.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let flag = Arc::new(AtomicBool::new(false));
+    let toolchain = Toolchain::system().cancelled_by(Arc::clone(&flag));
+    let cache = Cache::at(&dir.path().join("cache")).unwrap();
+    let design = design(&Config::default(), (1, 1));
+    let job = Job::new(&design, directed(Level::Rpu, 1), &dir.path().join("out")).unwrap();
+    let result = job.run(&toolchain, &cache, &mut |progress| {
+        flag.store(matches!(progress, Progress::Simulation { .. }), Ordering::Relaxed);
+    });
+    assert!(result.unwrap_err().is_interrupted());
+    assert_eq!(names(dir.path()), ["cache"]);
+    assert_eq!(names(cache.root()), Vec::<String>::new());
 }
 
 #[test]

@@ -187,10 +187,35 @@ fn sources_of_something_else_are_refused_by_name() {
     let broken = edited("endmodule", "end");
     let error = run(Simulator::Iverilog, &broken, &recording(1), false).unwrap_err();
     assert!(matches!(error, CosimError::Tool(_)), "{error}");
-    if require_tools(Simulator::Verilator.tools()) {
-        let narrow = edited("[32:0]  b_o", "[31:0]  b_o");
-        let error = run(Simulator::Verilator, &narrow, &recording(1), false).unwrap_err();
-        assert!(error.to_string().contains("b_o must be 33 bits wide"), "{error}");
+}
+
+/// Widths of the same storage class too, which C++ and Verilog join without a word.
+#[test]
+fn ports_of_another_width_are_refused() {
+    let edits = [
+        ("[32:0]  b_o", "[31:0]  b_o", "b_o", 32, 33),
+        ("[7:0]   a_i", "[4:0]   a_i", "a_i", 5, 8),
+        ("[11:0]  a_o", "[8:0]  a_o", "a_o", 9, 12),
+        ("[199:0] d_i", "[201:2-1] d_i", "d_i", 201, 200),
+        ("rst_i,", "[1:0] rst_i,", "rst_i", 2, 1),
+    ];
+    for simulator in Simulator::ALL {
+        if !require_tools(simulator.tools()) {
+            continue;
+        }
+        for (from, to, name, bits, of_design) in edits {
+            let error = run(simulator, &edited(from, to), &recording(1), false).unwrap_err();
+            let CosimError::PortWidth { top, port, found, wanted } = &error else {
+                panic!("{simulator} {to}: {error}");
+            };
+            assert_eq!((top.as_str(), port.as_str()), ("tiny", name), "{simulator}");
+            assert_eq!((*found, *wanted), (bits, of_design), "{simulator} {to}");
+        }
+        // Named as a word, but no port.
+        let other = TINY
+            .replace("input  wire [7:0]   a_i,", "")
+            .replace("    reg [11:0] count;", "    wire a_i = 1'b0; reg [11:0] count;");
+        assert!(run(simulator, &other, &recording(1), false).is_err(), "{simulator}");
     }
 }
 

@@ -75,3 +75,10 @@ fn junit_has_a_case_per_report() {
         assert!(xml.contains(part), "{part}\n{xml}");
     }
 }
+
+#[test]
+fn nothing_compared_is_no_pass() {
+    let nothing = CosimReport { comparisons: 0, ..report(None) };
+    assert!(report(None).passed() && !nothing.passed());
+    assert_eq!(nothing.to_string(), "rcm 3x1 verilator: nothing was compared");
+}

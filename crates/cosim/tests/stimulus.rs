@@ -9,6 +9,7 @@ use foveate_cosim::{Field, Layout, Level, Recording, Stimulus, vectors_hex};
 use foveate_model::Frame;
 use foveate_spec::{Config, Design, FeatureKind, PortRole};
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 fn config(toml: &str) -> Config {
     Config::from_toml(toml).unwrap()
@@ -121,6 +122,36 @@ fn frames_of_the_caller_are_streamed_region_by_region() {
 
     let array = Stimulus { level: Level::Rcm { columns: 2, rows: 1 }, ..stimulus };
     assert_eq!(record(&design, &array).sequences(), 1);
+}
+
+#[test]
+fn nothing_to_simulate_is_refused() {
+    let design = design(&config(""), (1, 1));
+    let stimulus = Stimulus { rounds: 0, ..Stimulus::default() };
+    let error = stimulus.record(&design, &mut |_, _| {}).unwrap_err().to_string();
+    assert!(error.starts_with("nothing to simulate: no frames and rounds = 0"), "{error}");
+}
+
+#[test]
+fn arrays_beyond_memory_are_refused_before_they_are_made() {
+    let design = design(&config(""), (1, 1));
+    let level = Level::Rcm { columns: 300, rows: 300 };
+    let error = directed(level, 1).record(&design, &mut |_, _| {}).unwrap_err().to_string();
+    assert!(error.starts_with("an array of 90000 regions that take 5760000 pixels"), "{error}");
+    assert!(error.contains("at most 65536 regions and 67108864 pixels"), "{error}");
+}
+
+#[test]
+fn an_interrupt_stops_the_model() {
+    let design = design(&config(""), (1, 1));
+    let cancel = AtomicBool::new(false);
+    let mut heard = 0;
+    let result = directed(Level::Rpu, 3).record_until(&design, &cancel, &mut |done, _| {
+        heard = done;
+        cancel.store(done == 2, Ordering::Relaxed);
+    });
+    assert!(result.unwrap_err().is_interrupted());
+    assert_eq!(heard, 2);
 }
 
 #[test]

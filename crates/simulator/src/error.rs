@@ -4,6 +4,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use foveate_engine::EngineError;
 use foveate_model::ModelError;
 use foveate_scenes::SceneError;
 use foveate_spec::SpecError;
@@ -117,7 +118,7 @@ pub enum SimulatorError {
     },
     /// ffmpeg is missing or cannot be started.
     #[error(transparent)]
-    Tool(#[from] ToolError),
+    Tool(Box<ToolError>),
     /// A file that cannot be read at all.
     #[error("cannot read `{}`: {problem}", path.display())]
     Unreadable {
@@ -209,7 +210,7 @@ pub enum SimulatorError {
     },
     /// No video can be written on this machine.
     #[error("video cannot be written: {0}; or write pictures, for example with --rendered png")]
-    NoVideo(#[source] ToolError),
+    NoVideo(#[source] Box<ToolError>),
     /// A video could not be written to its end.
     #[error("ffmpeg cannot write `{}`: {problem}; check space, or write pictures", path.display())]
     VideoOutput {
@@ -227,6 +228,15 @@ pub enum SimulatorError {
     /// Pixel events are differences in time.
     #[error("images of a set have no order in time; pixel events need a clip")]
     PixelEventsOfSet,
+    /// A data set is made of images that have nothing to do with each other.
+    #[error(
+        "{inputs} is a clip, whose frames follow each other in time, and a data set is made of a set: \
+         IDX or CIFAR files, or image files with --images set; for a clip take `foveate simulate`"
+    )]
+    NotASet {
+        /// The inputs as given.
+        inputs: String,
+    },
     /// There is no such frame to explain.
     #[error("there is no frame {frame}; {inputs} has {frames} frames, counted from 0")]
     NoSuchFrame {
@@ -255,10 +265,19 @@ pub enum SimulatorError {
     /// The configuration does not fit.
     #[error(transparent)]
     Spec(#[from] SpecError),
+    /// The engine refused a frame.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
     /// The model refused a frame.
     #[error(transparent)]
     Model(#[from] ModelError),
     /// The scene does not exist.
     #[error(transparent)]
     Scene(#[from] SceneError),
+}
+
+impl From<ToolError> for SimulatorError {
+    fn from(error: ToolError) -> Self {
+        Self::Tool(Box::new(error))
+    }
 }

@@ -30,11 +30,12 @@ pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
 pub use input::{ImagesAs, InputOptions, open};
 pub use natural::natural_order;
 pub use output::{
-    Bandwidth, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent, PixelEvents,
-    Range, RunOptions, Summary, Traffic,
+    Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent,
+    PixelEvents, Range, RunOptions, Summary, Traffic,
 };
 pub use picture::{MAX_SIDE, decode, luma, read};
 pub use simulation::{Hooks, Progress, Silent, Simulation};
+pub use source::form::{IdxFile, Labels, SetFiles, SetForm};
 pub use source::resize::Crop;
 pub use source::select::{Selection, parse_time};
 pub use source::{FrameRate, Kind, Source, SourceFrame};

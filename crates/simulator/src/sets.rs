@@ -12,13 +12,22 @@ use flate2::bufread::MultiGzDecoder;
 
 use crate::SimulatorError;
 
+/// What a gzipped file starts with.
+const GZIP: [u8; 2] = [0x1F, 0x8B];
+
 /// Opens a file, unpacked if it is gzipped.
 pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, SimulatorError> {
     let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
-    if file.fill_buf().map_err(unreadable(path))?.starts_with(&[0x1F, 0x8B]) {
+    if file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP) {
         return Ok(Box::new(BufReader::new(MultiGzDecoder::new(file))));
     }
     Ok(Box::new(file))
+}
+
+/// Whether a file is gzipped.
+fn is_packed(path: &Path) -> Result<bool, SimulatorError> {
+    let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
+    Ok(file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP))
 }
 
 fn unreadable(path: &Path) -> impl Fn(io::Error) -> SimulatorError + '_ {

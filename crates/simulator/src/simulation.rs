@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_model::Camera;
+use foveate_engine::Engine;
 use foveate_spec::{Config, Design};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 
@@ -82,8 +82,12 @@ impl Simulation {
         if options.pixel_events.wanted() && self.source.kind() == Kind::Set {
             return Err(SimulatorError::PixelEventsOfSet);
         }
+        if options.data_set && self.source.kind() == Kind::Clip {
+            return Err(SimulatorError::NotASet { inputs: self.source.inputs().join(", ") });
+        }
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
-        let mut recorder = Recorder::create(staging.folder(), &self.design, options)?;
+        let mut recorder =
+            Recorder::create(staging.folder(), &self.design, &self.source.form(), options)?;
         let cancelled = self.record(&mut recorder, hooks)?;
         let problem = match (cancelled, recorder.frames()) {
             (true, 0) => return Err(SimulatorError::Cancelled),
@@ -105,7 +109,7 @@ impl Simulation {
         recorder: &mut Recorder,
         hooks: &mut dyn Hooks,
     ) -> Result<bool, SimulatorError> {
-        let mut camera = Camera::new(&self.design);
+        let mut engine = Engine::new(&self.design);
         let source = &mut self.source;
         let total = source.frames();
         let mut next = source.next_frame()?;
@@ -114,12 +118,12 @@ impl Simulation {
                 return Ok(true);
             }
             if source.kind() == Kind::Set {
-                camera.reset();
+                engine.reset();
             }
-            let outcome = camera.step(&current.frame)?;
+            engine.step(&current.frame)?;
             // While a frame is written the one after it is read.
             let (written, read) =
-                rayon::join(|| recorder.push(&current, outcome), || source.next_frame());
+                rayon::join(|| recorder.push(&current, &engine), || source.next_frame());
             written?;
             next = read?;
             hooks.progress(Progress { done: recorder.frames(), total });

@@ -3,12 +3,14 @@
 
 pub(crate) mod feed;
 pub(crate) mod files;
+pub(crate) mod form;
 pub(crate) mod resize;
 pub(crate) mod select;
 
 use foveate_model::Frame;
 
 use crate::SimulatorError;
+use form::SetForm;
 
 /// A frame with its name and time.
 #[derive(Clone, Debug)]
@@ -63,6 +65,11 @@ pub trait Source: Send {
     /// Whether frames follow each other in time; of a set every frame is a first frame.
     fn kind(&self) -> Kind {
         Kind::Clip
+    }
+
+    /// Of a set: what files hold it, and what its labels are.
+    fn form(&self) -> SetForm {
+        SetForm::default()
     }
 
     /// After the last frame: why it ended before its end, if it did. What came before is good.

@@ -223,7 +223,7 @@ fn any_source_will_do_but_it_must_keep_its_word() {
     let good = Frame::filled(16, 16, 8, 1).unwrap();
     let bad = Frame::filled(16, 15, 8, 1).unwrap();
     let error = start(vec![bad, good.clone()]).unwrap_err();
-    assert!(matches!(error, SimulatorError::Model(_)), "{error}");
+    assert!(matches!(error, SimulatorError::Engine(_)), "{error}");
     assert!(names(folder.path()).is_empty());
     assert_eq!(start(vec![good.clone(), good]).unwrap().frames, 2);
 }

@@ -7,7 +7,8 @@
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, SystemTime};
 
 use tempfile::TempDir;
 
@@ -15,10 +16,15 @@ use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
 use crate::key::Key;
 
+const BUILDING: &str = ".building-";
+/// What is older is no build under way but the rest of one that was killed.
+const STALE: Duration = Duration::from_secs(24 * 3600);
+
 /// A build cache. Clones share the folder.
 #[derive(Debug, Clone)]
 pub struct Cache {
     root: PathBuf,
+    swept: Arc<OnceLock<()>>,
     scratch: Option<Arc<TempDir>>,
 }
 
@@ -52,7 +58,7 @@ impl Cache {
     /// When the path cannot be made absolute.
     pub fn at(root: &Path) -> Result<Self, ToolError> {
         let root = std::path::absolute(root).map_err(ToolError::io("use", root))?;
-        Ok(Self { root, scratch: None })
+        Ok(Self { root, swept: Arc::default(), scratch: None })
     }
 
     /// A cache that is deleted with its last clone, and all that was built in it.
@@ -64,8 +70,9 @@ impl Cache {
         let dir = tempfile::Builder::new()
             .prefix("foveate-")
             .tempdir_in(&parent)
-            .map_err(ToolError::io("create a folder in", &parent))?;
-        Ok(Self { root: dir.path().to_owned(), scratch: Some(Arc::new(dir)) })
+            .map_err(ToolError::temporary("create a folder in", &parent))?;
+        let root = dir.path().to_owned();
+        Ok(Self { root, swept: Arc::default(), scratch: Some(Arc::new(dir)) })
     }
 
     /// The folder of the cache.
@@ -91,14 +98,29 @@ impl Cache {
         if wanted.exists() {
             return Ok(wanted);
         }
-        fs::create_dir_all(&self.root).map_err(ToolError::io("create", &self.root))?;
+        fs::create_dir_all(&self.root).map_err(ToolError::cache("create", &self.root))?;
+        self.sweep();
         let dir = tempfile::Builder::new()
-            .prefix(".building-")
+            .prefix(BUILDING)
             .tempdir_in(&self.root)
-            .map_err(ToolError::io("create a folder in", &self.root))?;
+            .map_err(ToolError::cache("create a folder in", &self.root))?;
         build(dir.path()).map_err(|error| self.keep_log(key, error))?;
         publish(dir, &entry, &wanted)?;
         Ok(wanted)
+    }
+
+    /// Removes what killed builds have left, once. Nothing depends on it, so that a failure is none.
+    fn sweep(&self) {
+        self.swept.get_or_init(|| {
+            for entry in fs::read_dir(&self.root).into_iter().flatten().flatten() {
+                let named = entry.file_name().to_string_lossy().starts_with(BUILDING);
+                let changed = entry.metadata().and_then(|meta| meta.modified());
+                let age = changed.ok().and_then(|time| SystemTime::now().duration_since(time).ok());
+                if named && age.is_some_and(|age| age > STALE) {
+                    let _ = fs::remove_dir_all(entry.path());
+                }
+            }
+        });
     }
 
     /// Writes the log of a failed build beside the entries and names it in the error.
@@ -221,6 +243,28 @@ mod tests {
         assert_eq!(root(xdg().variable("FOVEATE_CACHE", "/mine")), Path::new("/mine"));
         assert!(root(xdg().variable("FOVEATE_CACHE", "off")).starts_with(std::env::temp_dir()));
         assert!(matches!(Cache::from_host(&MockHost::new()), Err(ToolError::NoCache)));
+    }
+
+    #[test]
+    fn old_rests_of_killed_builds_go() {
+        let cache = Cache::throw_away().unwrap();
+        let [old, new] = ["old", "new"].map(|name| cache.root().join(format!(".building-{name}")));
+        fs::create_dir(&old).unwrap();
+        fs::create_dir(&new).unwrap();
+        let past = SystemTime::now() - STALE - Duration::from_secs(60);
+        fs::File::open(&old).unwrap().set_modified(past).unwrap();
+        cache.get_or_build(&key("x"), "file", fill).unwrap();
+        assert!(!old.exists() && new.exists());
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_made_is_the_users_affair() {
+        let error = Cache::at(Path::new("/proc/none/foveate")).unwrap();
+        let error = error.get_or_build(&key("x"), "file", fill).unwrap_err();
+        assert!(error.is_environment(), "{error:?}");
+        let text = error.to_string();
+        assert!(text.starts_with("cannot create `/proc/none/foveate`"), "{text}");
+        assert!(text.contains("set FOVEATE_CACHE to a folder"), "{text}");
     }
 
     #[test]

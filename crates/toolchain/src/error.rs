@@ -117,11 +117,69 @@ pub enum ToolError {
         tail: String,
     },
 
+    /// A port of the simulated module is not as wide as it must be.
+    #[error(
+        "module `{top}` has `{port}` with {found} bits, the design has {wanted}; \
+         is the Verilog that of another design?"
+    )]
+    PortWidth {
+        /// The module.
+        top: String,
+        /// The port.
+        port: String,
+        /// Its bits in the Verilog.
+        found: u32,
+        /// The bits that it must have.
+        wanted: u32,
+    },
+
+    /// The simulated module lacks a port.
+    #[error("module `{top}` has no port `{port}`; is the Verilog that of another design?")]
+    NoPort {
+        /// The module.
+        top: String,
+        /// The port.
+        port: String,
+    },
+
     /// A source has a name that would leave the folder it is written to.
     #[error("source name `{name}` is not valid; use a relative path without `..`")]
     BadName {
         /// The name.
         name: String,
+    },
+
+    /// The user has asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+
+    /// What a tool wrote, or the cache has kept, is not what it should be.
+    #[error(
+        "`{}` is not usable: {reason}; delete the folder `{}` if it remains, \
+         or set FOVEATE_CACHE=off to work without the cache",
+        path.display(),
+        folder.display()
+    )]
+    Unusable {
+        /// The file.
+        path: PathBuf,
+        /// The entry of the cache.
+        folder: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+
+    /// A folder that the user chooses, the cache's or the temporary one, cannot be written.
+    #[error("cannot {action} `{}`: {source}; {advice}", path.display())]
+    Place {
+        /// What was tried, such as "create".
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The reason.
+        source: std::io::Error,
+        /// What to do.
+        advice: &'static str,
     },
 
     /// No folder for the cache can be derived from the environment.
@@ -140,7 +198,46 @@ pub enum ToolError {
     },
 }
 
+const CACHE_ADVICE: &str = "set FOVEATE_CACHE to a folder that can be written, or to `off`";
+const TEMPORARY_ADVICE: &str = "set TMPDIR to a folder with space that can be written";
+
 impl ToolError {
+    /// Whether the user has asked to stop.
+    #[must_use]
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self, Self::Interrupted)
+    }
+
+    /// Whether a place is at fault that the user chooses, and no tool.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        use std::io::ErrorKind::{PermissionDenied, ReadOnlyFilesystem, StorageFull};
+        match self {
+            Self::Place { .. } | Self::NoCache | Self::Unusable { .. } => true,
+            Self::Io { action, source, .. } => {
+                let kind = source.kind();
+                *action != "run"
+                    && [PermissionDenied, ReadOnlyFilesystem, StorageFull].contains(&kind)
+            }
+            _ => false,
+        }
+    }
+
+    /// For `map_err`: the folder of the cache is at fault.
+    pub(crate) fn cache(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        move |source| Self::Place { action, path: path.to_owned(), source, advice: CACHE_ADVICE }
+    }
+
+    /// For `map_err`: the folder of temporary files is at fault.
+    pub fn temporary(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        move |source| Self::Place {
+            action,
+            path: path.to_owned(),
+            source,
+            advice: TEMPORARY_ADVICE,
+        }
+    }
+
     /// For `map_err`: names the file and what was tried with it.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Io { action, path: path.to_owned(), source }

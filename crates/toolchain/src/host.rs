@@ -3,6 +3,7 @@
 
 use std::ffi::OsString;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::ToolError;
 use crate::invocation::{Invocation, Output};
@@ -21,6 +22,17 @@ pub trait Host: Send + Sync {
     /// # Errors
     /// When the program cannot be started, its files cannot be used, or time is over.
     fn run(&self, invocation: &Invocation) -> Result<Output, ToolError>;
+
+    /// As [`Host::run`], but stops when `cancel` is set; a host that cannot stop looks before it starts.
+    ///
+    /// # Errors
+    /// As [`Host::run`], and [`ToolError::Interrupted`].
+    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
+        if cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted);
+        }
+        self.run(invocation)
+    }
 }
 
 /// The machine this program runs on.
@@ -37,7 +49,11 @@ impl Host for SystemHost {
     }
 
     fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
-        process::run(invocation)
+        process::run(invocation, &AtomicBool::new(false))
+    }
+
+    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
+        process::run(invocation, cancel)
     }
 }
 

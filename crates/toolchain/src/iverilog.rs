@@ -9,6 +9,7 @@ use crate::error::ToolError;
 use crate::files::{self, Source, log_excerpt};
 use crate::invocation::{Invocation, Output};
 use crate::key::Key;
+use crate::ports;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
@@ -24,6 +25,9 @@ pub struct IverilogJob {
     pub top: String,
     /// Whether any warning of `-Wall` is an error.
     pub strict: bool,
+    /// A module, and the file of the bench that instantiates it: its ports must be as wide as what
+    /// the bench joins to them.
+    pub exact_ports: Option<(String, String)>,
     /// Macros as `NAME` or `NAME=VALUE`.
     pub defines: Vec<String>,
 }
@@ -50,9 +54,10 @@ pub fn compile(
     job: &IverilogJob,
 ) -> Result<PathBuf, ToolError> {
     let key = Key::builder("iverilog")
-        .field("version", toolchain.find(Tool::Iverilog)?.banner)
+        .field("version", toolchain.find(Tool::Iverilog)?.identity())
         .list("flags", &job.flags())
         .field("strict", job.strict.to_string())
+        .field("exact ports", format!("{:?}", job.exact_ports))
         .sources(&job.sources)
         .finish();
     cache.get_or_build(&key, PROGRAM, |dir| {
@@ -68,6 +73,9 @@ pub fn compile(
             .merge_stderr()
             .timeout(LIMIT);
         let output = toolchain.run_checked(&invocation)?;
+        if let Some((module, file)) = &job.exact_ports {
+            ports::check_warnings(module, file, &output.log())?;
+        }
         refuse_warnings(job.strict, &invocation, &output)
     })
 }

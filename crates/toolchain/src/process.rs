@@ -4,8 +4,8 @@
 
 use std::fs::{self, File};
 use std::io::{Read as _, Seek as _, Write as _};
-use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ use crate::error::ToolError;
 use crate::invocation::{Input, Invocation, Output};
 
 /// Runs to the end, or to the time limit.
-pub(crate) fn run(invocation: &Invocation) -> Result<Output, ToolError> {
+pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
     let program = &invocation.program;
     let mut stdout = match &invocation.stdout {
         Some(path) => File::create(path).map_err(ToolError::io("write", path))?,
@@ -32,7 +32,7 @@ pub(crate) fn run(invocation: &Invocation) -> Result<Output, ToolError> {
         command.current_dir(dir);
     }
     let mut child = command.spawn().map_err(ToolError::io("run", program))?;
-    let status = wait(&mut child, invocation)?;
+    let status = wait(&mut child, invocation, cancel)?;
     Ok(Output {
         code: status.code(),
         status: status.to_string(),
@@ -41,23 +41,52 @@ pub(crate) fn run(invocation: &Invocation) -> Result<Output, ToolError> {
     })
 }
 
-fn wait(child: &mut Child, invocation: &Invocation) -> Result<ExitStatus, ToolError> {
+fn wait(
+    child: &mut Child,
+    invocation: &Invocation,
+    cancel: &AtomicBool,
+) -> Result<ExitStatus, ToolError> {
     let failed =
         |source| ToolError::Io { action: "wait for", path: invocation.program.clone(), source };
-    let Some(limit) = invocation.timeout else { return child.wait().map_err(failed) };
     let start = Instant::now();
     let mut pause = Duration::from_micros(500);
     loop {
         if let Some(status) = child.try_wait().map_err(failed)? {
-            return Ok(status);
+            let stopped = !status.success() && (by_keyboard(status) || soon(cancel));
+            return if stopped { Err(ToolError::Interrupted) } else { Ok(status) };
         }
-        if start.elapsed() >= limit {
+        if cancel.load(Ordering::Relaxed) {
+            stop(child);
+            return Err(ToolError::Interrupted);
+        }
+        if let Some(limit) = invocation.timeout.filter(|&limit| start.elapsed() >= limit) {
             stop(child);
             return Err(ToolError::TimedOut { command: invocation.command_line(), limit });
         }
         sleep(pause);
         pause = (pause * 2).min(Duration::from_millis(10));
     }
+}
+
+/// An interrupt from the keyboard goes to the child too, which may be gone before the flag is set.
+fn soon(cancel: &AtomicBool) -> bool {
+    let start = Instant::now();
+    while !cancel.load(Ordering::Relaxed) && start.elapsed() < Duration::from_millis(20) {
+        sleep(Duration::from_millis(1));
+    }
+    cancel.load(Ordering::Relaxed)
+}
+
+#[cfg(unix)]
+fn by_keyboard(status: ExitStatus) -> bool {
+    use std::os::unix::process::ExitStatusExt as _;
+    const SIGINT: i32 = 2;
+    status.signal() == Some(SIGINT)
+}
+
+#[cfg(not(unix))]
+fn by_keyboard(_: ExitStatus) -> bool {
+    false
 }
 
 /// Ends the child and what it started: verilator, yosys and iverilog are drivers of other programs.
@@ -113,12 +142,16 @@ fn clone(file: &File) -> Result<File, ToolError> {
 }
 
 fn temporary(action: &'static str) -> impl FnOnce(std::io::Error) -> ToolError {
-    move |source| ToolError::io(action, Path::new(&std::env::temp_dir()))(source)
+    move |source| ToolError::temporary(action, &std::env::temp_dir())(source)
 }
 
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
+
+    fn run(invocation: &Invocation) -> Result<Output, ToolError> {
+        super::run(invocation, &AtomicBool::new(false))
+    }
 
     fn sh(script: &str) -> Invocation {
         Invocation::new("sh").args(["-c", script])
@@ -157,7 +190,30 @@ mod tests {
         let limit = Duration::from_millis(500);
         let error = run(&sh(script).dir(dir.path()).timeout(limit)).unwrap_err();
         assert!(matches!(error, ToolError::TimedOut { .. }), "{error}");
-        let pid = fs::read_to_string(dir.path().join("pid")).unwrap();
+        assert_ended(dir.path());
+    }
+
+    #[test]
+    fn an_interrupt_ends_the_whole_family() {
+        let dir = tempfile::tempdir().unwrap();
+        let script = sh("sh -c 'echo $$ > pid; sleep 60; true' & wait").dir(dir.path());
+        let cancel = AtomicBool::new(false);
+        let start = Instant::now();
+        std::thread::scope(|scope| {
+            let running = scope.spawn(|| super::run(&script, &cancel));
+            sleep(Duration::from_millis(500));
+            cancel.store(true, Ordering::Relaxed);
+            assert!(running.join().unwrap().unwrap_err().is_interrupted());
+        });
+        assert!(start.elapsed() < Duration::from_secs(30));
+        assert_ended(dir.path());
+        assert!(run(&sh("kill -INT $$")).unwrap_err().is_interrupted());
+    }
+
+    /// The process whose number is in the file `pid` is gone, or will be soon.
+    #[allow(clippy::unwrap_used, reason = "helper of tests")]
+    fn assert_ended(dir: &std::path::Path) {
+        let pid = fs::read_to_string(dir.join("pid")).unwrap();
         let stat = format!("/proc/{}/stat", pid.trim());
         let ended = || fs::read_to_string(&stat).map_or(true, |state| state.contains(") Z "));
         let patience = Instant::now() + Duration::from_secs(10);

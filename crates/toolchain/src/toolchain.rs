@@ -3,33 +3,25 @@
 
 use std::collections::HashMap;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
 use crate::invocation::{Invocation, Output};
+use crate::located::Located;
 use crate::tool::{Tool, Version};
 
 const VERSION_LIMIT: Duration = Duration::from_secs(600);
-
-/// A tool that was found and is new enough.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Located {
-    /// The executable.
-    pub path: PathBuf,
-    /// Its version; `None` for a build between releases, which has none.
-    pub version: Option<Version>,
-    /// The first line of what it prints about itself; part of every cache key.
-    pub banner: String,
-}
 
 /// The external tools of a machine. Cheap to clone; clones share what was found.
 #[derive(Clone)]
 pub struct Toolchain {
     host: Arc<dyn Host>,
     found: Arc<Mutex<HashMap<Tool, Located>>>,
+    cancel: Arc<AtomicBool>,
 }
 
 impl Default for Toolchain {
@@ -54,7 +46,19 @@ impl Toolchain {
     /// The tools of another machine, such as a mock.
     #[must_use]
     pub fn with_host(host: impl Host + 'static) -> Self {
-        Self { host: Arc::new(host), found: Arc::default() }
+        Self { host: Arc::new(host), found: Arc::default(), cancel: Arc::default() }
+    }
+
+    /// Stops what is running, and runs nothing more, as soon as the flag is set.
+    #[must_use]
+    pub fn cancelled_by(self, flag: Arc<AtomicBool>) -> Self {
+        Self { cancel: flag, ..self }
+    }
+
+    /// The flag that stops it, for work between runs.
+    #[must_use]
+    pub fn cancel_flag(&self) -> &AtomicBool {
+        &self.cancel
     }
 
     /// Finds a tool by its environment variable or in `PATH`, and checks its version.
@@ -83,9 +87,9 @@ impl Toolchain {
     /// Runs a program to its end, whatever its exit code.
     ///
     /// # Errors
-    /// When it cannot be started or time is over.
+    /// When it cannot be started, time is over, or the flag of [`Toolchain::cancelled_by`] is set.
     pub fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
-        self.host.run(invocation)
+        self.host.run_until(invocation, &self.cancel)
     }
 
     /// Runs a program whose exit code must be zero.
@@ -110,7 +114,7 @@ impl Toolchain {
         self.in_path(tool.executable().as_ref()).ok_or(ToolError::Missing { tool })
     }
 
-    fn in_path(&self, name: &std::path::Path) -> Option<PathBuf> {
+    fn in_path(&self, name: &Path) -> Option<PathBuf> {
         let path = self.host.variable("PATH")?;
         let mut candidates = std::env::split_paths(&path).map(|dir| dir.join(name));
         candidates.find(|candidate| self.host.is_executable(candidate)).map(absolute)
@@ -135,7 +139,7 @@ impl Toolchain {
             }
             _ => {}
         }
-        Ok(Located { path, version, banner })
+        Ok(Located::new(path, version, banner))
     }
 }
 
@@ -169,6 +173,16 @@ mod tests {
         assert_eq!(located.banner, "Yosys 0.23 (git sha1 7ce5011c24b)");
         assert_eq!(toolchain.clone().find(Tool::Yosys).unwrap(), located);
         assert_eq!(log.commands(), ["/opt/bin/yosys -V"]);
+    }
+
+    #[test]
+    fn nothing_runs_after_an_interrupt() {
+        let host = MockHost::new().tool("/opt/bin/yosys", "Yosys 0.23\n");
+        let log = host.log();
+        let flag = Arc::new(AtomicBool::new(true));
+        let toolchain = Toolchain::with_host(host).cancelled_by(flag);
+        assert!(toolchain.find(Tool::Yosys).unwrap_err().is_interrupted());
+        assert!(log.commands().is_empty());
     }
 
     #[test]

@@ -6,6 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
+use serde_json::Value;
+
 use crate::cache::Cache;
 use crate::error::ToolError;
 use crate::files::{self, Source, log_excerpt};
@@ -43,7 +45,7 @@ pub struct YosysRun {
 /// When Yosys is missing, the script fails, or a wanted file was not written.
 pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<YosysRun, ToolError> {
     let key = Key::builder("yosys")
-        .field("version", toolchain.find(Tool::Yosys)?.banner)
+        .field("version", toolchain.find(Tool::Yosys)?.identity())
         .field("script", &job.script)
         .list("outputs", &job.outputs)
         .sources(&job.sources)
@@ -56,9 +58,24 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<Yosys
     };
     let mut files = BTreeMap::new();
     for name in &job.outputs {
-        files.insert(name.clone(), read(name)?);
+        let contents = read(name)?;
+        check(name, &contents, dir)?;
+        files.insert(name.clone(), contents);
     }
     Ok(YosysRun { log: String::from_utf8_lossy(&read(LOG)?).into_owned(), files })
+}
+
+/// Refuses JSON that is none or empty: a Yosys that was killed, or is none, may have written it.
+fn check(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
+    if !name.ends_with(".json") {
+        return Ok(());
+    }
+    let reason = match serde_json::from_slice::<Value>(contents) {
+        Ok(Value::Object(object)) if object.is_empty() => "it is empty JSON".to_owned(),
+        Ok(_) => return Ok(()),
+        Err(error) => format!("it is no JSON: {error}"),
+    };
+    Err(ToolError::Unusable { path: folder.join(name), folder: folder.to_owned(), reason })
 }
 
 fn run_in(toolchain: &Toolchain, job: &YosysJob, dir: &Path) -> Result<(), ToolError> {
@@ -82,6 +99,7 @@ fn run_in(toolchain: &Toolchain, job: &YosysJob, dir: &Path) -> Result<(), ToolE
                 tail: log_excerpt(&output.log()),
             });
         }
+        check(name, &fs::read(&written).map_err(ToolError::io("read", &written))?, dir)?;
         let kept = dir.join(name);
         fs::rename(&written, &kept).map_err(ToolError::io("write", &kept))?;
     }

@@ -32,9 +32,9 @@ pub(crate) struct InputArgs {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) resize: Option<(u32, u32)>,
     /// What image files are: frames of a clip, a set of unrelated images (sub-folders are labels),
-    /// or CIFAR sheets with one image per row
-    #[arg(long, value_enum, default_value_t = ImagesChoice::Clip)]
-    pub(crate) images: ImagesChoice,
+    /// or CIFAR sheets with one image per row [default: clip; of `dataset`: set]
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub(crate) images: Option<ImagesChoice>,
     /// Labels of an IDX file, if they are not beside it
     #[arg(long, value_name = "FILE")]
     pub(crate) labels: Option<PathBuf>,
@@ -48,7 +48,8 @@ pub(crate) enum ImagesChoice {
 }
 
 impl InputArgs {
-    pub(crate) fn options(&self) -> InputOptions {
+    /// What the options ask for; `images` is what image files are where they do not say.
+    pub(crate) fn options(&self, images: ImagesAs) -> InputOptions {
         InputOptions {
             frames: self.max_frames,
             frame_rate: self.rate,
@@ -56,9 +57,10 @@ impl InputArgs {
             crop: self.crop,
             resize: self.resize,
             images: match self.images {
-                ImagesChoice::Clip => ImagesAs::Clip,
-                ImagesChoice::Set => ImagesAs::Set,
-                ImagesChoice::CifarSheet => ImagesAs::CifarSheet,
+                None => images,
+                Some(ImagesChoice::Clip) => ImagesAs::Clip,
+                Some(ImagesChoice::Set) => ImagesAs::Set,
+                Some(ImagesChoice::CifarSheet) => ImagesAs::CifarSheet,
             },
             labels: self.labels.clone(),
         }

@@ -109,6 +109,7 @@ impl OutputArgs {
                 contrast: self.contrast,
                 log: self.log,
             },
+            data_set: false,
             overwrite: false,
         }
     }

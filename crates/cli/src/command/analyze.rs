@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate analyze`: the paper's studies as tables and charts.
 
+use foveate_simulator::ImagesAs;
 use foveate_studies::{Report, Request, Study, analyze};
 
 use super::simulate::Terminal;
@@ -10,7 +11,7 @@ use crate::output;
 
 pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
     let config = args.design.read()?;
-    let input = args.input.options();
+    let input = args.input.options(ImagesAs::Clip);
     let request = Request {
         study: args.study.0,
         inputs: &args.inputs,

@@ -12,12 +12,12 @@ use foveate_model::Frame;
 use foveate_simulator::{InputOptions, Simulation, open};
 use foveate_spec::Design;
 use foveate_staging::{check_file, write_file};
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_toolchain::Cache;
 use indicatif::ProgressBar;
 
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
-use crate::{output, progress};
+use crate::{interrupt, output, progress};
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     let (design, frames) = design_and_frames(args)?;
@@ -42,7 +42,8 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     }
 
     let bar = progress::bar(args.quiet, 0, "vectors");
-    let report = job.run(&Toolchain::system(), &Cache::from_env()?, &mut |step| show(&bar, step));
+    let report =
+        job.run(&interrupt::toolchain()?, &Cache::from_env()?, &mut |step| show(&bar, step));
     bar.finish_and_clear();
     let written = write_junit(args, &job, &report);
     let report = report?;

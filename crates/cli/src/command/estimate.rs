@@ -12,10 +12,10 @@ use serde::Serialize;
 
 use crate::args::EstimateArgs;
 use crate::error::CliError;
-use crate::{output, progress};
+use crate::{interrupt, output, progress};
 
 pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
-    let flow = Flow { toolchain: Toolchain::system(), cache: Cache::from_env()? };
+    let flow = Flow { toolchain: interrupt::toolchain()?, cache: Cache::from_env()? };
     if args.compare { compare(args, &flow) } else { one(args, &flow) }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate explain`: why a region was sent or dropped.
 
-use foveate_simulator::{explain, open};
+use foveate_simulator::{ImagesAs, explain, open};
 
 use crate::args::ExplainArgs;
 use crate::error::CliError;
@@ -9,7 +9,7 @@ use crate::output;
 
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let config = args.design.read()?;
-    let source = open(&args.inputs, &config, &args.input.options())?;
+    let source = open(&args.inputs, &config, &args.input.options(ImagesAs::Clip))?;
     let explanation = explain(&config, source, args.frame, args.region)?;
     if args.json { output::json(&explanation) } else { output::text(&explanation.to_string()) }
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::args::GenerateArgs;
 use crate::error::CliError;
-use crate::output;
+use crate::{interrupt, output};
 
 /// What is written, and what may be replaced.
 const CORE: Kind = Kind {
@@ -58,7 +58,8 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
 fn files(design: &Design) -> Result<Vec<SourceFile>, CliError> {
     let mut files = foveate_emit::core(design);
     let stimulus = Stimulus { rounds: 1, ..Stimulus::default() };
-    let recording = stimulus.record(design, &mut |_, _| {})?;
+    let cancel = interrupt::flag()?;
+    let recording = stimulus.record_until(design, &cancel, &mut |_, _| {})?;
     let rpu = Top::Rpu;
     let mut add = |path: &str, contents| files.push(SourceFile { path: path.to_owned(), contents });
     add("tb/rpu_replay.v", replay_bench(rpu.module(), &rpu.ports(design), &rpu.parameters(design)));

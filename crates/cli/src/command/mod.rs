@@ -5,6 +5,7 @@ pub(crate) mod analyze;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod cosim;
+pub(crate) mod dataset;
 pub(crate) mod estimate;
 pub(crate) mod explain;
 pub(crate) mod generate;

@@ -1,49 +1,70 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate simulate`: video or images in; arrays, tables, pictures and video out.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_simulator::{
-    Bandwidth, BatchHooks, BatchProgress, BatchSummary, Hooks, Plan, Progress, RunOptions,
-    Simulation, Summary, Traffic, open, plan, run_batch,
+    Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, ImagesAs, InputOptions,
+    Plan, Progress, RunOptions, Simulation, Summary, Traffic, open, plan, run_batch,
 };
+use foveate_spec::Config;
 use indicatif::ProgressBar;
 
 use crate::args::SimulateArgs;
 use crate::error::CliError;
-use crate::{output, progress};
+use crate::{interrupt, output, progress};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
-    let config = args.design.read()?;
-    let input = args.input.options();
-    let options = RunOptions { overwrite: args.force, ..args.outputs.options() };
-    let plan = plan(&args.inputs, &input)?;
-    let mut hooks = Terminal::new(args.quiet)?;
+    run_job(&Job {
+        inputs: &args.inputs,
+        config: args.design.read()?,
+        input: args.input.options(ImagesAs::Clip),
+        output: &args.output,
+        options: RunOptions { overwrite: args.force, ..args.outputs.options() },
+        json: args.json,
+        quiet: args.quiet,
+    })
+}
+
+/// A run of one clip or many, as `simulate` and `dataset` start it.
+pub(super) struct Job<'a> {
+    pub(super) inputs: &'a [String],
+    pub(super) config: Config,
+    pub(super) input: InputOptions,
+    pub(super) output: &'a Path,
+    pub(super) options: RunOptions,
+    pub(super) json: bool,
+    pub(super) quiet: bool,
+}
+
+/// Runs it with progress, prints its summary and says how it ended.
+pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
+    let Job { inputs, config, input, output: folder, options, json, quiet } = job;
+    let plan = plan(inputs, input)?;
+    let mut hooks = Terminal::new(*quiet)?;
     match plan {
         Plan::One => {
-            let source = open(&args.inputs, &config, &input)?;
-            let simulation = Simulation::new(&config, source)?;
-            let summary = simulation.run(&args.output, &options, &mut hooks);
+            let source = open(inputs, config, input)?;
+            let simulation = Simulation::new(config, source)?;
+            let summary = simulation.run(folder, options, &mut hooks);
             hooks.bar.finish_and_clear();
             let summary = summary?;
-            let printed = if args.json {
-                output::json(&summary)
-            } else {
-                output::text(&text(args, &summary))
-            };
-            printed.and_then(|()| hooks.verdict(args, summary.problem))
+            let printed =
+                if *json { output::json(&summary) } else { output::text(&text(folder, &summary)) };
+            printed.and_then(|()| hooks.verdict(folder, summary.problem))
         }
         Plan::Batch(clips) => {
-            let summary = run_batch(&clips, &config, &input, &args.output, &options, &hooks);
+            let summary = run_batch(&clips, config, input, folder, options, &hooks);
             hooks.bar.finish_and_clear();
             let summary = summary?;
-            let printed = if args.json {
+            let printed = if *json {
                 output::json(&summary)
             } else {
-                output::text(&batch_text(args, &summary))
+                output::text(&batch_text(folder, &summary))
             };
-            printed.and_then(|()| hooks.verdict(args, summary.problem))
+            printed.and_then(|()| hooks.verdict(folder, summary.problem))
         }
     }
 }
@@ -56,26 +77,16 @@ pub(super) struct Terminal {
 
 impl Terminal {
     pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        // The first one ends the run in good order; the second is for a source that says nothing.
-        let stop = move || {
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        };
-        ctrlc::set_handler(stop)
-            .map_err(|e| CliError::Usage(format!("cannot listen for Ctrl-C: {e}")))?;
-        Ok(Self { bar: progress::frames(quiet), interrupted })
+        Ok(Self { bar: progress::frames(quiet), interrupted: interrupt::flag()? })
     }
 
     /// What a result that is there, but not complete, means for the exit code.
-    fn verdict(&self, args: &SimulateArgs, problem: Option<String>) -> Result<(), CliError> {
+    fn verdict(&self, folder: &Path, problem: Option<String>) -> Result<(), CliError> {
         let Some(problem) = problem else { return Ok(()) };
         if self.interrupted.load(Ordering::Relaxed) {
-            return Err(CliError::Interrupted { path: args.output.clone() });
+            return Err(CliError::Interrupted { path: folder.to_owned() });
         }
-        let place = args.output.display();
+        let place = folder.display();
         Err(CliError::Failed(format!("`{place}` is not complete: {problem}")))
     }
 }
@@ -104,13 +115,9 @@ impl BatchHooks for Terminal {
     }
 }
 
-fn batch_text(args: &SimulateArgs, summary: &BatchSummary) -> String {
-    let mut text = format!(
-        "{}: {} clips, {} frames\n",
-        args.output.display(),
-        summary.clips.len(),
-        summary.frames
-    );
+fn batch_text(folder: &Path, summary: &BatchSummary) -> String {
+    let mut text =
+        format!("{}: {} clips, {} frames\n", folder.display(), summary.clips.len(), summary.frames);
     for clip in &summary.clips {
         let inputs = clip.inputs.join(" ");
         let result = match (clip.active_share, &clip.problem) {
@@ -123,14 +130,14 @@ fn batch_text(args: &SimulateArgs, summary: &BatchSummary) -> String {
     text
 }
 
-fn text(args: &SimulateArgs, summary: &Summary) -> String {
+fn text(folder: &Path, summary: &Summary) -> String {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     format!(
         "{}: {} frames of {} x {} pixels, {} regions\n\
          active {}  SRS {}  TRS {}\n\
          {} pixels in, {} forwarded\n\
-         {}",
-        args.output.display(),
+         {}{}",
+        folder.display(),
         summary.frames,
         summary.width,
         summary.height,
@@ -141,7 +148,18 @@ fn text(args: &SimulateArgs, summary: &Summary) -> String {
         summary.pixels_in,
         summary.pixels_forwarded,
         traffic(&summary.bandwidth),
+        summary.data_set.as_ref().map_or(String::new(), |made| data_set(folder, made)),
     )
+}
+
+/// Where a data set is.
+fn data_set(folder: &Path, made: &DataSet) -> String {
+    let labels = match (&made.labels, made.classes.len()) {
+        (Some(labels), _) => format!(", labels in {}", folder.join(labels).display()),
+        (None, 0) => String::new(),
+        (None, classes) => format!(", {classes} classes"),
+    };
+    format!("data set in {}{labels}\n", folder.join(&made.images).display())
 }
 
 /// What the cameras send, a line for each.

@@ -7,12 +7,17 @@ use super::random::Random;
 use super::sequence::{Aim, Gaps};
 use crate::error::CosimError;
 use crate::recording::Recorder;
-use foveate_model::{RpuOutput, Thresholds};
+use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
 use foveate_spec::{Design, Thresholds as Mode};
+use foveate_toolchain::ToolError;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Streams frames into the model.
 pub(crate) struct Driver<'a> {
     machine: Machine,
+    /// An RPU of its own, which tells when a decision comes: it is the same clock in every lane.
+    scout: PipelinedRpu,
+    cancel: &'a AtomicBool,
     recorder: &'a mut Recorder,
     codec: Codec,
     pub(crate) ranges: Ranges,
@@ -37,10 +42,13 @@ impl<'a> Driver<'a> {
         lanes: usize,
         recorder: &'a mut Recorder,
         random: Random,
+        cancel: &'a AtomicBool,
     ) -> Self {
         let configured = Thresholds::of(design);
         Self {
             machine,
+            scout: PipelinedRpu::new(design),
+            cancel,
             input: recorder.inputs().record(),
             expected: recorder.outputs().record(),
             recorder,
@@ -131,6 +139,9 @@ impl<'a> Driver<'a> {
         valid: bool,
         pixels: Option<&[u16]>,
     ) -> Result<(), CosimError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted.into());
+        }
         if self.aim == Aim::Restless {
             self.ranges.shake(&mut self.thresholds, &mut self.random);
         }
@@ -138,16 +149,17 @@ impl<'a> Driver<'a> {
         let mut inputs =
             Inputs { reset, valid, pixels, border: self.border, thresholds: self.thresholds };
         if self.aim != Aim::Design {
-            // What is decided after this edge does not depend on the minima of this edge, so that a
-            // copy can look ahead.
-            self.machine.clone().step(&inputs, &mut self.outputs);
-            let decided = self.outputs.first().is_some_and(|output| output.decision_valid);
-            let lane = self.random.up_to(self.outputs.len().saturating_sub(1) as u64);
-            let output = usize::try_from(lane).ok().and_then(|lane| self.outputs.get(lane));
-            if let (true, Some(output)) = (decided, output) {
-                let (scores, count) = (&output.scores, output.temporal_count);
-                self.ranges.aim_minima(scores, count, &mut self.thresholds, &mut self.random);
-                inputs.thresholds = self.thresholds;
+            let lane = self.random.up_to(self.garbage.len().saturating_sub(1) as u64);
+            if decides(&mut self.scout, &inputs) {
+                // What is decided after this edge does not depend on the minima of this edge, so that
+                // a copy can look ahead; it is made here alone, because an array is large.
+                self.machine.clone().step(&inputs, &mut self.outputs);
+                let lane = usize::try_from(lane).unwrap_or(0);
+                if let Some(output) = self.outputs.get(lane) {
+                    let (scores, count) = (&output.scores, output.temporal_count);
+                    self.ranges.aim_minima(scores, count, &mut self.thresholds, &mut self.random);
+                    inputs.thresholds = self.thresholds;
+                }
             }
         }
         self.machine.step(&inputs, &mut self.outputs);
@@ -155,4 +167,13 @@ impl<'a> Driver<'a> {
         self.codec.outputs(self.recorder.outputs(), &self.outputs, &mut self.expected);
         self.recorder.push(&self.input, &self.expected)
     }
+}
+
+/// Whether a decision is there after this edge. The scout must take every edge of a sequence; it takes
+/// none of those whose thresholds are not aimed, and the reset that begins a sequence brings it back
+/// into step. Neither pixels nor borders nor thresholds move a decision in time.
+fn decides(scout: &mut PipelinedRpu, inputs: &Inputs<'_>) -> bool {
+    let &Inputs { reset, valid, border, pixels, ref thresholds } = inputs;
+    let pixel = pixels.first().copied().unwrap_or(0);
+    scout.step(&RpuInput { reset, valid, pixel, border }, thresholds).decision_valid
 }

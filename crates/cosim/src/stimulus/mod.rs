@@ -25,6 +25,13 @@ use foveate_spec::Design;
 use machine::Machine;
 use random::Random;
 use session::Session;
+use std::sync::atomic::AtomicBool;
+
+/// Regions of the largest array: each is an RPU of the model, with buffers of its own.
+const MAX_REGIONS: u64 = 1 << 16;
+/// Pixels that all regions of an array take in per frame. The model keeps several frames of them, and
+/// some kilobytes per region: at these bounds the whole takes some gigabytes.
+const MAX_PIXELS: u64 = 1 << 26;
 
 /// What vectors are made from.
 #[derive(Clone, Debug)]
@@ -56,8 +63,22 @@ impl Stimulus {
         design: &Design,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, CosimError> {
-        self.check_frames(design)?;
+        self.record_until(design, &AtomicBool::new(false), progress)
+    }
+
+    /// As [`Stimulus::record`], but stops with an error as soon as `cancel` is set.
+    ///
+    /// # Errors
+    /// As [`Stimulus::record`], and one of which [`CosimError::is_interrupted`] is true.
+    pub fn record_until(
+        &self,
+        design: &Design,
+        cancel: &AtomicBool,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<Recording, CosimError> {
+        self.check(design)?;
         let design = self.level.design(design)?;
+        self.check_size(&design)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&design))?;
         let mut random = Random::new(self.seed);
         let (machine, lanes) = match self.level {
@@ -67,13 +88,35 @@ impl Stimulus {
             }
         };
         let lanes = lanes as usize;
-        let driver = Driver::new(&design, machine, lanes, &mut recorder, random.fork());
+        let driver = Driver::new(&design, machine, lanes, &mut recorder, random.fork(), cancel);
         let mut session = Session::new(&design, self.level, driver, random);
         session.run(self.rounds, &self.frames, progress)?;
         recorder.finish()
     }
 
-    fn check_frames(&self, design: &Design) -> Result<(), CosimError> {
+    /// Refuses an array that would not fit into memory, before any of it is made.
+    fn check_size(&self, design: &Design) -> Result<(), CosimError> {
+        let regions = u64::from(match self.level {
+            Level::Rpu => 1,
+            Level::Rcm { .. } | Level::Full => design.regions(),
+        });
+        let pixels = regions * u64::from(design.stream_pixels());
+        if regions > MAX_REGIONS || pixels > MAX_PIXELS {
+            return Err(CosimError::TooLarge {
+                regions,
+                pixels,
+                max_regions: MAX_REGIONS,
+                max_pixels: MAX_PIXELS,
+            });
+        }
+        Ok(())
+    }
+
+    /// What can be refused before anything is made.
+    fn check(&self, design: &Design) -> Result<(), CosimError> {
+        if self.rounds == 0 && self.frames.is_empty() {
+            return Err(CosimError::Nothing);
+        }
         let kind = |width, height, bits| format!("{width}x{height} pixels of {bits} bits");
         let wanted = kind(design.width(), design.height(), design.pixel_bits());
         for (index, frame) in self.frames.iter().enumerate() {

@@ -2,7 +2,9 @@
 //! The faults. A text that is not found any more, after a change of the RTL, is replaced by what
 //! does the same there.
 
-use super::Planted::{self, Constant, Corner, MadSent, Moments, Paper, Sent, Shared, Variance};
+use super::Planted::{
+    self, Banked, Constant, Corner, MadSent, Moments, Paper, Sent, Shared, Variance,
+};
 
 /// One edit of one file.
 pub(crate) struct Fault {
@@ -139,6 +141,12 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("width", Paper, "frame_store",
         "if (write_i) pixels_q[slot_i] <= data_i;",
         "if (write_i) pixels_q[slot_i] <= {1'b0, data_i[WIDTH-2:0]};"),
+    fault("index", Banked, "frame_store", "words[bank*WIDTH+:WIDTH]", "words[0+:WIDTH]"),
+    fault("index", Banked, "frame_store", "slot_i[SLOT_BITS-1:8]", "{BANK_BITS{1'b0}}"),
+    fault("operator", Banked, "frame_store", "write_i && bank == i", "write_i"),
+    fault("constant", Banked, "frame_store", "(PIXELS + 255) / 256", "PIXELS / 256"),
+    fault("constant", Banked, "frame_store", "256 : REST;", "256 : REST - 1;"),
+    fault("width", Banked, "frame_store", "$clog2(DEPTH)", "$clog2(DEPTH) - 1"),
     fault("operator", Sent, "last_sent", "decided_i && !srs_i", "decided_i && srs_i"),
     fault("index", Sent, "last_sent", "forward_i ? pixel_i : kept", "forward_i ? kept : pixel_i"),
     fault("constant", Sent, "last_sent", "valid_q && !blanked", "valid_q"),

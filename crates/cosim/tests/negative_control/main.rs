@@ -27,6 +27,8 @@ enum Planted {
     Moments,
     /// Variance alone, whose result register is a port.
     Variance,
+    /// Regions that do not fit into one bank of the frame store, nor fill two.
+    Banked,
     /// Mean absolute deviation against the pixels last sent: two candidates for the count.
     MadSent,
     /// Edges against the pixels last sent, raw pixels forwarded.
@@ -55,6 +57,7 @@ impl Planted {
                  [temporal]\nreference = \"last-sent\"\n"
             }
             Self::Sent => "[temporal]\nreference = \"last-sent\"\n[render]\npayload = \"raw\"\n",
+            Self::Banked => "[region]\nsize = 17\n",
             Self::Shared => "[region]\nneighborhood = \"shared\"\n",
             Self::Constant => "[region]\nsize = 5\n[hardware]\nthresholds = \"constant\"\n",
         };

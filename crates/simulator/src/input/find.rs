@@ -105,10 +105,19 @@ fn labelled(path: &Path) -> Result<Vec<ImageFile>, SimulatorError> {
         let images = entries(class)?.into_iter().filter(|path| image(path));
         files.extend(images.map(|path| ImageFile { path, label: label.clone() }));
     }
-    if files.is_empty() {
-        return Err(SimulatorError::EmptyFolder { path: path.to_owned() });
+    match (files.is_empty(), entries_here.iter().any(|path| extension_in(path, &VIDEO_EXTENSIONS)))
+    {
+        (false, _) => Ok(files),
+        (true, false) => Err(SimulatorError::EmptyFolder { path: path.to_owned() }),
+        (true, true) => {
+            let problem = format!(
+                "folder `{}` holds clips and no images, and a set is made of images; \
+                 of clips `foveate simulate` makes a batch",
+                path.display()
+            );
+            Err(SimulatorError::Option { option: "--images set", problem })
+        }
     }
-    Ok(files)
 }
 
 fn pattern(text: &str) -> Result<Vec<ImageFile>, SimulatorError> {

@@ -43,7 +43,7 @@ impl From<Canvas> for Picture {
 
 impl Picture {
     /// A grey frame at the depth that [`display_depth`] gives it.
-    fn grey(frame: &Frame) -> Self {
+    pub(super) fn grey(frame: &Frame) -> Self {
         let depth = display_depth(frame.bits());
         let values = frame.pixels().iter().map(|&value| convert_depth(value, frame.bits(), depth));
         let (samples, bytes) = if depth == 8 {
@@ -89,7 +89,7 @@ impl Sink for Gallery {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let picture = match &mut self.painter {
             Some(painter) => painter.paint(step).into(),
-            None => Picture::grey(&step.outcome.rendered),
+            None => Picture::grey(step.rendered()?),
         };
         match &mut self.series {
             Series::Folder(series) => series.push(&picture),

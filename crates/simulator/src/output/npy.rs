@@ -41,12 +41,19 @@ impl Scalar for u64 {
     }
 }
 
-/// An array of frames x rows x columns.
+impl Scalar for i64 {
+    const DESCR: &'static str = "<i8";
+    fn append_to(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+/// An array of frames x rows x columns, or of one value per frame.
 pub(super) struct NpyWriter<T> {
     path: PathBuf,
     file: BufWriter<File>,
-    rows: u32,
-    columns: u32,
+    /// The other dimensions, as they are written.
+    shape: String,
     frames: u64,
     bytes: Vec<u8>,
     scalar: PhantomData<T>,
@@ -54,12 +61,20 @@ pub(super) struct NpyWriter<T> {
 
 impl<T: Scalar> NpyWriter<T> {
     pub(super) fn create(path: &Path, rows: u32, columns: u32) -> Result<Self, SimulatorError> {
+        Self::with_shape(path, format!(" {rows}, {columns}"))
+    }
+
+    /// An array of one dimension.
+    pub(super) fn create_list(path: &Path) -> Result<Self, SimulatorError> {
+        Self::with_shape(path, String::new())
+    }
+
+    fn with_shape(path: &Path, shape: String) -> Result<Self, SimulatorError> {
         let file = File::create(path).map_err(cannot_write(path))?;
         let mut writer = Self {
             path: path.to_owned(),
             file: BufWriter::new(file),
-            rows,
-            columns,
+            shape,
             frames: 0,
             bytes: Vec::new(),
             scalar: PhantomData,
@@ -86,7 +101,7 @@ impl<T: Scalar> NpyWriter<T> {
     }
 
     fn write_header(&mut self) -> Result<(), SimulatorError> {
-        let shape = format!("{}, {}, {}", self.frames, self.rows, self.columns);
+        let shape = format!("{},{}", self.frames, self.shape);
         let header = header::<HEADER>(&format!("'{}'", T::DESCR), &shape);
         self.file.write_all(&header).map_err(cannot_write(&self.path))
     }

@@ -53,6 +53,8 @@ pub struct RunOptions {
     pub events: EventTables,
     /// Events of pixels.
     pub pixel_events: PixelEvents,
+    /// The images of a set as a data set of the same form.
+    pub data_set: bool,
     /// Replace the output folder of an earlier run.
     pub overwrite: bool,
 }
@@ -65,6 +67,7 @@ impl Default for RunOptions {
             heatmap: None,
             events: EventTables::default(),
             pixel_events: PixelEvents::default(),
+            data_set: false,
             overwrite: false,
         }
     }

@@ -3,7 +3,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
@@ -27,18 +27,19 @@ impl PngSeries {
     pub(super) fn push(&mut self, picture: &Picture) -> Result<(), SimulatorError> {
         let path = self.folder.join(format!("{:06}.png", self.next));
         self.next += 1;
-        write(&path, picture).map_err(cannot_write(&path))
+        File::create(&path).and_then(|file| encode(file, picture)).map_err(cannot_write(&path))
     }
 }
 
-fn write(path: &Path, picture: &Picture) -> io::Result<()> {
+/// Writes one picture to a new file.
+pub(super) fn encode(file: File, picture: &Picture) -> io::Result<()> {
     let colour = match picture.samples {
         Samples::Grey8 => ExtendedColorType::L8,
         // The encoder takes native order and writes what PNG wants.
         Samples::Grey16 => ExtendedColorType::L16,
         Samples::Rgb8 => ExtendedColorType::Rgb8,
     };
-    let mut file = BufWriter::new(File::create(path)?);
+    let mut file = BufWriter::new(file);
     PngEncoder::new_with_quality(&mut file, CompressionType::Fast, FilterType::Adaptive)
         .write_image(&picture.bytes, picture.width, picture.height, colour)
         .map_err(|error| match error {

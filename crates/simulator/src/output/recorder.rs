@@ -3,11 +3,12 @@
 
 use std::path::Path;
 
-use foveate_model::Outcome;
+use foveate_engine::{Engine, Outcome};
 use foveate_spec::Design;
 use rayon::prelude::*;
 
 use super::arrays::Arrays;
+use super::data_set::{self, DataSet};
 use super::gallery::Gallery;
 use super::heatmap::Heatmap;
 use super::overlay::Overlay;
@@ -16,7 +17,7 @@ use super::sink::{Sink, Step};
 use super::summary::Totals;
 use super::table::{FrameTable, Row};
 use super::{RunOptions, Summary, events};
-use crate::{SimulatorError, SourceFrame};
+use crate::{SetForm, SimulatorError, SourceFrame};
 
 /// Every file of a run, open.
 pub(crate) struct Recorder {
@@ -25,6 +26,7 @@ pub(crate) struct Recorder {
     /// Apart from the others because the summary asks for its number of events.
     pixels: Option<PixelRecorder>,
     sinks: Vec<Box<dyn Sink>>,
+    data_set: Option<DataSet>,
     totals: Totals,
 }
 
@@ -32,6 +34,7 @@ impl Recorder {
     pub(crate) fn create(
         folder: &Path,
         design: &Design,
+        form: &SetForm,
         options: &RunOptions,
     ) -> Result<Self, SimulatorError> {
         let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(Arrays::create(folder, design)?)];
@@ -48,10 +51,16 @@ impl Recorder {
                 sinks.push(Box::new(Gallery::painted(folder, &name, medium, map)?));
             }
         }
+        let table = FrameTable::create(&folder.join("frames.csv"))?;
+        // After the others: its names are the user's, and it takes none that is taken.
+        if options.data_set {
+            sinks.append(&mut data_set::sinks(folder, form)?);
+        }
         let pixels = options.pixel_events;
         let pixels = pixels.wanted().then(|| PixelRecorder::create(folder, design, pixels));
         Ok(Self {
-            table: FrameTable::create(&folder.join("frames.csv"))?,
+            table,
+            data_set: options.data_set.then(|| DataSet::of(form)),
             pixels: pixels.transpose()?,
             sinks,
             totals: Totals::default(),
@@ -59,16 +68,16 @@ impl Recorder {
         })
     }
 
-    /// Writes what came of one frame.
+    /// Writes what came of one frame, the last that `engine` has taken.
     pub(crate) fn push(
         &mut self,
         source: &SourceFrame,
-        outcome: &Outcome,
+        engine: &Engine,
     ) -> Result<(), SimulatorError> {
         let number = self.totals.frames;
-        self.push_row(source, outcome)?;
-        let Self { design, pixels, sinks, .. } = self;
-        let step = Step { design, number, source, outcome };
+        self.push_row(source, engine.outcome())?;
+        let Self { pixels, sinks, .. } = self;
+        let step = Step::new(engine, number, source);
         let (pixels, sinks) = rayon::join(
             || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(&step)),
             || sinks.par_iter_mut().try_for_each(|sink| sink.push(&step)),
@@ -86,7 +95,8 @@ impl Recorder {
         self.table.finish()?;
         self.sinks.into_iter().try_for_each(Sink::finish)?;
         let pixel_events = self.pixels.map(PixelRecorder::finish).transpose()?;
-        let summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
+        let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
+        summary.data_set = self.data_set;
         summary.write(&folder.join("summary.json"))?;
         Ok(summary)
     }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where outcomes go: anything that takes frames one at a time and is finished once.
 
-use foveate_model::Outcome;
+use std::sync::OnceLock;
+
+use foveate_engine::{Engine, Outcome};
+use foveate_model::Frame;
 use foveate_spec::Design;
 
 use crate::{SimulatorError, SourceFrame};
@@ -13,6 +16,27 @@ pub(super) struct Step<'a> {
     pub(super) number: u64,
     pub(super) source: &'a SourceFrame,
     pub(super) outcome: &'a Outcome,
+    engine: &'a Engine,
+    rendered: OnceLock<Frame>,
+}
+
+impl<'a> Step<'a> {
+    /// The last step of `engine`, which took `source`.
+    pub(super) fn new(engine: &'a Engine, number: u64, source: &'a SourceFrame) -> Self {
+        let (design, outcome) = (engine.design(), engine.outcome());
+        Self { design, number, source, outcome, engine, rendered: OnceLock::new() }
+    }
+
+    /// What is on the screen; made when a sink asks for it first.
+    pub(super) fn rendered(&self) -> Result<&Frame, SimulatorError> {
+        if let Some(frame) = self.rendered.get() {
+            return Ok(frame);
+        }
+        let words = self.engine.rendered().to_words();
+        let (width, height) = (self.design.width(), self.design.height());
+        let frame = Frame::new(width, height, self.design.pixel_bits(), words)?;
+        Ok(self.rendered.get_or_init(|| frame))
+    }
 }
 
 /// An output that grows frame by frame in constant memory. Sinks of one run work side by side.

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::bandwidth::{Bandwidth, Sums};
 use super::cannot_write;
+use super::data_set::DataSet;
 use crate::SimulatorError;
 
 /// Changes when a key of the summary changes its meaning or goes.
@@ -72,6 +73,9 @@ pub struct Summary {
     pub pixels_forwarded: u64,
     /// What the cameras send.
     pub bandwidth: Bandwidth,
+    /// The data set that was made, if one was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub data_set: Option<DataSet>,
     /// The configuration, with the frame size filled in.
     pub configuration: Config,
 }
@@ -143,6 +147,7 @@ impl Totals {
             pixels_in: self.frames * u64::from(design.width()) * u64::from(design.height()),
             pixels_forwarded: self.pixels_forwarded,
             bandwidth: Bandwidth::of(design, &sums),
+            data_set: None,
             configuration: design.config().clone(),
         }
     }

@@ -37,7 +37,8 @@ struct Encoder {
 impl VideoFile {
     /// A file whose extension says what it is.
     pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
-        let ffmpeg = Toolchain::system().find(Tool::Ffmpeg).map_err(SimulatorError::NoVideo)?.path;
+        let found = Toolchain::system().find(Tool::Ffmpeg);
+        let ffmpeg = found.map_err(|error| SimulatorError::NoVideo(Box::new(error)))?.path;
         Ok(Self { path: path.to_owned(), ffmpeg, state: State::Empty })
     }
 

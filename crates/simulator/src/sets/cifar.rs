@@ -11,6 +11,7 @@ use foveate_model::Frame;
 
 use super::{damaged, unreadable};
 use crate::source::feed::Feed;
+use crate::source::form::{Labels, SetFiles, SetForm};
 use crate::{Kind, SimulatorError, SourceFrame, convert_depth, luma, picture};
 
 const SIDE: u32 = 32;
@@ -73,6 +74,10 @@ impl Feed for Batch {
     fn kind(&self) -> Kind {
         Kind::Set
     }
+
+    fn form(&self) -> SetForm {
+        SetForm { files: SetFiles::Records, labels: Labels::Numbers }
+    }
 }
 
 /// The images of a sheet.
@@ -113,5 +118,9 @@ impl Feed for Sheet {
 
     fn kind(&self) -> Kind {
         Kind::Set
+    }
+
+    fn form(&self) -> SetForm {
+        SetForm { files: SetFiles::Records, labels: Labels::None }
     }
 }

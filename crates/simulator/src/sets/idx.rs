@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use foveate_model::Frame;
 
-use super::{cut, damaged, open_unpacked};
+use super::{cut, damaged, is_packed, open_unpacked};
 use crate::source::feed::Feed;
+use crate::source::form::{IdxFile, Labels, SetFiles, SetForm};
 use crate::{Kind, MAX_SIDE, SimulatorError, SourceFrame, convert_depth};
 
 /// What a file of images starts with: unsigned bytes in three dimensions.
@@ -23,6 +24,7 @@ pub(crate) struct Idx {
     next: u32,
     size: (u32, u32),
     bits: u32,
+    form: SetForm,
 }
 
 impl Idx {
@@ -45,6 +47,7 @@ impl Idx {
             return Err(damaged(path, problem));
         }
         let labels = labels.map(Path::to_owned).or_else(|| beside(path));
+        let form = form_of(path, labels.as_deref())?;
         let labels = labels.map(|file| labels_of(&file, total)).transpose()?;
         Ok(Self {
             path: path.to_owned(),
@@ -54,6 +57,7 @@ impl Idx {
             next: 0,
             size: (width, height),
             bits,
+            form,
         })
     }
 }
@@ -89,6 +93,20 @@ impl Feed for Idx {
     fn kind(&self) -> Kind {
         Kind::Set
     }
+
+    fn form(&self) -> SetForm {
+        self.form.clone()
+    }
+}
+
+fn form_of(images: &Path, labels: Option<&Path>) -> Result<SetForm, SimulatorError> {
+    let file = |path: &Path| -> Result<IdxFile, SimulatorError> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(IdxFile { name, packed: is_packed(path)? })
+    };
+    let files = SetFiles::Idx { images: file(images)?, labels: labels.map(file).transpose()? };
+    let labels = if labels.is_some() { Labels::Numbers } else { Labels::None };
+    Ok(SetForm { files, labels })
 }
 
 /// `train-images-idx3-ubyte.gz` has its labels in `train-labels-idx1-ubyte`, packed or not.

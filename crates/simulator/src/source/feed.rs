@@ -2,6 +2,7 @@
 //! What every kind of input is underneath, and the one source made of it: frames are taken or left by
 //! their times, cropped, scaled, and held to one size, all in the same way whatever they come from.
 
+use super::form::SetForm;
 use super::resize::{self, Crop};
 use super::select::{Selection, Selector, Verdict};
 use super::{Kind, Source, SourceFrame};
@@ -18,6 +19,11 @@ pub(crate) trait Feed: Send {
     /// Whether frames follow each other in time.
     fn kind(&self) -> Kind {
         Kind::Clip
+    }
+
+    /// Of a set: what files hold it, and what its labels are.
+    fn form(&self) -> SetForm {
+        SetForm::default()
     }
 
     /// Why it ended before its end, once it has.
@@ -180,6 +186,10 @@ impl Source for Input {
 
     fn kind(&self) -> Kind {
         self.feed.kind()
+    }
+
+    fn form(&self) -> SetForm {
+        self.feed.form()
     }
 
     fn problem(&self) -> Option<String> {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Image files and scenes as feeds.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use foveate_scenes::{Scene, SceneFrames, SceneSize};
 
 use super::feed::Feed;
+use super::form::{Labels, SetFiles, SetForm};
 use super::{FrameRate, Kind, SourceFrame};
 use crate::{SimulatorError, picture};
 
@@ -24,12 +26,20 @@ pub(crate) struct ImageFiles {
     bits: u32,
     rate: FrameRate,
     kind: Kind,
+    labels: Labels,
 }
 
 impl ImageFiles {
     pub(crate) fn new(files: Vec<ImageFile>, bits: u32, rate: FrameRate, kind: Kind) -> Self {
         let total = u64::try_from(files.len()).unwrap_or(u64::MAX);
-        Self { files: files.into_iter(), total, next: 0, bits, rate, kind }
+        let names: BTreeSet<&String> =
+            files.iter().filter_map(|file| file.label.as_ref()).collect();
+        let labels = if names.is_empty() {
+            Labels::None
+        } else {
+            Labels::Names(names.into_iter().cloned().collect())
+        };
+        Self { files: files.into_iter(), total, next: 0, bits, rate, kind, labels }
     }
 }
 
@@ -50,6 +60,10 @@ impl Feed for ImageFiles {
 
     fn kind(&self) -> Kind {
         self.kind
+    }
+
+    fn form(&self) -> SetForm {
+        SetForm { files: SetFiles::Images, labels: self.labels.clone() }
     }
 }
 

@@ -17,6 +17,7 @@ use crate::error::ToolError;
 use crate::files::{self, Source};
 use crate::invocation::Invocation;
 use crate::key::{Key, KeyBuilder};
+use crate::ports::{self, PortBits};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 use compile::Compiler;
@@ -82,6 +83,8 @@ pub struct VerilatorJob {
     pub optimize: Optimize,
     /// What to do about questionable Verilog.
     pub lint: Lint,
+    /// Ports of the top module and the widths that they must have; others are not looked at.
+    pub port_bits: Vec<PortBits>,
     /// Further arguments for Verilator, such as `--assert`.
     pub extra_args: Vec<String>,
 }
@@ -114,8 +117,8 @@ pub fn lint(
     top: &str,
     vlt: Option<&str>,
 ) -> Result<(), ToolError> {
-    let dir =
-        tempfile::tempdir().map_err(ToolError::io("create a folder in", Path::new("/tmp")))?;
+    let dir = tempfile::tempdir()
+        .map_err(ToolError::temporary("create a folder in", &std::env::temp_dir()))?;
     let args = ["--lint-only", "--no-timing", "-Wall", "--top-module", top];
     let invocation = toolchain.invocation(Tool::Verilator)?.args(args);
     let invocation = with_sources(invocation, dir.path(), sources, vlt)?;
@@ -127,6 +130,7 @@ impl VerilatorJob {
         let key = tools_key("verilator", toolchain)?
             .list("flags", &self.flags())
             .list("compiler flags", &compile::flags(self.trace))
+            .field("port bits", format!("{:?}", self.port_bits))
             .field("optimize", self.optimize.flag())
             .field("main", &self.cpp_main)
             .field("vlt", self.vlt.as_deref().unwrap_or_default());
@@ -160,6 +164,9 @@ fn build_in(
     let verilate = toolchain.invocation(Tool::Verilator)?.args(job.flags());
     let verilate = with_sources(verilate, dir, &job.sources, job.vlt.as_deref())?;
     toolchain.run_checked(&verilate)?;
+    let header = dir.join(format!("{}.h", job.prefix()));
+    let header = fs::read_to_string(&header).map_err(ToolError::io("read", &header))?;
+    ports::check_header(&job.top, &header, &job.port_bits)?;
     files::write(dir, MAIN, job.cpp_main.as_bytes())?;
     let makefile = Makefile::read(dir, &job.prefix())?;
     let compiler = Compiler::new(toolchain, include_dir(toolchain)?, job.trace)?;
@@ -198,7 +205,7 @@ fn tools_key(kind: &str, toolchain: &Toolchain) -> Result<KeyBuilder, ToolError>
     let verilator = toolchain.find(Tool::Verilator)?;
     let compiler = toolchain.find(Tool::Cxx)?;
     Ok(Key::builder(kind)
-        .field("verilator", verilator.banner)
+        .field("verilator", verilator.identity())
         .field("path", verilator.path.as_os_str().as_encoded_bytes())
-        .field("compiler", compiler.banner))
+        .field("compiler", compiler.identity()))
 }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `dataset`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::DesignArgs;
+use super::input::InputArgs;
+
+/// Make a data set of the active regions of a data set, in the same form, with labels and tags
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate dataset train-images-idx3-ubyte.gz -o regions
+          foveate dataset photos/ -o regions --preset steady --resize 224x224
+          foveate dataset data_batch_1.bin data_batch_2.bin -o regions")]
+pub(crate) struct DatasetArgs {
+    /// IDX or CIFAR files, images, or a folder of images (sub-folders are labels). Several files of
+    /// many images, or folders, become a data set each
+    #[arg(value_name = "INPUT", required = true)]
+    pub(crate) inputs: Vec<String>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Folder to write
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Replace the folder if it holds a data set or a simulation
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Last, because what follows would be listed under its heading.
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+}

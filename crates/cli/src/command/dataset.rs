@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate dataset`: a set of images in, the set of their active regions out. It is a simulation that
+//! writes the set instead of pictures.
+
+use foveate_simulator::{ImagesAs, RunOptions};
+
+use super::simulate::{Job, run_job};
+use crate::args::DatasetArgs;
+use crate::error::CliError;
+
+pub(crate) fn run(args: &DatasetArgs) -> Result<(), CliError> {
+    run_job(&Job {
+        inputs: &args.inputs,
+        config: args.design.read()?,
+        // Nothing is guessed: a set is what the command is for.
+        input: args.input.options(ImagesAs::Set),
+        output: &args.output,
+        options: RunOptions {
+            rendered: None,
+            data_set: true,
+            overwrite: args.force,
+            ..RunOptions::default()
+        },
+        json: args.json,
+        quiet: args.quiet,
+    })
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Frames through the engine: features, neighborhoods, instruction sets, threads, stillness.
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use foveate_engine::{Engine, Level, Options};
+use foveate_spec::{Config, FeatureKind, Neighborhood, SpatialConfig};
+
+fn main() {
+    divan::main();
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    width: u32,
+    height: u32,
+    side: u32,
+    neighborhood: Neighborhood,
+    features: &'static [FeatureKind],
+}
+
+const EDGE: &[FeatureKind] = &[FeatureKind::Edge];
+const ALL: &[FeatureKind] = FeatureKind::ALL;
+const HD: Case = Case {
+    width: 1920,
+    height: 1080,
+    side: 32,
+    neighborhood: Neighborhood::Shared,
+    features: EDGE,
+};
+const SMALL: Case = Case { width: 224, height: 224, side: 8, ..HD };
+
+const CASES: [(&str, Case); 6] = [
+    ("1080p edge shared", HD),
+    ("1080p edge isolated", Case { neighborhood: Neighborhood::Isolated, ..HD }),
+    ("1080p all shared", Case { features: ALL, ..HD }),
+    ("224 edge shared", SMALL),
+    ("224 edge isolated", Case { neighborhood: Neighborhood::Isolated, ..SMALL }),
+    ("224 all shared", Case { features: ALL, ..SMALL }),
+];
+
+/// Frames of a moving pattern with noise, or of one that stands still.
+fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
+    let mut config = Config::default();
+    (config.frame.width, config.frame.height) = (Some(case.width), Some(case.height));
+    config.region.size = case.side;
+    config.region.neighborhood = case.neighborhood;
+    config.spatial = case.features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    let design = config.validate().expect("a valid design");
+    let mut engine = Engine::with_options(&design, options).expect("threads");
+    let mut state = 1u32;
+    let mut frame = |shift: u32| -> Vec<u8> {
+        let places = (0..case.height).flat_map(|y| (0..case.width).map(move |x| (x, y)));
+        places
+            .map(|(x, y)| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let pattern = if ((x + shift) / 40 + y / 40).is_multiple_of(2) { 60 } else { 180 };
+                pattern + state.to_le_bytes()[3] % 8
+            })
+            .collect()
+    };
+    let frames: Vec<Vec<u8>> = (0..8).map(|number| frame(3 * number)).collect();
+    let width = usize::try_from(case.width).expect("a width");
+    let mut number = 0;
+    let pixels = width * usize::try_from(case.height).expect("a height");
+    bencher.counter(ItemsCount::new(pixels)).bench_local(|| {
+        number += usize::from(!still);
+        engine.step_u8(&frames[number % frames.len()], width).map(|outcome| outcome.skipped)
+    });
+}
+
+fn case(name: &str) -> Case {
+    CASES.iter().find(|(own, _)| *own == name).expect("a case").1
+}
+
+#[divan::bench(args = CASES.map(|(name, _)| name))]
+fn moving(bencher: Bencher, name: &str) {
+    run(bencher, case(name), Options { skip: false, ..Options::default() }, false);
+}
+
+#[divan::bench(args = CASES.map(|(name, _)| name))]
+fn moving_with_skip(bencher: Bencher, name: &str) {
+    run(bencher, case(name), Options::default(), false);
+}
+
+#[divan::bench(args = CASES.map(|(name, _)| name))]
+fn still_with_skip(bencher: Bencher, name: &str) {
+    run(bencher, case(name), Options::default(), true);
+}
+
+#[divan::bench(args = [1, 2])]
+fn threads(bencher: Bencher, threads: usize) {
+    run(bencher, HD, Options { threads, skip: false, ..Options::default() }, false);
+}
+
+#[divan::bench(args = Level::available().into_iter().map(Level::name))]
+fn instructions(bencher: Bencher, name: &str) {
+    let level = Level::available().into_iter().find(|level| level.name() == name);
+    let level = level.expect("an available level");
+    run(bencher, HD, Options { level, skip: false, ..Options::default() }, false);
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Megapixels per second of the engine on a clip in memory, one JSON object per line.
+//!
+//! `throughput CLIP.npy --side N --features edge,corner,mad [--neighborhood shared] [--threads 1]
+//! [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]`; `throughput --copy` measures
+//! what the machine copies. `mpixel_s` is over the faster half of the frames, as `cv_pipeline.py`
+//! reports it, `mpixel_s_mean` over all of the clip, each frame at its fastest.
+
+use std::time::{Duration, Instant};
+
+use foveate_engine::{Engine, Level, Options};
+use foveate_spec::{Config, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
+
+type Failure = Box<dyn std::error::Error>;
+
+fn main() -> Result<(), Failure> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if arguments.iter().any(|argument| argument == "--copy") {
+        print(&copy_bandwidth());
+        return Ok(());
+    }
+    let value = |name: &str| {
+        let at = arguments.iter().position(|argument| argument == name)?;
+        arguments.get(at + 1).map(String::as_str)
+    };
+    let path = arguments.first().ok_or("name a clip: an .npy of bytes, frames x height x width")?;
+    let clip = Clip::read(path)?;
+    let mut config = Config::default();
+    (config.frame.width, config.frame.height) = (Some(clip.width), Some(clip.height));
+    config.region.size = value("--side").unwrap_or("8").parse()?;
+    config.region.neighborhood = match value("--neighborhood") {
+        Some("isolated") => Neighborhood::Isolated,
+        _ => Neighborhood::Shared,
+    };
+    if value("--reference") == Some("last-sent") {
+        config.temporal.reference = Reference::LastSent;
+    }
+    let features = value("--features").unwrap_or("edge");
+    config.spatial = features.split(',').map(feature).collect::<Result<_, _>>()?;
+    let wanted = value("--level").unwrap_or_else(|| Level::detect().name());
+    let options = Options {
+        threads: value("--threads").unwrap_or("1").parse()?,
+        skip: !arguments.iter().any(|argument| argument == "--no-skip"),
+        level: *Level::available()
+            .iter()
+            .find(|level| level.name() == wanted)
+            .ok_or("this processor has no such instructions")?,
+    };
+    let seconds: f64 = value("--seconds").unwrap_or("1").parse()?;
+    let mut engine = Engine::with_options(&config.validate()?, options)?;
+    let measured = measure(&clip, &mut engine, Duration::from_secs_f64(seconds))?;
+    let (width, height) = (clip.width, clip.height);
+    print(&serde_json::json!({
+        "clip": path, "width": width, "height": height, "side": config.region.size,
+        "neighborhood": config.region.neighborhood.name(), "features": features,
+        "reference": config.temporal.reference.name(), "threads": options.threads,
+        "level": options.level.name(), "skip": options.skip,
+        "mpixel_s": measured.mpixel_s, "mpixel_s_mean": measured.mpixel_s_mean,
+        "skipped": measured.skipped, "active": measured.active,
+    }));
+    Ok(())
+}
+
+#[allow(clippy::print_stdout, reason = "the purpose of the program")]
+fn print(line: &serde_json::Value) {
+    println!("{line}");
+}
+
+/// A feature with the thresholds of the OpenCV pipeline.
+fn feature(name: &str) -> Result<SpatialConfig, Failure> {
+    let kind = *FeatureKind::ALL.iter().find(|kind| kind.name() == name).ok_or("no feature")?;
+    let mut feature = SpatialConfig::new(kind);
+    if kind == FeatureKind::Corner {
+        feature.min_score = Some(Decimal::whole(1));
+    }
+    if kind == FeatureKind::Mad {
+        feature.min_score = Some(Decimal::whole(1));
+    }
+    Ok(feature)
+}
+
+struct Measured {
+    /// Over the faster half of the frames.
+    mpixel_s: f64,
+    /// Over all frames of the clip, each at its fastest.
+    mpixel_s_mean: f64,
+    skipped: f64,
+    active: f64,
+}
+
+/// Times every frame, in rounds over the clip; the engine starts each round anew, so that no two
+/// frames follow each other that do not in the clip.
+fn measure(clip: &Clip, engine: &mut Engine, time: Duration) -> Result<Measured, Failure> {
+    let width = usize::try_from(clip.width)?;
+    let pixels = f64::from(clip.width) * f64::from(clip.height);
+    let (mut times, mut skipped, mut active) = (Vec::new(), 0, 0);
+    let start = Instant::now();
+    let frames: Vec<&[u8]> =
+        clip.pixels.chunks_exact(width * usize::try_from(clip.height)?).collect();
+    for (number, frame) in frames.iter().enumerate().cycle() {
+        if number == 0 {
+            engine.reset();
+        }
+        let began = Instant::now();
+        let outcome = engine.step_u8(frame, width)?;
+        times.push(began.elapsed().as_secs_f64());
+        skipped += outcome.skipped;
+        active += outcome.active.iter().filter(|active| **active).count();
+        if start.elapsed() > time && times.len() >= 5 {
+            break;
+        }
+    }
+    let regions = count(times.len() * engine.outcome().srs.len());
+    // Each frame of the clip at its fastest: what other programs take away is left out, what some
+    // frames cost more than others is not.
+    let at = |number: usize| times.iter().skip(number).step_by(frames.len()).copied();
+    let fastest = (0..frames.len().min(times.len())).map(|n| at(n).fold(f64::MAX, f64::min));
+    let mean_of_all = fastest.sum::<f64>() / count(frames.len().min(times.len()));
+    times.sort_by(f64::total_cmp);
+    times.truncate(times.len().div_ceil(2));
+    let mean = times.iter().sum::<f64>() / count(times.len());
+    Ok(Measured {
+        mpixel_s: (pixels / mean / 1e6).round(),
+        mpixel_s_mean: (pixels / mean_of_all / 1e6).round(),
+        skipped: count(skipped) / regions,
+        active: count(active) / regions,
+    })
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a count of frames or regions")]
+fn count(count: usize) -> f64 {
+    count as f64
+}
+
+/// Gigabytes per second that one thread copies: read and written bytes both counted.
+fn copy_bandwidth() -> serde_json::Value {
+    let measure = |bytes: usize, rounds: usize| {
+        let (from, mut to) = (vec![1u8; bytes], vec![0u8; bytes]);
+        let mut times: Vec<f64> = (0..rounds)
+            .map(|_| {
+                let began = Instant::now();
+                to.copy_from_slice(std::hint::black_box(&from));
+                std::hint::black_box(&mut to);
+                began.elapsed().as_secs_f64()
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        let half = &times[..rounds.div_ceil(2)];
+        2.0 * count(bytes) * count(half.len()) / half.iter().sum::<f64>() / 1e9
+    };
+    serde_json::json!({
+        "copy_memory_gb_s": measure(256 << 20, 7),
+        "copy_frame_gb_s": measure(1920 * 1080, 2001),
+        "copy_small_gb_s": measure(224 * 224, 20001),
+    })
+}
+
+/// Frames of bytes, one after the other.
+struct Clip {
+    width: u32,
+    height: u32,
+    pixels: Vec<u8>,
+}
+
+impl Clip {
+    /// Reads an `.npy` file of shape (frames, height, width) and type u8.
+    fn read(path: &str) -> Result<Self, Failure> {
+        let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
+        let header = bytes.get(8..10).ok_or("no .npy file")?;
+        let header = usize::from(u16::from_le_bytes([header[0], header[1]]));
+        let text = std::str::from_utf8(bytes.get(10..10 + header).ok_or("no .npy file")?)?;
+        if !text.contains("|u1") || text.contains("'fortran_order': True") {
+            return Err(format!("{path}: not bytes in C order: {text}").into());
+        }
+        let shape = text.split(['(', ')']).nth(1).ok_or("no shape")?;
+        let shape: Vec<u32> =
+            shape.split(',').map(|side| side.trim().parse()).collect::<Result<_, _>>()?;
+        let &[_, height, width] = &shape[..] else {
+            return Err("the shape is not (frames, height, width)".into());
+        };
+        Ok(Self { width, height, pixels: bytes[10 + header..].to_vec() })
+    }
+}

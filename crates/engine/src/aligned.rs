@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Buffers that start at a cache line, so that a block is one line and not two.
+
+use std::ops::{Deref, DerefMut};
+
+use crate::lane::{BLOCK, Block};
+
+/// Values in a row, the first of them at the start of a cache line.
+#[derive(Debug)]
+pub(crate) struct Aligned<T> {
+    store: Vec<T>,
+    start: usize,
+    len: usize,
+}
+
+impl<T: Copy + Default> Aligned<T> {
+    /// `len` values, each the default.
+    pub(crate) fn new(len: usize) -> Self {
+        let store = vec![T::default(); len + BLOCK];
+        let start = store.as_ptr().align_offset(64).min(BLOCK);
+        Self { store, start, len }
+    }
+}
+
+impl<T> Aligned<T> {
+    /// The values block by block; what is left after the last whole block is left out.
+    pub(crate) fn blocks(&self) -> &[Block<T>] {
+        self.as_chunks().0
+    }
+
+    /// The same, to be written.
+    pub(crate) fn blocks_mut(&mut self) -> &mut [Block<T>] {
+        self.as_chunks_mut().0
+    }
+}
+
+impl<T: Copy + Default> Clone for Aligned<T> {
+    /// A copy at an aligned place of its own.
+    fn clone(&self) -> Self {
+        let mut copy = Self::new(self.len);
+        copy.copy_from_slice(self);
+        copy
+    }
+}
+
+impl<T> Deref for Aligned<T> {
+    type Target = [T];
+
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        &self.store[self.start..][..self.len]
+    }
+}
+
+impl<T> DerefMut for Aligned<T> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.store[self.start..][..self.len]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn buffers_and_their_copies_start_at_a_cache_line() {
+        for len in [0, 1, 64, 1000] {
+            let mut buffer = Aligned::<u16>::new(len);
+            buffer.fill(7);
+            let copy = buffer.clone();
+            assert_eq!(copy.as_ptr().align_offset(64), 0);
+            assert_eq!(copy[..], vec![7; len]);
+            assert_eq!(copy.blocks().len(), len / BLOCK);
+        }
+    }
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One pass over the rows of a band: denoise, compare, score, while all of it is in the cache.
+
+use std::ops::Range;
+
+use foveate_spec::Reference;
+
+use crate::denoised::Denoiser;
+use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};
+use crate::lane::{BLOCK, Block, Lane, threshold};
+use crate::pixels::Pixels;
+use crate::plan::Plan;
+use crate::scratch::{Columns, Scratch, Sums};
+
+/// Rows of a padded plane, by blocks.
+#[inline(always)]
+fn blocks<'a, T>(plane: &'a [T], stride: usize, y: usize, run: &Range<usize>) -> &'a [Block<T>] {
+    plane[y * stride + run.start * BLOCK..][..run.len() * BLOCK].as_chunks().0
+}
+
+/// The same, to be written.
+#[inline(always)]
+fn blocks_mut<'a, T>(
+    plane: &'a mut [T],
+    stride: usize,
+    y: usize,
+    run: &Range<usize>,
+) -> &'a mut [Block<T>] {
+    plane[y * stride + run.start * BLOCK..][..run.len() * BLOCK].as_chunks_mut().0
+}
+
+/// Counts what the features that look at windows find in a row.
+#[inline(always)]
+fn features<T: Lane>(
+    plan: &Plan<T>,
+    windows: Windows<'_, T>,
+    sides: impl Sides<T>,
+    columns: &mut Columns<T>,
+    run: &Range<usize>,
+) {
+    if let Some(half) = plan.edge {
+        edge::count(windows, sides, half, &mut columns.edge.blocks_mut()[run.clone()]);
+    }
+    if let Some(level) = plan.corner {
+        corner::count(windows, sides, level, &mut columns.corner.blocks_mut()[run.clone()]);
+    }
+}
+
+/// A band of regions with its part of the planes.
+#[derive(Debug)]
+pub(crate) struct Band<'a, T: Lane> {
+    pub(crate) plan: &'a Plan<T>,
+    pub(crate) raw: Pixels<'a, T>,
+    /// Its number, from the top.
+    pub(crate) number: usize,
+    /// What was denoised last, and will be now; with `previous` it is the reference as well.
+    pub(crate) denoised: &'a mut [T],
+    /// With `last-sent` the reference, otherwise empty.
+    pub(crate) reference: &'a [T],
+}
+
+impl<T: Lane> Band<'_, T> {
+    /// Fills `scratch.sums` for every region that the runs cover.
+    #[inline(always)]
+    pub(crate) fn measure(&mut self, scratch: &mut Scratch<T>) {
+        let runs = std::mem::take(&mut scratch.runs);
+        for run in &runs {
+            self.first_pass(scratch, run);
+        }
+        self.columns_to_regions(&scratch.columns, &mut scratch.sums);
+        if let Some(fraction_bits) = self.plan.mad {
+            self.spread_means(scratch, fraction_bits);
+            for run in &runs {
+                self.second_pass(&mut scratch.columns, run, fraction_bits);
+            }
+            let side = self.plan.side;
+            sums::by_region(&scratch.columns.above, side, &mut scratch.sums.above);
+            if fraction_bits > 0 {
+                sums::by_region(&scratch.columns.over, side, &mut scratch.sums.over);
+            }
+        }
+        scratch.runs = runs;
+    }
+
+    #[inline(always)]
+    fn first_pass(&mut self, scratch: &mut Scratch<T>, run: &Range<usize>) {
+        let plan = self.plan;
+        let Scratch { sorted, tail, denoised, columns, .. } = scratch;
+        let top = self.number * plan.side;
+        let mut denoiser = Denoiser {
+            plan,
+            raw: self.raw,
+            sorted,
+            tail,
+            rows: denoised,
+            slots: plan.slots(run.len()),
+            reach: plan.reach(self.number),
+            run: run.clone(),
+        };
+        columns.clear(plan, run);
+        let batch = plan.batch(run.len());
+        for first in (0..plan.side).step_by(batch) {
+            let rows = first..(first + batch).min(plan.side);
+            let [above, ..] = denoiser.around(top + rows.start);
+            let [.., below] = denoiser.around(top + rows.end - 1);
+            if plan.has_windows() {
+                denoiser.ensure(above..below + 1);
+                for y in top + rows.start..top + rows.end {
+                    let windows = denoiser.windows(y);
+                    match &plan.seams {
+                        None => features(plan, windows, Open, columns, run),
+                        Some(seams) => features(plan, windows, seams.over(run), columns, run),
+                    }
+                }
+            } else {
+                denoiser.ensure(top + rows.start..top + rows.end);
+            }
+            for row in rows {
+                self.compare(denoiser.row(top + row), row, columns, run);
+            }
+        }
+    }
+
+    /// Compares a row with its reference, keeps it, and adds it up.
+    #[inline(always)]
+    fn compare(
+        &mut self,
+        now: &[Block<T>],
+        row: usize,
+        columns: &mut Columns<T>,
+        run: &Range<usize>,
+    ) {
+        let (plan, stride) = (self.plan, self.plan.stride());
+        let changed = &mut columns.changed.blocks_mut()[run.clone()];
+        let store = blocks_mut(self.denoised, stride, row, run);
+        match plan.reference {
+            Reference::Previous => temporal::count_and_replace(now, store, plan.level, changed),
+            Reference::LastSent => {
+                let reference = blocks(self.reference, stride, row, run);
+                temporal::count_and_store(now, reference, plan.level, changed, store);
+            }
+        }
+        if plan.mad.is_some() || plan.variance {
+            sums::add(now, &mut columns.sum.blocks_mut()[run.clone()]);
+        }
+        if plan.variance {
+            sums::add_squares(now, &mut columns.square.blocks_mut()[run.clone()]);
+        }
+    }
+
+    #[inline(always)]
+    fn columns_to_regions(&self, columns: &Columns<T>, regions: &mut Sums) {
+        let (plan, side) = (self.plan, self.plan.side);
+        sums::by_region(&columns.changed, side, &mut regions.changed);
+        if plan.edge.is_some() {
+            sums::by_region(&columns.edge, side, &mut regions.edge);
+        }
+        if plan.corner.is_some() {
+            sums::by_region(&columns.corner, side, &mut regions.corner);
+        }
+        if plan.mad.is_some() || plan.variance {
+            sums::by_region(&columns.sum, side, &mut regions.sum);
+        }
+        if plan.variance {
+            sums::by_region(&columns.square, side, &mut regions.square);
+        }
+    }
+
+    /// Puts the whole part of each region's mean under its columns.
+    #[inline(always)]
+    fn spread_means(&self, scratch: &mut Scratch<T>, fraction_bits: u32) {
+        let n = u64::from(self.plan.region_pixels());
+        let mean = |sum| {
+            let mean = mad::mean(sum, n, fraction_bits) >> fraction_bits;
+            threshold(u32::try_from(mean).unwrap_or(u32::MAX))
+        };
+        sums::spread(&scratch.sums.sum, self.plan.side, mean, &mut scratch.columns.mean);
+    }
+
+    #[inline(always)]
+    fn second_pass(&self, columns: &mut Columns<T>, run: &Range<usize>, fraction_bits: u32) {
+        let stride = self.plan.stride();
+        let above = &mut columns.above.blocks_mut()[run.clone()];
+        let over = &mut columns.over.blocks_mut()[run.clone()];
+        let mean = &columns.mean.blocks()[run.clone()];
+        above.fill([T::Sum::default(); BLOCK]);
+        if fraction_bits > 0 {
+            over.fill([T::default(); BLOCK]);
+        }
+        for row in 0..self.plan.side {
+            let now = blocks(self.denoised, stride, row, run);
+            mad::add_above(now, mean, above);
+            if fraction_bits > 0 {
+                mad::count_above(now, mean, over);
+            }
+        }
+    }
+}
+
+impl<T: Lane> Columns<T> {
+    /// Zero in every sum that the first pass of a run uses.
+    #[inline(always)]
+    fn clear(&mut self, plan: &Plan<T>, run: &Range<usize>) {
+        self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
+        if plan.edge.is_some() {
+            self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
+        }
+        if plan.corner.is_some() {
+            self.corner.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
+        }
+        if plan.mad.is_some() || plan.variance {
+            self.sum.blocks_mut()[run.clone()].fill([T::Sum::default(); BLOCK]);
+        }
+        if plan.variance {
+            self.square.blocks_mut()[run.clone()].fill([T::Square::default(); BLOCK]);
+        }
+    }
+}

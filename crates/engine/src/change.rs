@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which regions are bit-identical to the last frame, and what has to be computed for the others.
+
+use std::ops::Range;
+
+use crate::lane::{BLOCK, Lane};
+use crate::pixels::Pixels;
+use crate::plan::Plan;
+
+/// The share of a band's blocks from which on it is computed as a whole.
+const NEARLY: (usize, usize) = (4, 5);
+
+/// Compares band `number` with its copy of the last frame, brings the copy up to date, and says of
+/// every region whether a pixel has changed.
+#[inline(always)]
+pub(crate) fn compare<T: Lane>(
+    plan: &Plan<T>,
+    raw: Pixels<'_, T>,
+    number: usize,
+    copy: &mut [T],
+    changed: &mut [bool],
+) {
+    changed.fill(false);
+    let mut every = false;
+    for (y, last) in copy.chunks_exact_mut(plan.width).enumerate() {
+        let now = raw.row(number * plan.side + y);
+        if !every {
+            if now == last {
+                continue;
+            }
+            compare_row(now, last, plan.side, changed);
+            every = changed.iter().all(|&changed| changed);
+        }
+        last.copy_from_slice(now);
+    }
+}
+
+/// Copies band `number`.
+#[inline(always)]
+pub(crate) fn keep<T: Lane>(plan: &Plan<T>, raw: Pixels<'_, T>, number: usize, copy: &mut [T]) {
+    for (y, copy) in copy.chunks_exact_mut(plan.width).enumerate() {
+        copy.copy_from_slice(raw.row(number * plan.side + y));
+    }
+}
+
+#[inline(always)]
+fn compare_row<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+    match side {
+        8 => compare_constant::<8, T>(now, last, changed),
+        16 => compare_constant::<16, T>(now, last, changed),
+        32 => compare_constant::<32, T>(now, last, changed),
+        64 => compare_constant::<64, T>(now, last, changed),
+        _ => compare_any(now, last, side, changed),
+    }
+}
+
+#[inline(always)]
+fn compare_constant<const SIDE: usize, T: Lane>(now: &[T], last: &[T], changed: &mut [bool]) {
+    let ((now, now_rest), (last, last_rest)) = (now.as_chunks::<SIDE>(), last.as_chunks::<SIDE>());
+    let (whole, ragged) = changed.split_at_mut(now.len());
+    for ((now, last), changed) in now.iter().zip(last).zip(whole) {
+        *changed |= now != last;
+    }
+    compare_any(now_rest, last_rest, SIDE, ragged);
+}
+
+#[inline(always)]
+fn compare_any<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+    for ((now, last), changed) in now.chunks(side).zip(last.chunks(side)).zip(changed) {
+        *changed |= now != last;
+    }
+}
+
+/// Which regions of band `number` may have other results than in the last frame: those that have
+/// changed, and where neighbors are seen those around them. Two pixels of halo are at most a region.
+#[inline(always)]
+pub(crate) fn affected<T: Lane>(
+    plan: &Plan<T>,
+    changed: &[bool],
+    number: usize,
+    affected: &mut [bool],
+) {
+    let columns = plan.columns;
+    let band = |number: usize| &changed[number * columns..][..columns];
+    let here = band(number);
+    if plan.seams.is_some() {
+        affected.copy_from_slice(here);
+        return;
+    }
+    let (above, below) = (band(number.saturating_sub(1)), band((number + 1).min(plan.rows - 1)));
+    let column = |x: usize| above[x] | here[x] | below[x];
+    let last = columns - 1;
+    for (x, affected) in affected.iter_mut().enumerate().take(last).skip(1) {
+        *affected = column(x - 1) | column(x) | column(x + 1);
+    }
+    affected[0] = column(0) | column(1.min(last));
+    affected[last] = column(last.saturating_sub(1)) | column(last);
+}
+
+/// The blocks under the affected regions, as runs. Each run costs `margin` blocks on each side: what
+/// lies closer together is one run, and where nearly all of the blocks are wanted it is all of them.
+#[inline(always)]
+pub(crate) fn runs<T: Lane>(plan: &Plan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
+    runs.clear();
+    let (side, margin) = (plan.side, plan.margin());
+    for (column, _) in affected.iter().enumerate().filter(|(_, affected)| **affected) {
+        let (start, end) = (column * side / BLOCK, ((column + 1) * side).div_ceil(BLOCK));
+        match runs.last_mut() {
+            Some(last) if start <= last.end + 2 * margin => last.end = end,
+            _ => runs.push(start..end),
+        }
+    }
+    let cost: usize = runs.iter().map(|run| run.len() + 2 * margin).sum();
+    if cost * NEARLY.1 > plan.blocks * NEARLY.0 {
+        runs.clear();
+        runs.push(0..plan.blocks);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use foveate_spec::{Config, Neighborhood};
+
+    use super::*;
+
+    #[test]
+    fn runs_cover_affected_regions_and_merge() {
+        let found = |width: u32, side: u32, neighborhood, columns: &[usize]| {
+            let mut config = Config::default();
+            (config.frame.width, config.frame.height) = (Some(width), Some(side));
+            (config.region.size, config.region.neighborhood) = (side, neighborhood);
+            let plan = Plan::<u8>::new(&config.validate().unwrap());
+            let affected: Vec<bool> = (0..plan.columns).map(|x| columns.contains(&x)).collect();
+            let mut found = Vec::new();
+            runs(&plan, &affected, &mut found);
+            found
+        };
+        use Neighborhood::{Isolated, Shared};
+        assert_eq!(found(640, 8, Isolated, &[0, 7, 8, 24]), [0..2, 3..4]);
+        assert_eq!(found(1280, 8, Shared, &[0, 7, 8, 24, 56]), [0..4, 7..8]);
+        // Region 10 of 6 columns lies in two blocks.
+        assert_eq!(found(600, 6, Isolated, &[10]), vec![0..2]);
+        // Nearly everything is everything; nothing is nothing.
+        assert_eq!(found(256, 8, Shared, &[0, 24]), vec![0..4]);
+        assert_eq!(found(640, 8, Shared, &[]), []);
+    }
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From sums to scores, votes, both relevances and the action of every region of a band.
+
+use foveate_model::Action;
+use foveate_spec::{Combine, FeatureKind, Irrelevant, Reference};
+
+use crate::kernel::mad;
+use crate::lane::Lane;
+use crate::outcome::Results;
+use crate::plan::Plan;
+use crate::scratch::Sums;
+
+impl<T: Lane> Plan<T> {
+    /// Decides every region of one band; those that are not affected keep their scores, and their
+    /// temporal count is what it must be when no pixel has changed.
+    #[inline(always)]
+    pub(crate) fn decide(
+        &self,
+        sums: &Sums,
+        affected: &[bool],
+        valid: &[bool],
+        results: &mut Results<'_>,
+    ) {
+        self.count(sums, affected, valid, results);
+        let n = u64::from(self.region_pixels());
+        for (feature, scores) in self.features.iter().zip(&mut results.scores) {
+            match feature.kind {
+                FeatureKind::Edge => fill(scores, affected, |at| sums.edge[at]),
+                FeatureKind::Corner => fill(scores, affected, |at| sums.corner[at]),
+                FeatureKind::Mad => {
+                    let bits = self.mad.unwrap_or_default();
+                    let score =
+                        |at| mad::score(n, bits, sums.sum[at], sums.above[at], sums.over[at]);
+                    fill(scores, affected, score);
+                }
+                FeatureKind::Variance => {
+                    fill(scores, affected, |at| n * sums.square[at] - sums.sum[at] * sums.sum[at]);
+                }
+            }
+        }
+        self.vote(results);
+        let bits = results.srs.iter().zip(&mut *results.trs).zip(&*results.temporal_count);
+        for ((((&srs, trs), &count), active), action) in
+            bits.zip(&mut *results.active).zip(&mut *results.actions)
+        {
+            *trs = count >= self.min_count;
+            *active = srs & *trs;
+            *action = self.action(srs, *trs);
+        }
+    }
+
+    /// Temporal counts, from the last actions where no pixel has changed.
+    #[inline(always)]
+    fn count(&self, sums: &Sums, affected: &[bool], valid: &[bool], results: &mut Results<'_>) {
+        let n = self.region_pixels();
+        let regions = sums.changed.iter().zip(affected).zip(valid);
+        let last = results.temporal_count.iter_mut().zip(&*results.actions);
+        for (((&changed, &affected), &valid), (count, &action)) in regions.zip(last) {
+            let changed = u32::try_from(changed).unwrap_or(n);
+            *count = match affected {
+                true => {
+                    if valid {
+                        changed
+                    } else {
+                        n
+                    }
+                }
+                false => self.count_of_identical((action, *count), n),
+            };
+        }
+    }
+
+    /// Spatial relevance from the scores.
+    #[inline(always)]
+    fn vote(&self, results: &mut Results<'_>) {
+        let srs = &mut *results.srs;
+        srs.fill(self.combine == Combine::All);
+        for (feature, scores) in self.features.iter().zip(&results.scores) {
+            let votes = scores.iter().map(|&score| score >= feature.min_score);
+            match self.combine {
+                Combine::Any => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs |= vote),
+                Combine::All => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs &= vote),
+            }
+        }
+    }
+
+    /// The temporal count of a region whose denoised pixels are those of the frame before, from
+    /// what happened then: its reference is now those very pixels, or what it was, or none.
+    #[inline(always)]
+    fn count_of_identical(&self, (action, count): (Action, u32), n: u32) -> u32 {
+        match (self.reference, action) {
+            (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => 0,
+            (Reference::LastSent, Action::Hold) => count,
+            (Reference::LastSent, Action::Blank) => n,
+        }
+    }
+
+    #[inline(always)]
+    fn action(&self, srs: bool, trs: bool) -> Action {
+        match (srs, trs) {
+            (true, true) => Action::Forward,
+            (true, false) => Action::Hold,
+            (false, _) => match self.irrelevant {
+                Irrelevant::Zero => Action::Blank,
+                Irrelevant::Hold => Action::Hold,
+            },
+        }
+    }
+}
+
+/// Puts new scores where regions are affected.
+#[inline(always)]
+fn fill(scores: &mut [u64], affected: &[bool], new: impl Fn(usize) -> u64) {
+    for (at, (score, &affected)) in scores.iter_mut().zip(affected).enumerate() {
+        if affected {
+            *score = new(at);
+        }
+    }
+}

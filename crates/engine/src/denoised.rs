@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Denoised rows on demand: those around a batch are kept, so that a window's rows are computed once.
+
+use std::ops::Range;
+
+use crate::kernel::{Open, Seams, Windows, median};
+use crate::lane::{BLOCK, Block, Lane};
+use crate::pixels::Pixels;
+use crate::plan::{Plan, SeamMasks};
+use crate::scratch::{DenoisedRow, Row};
+
+impl<T: Lane> SeamMasks<T> {
+    /// Those of some blocks.
+    #[inline(always)]
+    pub(crate) fn over(&self, span: &Range<usize>) -> Seams<'_, T> {
+        Seams { first: &self.first.blocks()[span.clone()], last: &self.last.blocks()[span.clone()] }
+    }
+}
+
+/// Rows between the one that is sorted and the one that is asked for.
+const AHEAD: usize = 6;
+
+/// The rows of one run of blocks, padding and borders as the contract says.
+#[derive(Debug)]
+pub(crate) struct Denoiser<'a, T: Lane> {
+    pub(crate) plan: &'a Plan<T>,
+    pub(crate) raw: Pixels<'a, T>,
+    pub(crate) sorted: &'a mut [[Row<T>; 3]],
+    pub(crate) tail: &'a mut [Block<T>; 3],
+    pub(crate) rows: &'a mut [DenoisedRow<T>],
+    /// How many of them are in use, a power of two.
+    pub(crate) slots: usize,
+    /// First and last row that windows may reach.
+    pub(crate) reach: (usize, usize),
+    /// The blocks that are wanted.
+    pub(crate) run: Range<usize>,
+}
+
+impl<T: Lane> Denoiser<'_, T> {
+    /// Makes some rows available, no more than a batch and one on each side.
+    #[inline(always)]
+    pub(crate) fn ensure(&mut self, rows: Range<usize>) {
+        let held = |y: usize| {
+            let held = &self.slot(y).holds;
+            held.as_ref().is_some_and(|(row, run)| *row == y && *run == self.run)
+        };
+        let mut missing = rows;
+        while missing.start < missing.end && held(missing.start) {
+            missing.start += 1;
+        }
+        let plan = self.plan;
+        // More blocks than are wanted: the windows of features reach there.
+        let margin = plan.margin();
+        let span = self.run.start.saturating_sub(margin)..(self.run.end + margin).min(plan.blocks);
+        if plan.median {
+            for y in missing.clone() {
+                self.sort(y, &span, y - missing.start);
+            }
+        }
+        for y in missing.clone() {
+            self.fill(y, &span, y - missing.start);
+        }
+    }
+
+    /// Row `y` of the blocks that are wanted, once it is available.
+    #[inline(always)]
+    pub(crate) fn row(&self, y: usize) -> &[Block<T>] {
+        self.slot(y).pixels.blocks(&self.run)
+    }
+
+    /// The windows of row `y`, once its neighbors are available.
+    #[inline(always)]
+    pub(crate) fn windows(&self, y: usize) -> Windows<'_, T> {
+        let [above, here, below] = self.around(y);
+        let near = |y: usize| self.slot(y).pixels.near(&self.run);
+        Windows { above: near(above), here: near(here), below: near(below) }
+    }
+
+    /// The rows that a window in row `y` sees.
+    #[inline(always)]
+    pub(crate) fn around(&self, y: usize) -> [usize; 3] {
+        [y.saturating_sub(1).max(self.reach.0), y, (y + 1).min(self.reach.1)]
+    }
+
+    #[inline(always)]
+    fn slot(&self, y: usize) -> &DenoisedRow<T> {
+        &self.rows[y & (self.slots - 1)]
+    }
+
+    /// Fills row `y`, from the sorted columns number `at` or from raw pixels.
+    #[inline(always)]
+    fn fill(&mut self, y: usize, span: &Range<usize>, at: usize) {
+        let plan = self.plan;
+        let row = &mut self.rows[y & (self.slots - 1)];
+        if plan.median {
+            let [low, mid, high] = &self.sorted[at];
+            let sorted = [low.near(span), mid.near(span), high.near(span)];
+            let pixels = row.pixels.blocks_mut(span);
+            let ahead = self.raw.row(y + AHEAD);
+            let ahead = blocks_of(ahead, (span.start * BLOCK).min(plan.width));
+            match &plan.seams {
+                None => median::combine(sorted, Open, ahead, pixels),
+                Some(seams) => median::combine(sorted, seams.over(span), ahead, pixels),
+            }
+            row.pixels.repeat_border(plan.padded_width(), plan.padded_width());
+        } else {
+            let columns = span.start * BLOCK..(span.end * BLOCK).min(plan.width);
+            let raw = self.raw.row(y);
+            row.pixels.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
+            row.pixels.repeat_border(plan.width, plan.padded_width());
+        }
+        row.holds = Some((y, self.run.clone()));
+    }
+
+    /// Sorts the columns of the three raw rows around `y`.
+    #[inline(always)]
+    fn sort(&mut self, y: usize, span: &Range<usize>, at: usize) {
+        let width = self.plan.width;
+        let [a, b, c] = self.around(y);
+        let rows = [self.raw.row(a), self.raw.row(b), self.raw.row(c)];
+        let whole = span.start..span.end.min(width / BLOCK);
+        let [low, mid, high] = &mut self.sorted[at];
+        let sorted = [low.blocks_mut(&whole), mid.blocks_mut(&whole), high.blocks_mut(&whole)];
+        let start = whole.start * BLOCK;
+        median::sort_columns(each(rows, start), sorted);
+        if whole.end < span.end {
+            // The last block that is not whole: together with pixels before it, or by itself.
+            let start = width.saturating_sub(BLOCK);
+            let sorted = [low.blocks_at(start), mid.blocks_at(start), high.blocks_at(start)];
+            if start > 0 {
+                median::sort_columns(each(rows, start), sorted);
+            } else {
+                for (tail, row) in self.tail.iter_mut().zip(rows) {
+                    tail[..width].copy_from_slice(row);
+                }
+                let [a, b, c] = &*self.tail;
+                median::sort_columns([&[*a], &[*b], &[*c]], sorted);
+            }
+        }
+        for row in [low, mid, high] {
+            row.repeat_border(width, self.plan.padded_width());
+        }
+    }
+}
+
+/// The blocks of a row from a column on.
+#[inline(always)]
+fn blocks_of<T>(row: &[T], start: usize) -> &[Block<T>] {
+    row[start..].as_chunks().0
+}
+
+/// The same of three rows.
+#[inline(always)]
+fn each<T>([a, b, c]: [&[T]; 3], start: usize) -> [&[Block<T>]; 3] {
+    [blocks_of(a, start), blocks_of(b, start), blocks_of(c, start)]
+}

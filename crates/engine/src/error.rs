@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the engine refuses.
+
+use thiserror::Error;
+
+/// Pixels that are no frame of the design, or threads that the system does not give.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EngineError {
+    /// A frame of another size or depth than the design's.
+    #[error("a frame of {given} was given to a design for {expected}; give it frames of that kind")]
+    FrameKind {
+        /// Size and depth of the frame.
+        given: String,
+        /// Size and depth of the design.
+        expected: String,
+    },
+    /// Too few pixels, or rows that overlap.
+    #[error(
+        "{given} pixels in rows {stride} apart hold no frame of {width}x{height}; \
+         the stride must be at least {width} and the pixels at least {needed}"
+    )]
+    FrameLength {
+        /// Pixels that came.
+        given: usize,
+        /// Pixels from row to row.
+        stride: usize,
+        /// Width of the design.
+        width: usize,
+        /// Height of the design.
+        height: usize,
+        /// Pixels that the size needs with this stride, or with the least possible one.
+        needed: usize,
+    },
+    /// A pixel that does not fit into the design's bits.
+    #[error("pixel ({x}, {y}) is {value}; the largest value of {bits} bits is {max}")]
+    PixelRange {
+        /// Column of the pixel.
+        x: usize,
+        /// Row of the pixel.
+        y: usize,
+        /// Its value.
+        value: u64,
+        /// Bits per pixel.
+        bits: u32,
+        /// Largest value of these bits.
+        max: u32,
+    },
+    /// Pixels of the wrong type for the depth.
+    #[error("pixels of {bits} bits are held as {expected}; the design was given {given}")]
+    LaneWidth {
+        /// Bits per pixel of the design.
+        bits: u32,
+        /// The type they need.
+        expected: &'static str,
+        /// The type that came.
+        given: &'static str,
+    },
+    /// The system gave no threads.
+    #[error("the system gives no {threads} threads: {reason}")]
+    Threads {
+        /// Threads asked for.
+        threads: usize,
+        /// What it says.
+        reason: String,
+    },
+}

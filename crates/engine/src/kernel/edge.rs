@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `edge`: `|Gx| + |Gy| > level` without either gradient.
+//!
+//! `|Gx| + |Gy|` is the larger of `|Gx + Gy|` and `|Gx - Gy|`. Both are even, and half of each is a
+//! sum of three differences of pixels, which is compared with half the level, rounded down.
+
+use crate::kernel::{Sides, Windows, near};
+use crate::lane::{BLOCK, Block, Lane};
+
+/// Adds one to every lane whose window is an edge; `half` is half of the level, rounded down.
+#[inline(always)]
+pub(crate) fn count<T: Lane>(
+    windows: Windows<'_, T>,
+    sides: impl Sides<T>,
+    half: T::Signed,
+    hits: &mut [Block<T>],
+) {
+    for (at, hits) in hits.iter_mut().enumerate() {
+        let above = near(windows.above, at);
+        let here = near(windows.here, at);
+        let below = near(windows.below, at);
+        let mut sums = *hits;
+        for i in 0..BLOCK {
+            let (nw, n, ne) = sides.see(above, at, i);
+            let (w, _, e) = sides.see(here, at, i);
+            let (sw, s, se) = sides.see(below, at, i);
+            let minus = |a, b| T::Signed::from(a) - T::Signed::from(b);
+            let (across, down) = (minus(e, w), minus(s, n));
+            let sum = across + down + minus(se, nw);
+            let difference = across - down + minus(ne, sw);
+            let larger = sum.max(-sum).max(difference.max(-difference));
+            sums[i] += T::hit(larger > half);
+        }
+        *hits = sums;
+    }
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The median of nine: sort the three pixels of each column once, then combine three columns.
+//!
+//! Of the nine, the median is the median of the largest low, the middle mid and the smallest high.
+
+use crate::kernel::{Near, Sides, near};
+use crate::lane::{BLOCK, Block, Lane};
+use crate::simd::prefetch;
+
+/// The three pixels of every column, sorted.
+#[inline(always)]
+pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
+    let ([a, b, c], [low, mid, high]) = (rows, sorted);
+    let blocks = low.len();
+    let (a, b, c) = (&a[..blocks], &b[..blocks], &c[..blocks]);
+    let (mid, high) = (&mut mid[..blocks], &mut high[..blocks]);
+    for at in 0..blocks {
+        let (a, b, c) = (&a[at], &b[at], &c[at]);
+        let (mut lows, mut mids, mut highs) =
+            ([T::default(); BLOCK], [T::default(); BLOCK], [T::default(); BLOCK]);
+        for i in 0..BLOCK {
+            let (p, q, r) = (a[i], b[i], c[i]);
+            let (p, q) = (p.min(q), p.max(q));
+            let (q, r) = (q.min(r), q.max(r));
+            (lows[i], mids[i], highs[i]) = (p.min(q), p.max(q), r);
+        }
+        (low[at], mid[at], high[at]) = (lows, mids, highs);
+    }
+}
+
+/// The median of every window, from its three sorted columns. Raw pixels that will be sorted some
+/// rows later, `ahead`, are asked for meanwhile.
+#[inline(always)]
+pub(crate) fn combine<T: Lane>(
+    [low, mid, high]: [Near<'_, T>; 3],
+    sides: impl Sides<T>,
+    ahead: &[Block<T>],
+    out: &mut [Block<T>],
+) {
+    for (at, out) in out.iter_mut().enumerate() {
+        if let Some(ahead) = ahead.get(at) {
+            prefetch(ahead);
+        }
+        let (low, mid, high) = (near(low, at), near(mid, at), near(high, at));
+        let mut medians = [T::default(); BLOCK];
+        for i in 0..BLOCK {
+            medians[i] =
+                of_columns(sides.see(low, at, i), sides.see(mid, at, i), sides.see(high, at, i));
+        }
+        *out = medians;
+    }
+}
+
+#[inline(always)]
+fn of_columns<T: Lane>(low: (T, T, T), mid: (T, T, T), high: (T, T, T)) -> T {
+    middle((low.0.max(low.1).max(low.2), middle(mid), high.0.min(high.1).min(high.2)))
+}
+
+/// The second of three sorted values.
+#[inline(always)]
+fn middle<T: Lane>((a, b, c): (T, T, T)) -> T {
+    a.min(b).max(a.max(b).min(c))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::Open;
+
+    /// A network of minima and maxima sorts everything iff it sorts zeros and ones.
+    #[test]
+    fn every_window_of_zeros_and_ones_has_its_median() {
+        for bits in 0..512u32 {
+            let pixel = |place: usize| u8::from(bits >> place & 1 == 1);
+            // The window is seen by lane 0; the first lane of the row before it.
+            let rows = [0, 3, 6].map(|row| {
+                let mut lanes = [0; 3 * BLOCK];
+                lanes[BLOCK - 1] = pixel(row);
+                lanes[BLOCK] = pixel(row + 1);
+                lanes[BLOCK + 1] = pixel(row + 2);
+                lanes
+            });
+            let mut sorted = [[0; 3 * BLOCK]; 3];
+            let [low, mid, high] = &mut sorted;
+            let blocks = [low, mid, high].map(|row| row.as_chunks_mut().0);
+            let rows = rows.each_ref().map(|row| row.as_chunks().0);
+            sort_columns(rows, blocks);
+            let mut out = [[9; BLOCK]];
+            combine(sorted.each_ref().map(|row| &row[BLOCK - 1..]), Open, &[], &mut out);
+            assert_eq!(out[0][0], u8::from(bits.count_ones() >= 5), "window {bits:09b}");
+        }
+    }
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The arithmetic on blocks of lanes: one file per step, plain loops that vectorise.
+//!
+//! Slices of blocks of one call are equally long; a loop that pairs them stops at the shortest.
+#![allow(
+    clippy::needless_range_loop,
+    clippy::manual_memcpy,
+    reason = "lanes by number, in one loop: what vectorises"
+)]
+
+pub(crate) mod corner;
+pub(crate) mod edge;
+pub(crate) mod mad;
+pub(crate) mod median;
+pub(crate) mod sums;
+pub(crate) mod temporal;
+
+use crate::lane::{BLOCK, Block, Lane};
+
+/// A row from one lane before its first block to one lane after its last.
+pub(crate) type Near<'a, T> = &'a [T];
+
+/// Block `at` of such a row, with the lane before it and the lane after it.
+#[inline(always)]
+pub(crate) fn near<T>(row: Near<'_, T>, at: usize) -> &[T; BLOCK + 2] {
+    row[at * BLOCK..].first_chunk().expect("one lane more on each side")
+}
+
+/// The rows above, at and below.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Windows<'a, T> {
+    pub(crate) above: Near<'a, T>,
+    pub(crate) here: Near<'a, T>,
+    pub(crate) below: Near<'a, T>,
+}
+
+/// What windows see beyond the side of a region.
+pub(crate) trait Sides<T: Lane>: Copy {
+    /// What the window of lane `i` of block `at` sees at its left, center and right, in a row.
+    fn see(self, row: &[T; BLOCK + 2], at: usize, i: usize) -> (T, T, T);
+}
+
+/// The real neighbors.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Open;
+
+/// The region's own border pixel: every bit is set in the first and last columns of regions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seams<'a, T> {
+    pub(crate) first: &'a [Block<T>],
+    pub(crate) last: &'a [Block<T>],
+}
+
+impl<T: Lane> Sides<T> for Open {
+    #[inline(always)]
+    fn see(self, row: &[T; BLOCK + 2], _at: usize, i: usize) -> (T, T, T) {
+        (row[i], row[i + 1], row[i + 2])
+    }
+}
+
+impl<T: Lane> Sides<T> for Seams<'_, T> {
+    #[inline(always)]
+    fn see(self, row: &[T; BLOCK + 2], at: usize, i: usize) -> (T, T, T) {
+        let center = row[i + 1];
+        (
+            select(self.first[at][i], center, row[i]),
+            center,
+            select(self.last[at][i], center, row[i + 2]),
+        )
+    }
+}
+
+/// `yes` where the mask is set, otherwise `no`.
+#[inline(always)]
+fn select<T: Lane>(mask: T, yes: T, no: T) -> T {
+    no ^ ((yes ^ no) & mask)
+}

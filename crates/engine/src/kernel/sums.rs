@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Column sums of pixels and of their squares, and how columns become regions.
+
+use crate::lane::{BLOCK, Block, Lane};
+
+/// Adds every pixel to its column.
+#[inline(always)]
+pub(crate) fn add<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Sum>]) {
+    for (pixels, sums) in pixels.iter().zip(sums) {
+        for i in 0..BLOCK {
+            sums[i] += T::Sum::from(pixels[i]);
+        }
+    }
+}
+
+/// Adds the square of every pixel to its column.
+#[inline(always)]
+pub(crate) fn add_squares<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Square>]) {
+    for (pixels, sums) in pixels.iter().zip(sums) {
+        for i in 0..BLOCK {
+            sums[i] += pixels[i].square();
+        }
+    }
+}
+
+/// The columns of every region, added up; `side` columns to a region.
+#[inline(always)]
+pub(crate) fn by_region<V: Copy + Into<u64>>(columns: &[V], side: usize, regions: &mut [u64]) {
+    // The usual sizes as constants: then the inner loop has no counter.
+    match side {
+        4 => by_constant::<4, V>(columns, regions),
+        8 => by_constant::<8, V>(columns, regions),
+        16 => by_constant::<16, V>(columns, regions),
+        32 => by_constant::<32, V>(columns, regions),
+        64 => by_constant::<64, V>(columns, regions),
+        _ => {
+            for (columns, region) in columns.chunks_exact(side).zip(regions) {
+                *region = columns.iter().map(|&column| column.into()).sum();
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn by_constant<const SIDE: usize, V: Copy + Into<u64>>(columns: &[V], regions: &mut [u64]) {
+    for (columns, region) in columns.as_chunks::<SIDE>().0.iter().zip(regions) {
+        *region = columns.iter().map(|&column| column.into()).sum();
+    }
+}
+
+/// Puts a value of each region under its columns.
+#[inline(always)]
+pub(crate) fn spread<T: Copy>(
+    regions: &[u64],
+    side: usize,
+    value: impl Fn(u64) -> T,
+    columns: &mut [T],
+) {
+    match side {
+        8 => spread_constant::<8, T>(regions, value, columns),
+        16 => spread_constant::<16, T>(regions, value, columns),
+        32 => spread_constant::<32, T>(regions, value, columns),
+        64 => spread_constant::<64, T>(regions, value, columns),
+        _ => {
+            for (columns, &region) in columns.chunks_exact_mut(side).zip(regions) {
+                columns.fill(value(region));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn spread_constant<const SIDE: usize, T: Copy>(
+    regions: &[u64],
+    value: impl Fn(u64) -> T,
+    columns: &mut [T],
+) {
+    for (columns, &region) in columns.as_chunks_mut::<SIDE>().0.iter_mut().zip(regions) {
+        *columns = [value(region); SIDE];
+    }
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The temporal score: pixels that differ from their reference by more than a level.
+
+use crate::lane::{BLOCK, Block, Lane};
+
+/// Adds one to every lane that has changed, and makes what is now the next reference.
+#[inline(always)]
+pub(crate) fn count_and_replace<T: Lane>(
+    now: &[Block<T>],
+    reference: &mut [Block<T>],
+    level: T,
+    hits: &mut [Block<T>],
+) {
+    for ((now, reference), hits) in now.iter().zip(reference).zip(hits) {
+        let mut sums = *hits;
+        for i in 0..BLOCK {
+            sums[i] += changed(now[i], reference[i], level);
+        }
+        *hits = sums;
+        *reference = *now;
+    }
+}
+
+/// Adds one to every lane that has changed, and keeps what is now beside the reference.
+#[inline(always)]
+pub(crate) fn count_and_store<T: Lane>(
+    now: &[Block<T>],
+    reference: &[Block<T>],
+    level: T,
+    hits: &mut [Block<T>],
+    store: &mut [Block<T>],
+) {
+    for (((now, reference), hits), store) in now.iter().zip(reference).zip(hits).zip(store) {
+        let mut sums = *hits;
+        for i in 0..BLOCK {
+            sums[i] += changed(now[i], reference[i], level);
+        }
+        *hits = sums;
+        *store = *now;
+    }
+}
+
+/// One when the pixel has changed.
+#[inline(always)]
+fn changed<T: Lane>(now: T, reference: T, level: T) -> T {
+    now.distance(reference).minus(level).min(T::ONE)
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What one frame leads to, region by region.
+
+use std::ops::Range;
+
+use foveate_model::Action;
+
+use crate::plan::FEATURES;
+
+/// Scores and decisions of every region, numbered row by row: the fields of the functional model's
+/// outcome. The rendered frame is at [`Engine::rendered`](crate::Engine::rendered).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Spatial relevance of every region.
+    pub srs: Vec<bool>,
+    /// Temporal relevance of every region.
+    pub trs: Vec<bool>,
+    /// Both: new pixels of the region are forwarded.
+    pub active: Vec<bool>,
+    /// What becomes of every region on the screen.
+    pub actions: Vec<Action>,
+    /// Changed pixels of every region; all of them where there was no valid reference.
+    pub temporal_count: Vec<u32>,
+    /// Scores, by feature in the order of the design and then by region.
+    pub scores: Vec<Vec<u64>>,
+    /// Regions whose results were kept because their pixels (and, where neighbors are seen, those of
+    /// the regions around) were bit-identical to those of the frame before.
+    pub skipped: usize,
+}
+
+impl Outcome {
+    pub(crate) fn new(features: usize, regions: usize) -> Self {
+        Self {
+            srs: vec![false; regions],
+            trs: vec![false; regions],
+            active: vec![false; regions],
+            actions: vec![Action::Hold; regions],
+            temporal_count: vec![0; regions],
+            scores: vec![vec![0; regions]; features],
+            skipped: 0,
+        }
+    }
+
+    /// The results of some regions, to be written.
+    pub(crate) fn results(&mut self) -> Results<'_> {
+        let mut scores = self.scores.iter_mut();
+        Results {
+            srs: &mut self.srs,
+            trs: &mut self.trs,
+            active: &mut self.active,
+            actions: &mut self.actions,
+            temporal_count: &mut self.temporal_count,
+            scores: std::array::from_fn(|_| scores.next().map_or(&mut [][..], |own| own)),
+        }
+    }
+}
+
+/// The results of consecutive regions.
+#[derive(Debug)]
+pub(crate) struct Results<'a> {
+    pub(crate) srs: &'a mut [bool],
+    pub(crate) trs: &'a mut [bool],
+    pub(crate) active: &'a mut [bool],
+    pub(crate) actions: &'a mut [Action],
+    pub(crate) temporal_count: &'a mut [u32],
+    /// By feature; empty where the design has fewer.
+    pub(crate) scores: [&'a mut [u64]; FEATURES],
+}
+
+impl<'a> Results<'a> {
+    /// Cuts the first `regions` off.
+    pub(crate) fn split_off(&mut self, regions: usize) -> Results<'a> {
+        let scores = &mut self.scores;
+        Results {
+            srs: split_off(&mut self.srs, regions),
+            trs: split_off(&mut self.trs, regions),
+            active: split_off(&mut self.active, regions),
+            actions: split_off(&mut self.actions, regions),
+            temporal_count: split_off(&mut self.temporal_count, regions),
+            scores: std::array::from_fn(|feature| split_off(&mut scores[feature], regions)),
+        }
+    }
+}
+
+impl Results<'_> {
+    /// The results of some of the regions.
+    #[inline(always)]
+    pub(crate) fn rows(&mut self, regions: Range<usize>) -> Results<'_> {
+        let [a, b, c, d] = &mut self.scores;
+        Results {
+            srs: &mut self.srs[regions.clone()],
+            trs: &mut self.trs[regions.clone()],
+            active: &mut self.active[regions.clone()],
+            actions: &mut self.actions[regions.clone()],
+            temporal_count: &mut self.temporal_count[regions.clone()],
+            scores: [
+                within(a, &regions),
+                within(b, &regions),
+                within(c, &regions),
+                within(d, &regions),
+            ],
+        }
+    }
+}
+
+/// Some of the values, or none where there are none.
+#[inline(always)]
+fn within<'s, T>(values: &'s mut [T], range: &Range<usize>) -> &'s mut [T] {
+    let len = values.len();
+    &mut values[range.start.min(len)..range.end.min(len)]
+}
+
+/// Cuts the first `len` values off, or all that are there.
+pub(crate) fn split_off<'a, T>(values: &mut &'a mut [T], len: usize) -> &'a mut [T] {
+    let all = std::mem::take(values);
+    let (first, rest) = all.split_at_mut(len.min(all.len()));
+    *values = rest;
+    first
+}

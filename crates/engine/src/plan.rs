@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A design as the kernels need it: geometry in indices, thresholds in lanes.
+
+use foveate_spec::{
+    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+};
+
+use crate::aligned::Aligned;
+use crate::lane::{BLOCK, Lane, threshold};
+
+/// Features a design can have.
+pub(crate) const FEATURES: usize = 4;
+
+/// Blocks in a batch of rows.
+const BATCH: usize = 32;
+
+/// What a design asks for.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan<T: Lane> {
+    /// Frame width without padding.
+    pub(crate) width: usize,
+    /// Frame height without padding.
+    pub(crate) height: usize,
+    /// Side of a region.
+    pub(crate) side: usize,
+    /// Regions side by side.
+    pub(crate) columns: usize,
+    /// Regions one below the other.
+    pub(crate) rows: usize,
+    /// Blocks of a padded row, the last perhaps beyond the padding.
+    pub(crate) blocks: usize,
+    pub(crate) median: bool,
+    /// Where regions begin and end that do not see each other.
+    pub(crate) seams: Option<SeamMasks<T>>,
+    /// Half of the level of `edge`.
+    pub(crate) edge: Option<T::Signed>,
+    /// The level of `corner`.
+    pub(crate) corner: Option<T>,
+    /// Fraction bits of the mean of `mad`.
+    pub(crate) mad: Option<u32>,
+    pub(crate) variance: bool,
+    pub(crate) features: Vec<Feature>,
+    pub(crate) combine: Combine,
+    pub(crate) level: T,
+    pub(crate) min_count: u32,
+    pub(crate) reference: Reference,
+    pub(crate) irrelevant: Irrelevant,
+    pub(crate) payload: Payload,
+}
+
+/// A feature in the order of the design.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Feature {
+    pub(crate) kind: FeatureKind,
+    pub(crate) min_score: u64,
+}
+
+/// Every bit set in the first and in the last column of each region.
+#[derive(Clone, Debug)]
+pub(crate) struct SeamMasks<T: Lane> {
+    pub(crate) first: Aligned<T>,
+    pub(crate) last: Aligned<T>,
+}
+
+impl<T: Lane> Plan<T> {
+    pub(crate) fn new(design: &Design) -> Self {
+        let side = index(design.region_size());
+        let columns = index(design.columns());
+        let blocks = (columns * side).div_ceil(BLOCK);
+        let level = |kind| design.feature(kind).map(|feature| feature.level().unwrap_or_default());
+        Self {
+            width: index(design.width()),
+            height: index(design.height()),
+            side,
+            columns,
+            rows: index(design.rows()),
+            blocks,
+            median: design.filter() == Filter::Median3x3,
+            seams: (design.neighborhood() == Neighborhood::Isolated)
+                .then(|| SeamMasks::new(side, blocks)),
+            edge: level(FeatureKind::Edge).map(half),
+            corner: level(FeatureKind::Corner).map(threshold),
+            mad: design
+                .feature(FeatureKind::Mad)
+                .map(|feature| feature.mean().map_or(0, |mean| mean.fraction_bits)),
+            variance: design.feature(FeatureKind::Variance).is_some(),
+            features: design
+                .features()
+                .iter()
+                .map(|feature| Feature { kind: feature.kind(), min_score: feature.min_score() })
+                .collect(),
+            combine: design.combine(),
+            level: threshold(design.temporal().level),
+            min_count: design.temporal().min_count,
+            reference: design.temporal().reference,
+            irrelevant: design.irrelevant(),
+            payload: design.payload(),
+        }
+    }
+
+    /// Regions of a frame.
+    pub(crate) fn regions(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Values from one padded row to the next.
+    pub(crate) fn stride(&self) -> usize {
+        self.blocks * BLOCK
+    }
+
+    /// Width with padding.
+    pub(crate) fn padded_width(&self) -> usize {
+        self.columns * self.side
+    }
+
+    /// Whether a feature looks at windows.
+    pub(crate) fn has_windows(&self) -> bool {
+        self.edge.is_some() || self.corner.is_some()
+    }
+
+    /// Rows of a run of blocks that go through each step together: in narrow ones several, since a step that reads
+    /// what the one before has only just written waits for it.
+    pub(crate) fn batch(&self, run: usize) -> usize {
+        (BATCH / run).clamp(1, self.side)
+    }
+
+    /// Rows to keep for a batch and the rows around it: a power of two, so that the place of a row is
+    /// found without a division.
+    pub(crate) fn slots(&self, run: usize) -> usize {
+        (self.batch(run) + 2).next_power_of_two()
+    }
+
+    /// Blocks that have to be denoised on each side of a run, for the windows at its ends.
+    pub(crate) fn margin(&self) -> usize {
+        // Without a look over seams, and with none across the end of a block, there are none.
+        usize::from(self.seams.is_none() || !BLOCK.is_multiple_of(self.side))
+    }
+
+    /// Pixels of a region.
+    pub(crate) fn region_pixels(&self) -> u32 {
+        u32::try_from(self.side * self.side).unwrap_or(u32::MAX)
+    }
+
+    /// The rows that windows of a row in band `band` may reach: first and last.
+    pub(crate) fn reach(&self, band: usize) -> (usize, usize) {
+        match self.seams {
+            Some(_) => (band * self.side, (band + 1) * self.side - 1),
+            None => (0, self.rows * self.side - 1),
+        }
+    }
+}
+
+impl<T: Lane> SeamMasks<T> {
+    fn new(side: usize, blocks: usize) -> Self {
+        let mask = |column: usize| {
+            let mut mask = Aligned::<T>::new(blocks * BLOCK);
+            for (x, lane) in mask.iter_mut().enumerate() {
+                *lane = if x % side == column { T::MAX } else { T::default() };
+            }
+            mask
+        };
+        Self { first: mask(0), last: mask(side - 1) }
+    }
+}
+
+/// Half of an edge level, rounded down, as lane type: at most 3 * 65535.
+fn half<S: TryFrom<u32> + From<T>, T: Lane<Signed = S>>(level: u32) -> S {
+    S::try_from(level / 2).unwrap_or_else(|_| S::from(T::MAX))
+}
+
+/// A size, coordinate or number of a region as an index. Lossless: `usize` has 32 bits or more on
+/// every platform that can hold a frame.
+pub(crate) const fn index(value: u32) -> usize {
+    value as usize
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Screen and references after the decision: copy, keep or clear each region.
+
+use foveate_model::Action;
+use foveate_spec::{Payload, Reference};
+
+use crate::lane::Lane;
+use crate::pixels::Pixels;
+use crate::plan::Plan;
+
+/// The part of a band's planes that its actions change. The screen has no padding.
+#[derive(Debug)]
+pub(crate) struct Canvas<'a, T> {
+    pub(crate) screen: &'a mut [T],
+    pub(crate) denoised: &'a [T],
+    pub(crate) reference: &'a mut [T],
+    /// Regions that have a reference.
+    pub(crate) valid: &'a mut [bool],
+    /// Regions of the screen that are black already.
+    pub(crate) black: &'a mut [bool],
+}
+
+impl<T: Lane> Canvas<'_, T> {
+    /// Does what was decided for every region of band `number`.
+    #[inline(always)]
+    pub(crate) fn act(
+        &mut self,
+        plan: &Plan<T>,
+        raw: Pixels<'_, T>,
+        number: usize,
+        actions: &[Action],
+    ) {
+        let (side, stride, top) = (plan.side, plan.stride(), number * plan.side);
+        let height = side.min(plan.height - top);
+        for (column, &action) in actions.iter().enumerate() {
+            let left = column * side;
+            let width = side.min(plan.width - left);
+            match action {
+                Action::Forward => {
+                    let (source, from, step) = match plan.payload {
+                        Payload::Denoised => (self.denoised, left, stride),
+                        Payload::Raw => (raw.values, top * raw.stride + left, raw.stride),
+                    };
+                    let to = &mut self.screen[left..];
+                    copy(&source[from..], step, to, plan.width, width, height);
+                    self.black[column] = false;
+                }
+                Action::Hold => {}
+                Action::Blank if self.black[column] => {}
+                Action::Blank => {
+                    for y in 0..height {
+                        self.screen[y * plan.width + left..][..width].fill(T::default());
+                    }
+                    self.black[column] = true;
+                }
+            }
+            match (plan.reference, action) {
+                (Reference::Previous, _) => self.valid[column] = true,
+                (Reference::LastSent, Action::Forward) => {
+                    let (from, to) = (&self.denoised[left..], &mut self.reference[left..]);
+                    copy(from, stride, to, stride, side, side);
+                    self.valid[column] = true;
+                }
+                (Reference::LastSent, Action::Hold) => {}
+                (Reference::LastSent, Action::Blank) => self.valid[column] = false,
+            }
+        }
+    }
+}
+
+/// Copies `width` x `height` values between planes.
+#[inline(always)]
+fn copy<T: Copy>(
+    from: &[T],
+    from_stride: usize,
+    to: &mut [T],
+    to_stride: usize,
+    width: usize,
+    height: usize,
+) {
+    // The usual widths as constants: a few moves in place of a call.
+    match width {
+        8 => copy_constant::<8, T>(from, from_stride, to, to_stride, height),
+        16 => copy_constant::<16, T>(from, from_stride, to, to_stride, height),
+        32 => copy_constant::<32, T>(from, from_stride, to, to_stride, height),
+        64 => copy_constant::<64, T>(from, from_stride, to, to_stride, height),
+        _ => {
+            for y in 0..height {
+                to[y * to_stride..][..width].copy_from_slice(&from[y * from_stride..][..width]);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn copy_constant<const WIDTH: usize, T: Copy>(
+    from: &[T],
+    from_stride: usize,
+    to: &mut [T],
+    to_stride: usize,
+    height: usize,
+) {
+    for y in 0..height {
+        let from = from[y * from_stride..].first_chunk::<WIDTH>();
+        let to = to[y * to_stride..].first_chunk_mut::<WIDTH>();
+        if let (Some(from), Some(to)) = (from, to) {
+            *to = *from;
+        }
+    }
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which vector instructions the inner loops are compiled for, chosen when the program runs.
+//!
+//! The kernels are plain loops over fixed blocks of lanes; what makes them fast is the instruction
+//! set the compiler may use for them. A [`Task`] is compiled once per [`Level`] and entered through
+//! a function that has the level's target features, into which everything below is inlined.
+//!
+//! This is the only module with `unsafe`: calling a function with target features is sound only on
+//! a processor that has them, which [`Level::detect`] has asked and a private constructor protects.
+#![allow(unsafe_code, reason = "entering code compiled for an instruction set that was detected")]
+
+/// Work whose `run` (and everything it calls) is marked `#[inline(always)]`, so that it is compiled
+/// for the instruction set from which it is called.
+pub(crate) trait Task {
+    /// Does the work.
+    fn run(self);
+}
+
+/// An instruction set that this processor has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Level(Set);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Set {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Level {
+    /// What every processor of the target has.
+    pub const PORTABLE: Self = Self(Set::Portable);
+
+    /// The best that this processor has.
+    #[must_use]
+    pub fn detect() -> Self {
+        Self::available().last().copied().unwrap_or(Self::PORTABLE)
+    }
+
+    /// Everything that this processor has, the best last.
+    #[must_use]
+    pub fn available() -> Vec<Self> {
+        #[allow(unused_mut, reason = "only x86-64 has more than one")]
+        let mut levels = vec![Self::PORTABLE];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2");
+            let avx512 = is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512bw")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512vl");
+            if avx2 {
+                levels.push(Self(Set::Avx2));
+            }
+            if avx2 && avx512 {
+                levels.push(Self(Set::Avx512));
+            }
+        }
+        levels
+    }
+
+    /// The name as reports show it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Set::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx512 => "avx512",
+        }
+    }
+
+    /// Runs a task with these instructions.
+    pub(crate) fn run(self, task: impl Task) {
+        match self.0 {
+            Set::Portable => task.run(),
+            // SAFETY: the field is private and only `available` makes this value, after asking the
+            // processor for every feature that the function enables.
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 => unsafe { run_avx2(task) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx512 => unsafe { run_avx512(task) },
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi2")]
+fn run_avx2(task: impl Task) {
+    task.run();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi2,avx512f,avx512bw,avx512dq,avx512vl")]
+fn run_avx512(task: impl Task) {
+    task.run();
+}
+
+/// Asks for a value to be brought near the processor, without waiting for it.
+#[inline(always)]
+pub(crate) fn prefetch<T>(value: &T) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a prefetch is a hint that neither faults nor changes anything, and every x86-64
+        // has it.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(value).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = value;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Add<'a>(&'a mut u32);
+
+    impl Task for Add<'_> {
+        #[inline(always)]
+        fn run(self) {
+            *self.0 += 1;
+        }
+    }
+
+    #[test]
+    fn every_available_level_runs_its_task() {
+        let levels = Level::available();
+        let mut ran = 0;
+        for level in &levels {
+            level.run(Add(&mut ran));
+        }
+        assert_eq!(usize::try_from(ran).unwrap(), levels.len());
+        assert_eq!((levels[0].name(), levels.last()), ("portable", Some(&Level::detect())));
+    }
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Who does the work: the thread that asks, and others that take strips from the same queue.
+//!
+//! The caller never waits for a thread to wake up; it waits only for strips that others have begun.
+
+use std::sync::{Mutex, PoisonError};
+
+use crate::simd::{Level, Task};
+
+/// Strips per thread: enough that a thread that is interrupted does not hold up the others.
+const STRIPS_PER_THREAD: usize = 4;
+/// Pixels of the smallest strip that is worth handing to another thread.
+const SMALLEST_STRIP: usize = 1 << 15;
+
+/// Threads and instructions.
+#[derive(Debug)]
+pub(crate) struct Workers {
+    pub(crate) level: Level,
+    /// The threads beside the one that asks.
+    pub(crate) others: Option<rayon::ThreadPool>,
+}
+
+impl Workers {
+    /// The thread that asks, alone.
+    pub(crate) fn alone(level: Level) -> Self {
+        Self { level, others: None }
+    }
+
+    /// `threads` threads, the one that asks among them.
+    pub(crate) fn new(level: Level, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+        if threads <= 1 {
+            return Ok(Self::alone(level));
+        }
+        let others = rayon::ThreadPoolBuilder::new().num_threads(threads - 1).build()?;
+        Ok(Self { level, others: Some(others) })
+    }
+
+    fn others(&self) -> usize {
+        self.others.as_ref().map_or(0, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Into how many strips a frame of so many bands and pixels is divided.
+    pub(crate) fn strips(&self, bands: usize, pixels: usize) -> usize {
+        match self.others() {
+            0 => 1,
+            others => {
+                let most = ((others + 1) * STRIPS_PER_THREAD).min(bands);
+                (pixels / SMALLEST_STRIP).clamp(1, most)
+            }
+        }
+    }
+
+    /// Runs tasks that share nothing, in any order.
+    pub(crate) fn run<W: Task + Send>(&self, tasks: impl ExactSizeIterator<Item = W>) {
+        match &self.others {
+            Some(pool) if tasks.len() > 1 => {
+                let helpers = self.others().min(tasks.len() - 1);
+                let tasks: Vec<W> = tasks.collect();
+                let queue = Mutex::new(tasks.into_iter());
+                let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let work = || {
+                    while let Some(task) = next() {
+                        self.level.run(task);
+                    }
+                };
+                pool.in_place_scope(|scope| {
+                    for _ in 0..helpers {
+                        scope.spawn(|_| work());
+                    }
+                    work();
+                });
+            }
+            _ => tasks.for_each(|task| self.level.run(task)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    struct Count<'a>(&'a AtomicUsize, usize);
+
+    impl Task for Count<'_> {
+        #[inline(always)]
+        fn run(self) {
+            self.0.fetch_add(self.1, Ordering::Relaxed);
+        }
+    }
+
+    #[test]
+    fn every_task_runs_once_whoever_works() {
+        for threads in 1..=3 {
+            let workers = Workers::new(Level::PORTABLE, threads).unwrap();
+            for tasks in [0, 1, 2, 50] {
+                let sum = AtomicUsize::new(0);
+                let tasks: Vec<_> = (0..tasks).map(|number| Count(&sum, number + 1)).collect();
+                let expected = tasks.len() * (tasks.len() + 1) / 2;
+                workers.run(tasks.into_iter());
+                assert_eq!(sum.into_inner(), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn small_frames_are_not_divided() {
+        let workers = Workers::new(Level::PORTABLE, 2).unwrap();
+        assert_eq!(workers.strips(28, 224 * 224), 1);
+        assert_eq!(workers.strips(34, 1920 * 1088), 8);
+        assert_eq!(workers.strips(3, 1920 * 1088), 3);
+        assert_eq!(Workers::alone(Level::PORTABLE).strips(34, 1920 * 1088), 1);
+    }
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Films with everything that matters between two frames: noise, stillness, small changes, flat
+//! and stepped areas.
+
+use foveate_model::Frame;
+use foveate_spec::Design;
+use proptest::prelude::*;
+
+/// How a frame comes from the one before.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Change {
+    /// Every pixel anew.
+    Noise,
+    /// Nothing.
+    Still,
+    /// One pixel, at these fractions of width and height.
+    Spot(f64, f64),
+    /// A square of a quarter of the width anew.
+    Patch(f64, f64),
+    /// The same square, of one value: what was relevant there is no longer.
+    Wipe(f64, f64),
+    /// One value everywhere.
+    Flat,
+    /// Two values, so that hits and ties are many.
+    Binary,
+    /// Every pixel one level up.
+    Fade,
+}
+
+pub(crate) fn scripts() -> impl Strategy<Value = (u64, Vec<Change>)> {
+    let place = || (0.0..1.0f64, 0.0..1.0f64);
+    let change = prop_oneof![
+        2 => Just(Change::Noise),
+        5 => Just(Change::Still),
+        3 => place().prop_map(|(x, y)| Change::Spot(x, y)),
+        2 => place().prop_map(|(x, y)| Change::Patch(x, y)),
+        2 => place().prop_map(|(x, y)| Change::Wipe(x, y)),
+        1 => Just(Change::Flat),
+        1 => Just(Change::Binary),
+        1 => Just(Change::Fade),
+    ];
+    (any::<u64>(), proptest::collection::vec(change, 2..9))
+}
+
+/// The frames of a script; the first is noise.
+pub(crate) fn film(design: &Design, seed: u64, script: &[Change]) -> Vec<Frame> {
+    let mut random = Random(seed | 1);
+    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
+    let max = u16::try_from(design.pixel_max()).unwrap();
+    let mut pixels: Vec<u16> = (0..width * height).map(|_| random.below(max)).collect();
+    let mut frames = vec![Frame::new(width, height, bits, pixels.clone()).unwrap()];
+    for &change in script {
+        let area = (f64::from(width), f64::from(height));
+        match change {
+            Change::Still => {}
+            Change::Noise => pixels.fill_with(|| random.below(max)),
+            Change::Flat => pixels.fill(random.below(max)),
+            Change::Binary => {
+                let values = [random.below(max), random.below(max)];
+                pixels.fill_with(|| values[usize::from(random.below(1))]);
+            }
+            Change::Fade => pixels.iter_mut().for_each(|p| *p = p.saturating_add(1).min(max)),
+            Change::Spot(x, y) | Change::Patch(x, y) | Change::Wipe(x, y) => {
+                let wiped = matches!(change, Change::Wipe(..)).then(|| random.below(max));
+                let side = if matches!(change, Change::Spot(..)) { 1 } else { width / 4 + 1 };
+                let (x, y) = (floor(x * area.0), floor(y * area.1));
+                for y in y..(y + side).min(height) {
+                    for x in x..(x + side).min(width) {
+                        let at = usize::try_from(y * width + x).unwrap();
+                        pixels[at] = wiped.unwrap_or_else(|| random.below(max));
+                    }
+                }
+            }
+        }
+        frames.push(Frame::new(width, height, bits, pixels.clone()).unwrap());
+    }
+    frames
+}
+
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 <= x < width")]
+fn floor(x: f64) -> u32 {
+    x as u32
+}
+
+/// A small generator of random numbers, the same on every machine.
+struct Random(u64);
+
+impl Random {
+    /// A number in `0..=max`.
+    fn below(&mut self, max: u16) -> u16 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        u16::try_from((self.0 >> 20) % (u64::from(max) + 1)).unwrap()
+    }
+}

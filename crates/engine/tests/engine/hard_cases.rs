@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cases that random designs would meet too seldom.
+
+use foveate_engine::Options;
+use foveate_model::Frame;
+use foveate_spec::{
+    Config, Design, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
+};
+
+use crate::film::{Change, film};
+use crate::properties::check;
+
+fn design(width: u32, height: u32, side: u32, change: impl FnOnce(&mut Config)) -> Design {
+    let mut config = Config::default();
+    (config.frame.width, config.frame.height) = (Some(width), Some(height));
+    config.region.size = side;
+    change(&mut config);
+    config.validate().unwrap()
+}
+
+fn every_feature(config: &mut Config) {
+    config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+}
+
+/// The largest sums there are: 64 x 64 regions of extreme pixels, in both lane widths.
+#[test]
+fn the_largest_sums_stay_inside_their_lanes() {
+    for bits in [8, 16] {
+        let design = design(128, 128, 64, |config| {
+            every_feature(config);
+            config.frame.pixel_bits = bits;
+            config.spatial[0].level = Some(0);
+            config.spatial[1].level = Some(0);
+            config.spatial[2].mean_fraction_bits = Some(12);
+        });
+        let max = u16::try_from(design.pixel_max()).unwrap();
+        let full = Frame::filled(128, 128, bits, max).unwrap();
+        let stripes = |x: u32, _| if (x / 2).is_multiple_of(2) { 0 } else { max };
+        let stripes = Frame::from_fn(128, 128, bits, stripes).unwrap();
+        let halves = Frame::from_fn(128, 128, bits, |_, y| if y < 32 { 0 } else { max }).unwrap();
+        check(&design, &[full, stripes, halves], Options::default());
+    }
+}
+
+/// A scene that stands still is skipped for every rule of reference and screen, and nothing is
+/// lost by it when it moves again.
+#[test]
+fn stillness_is_skipped_and_exact() {
+    use Change::{Noise, Patch, Spot, Still};
+    let script = [
+        Still,
+        Still,
+        Still,
+        Spot(0.5, 0.5),
+        Still,
+        Patch(0.2, 0.6),
+        Still,
+        Still,
+        Noise,
+        Still,
+        Still,
+        Still,
+        Still,
+        Still,
+        Still,
+        Still,
+        Spot(0.99, 0.0),
+        Still,
+    ];
+    for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
+        for reference in [Reference::Previous, Reference::LastSent] {
+            for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
+                for min_count in [0, 1, 40] {
+                    let design = design(250, 70, 8, |config| {
+                        every_feature(config);
+                        config.region.neighborhood = neighborhood;
+                        config.temporal.reference = reference;
+                        config.temporal.min_count = min_count;
+                        config.render.irrelevant = irrelevant;
+                        config.spatial[0].level = Some(400);
+                    });
+                    let frames = film(&design, 77, &script);
+                    for threads in [1, 2] {
+                        let options = Options { threads, ..Options::default() };
+                        assert!(check(&design, &frames, options) > 1000);
+                        assert_eq!(check(&design, &frames, Options { skip: false, ..options }), 0);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A spot changes what its neighbors' windows see, two pixels away and no further: each spot near
+/// a region's border, in a scene that is skipped everywhere else.
+#[test]
+fn the_halo_of_a_skipped_region_is_watched() {
+    let design = design(200, 24, 8, |config| {
+        every_feature(config);
+        config.region.neighborhood = Neighborhood::Shared;
+        config.spatial[0].level = Some(10);
+        config.spatial[1].level = Some(3);
+    });
+    for x in 60u32..70 {
+        for y in 5u32..11 {
+            let place = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let spots = [Change::Still, Change::Spot(place.0 / 200.0, place.1 / 24.0)];
+            let frames = film(&design, u64::from(100 * x + y), &spots);
+            assert!(check(&design, &frames, Options::default()) > 50);
+        }
+    }
+}
+
+/// Changes far apart in one band are computed as several runs, none of which takes rows of another.
+#[test]
+fn several_runs_of_one_band_do_not_mix() {
+    for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
+        for side in [8, 12] {
+            let design = design(1000, 40, side, |config| {
+                every_feature(config);
+                config.region.neighborhood = neighborhood;
+            });
+            let mut frames = film(&design, 21, &[Change::Still]);
+            for round in 0..3 {
+                let last = frames.last().unwrap().clone();
+                let spots = [40 + round, 450 + round, 905 + round];
+                let pixel = |x, y| match last.get(x, y) {
+                    pixel if spots.contains(&x) && y % 8 == 3 => 255 - pixel,
+                    pixel => pixel,
+                };
+                frames.push(Frame::from_fn(1000, 40, 8, pixel).unwrap());
+            }
+            assert!(check(&design, &frames, Options::default()) > 500);
+        }
+    }
+}
+
+/// A region that was sent, is wiped and then stands still: what its reference is worth changes in
+/// frames in which its pixels do not.
+#[test]
+fn what_is_still_after_a_wipe_loses_its_reference() {
+    let script = [
+        Change::Still,
+        Change::Still,
+        Change::Wipe(0.3, 0.1),
+        Change::Still,
+        Change::Still,
+        Change::Patch(0.3, 0.1),
+        Change::Still,
+    ];
+    for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
+        let design = design(600, 64, 8, |config| {
+            config.temporal.reference = Reference::LastSent;
+            config.render.irrelevant = irrelevant;
+        });
+        assert!(check(&design, &film(&design, 9, &script), Options::default()) > 1000);
+    }
+}
+
+/// Other columns of one block are computed again, and stay what they were.
+#[test]
+fn regions_that_share_a_block_with_a_change_stay_exact() {
+    for side in [3, 5, 6, 7, 12, 48] {
+        let design = design(300, 3 * side, side, every_feature);
+        let script =
+            [Change::Still, Change::Spot(0.45, 0.5), Change::Still, Change::Spot(0.9, 0.1)];
+        check(&design, &film(&design, 5, &script), Options::default());
+    }
+}
+
+/// Frames that are large enough to be divided among threads: strips see their neighbors' pixels, and
+/// the results are those of one thread.
+#[test]
+fn strips_of_several_threads_meet_without_a_seam() {
+    use Change::{Noise, Patch, Spot, Still};
+    let script = [Still, Still, Patch(0.4, 0.2), Still, Noise, Still, Spot(0.5, 0.5)];
+    for side in [5, 8, 32] {
+        for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
+            for reference in [Reference::Previous, Reference::LastSent] {
+                let design = design(530, 270, side, |config| {
+                    every_feature(config);
+                    config.region.neighborhood = neighborhood;
+                    config.temporal.reference = reference;
+                });
+                let frames = film(&design, 3, &script);
+                for threads in [2, 3] {
+                    let options = Options { threads, ..Options::default() };
+                    check(&design, &frames, options);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The engine against the functional model: every design, every way to run, many frames.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod film;
+mod hard_cases;
+mod properties;
+mod recipe;
+mod refusals;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Engine and model give the same results for every design, film, instruction set and number of
+//! threads, whether regions are skipped or not.
+
+use foveate_engine::{Engine, Level, Options, Outcome, Rendered};
+use foveate_model::{Camera, Frame};
+use foveate_spec::Design;
+use proptest::prelude::*;
+
+use crate::film::{film, scripts};
+use crate::recipe::designs;
+
+pub(crate) fn assert_same(fast: &Outcome, clear: &foveate_model::Outcome, context: &str) {
+    assert_eq!(fast.scores, clear.scores, "scores, {context}");
+    assert_eq!(fast.temporal_count, clear.temporal_count, "temporal count, {context}");
+    assert_eq!(fast.srs, clear.srs, "srs, {context}");
+    assert_eq!(fast.trs, clear.trs, "trs, {context}");
+    assert_eq!(fast.active, clear.active, "active, {context}");
+    assert_eq!(fast.actions, clear.actions, "actions, {context}");
+}
+
+/// Runs a film through both; returns how many regions were skipped.
+pub(crate) fn check(design: &Design, frames: &[Frame], options: Options) -> usize {
+    let mut camera = Camera::new(design);
+    let mut engine = Engine::with_options(design, options).unwrap();
+    let mut skipped = 0;
+    for (number, frame) in frames.iter().enumerate() {
+        let context = format!("frame {number}, {options:?}, {:?}", design.config());
+        let clear = camera.step(frame).unwrap();
+        let fast = engine.step(frame).unwrap();
+        assert_same(fast, clear, &context);
+        skipped += fast.skipped;
+        assert_eq!(engine.rendered().to_words(), clear.rendered.pixels(), "screen, {context}");
+    }
+    // A reset forgets everything.
+    camera.reset();
+    engine.reset();
+    if let Some(frame) = frames.last() {
+        assert_same(engine.step(frame).unwrap(), camera.step(frame).unwrap(), "after a reset");
+    }
+    skipped
+}
+
+fn options() -> impl Strategy<Value = Options> {
+    let level = proptest::sample::select(Level::available());
+    (1usize..=2, any::<bool>(), level).prop_map(|(threads, skip, level)| Options {
+        threads,
+        skip,
+        level,
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn engine_equals_the_model(
+        design in designs(),
+        (seed, script) in scripts(),
+        options in options(),
+    ) {
+        check(&design, &film(&design, seed, &script), options);
+    }
+
+    /// A frame where it lies, with a stride, gives what a copy of it gives.
+    #[test]
+    fn rows_with_a_stride_equal_a_whole_frame(
+        design in designs(),
+        (seed, script) in scripts(),
+        gap in 0usize..5,
+    ) {
+        let (mut plain, mut strided) = (Engine::new(&design), Engine::new(&design));
+        let width = usize::try_from(design.width()).unwrap();
+        for frame in film(&design, seed, &script) {
+            let rows = frame.pixels().chunks(width);
+            let words: Vec<u16> =
+                rows.flat_map(|row| row.iter().copied().chain(vec![u16::MAX; gap])).collect();
+            let expected = plain.step(&frame).unwrap();
+            match plain_bits(&design) {
+                true => {
+                    let bytes: Vec<u8> = words.iter().map(|&p| p.to_le_bytes()[0]).collect();
+                    prop_assert_eq!(strided.step_u8(&bytes, width + gap).unwrap(), expected);
+                }
+                false => prop_assert_eq!(strided.step_u16(&words, width + gap).unwrap(), expected),
+            }
+            prop_assert_eq!(strided.rendered(), plain.rendered());
+            let bytes = matches!(plain.rendered(), Rendered::Bytes(_));
+            prop_assert_eq!(bytes, plain_bits(&design));
+        }
+    }
+}
+
+fn plain_bits(design: &Design) -> bool {
+    design.pixel_bits() <= 8
+}

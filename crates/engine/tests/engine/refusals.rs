@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is no frame of the design is refused by name, and changes nothing.
+
+use foveate_engine::{Engine, EngineError, Outcome};
+use foveate_model::Frame;
+use foveate_spec::{Config, Design};
+
+fn design(bits: u32) -> Design {
+    let mut config = Config::default();
+    (config.frame.width, config.frame.height) = (Some(20), Some(9));
+    config.frame.pixel_bits = bits;
+    config.validate().unwrap()
+}
+
+fn message(result: Result<&Outcome, EngineError>) -> String {
+    result.unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_no_frame_of_the_design_is_refused() {
+    let mut engine = Engine::new(&design(6));
+    let other = Frame::filled(20, 9, 8, 1).unwrap();
+    assert_eq!(
+        message(engine.step(&other)),
+        "a frame of 20x9 pixels of 8 bits was given to a design for 20x9 pixels of 6 bits; give it \
+         frames of that kind"
+    );
+    assert_eq!(
+        message(engine.step_u8(&[0; 179], 20)),
+        "179 pixels in rows 20 apart hold no frame of 20x9; the stride must be at least 20 and the \
+         pixels at least 180"
+    );
+    assert!(engine.step_u8(&[0; 1000], 19).is_err());
+    assert!(engine.step_u8(&[0; 1000], usize::MAX).is_err());
+    let mut pixels = [63; 8 * 30 + 20];
+    // Between the rows anything may lie.
+    pixels[25] = 200;
+    assert!(engine.step_u8(&pixels, 30).is_ok());
+    let before = (engine.outcome().clone(), engine.rendered().to_words());
+    pixels[30 + 7] = 64;
+    let refused = message(engine.step_u8(&pixels, 30));
+    assert_eq!(refused, "pixel (7, 1) is 64; the largest value of 6 bits is 63");
+    assert_eq!((engine.outcome().clone(), engine.rendered().to_words()), before);
+    let refused = message(engine.step_u16(&[0; 180], 20));
+    assert_eq!(refused, "pixels of 6 bits are held as u8; the design was given u16");
+    assert!(Engine::new(&design(9)).step_u8(&[0; 180], 20).is_err());
+}

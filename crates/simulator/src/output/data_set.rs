@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The data set of the active regions: every image as a receiver would see it, in the form of the set
+//! that it came from, with labels.
+
+mod idx;
+mod tree;
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::npy::NpyWriter;
+use super::sink::{Sink, Step};
+use crate::SimulatorError;
+use crate::source::form::{Labels, SetFiles, SetForm};
+
+/// Where a data set is, below the folder of its run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DataSet {
+    /// The IDX file, or the folder of images.
+    pub images: String,
+    /// The IDX file of labels, if the set is one with labels.
+    pub labels: Option<String>,
+    /// Names of the classes in the order of their numbers in `labels.npy`; none where labels are
+    /// numbers.
+    pub classes: Vec<String>,
+}
+
+impl DataSet {
+    pub(super) fn of(form: &SetForm) -> Self {
+        let (images, labels) = match &form.files {
+            SetFiles::Idx { images, labels } => {
+                (images.name.clone(), labels.as_ref().map(|file| file.name.clone()))
+            }
+            SetFiles::Images | SetFiles::Records => (tree::FOLDER.to_owned(), None),
+        };
+        let classes = match &form.labels {
+            Labels::Names(names) => names.clone(),
+            Labels::None | Labels::Numbers => Vec::new(),
+        };
+        Self { images, labels, classes }
+    }
+}
+
+/// The sinks that write it.
+pub(super) fn sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
+    let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
+    if form.labels != Labels::None {
+        let file = NpyWriter::create_list(&folder.join("labels.npy"))?;
+        sinks.push(Box::new(Numbers { labels: form.labels.clone(), file }));
+    }
+    match &form.files {
+        SetFiles::Idx { images, labels } => {
+            sinks.append(&mut idx::sinks(folder, images, labels.as_ref())?);
+        }
+        SetFiles::Images => sinks.push(Box::new(tree::Tree::create(folder, tree::Names::Own)?)),
+        SetFiles::Records => {
+            sinks.push(Box::new(tree::Tree::create(folder, tree::Names::Numbers)?));
+        }
+    }
+    Ok(sinks)
+}
+
+/// `labels.npy`, open.
+struct Numbers {
+    labels: Labels,
+    file: NpyWriter<i64>,
+}
+
+impl Sink for Numbers {
+    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+        self.file.push([self.labels.number(step.source.label.as_deref())].into_iter())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
+        self.file.finish()
+    }
+}

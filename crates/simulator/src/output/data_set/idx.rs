@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! IDX to IDX: a file of images and one of labels, gzipped if the file was from which they come.
+//!
+//! IDX is a format of 8 bits per pixel here, going in and coming out.
+
+use std::path::Path;
+
+use super::super::headed::HeadedFile;
+use super::super::png::low_byte;
+use super::super::sink::{Sink, Step};
+use crate::source::form::IdxFile;
+use crate::{SimulatorError, convert_depth};
+
+const BITS: u32 = 8;
+
+/// One sink for each file.
+pub(super) fn sinks(
+    folder: &Path,
+    images: &IdxFile,
+    labels: Option<&IdxFile>,
+) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
+    if let Some(labels) = labels.filter(|labels| labels.name == images.name) {
+        let name = &labels.name;
+        let problem = format!("images and labels are both called `{name}`; rename one of them");
+        return Err(SimulatorError::Option { option: "--labels", problem });
+    }
+    let file = HeadedFile::create(&folder.join(&images.name), images.packed)?;
+    let mut sinks: Vec<Box<dyn Sink>> =
+        vec![Box::new(Images { file, count: 0, size: (0, 0), bytes: Vec::new() })];
+    if let Some(labels) = labels {
+        let file = HeadedFile::create(&folder.join(&labels.name), labels.packed)?;
+        sinks.push(Box::new(LabelBytes { file, count: 0 }));
+    }
+    Ok(sinks)
+}
+
+/// The images, open.
+struct Images {
+    file: HeadedFile<16>,
+    /// No more than the 32-bit count of the file that is read.
+    count: u32,
+    size: (u32, u32),
+    bytes: Vec<u8>,
+}
+
+impl Sink for Images {
+    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+        let frame = &step.outcome.rendered;
+        let byte = |&value: &u16| low_byte(convert_depth(value, frame.bits(), BITS));
+        self.bytes.clear();
+        self.bytes.extend(frame.pixels().iter().map(byte));
+        self.size = (frame.width(), frame.height());
+        self.count += 1;
+        self.file.write(&self.bytes)
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
+        let (width, height) = self.size;
+        self.file.finish(&header([0x0803, self.count, height, width]))
+    }
+}
+
+/// The labels, open.
+struct LabelBytes {
+    file: HeadedFile<8>,
+    count: u32,
+}
+
+impl Sink for LabelBytes {
+    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+        // The reader of IDX makes text of bytes.
+        let label = step.source.label.as_deref().and_then(|label| label.parse().ok());
+        self.count += 1;
+        self.file.write(&[label.unwrap_or_default()])
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
+        self.file.finish(&header([0x0801, self.count]))
+    }
+}
+
+/// Numbers, high bytes first; the first is the magic of the file.
+fn header<const NUMBERS: usize, const BYTES: usize>(numbers: [u32; NUMBERS]) -> [u8; BYTES] {
+    let mut bytes = [0; BYTES];
+    for (bytes, number) in bytes.chunks_exact_mut(4).zip(numbers) {
+        bytes.copy_from_slice(&number.to_be_bytes());
+    }
+    bytes
+}

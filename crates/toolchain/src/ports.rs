@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The widths that the ports of a module really have, parameters evaluated, as the tools tell them.
+//! Both simulators join what does not fit by dropping or padding bits, so that it must be asked.
+
+use crate::error::ToolError;
+
+/// A port and its bits.
+pub type PortBits = (String, u32);
+
+/// Compares the ports that Verilator declares in the header of a model with what they must be.
+pub(crate) fn check_header(top: &str, header: &str, wanted: &[PortBits]) -> Result<(), ToolError> {
+    let declared: Vec<(&str, u32)> = header.lines().filter_map(declaration).collect();
+    for (port, bits) in wanted {
+        match declared.iter().find(|(name, _)| name == port) {
+            Some((_, found)) if found == bits => {}
+            Some(&(_, found)) => return Err(refused(top, port, found, *bits)),
+            None => {
+                return Err(ToolError::NoPort { top: top.to_owned(), port: port.clone() });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// `VL_IN8(&name,msb,lsb);` or `VL_INW(&name,msb,lsb,words);`
+fn declaration(line: &str) -> Option<(&str, u32)> {
+    let line = line.trim();
+    let rest = ["VL_IN", "VL_OUT"].iter().find_map(|start| line.strip_prefix(start))?;
+    let mut words = rest.split_once('(')?.1.trim_end_matches([')', ';']).split(',');
+    let name = words.next()?.trim_start_matches('&');
+    let mut bound = || words.next()?.trim().parse::<i64>().ok();
+    let (msb, lsb) = (bound()?, bound()?);
+    Some((name, u32::try_from(msb.abs_diff(lsb) + 1).ok()?))
+}
+
+/// Looks through the warnings of Icarus for ports of `top` that its bench, in `file`, does not fit:
+/// `file:3: warning: Port 3 (a_i) of tiny expects 16 bits, got 11.`
+pub(crate) fn check_warnings(top: &str, file: &str, log: &str) -> Result<(), ToolError> {
+    let refusal = |line: &str| {
+        let line = line.strip_prefix(file)?.strip_prefix(':')?;
+        let (_, port) = line.split_once("warning: Port ")?;
+        let (_, port) = port.split_once('(')?;
+        let (port, rest) = port.split_once(") of ")?;
+        let rest = rest.strip_prefix(top)?.strip_prefix(" expects ")?;
+        let (found, wanted) = rest.split_once(" bits, got ")?;
+        let wanted = wanted.trim_end_matches('.').parse().ok()?;
+        Some(refused(top, port, found.parse().ok()?, wanted))
+    };
+    log.lines().find_map(refusal).map_or(Ok(()), Err)
+}
+
+fn refused(top: &str, port: &str, found: u32, wanted: u32) -> ToolError {
+    ToolError::PortWidth { top: top.to_owned(), port: port.to_owned(), found, wanted }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_tell_widths() {
+        let header = "class Vt {\n    VL_IN8(&a_i,7,0);\n    VL_OUT16(&b_o,1,12);\n    \
+                      VL_INW(&c_i,199,0,7);\n}\n";
+        let check = |name: &str, bits| check_header("t", header, &[(name.to_owned(), bits)]);
+        assert!(check("a_i", 8).is_ok() && check("b_o", 12).is_ok() && check("c_i", 200).is_ok());
+        let error = check("c_i", 208).unwrap_err().to_string();
+        assert!(error.contains("`t` has `c_i` with 200 bits, the design has 208"), "{error}");
+        assert!(matches!(check("d_i", 1), Err(ToolError::NoPort { .. })));
+    }
+
+    #[test]
+    fn warnings_tell_widths_of_the_bench_alone() {
+        let line = "t_replay.v:3: warning: Port 3 (a_i) of t expects 16 bits, got 11.";
+        let error = check_warnings("t", "t_replay.v", line).unwrap_err().to_string();
+        assert!(error.contains("`t` has `a_i` with 16 bits, the design has 11"), "{error}");
+        assert!(check_warnings("t", "other.v", line).is_ok());
+        assert!(check_warnings("u", "t_replay.v", line).is_ok());
+    }
+}
