@@ -45,7 +45,7 @@ struct Images {
 
 impl Sink for Images {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        let frame = &step.outcome.rendered;
+        let frame = step.rendered()?;
         let byte = |&value: &u16| low_byte(convert_depth(value, frame.bits(), BITS));
         self.bytes.clear();
         self.bytes.extend(frame.pixels().iter().map(byte));

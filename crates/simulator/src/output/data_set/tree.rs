@@ -73,7 +73,7 @@ impl Tree {
 impl Sink for Tree {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let (below, file) = self.place(step)?;
-        png::encode(file, &Picture::grey(&step.outcome.rendered))
+        png::encode(file, &Picture::grey(step.rendered()?))
             .map_err(cannot_write(&self.folder.join(&below)))?;
         let label = step.source.label.as_deref().unwrap_or_default();
         let (file, label) = (quoted(&below.display().to_string()), quoted(label));
