@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use foveate_model::ModelError;
+use foveate_engine::EngineError;
 use foveate_simulator::SimulatorError;
 use foveate_spec::SpecError;
 use foveate_staging::StagingError;
@@ -19,9 +19,9 @@ pub enum StudyError {
     /// A point of the study is no design.
     #[error(transparent)]
     Spec(#[from] SpecError),
-    /// The model refused a frame.
+    /// The engine refused a frame.
     #[error(transparent)]
-    Model(#[from] ModelError),
+    Engine(#[from] EngineError),
     /// The folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),

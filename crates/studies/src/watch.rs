@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clips through cameras: every clip is decoded once, frame by frame, for all designs of a study.
-//! Clips run side by side in threads of their own, the cameras of one clip in rayon's.
+//! Clips through engines: every clip is decoded once, frame by frame, for all designs of a study.
+//! Clips run side by side in threads of their own, the engines of one clip in rayon's.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use foveate_model::{Camera, Outcome};
+use foveate_engine::{Engine, Outcome};
 use foveate_simulator::{BatchHooks, BatchProgress, InputOptions, Kind, SimulatorError, open};
 use foveate_spec::{Config, Design};
 use rayon::prelude::*;
@@ -25,7 +25,7 @@ pub(crate) struct Watched<T> {
     pub(crate) points: Vec<(Design, T)>,
 }
 
-/// One frame as a camera saw it.
+/// One frame as an engine saw it.
 pub(crate) struct Seen<'a> {
     /// The first of a clip, where every region counts as changed.
     pub(crate) without_reference: bool,
@@ -43,7 +43,7 @@ pub(crate) struct Watcher<'a> {
 }
 
 impl Watcher<'_> {
-    /// Shows every clip to a camera of each configuration. `see` folds a frame into what `T` is.
+    /// Shows every clip to an engine of each configuration. `see` folds a frame into what `T` is.
     /// The results are in the order of clips and configurations, whatever ran first.
     pub(crate) fn watch<T: Default + Send>(
         &self,
@@ -105,8 +105,8 @@ impl Watcher<'_> {
             Ok(config.validate()?)
         };
         let designs = configs.iter().map(design).collect::<Result<Vec<_>, _>>()?;
-        let mut points: Vec<(Camera, T)> =
-            designs.iter().map(|design| (Camera::new(design), T::default())).collect();
+        let mut points: Vec<(Engine, T)> =
+            designs.iter().map(|design| (Engine::new(design), T::default())).collect();
         let mut frame = 0;
         while let Some(current) = source.next_frame()? {
             if self.hooks.cancelled() {
