@@ -100,15 +100,17 @@ fn collect(stderr: ChildStderr, lines: &Sender<String>) {
     }
 }
 
-/// A process group of its own: an interrupt from the terminal goes to the reader alone.
+/// Puts a program that is to be started into a process group of its own: an interrupt from the
+/// terminal goes to whoever reads or feeds it alone, which decides how to end.
 #[cfg(unix)]
-fn apart(command: &mut Command) {
+pub fn apart(command: &mut Command) {
     use std::os::unix::process::CommandExt as _;
     command.process_group(0);
 }
 
+/// Elsewhere there are no process groups.
 #[cfg(not(unix))]
-fn apart(_: &mut Command) {}
+pub fn apart(_: &mut Command) {}
 
 #[cfg(all(test, unix))]
 mod tests {

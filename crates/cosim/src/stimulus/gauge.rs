@@ -3,7 +3,7 @@
 //! minimum exactly. Only the choice of vectors depends on it: the model says what is right.
 
 use foveate_model::denoise::median;
-use foveate_model::feature::{corner::strength, edge::magnitude, mad, variance};
+use foveate_model::feature::{is_hit, mad, variance};
 use foveate_model::window::Window;
 use foveate_spec::{Design, FeatureKind, Filter};
 
@@ -89,8 +89,8 @@ impl Gauge {
         let sum = || places().map(|at| u64::from(now[at])).sum();
         match self.meters[meter] {
             Meter::Hits { kind, level, .. } => {
-                let is_hit = |at: &usize| hits(kind, &window(&now, *at), level);
-                places().filter(is_hit).count() as u64
+                let hit = |at: &usize| is_hit(kind, &window(&now, *at), level);
+                places().filter(hit).count() as u64
             }
             Meter::Deviation { fraction_bits, .. } => {
                 let mean = mad::mean(sum(), n, fraction_bits);
@@ -110,14 +110,6 @@ impl Gauge {
 
     fn scored(&self, square: &[u16]) -> Vec<u16> {
         if self.denoise { filtered(square) } else { square.to_vec() }
-    }
-}
-
-fn hits(kind: FeatureKind, window: &Window, level: u32) -> bool {
-    match kind {
-        FeatureKind::Edge => magnitude(window) > level,
-        FeatureKind::Corner => strength(window).is_some_and(|strength| level <= strength),
-        FeatureKind::Mad | FeatureKind::Variance => false,
     }
 }
 

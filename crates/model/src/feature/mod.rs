@@ -41,7 +41,8 @@ pub(crate) fn score(
 }
 
 /// Whether the center of a window is a hit; never for features that do not count hits.
-pub(crate) fn is_hit(kind: FeatureKind, window: &Window, level: u32) -> bool {
+#[must_use]
+pub fn is_hit(kind: FeatureKind, window: &Window, level: u32) -> bool {
     match kind {
         FeatureKind::Edge => edge::magnitude(window) > level,
         FeatureKind::Corner => corner::strength(window).is_some_and(|strength| level <= strength),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread::JoinHandle;
 
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_toolchain::{Tool, Toolchain, apart};
 
 use super::cannot_write;
 use super::gallery::{Picture, Samples};
@@ -158,15 +158,6 @@ impl Drop for Encoder {
         }
     }
 }
-
-/// Keeps Ctrl-C away from ffmpeg: when to stop is decided here.
-#[cfg(unix)]
-fn apart(command: &mut Command) {
-    std::os::unix::process::CommandExt::process_group(command, 0);
-}
-
-#[cfg(not(unix))]
-fn apart(_command: &mut Command) {}
 
 /// The rate that an interval between frames stands for: whole, or whole * 1000/1001, where rounding
 /// to microseconds gives that interval, else one frame per interval.
