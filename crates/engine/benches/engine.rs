@@ -3,7 +3,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use foveate_engine::{Engine, Level, Options};
+use foveate_engine::{Engine, Level, Options, Screens};
 use foveate_spec::{Config, FeatureKind, Neighborhood, SpatialConfig};
 
 fn main() {
@@ -39,15 +39,15 @@ const CASES: [(&str, Case); 6] = [
     ("224 all shared", Case { features: ALL, ..SMALL }),
 ];
 
-/// Frames of a moving pattern with noise, or of one that stands still.
-fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
+/// An engine for a case, and frames of a moving pattern with noise.
+fn setup(case: Case, options: Options) -> (Engine, Vec<Vec<u8>>) {
     let mut config = Config::default();
     (config.frame.width, config.frame.height) = (Some(case.width), Some(case.height));
     config.region.size = case.side;
     config.region.neighborhood = case.neighborhood;
     config.spatial = case.features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
     let design = config.validate().expect("a valid design");
-    let mut engine = Engine::with_options(&design, options).expect("threads");
+    let engine = Engine::with_options(&design, options).expect("threads");
     let mut state = 1u32;
     let mut frame = |shift: u32| -> Vec<u8> {
         let places = (0..case.height).flat_map(|y| (0..case.width).map(move |x| (x, y)));
@@ -59,11 +59,16 @@ fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
             })
             .collect()
     };
-    let frames: Vec<Vec<u8>> = (0..8).map(|number| frame(3 * number)).collect();
+    let frames = (0..8).map(|number| frame(3 * number)).collect();
+    (engine, frames)
+}
+
+/// Frames one by one, or the same one over and over.
+fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
+    let (mut engine, frames) = setup(case, options);
     let width = usize::try_from(case.width).expect("a width");
     let mut number = 0;
-    let pixels = width * usize::try_from(case.height).expect("a height");
-    bencher.counter(ItemsCount::new(pixels)).bench_local(|| {
+    bencher.counter(ItemsCount::new(frames[0].len())).bench_local(|| {
         number += usize::from(!still);
         engine.step_u8(&frames[number % frames.len()], width).map(|outcome| outcome.skipped)
     });
@@ -91,6 +96,41 @@ fn still_with_skip(bencher: Bencher, name: &str) {
 #[divan::bench(args = [1, 2])]
 fn threads(bencher: Bencher, threads: usize) {
     run(bencher, HD, Options { threads, skip: false, ..Options::default() }, false);
+}
+
+/// Threads, frames at a time, and whether their screens are kept.
+const WAYS: [(usize, usize, bool); 8] = [
+    (1, 4, false),
+    (1, 4, true),
+    (1, 32, false),
+    (1, 32, true),
+    (2, 4, false),
+    (2, 4, true),
+    (2, 32, false),
+    (2, 32, true),
+];
+
+/// Several frames at a time.
+fn run_batch(bencher: Bencher, case: Case, (threads, batch, keep): (usize, usize, bool)) {
+    let options = Options { threads, skip: false, ..Options::default() };
+    let (mut engine, frames) = setup(case, options);
+    let frames: Vec<&[u8]> = frames.iter().map(Vec::as_slice).cycle().take(batch).collect();
+    let width = usize::try_from(case.width).expect("a width");
+    let mut screens = Screens::new();
+    bencher.counter(ItemsCount::new(batch * frames[0].len())).bench_local(|| {
+        let screens = keep.then_some(&mut screens);
+        engine.step_batch_u8(&frames, width, screens).map(<[_]>::len)
+    });
+}
+
+#[divan::bench(args = WAYS)]
+fn batches_1080p(bencher: Bencher, way: (usize, usize, bool)) {
+    run_batch(bencher, HD, way);
+}
+
+#[divan::bench(args = WAYS)]
+fn batches_224(bencher: Bencher, way: (usize, usize, bool)) {
+    run_batch(bencher, SMALL, way);
 }
 
 #[divan::bench(args = Level::available().into_iter().map(Level::name))]

@@ -2,13 +2,15 @@
 //! Megapixels per second of the engine on a clip in memory, one JSON object per line.
 //!
 //! `throughput CLIP.npy --side N --features edge,corner,mad [--neighborhood shared] [--threads 1]
-//! [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]`; `throughput --copy` measures
-//! what the machine copies. `mpixel_s` is over the faster half of the frames, as `cv_pipeline.py`
+//! [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]`; frames are
+//! given `--batch` at a time, and with `--screens` the rendered frame of each is kept. `throughput --copy`
+//! measures what the machine copies. `mpixel_s` is over the faster half of the frames, as `cv_pipeline.py`
 //! reports it, `mpixel_s_mean` over all of the clip, each frame at its fastest.
 
+use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
-use foveate_engine::{Engine, Level, Options};
+use foveate_engine::{Engine, Level, Options, Outcome, Screens};
 use foveate_spec::{Config, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
 
 type Failure = Box<dyn std::error::Error>;
@@ -48,13 +50,17 @@ fn main() -> Result<(), Failure> {
     };
     let seconds: f64 = value("--seconds").unwrap_or("1").parse()?;
     let mut engine = Engine::with_options(&config.validate()?, options)?;
-    let measured = measure(&clip, &mut engine, Duration::from_secs_f64(seconds))?;
+    let way = Way {
+        batch: value("--batch").unwrap_or("1").parse::<usize>()?.max(1),
+        screens: arguments.iter().any(|argument| argument == "--screens"),
+    };
+    let measured = measure(&clip, &mut engine, &way, Duration::from_secs_f64(seconds))?;
     let (width, height) = (clip.width, clip.height);
     print(&serde_json::json!({
         "clip": path, "width": width, "height": height, "side": config.region.size,
         "neighborhood": config.region.neighborhood.name(), "features": features,
         "reference": config.temporal.reference.name(), "threads": options.threads,
-        "level": options.level.name(), "skip": options.skip,
+        "batch": way.batch, "screens": way.screens, "level": options.level.name(), "skip": options.skip,
         "mpixel_s": measured.mpixel_s, "mpixel_s_mean": measured.mpixel_s_mean,
         "skipped": measured.skipped, "active": measured.active,
     }));
@@ -88,37 +94,57 @@ struct Measured {
     active: f64,
 }
 
-/// Times every frame, in rounds over the clip; the engine starts each round anew, so that no two
-/// frames follow each other that do not in the clip.
-fn measure(clip: &Clip, engine: &mut Engine, time: Duration) -> Result<Measured, Failure> {
+/// How frames are given to the engine.
+struct Way {
+    /// Frames per call.
+    batch: usize,
+    /// Whether the rendered frame of every one of them is kept.
+    screens: bool,
+}
+
+/// Times every batch of frames, in rounds over the clip; the engine starts each round anew, so that no
+/// two frames follow each other that do not in the clip.
+fn measure(
+    clip: &Clip,
+    engine: &mut Engine,
+    way: &Way,
+    time: Duration,
+) -> Result<Measured, Failure> {
     let width = usize::try_from(clip.width)?;
-    let pixels = f64::from(clip.width) * f64::from(clip.height);
-    let (mut times, mut skipped, mut active) = (Vec::new(), 0, 0);
+    let size = width * usize::try_from(clip.height)?;
+    let (mut times, mut skipped, mut active, mut seen) = (Vec::new(), 0, 0, 0);
     let start = Instant::now();
-    let frames: Vec<&[u8]> =
-        clip.pixels.chunks_exact(width * usize::try_from(clip.height)?).collect();
-    for (number, frame) in frames.iter().enumerate().cycle() {
+    let frames: Vec<&[u8]> = clip.pixels.chunks_exact(size).collect();
+    let mut screens = Screens::new();
+    let batches: Vec<&[&[u8]]> = frames.chunks(way.batch).collect();
+    for (number, batch) in batches.iter().enumerate().cycle() {
         if number == 0 {
             engine.reset();
         }
+        let screens = way.screens.then_some(&mut screens);
         let began = Instant::now();
-        let outcome = engine.step_u8(frame, width)?;
-        times.push(began.elapsed().as_secs_f64());
-        skipped += outcome.skipped;
-        active += outcome.active.iter().filter(|active| **active).count();
+        let outcomes = take(engine, batch, width, screens)?;
+        times.push(began.elapsed().as_secs_f64() / count(batch.len()));
+        skipped += outcomes.iter().map(|outcome| outcome.skipped).sum::<usize>();
+        active += outcomes.iter().flat_map(|outcome| &outcome.active).filter(|on| **on).count();
+        seen += batch.len();
         if start.elapsed() > time && times.len() >= 5 {
             break;
         }
     }
-    let regions = count(times.len() * engine.outcome().srs.len());
-    // Each frame of the clip at its fastest: what other programs take away is left out, what some
+    let regions = count(seen * engine.outcome().srs.len());
+    // Each batch of the clip at its fastest: what other programs take away is left out, what some
     // frames cost more than others is not.
-    let at = |number: usize| times.iter().skip(number).step_by(frames.len()).copied();
-    let fastest = (0..frames.len().min(times.len())).map(|n| at(n).fold(f64::MAX, f64::min));
-    let mean_of_all = fastest.sum::<f64>() / count(frames.len().min(times.len()));
+    let at = |number: usize| times.iter().skip(number).step_by(batches.len()).copied();
+    let measured = batches.iter().take(times.len()).enumerate();
+    let frame_times =
+        measured.map(|(number, batch)| count(batch.len()) * at(number).fold(f64::MAX, f64::min));
+    let measured = batches.iter().take(times.len()).map(|batch| batch.len()).sum();
+    let mean_of_all = frame_times.sum::<f64>() / count(measured);
     times.sort_by(f64::total_cmp);
     times.truncate(times.len().div_ceil(2));
     let mean = times.iter().sum::<f64>() / count(times.len());
+    let pixels = count(size);
     Ok(Measured {
         mpixel_s: (pixels / mean / 1e6).round(),
         mpixel_s_mean: (pixels / mean_of_all / 1e6).round(),
@@ -127,32 +153,58 @@ fn measure(clip: &Clip, engine: &mut Engine, time: Duration) -> Result<Measured,
     })
 }
 
+/// Takes some frames; a single one as those who have no more do, who look at its screen in the engine.
+fn take<'e>(
+    engine: &'e mut Engine,
+    batch: &[&[u8]],
+    width: usize,
+    screens: Option<&mut Screens<u8>>,
+) -> Result<&'e [Outcome], Failure> {
+    Ok(match batch {
+        [frame] => std::slice::from_ref(engine.step_u8(frame, width)?),
+        _ => engine.step_batch_u8(batch, width, screens)?,
+    })
+}
+
 #[allow(clippy::cast_precision_loss, reason = "a count of frames or regions")]
 fn count(count: usize) -> f64 {
     count as f64
 }
 
-/// Gigabytes per second that one thread copies: read and written bytes both counted.
+/// Gigabytes per second that one thread copies, and two together: read and written bytes both counted.
 fn copy_bandwidth() -> serde_json::Value {
     let measure = |bytes: usize, rounds: usize| {
-        let (from, mut to) = (vec![1u8; bytes], vec![0u8; bytes]);
-        let mut times: Vec<f64> = (0..rounds)
-            .map(|_| {
-                let began = Instant::now();
-                to.copy_from_slice(std::hint::black_box(&from));
-                std::hint::black_box(&mut to);
-                began.elapsed().as_secs_f64()
+        [1, 2].map(|threads| {
+            let begin = Barrier::new(threads);
+            std::thread::scope(|scope| {
+                let copy = || copy_rate(bytes, rounds, &begin);
+                let copies: Vec<_> = (0..threads).map(|_| scope.spawn(copy)).collect();
+                copies.into_iter().filter_map(|copy| copy.join().ok()).sum::<f64>()
             })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        let half = &times[..rounds.div_ceil(2)];
-        2.0 * count(bytes) * count(half.len()) / half.iter().sum::<f64>() / 1e9
+        })
     };
     serde_json::json!({
         "copy_memory_gb_s": measure(256 << 20, 7),
         "copy_frame_gb_s": measure(1920 * 1080, 2001),
         "copy_small_gb_s": measure(224 * 224, 20001),
     })
+}
+
+/// Gigabytes per second of one thread, over the faster half of the rounds.
+fn copy_rate(bytes: usize, rounds: usize, begin: &Barrier) -> f64 {
+    let (from, mut to) = (vec![1u8; bytes], vec![0u8; bytes]);
+    begin.wait();
+    let mut times: Vec<f64> = (0..rounds)
+        .map(|_| {
+            let began = Instant::now();
+            to.copy_from_slice(std::hint::black_box(&from));
+            std::hint::black_box(&mut to);
+            began.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    let half = &times[..rounds.div_ceil(2)];
+    2.0 * count(bytes) * count(half.len()) / half.iter().sum::<f64>() / 1e9
 }
 
 /// Frames of bytes, one after the other.

@@ -35,6 +35,27 @@ pub(crate) fn compare<T: Lane>(
     }
 }
 
+/// Says of every region of band `number` whether a pixel has changed from one frame to another.
+#[inline(always)]
+pub(crate) fn compare_frames<T: Lane>(
+    plan: &Plan<T>,
+    [last, now]: [Pixels<'_, T>; 2],
+    number: usize,
+    changed: &mut [bool],
+) {
+    changed.fill(false);
+    let top = number * plan.side;
+    for y in top..(top + plan.side).min(plan.height) {
+        if now.row(y) == last.row(y) {
+            continue;
+        }
+        compare_row(now.row(y), last.row(y), plan.side, changed);
+        if changed.iter().all(|&changed| changed) {
+            return;
+        }
+    }
+}
+
 /// Copies band `number`.
 #[inline(always)]
 pub(crate) fn keep<T: Lane>(plan: &Plan<T>, raw: Pixels<'_, T>, number: usize, copy: &mut [T]) {
@@ -71,25 +92,21 @@ fn compare_any<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]
     }
 }
 
-/// Which regions of band `number` may have other results than in the last frame: those that have
-/// changed, and where neighbors are seen those around them. Two pixels of halo are at most a region.
+/// Which regions of a band, the middle one of three, may have other results than in the last frame:
+/// those that have changed, and where neighbors are seen those around them. Two pixels of halo are at
+/// most a region.
 #[inline(always)]
 pub(crate) fn affected<T: Lane>(
     plan: &Plan<T>,
-    changed: &[bool],
-    number: usize,
+    [above, here, below]: [&[bool]; 3],
     affected: &mut [bool],
 ) {
-    let columns = plan.columns;
-    let band = |number: usize| &changed[number * columns..][..columns];
-    let here = band(number);
     if plan.seams.is_some() {
         affected.copy_from_slice(here);
         return;
     }
-    let (above, below) = (band(number.saturating_sub(1)), band((number + 1).min(plan.rows - 1)));
     let column = |x: usize| above[x] | here[x] | below[x];
-    let last = columns - 1;
+    let last = plan.columns - 1;
     for (x, affected) in affected.iter_mut().enumerate().take(last).skip(1) {
         *affected = column(x - 1) | column(x) | column(x + 1);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The engine for one width of lanes: the planes between frames, and their division among workers.
 
+use std::iter;
 use std::ops::Range;
 
 use foveate_spec::Reference;
@@ -8,18 +9,23 @@ use foveate_spec::Reference;
 use crate::aligned::Aligned;
 use crate::change;
 use crate::lane::Lane;
+use crate::look::{Changes, Look};
 use crate::outcome::{Outcome, split_off};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::policy::{Policy, SAMPLE, Step};
 use crate::scratch::Scratch;
-use crate::strip::{Look, Skipped, Strip};
+use crate::screens::Screen;
+use crate::strip::{Kept, Skipped, Strip};
 use crate::workers::Workers;
+
+/// Rows of the smallest strip.
+const SMALLEST_HEIGHT: usize = 48;
 
 /// The state between frames.
 #[derive(Debug)]
 pub(crate) struct Core<T: Lane> {
-    plan: Plan<T>,
+    pub(crate) plan: Plan<T>,
     denoised: Aligned<T>,
     reference: Aligned<T>,
     pub(crate) screen: Vec<T>,
@@ -28,21 +34,35 @@ pub(crate) struct Core<T: Lane> {
     settled: Vec<bool>,
     /// The last frame, without padding, while the policy wants it.
     copy: Vec<T>,
+    /// By band, frame and column.
     changed: Vec<bool>,
     policy: Policy,
     skip: bool,
     /// By strip.
-    scratch: Vec<(Scratch<T>, Skipped)>,
+    scratch: Vec<(Scratch<T>, Vec<Skipped>)>,
+}
+
+/// What is to be kept of every frame of a batch; nothing of none where there are no outcomes.
+#[derive(Debug)]
+pub(crate) struct Keep<'a, T> {
+    pub(crate) outcomes: &'a mut [Outcome],
+    /// By frame, or empty.
+    pub(crate) screens: &'a mut [Screen<T>],
+}
+
+impl<T> Keep<'_, T> {
+    pub(crate) fn nothing() -> Self {
+        Self { outcomes: &mut [], screens: &mut [] }
+    }
 }
 
 impl<T: Lane> Core<T> {
-    pub(crate) fn new(plan: Plan<T>, skip: bool, workers: &Workers) -> Self {
+    pub(crate) fn new(plan: Plan<T>, skip: bool) -> Self {
         let plane = plan.stride() * plan.rows * plan.side;
         let reference = match plan.reference {
             Reference::Previous => 0,
             Reference::LastSent => plane,
         };
-        let scratch = Scratch::new(&plan);
         Self {
             denoised: Aligned::new(plane),
             reference: Aligned::new(reference),
@@ -51,10 +71,10 @@ impl<T: Lane> Core<T> {
             black: vec![true; plan.regions()],
             settled: vec![false; plan.rows],
             copy: vec![T::default(); if skip { plan.width * plan.height } else { 0 }],
-            changed: vec![true; plan.regions()],
+            changed: Vec::new(),
             policy: Policy::new(skip),
             skip,
-            scratch: vec![(scratch, Skipped::default()); workers.strips(plan.rows, plane)],
+            scratch: vec![(Scratch::new(&plan), Vec::new())],
             plan,
         }
     }
@@ -67,32 +87,71 @@ impl<T: Lane> Core<T> {
         self.policy = Policy::new(self.skip);
     }
 
-    /// Takes the next frame.
-    pub(crate) fn step(&mut self, raw: Pixels<'_, T>, workers: &Workers, outcome: &mut Outcome) {
-        let step = self.policy.next();
-        if step != Step::Rest {
-            self.look(raw, workers, step);
+    /// Takes the next frames; `outcome` is that of the last.
+    pub(crate) fn step(
+        &mut self,
+        frames: &[Pixels<'_, T>],
+        workers: &Workers,
+        outcome: &mut Outcome,
+        keep: Keep<'_, T>,
+    ) {
+        self.divide(frames.len(), workers);
+        let first = self.look(frames, workers);
+        self.compute(frames, workers, first, outcome, keep);
+    }
+
+    /// Has as many strips as the frames are worth.
+    fn divide(&mut self, frames: usize, workers: &Workers) {
+        let plan = &self.plan;
+        let pixels = plan.stride() * plan.rows * plan.side * frames;
+        // A strip denoises a row of each neighbor anew: it is not worth while for a few rows.
+        let most = (plan.rows * plan.side / SMALLEST_HEIGHT).clamp(1, plan.rows);
+        let strips = workers.strips(most, pixels);
+        self.scratch.resize_with(strips, || (Scratch::new(plan), Vec::new()));
+    }
+
+    /// Finds what has changed, if that is worth while; returns the first frame of which it is known.
+    fn look(&mut self, frames: &[Pixels<'_, T>], workers: &Workers) -> usize {
+        let step = self.policy.next(frames.len());
+        if step == Step::Rest {
+            return frames.len();
         }
-        if step == Step::Judge {
-            let (saved, blocks) = self.sample();
-            if self.policy.judge(saved, blocks) {
-                self.look(raw, workers, Step::Keep);
+        self.changed.resize(self.plan.regions() * frames.len(), true);
+        self.look_as(step, frames, workers);
+        match step {
+            Step::Compare => 0,
+            Step::Judge(frame) => {
+                let (saved, blocks) = self.sample(frame, frames.len());
+                if self.policy.judge(saved, blocks) {
+                    self.look_as(Step::Keep, frames, workers);
+                    return 1;
+                }
+                frames.len()
             }
-        }
-        self.compute(raw, workers, step == Step::Compare, outcome);
-        let mut all = Skipped::default();
-        self.scratch.iter().for_each(|(_, skipped)| all += *skipped);
-        outcome.skipped = all.regions;
-        if step == Step::Compare {
-            self.policy.saved(all.blocks, self.plan.blocks * self.plan.rows);
+            Step::Rest | Step::Sample | Step::Keep => frames.len(),
         }
     }
 
-    /// Blocks of the sample that would be saved, of how many.
-    fn sample(&self) -> (usize, usize) {
+    fn look_as(&mut self, step: Step, frames: &[Pixels<'_, T>], workers: &Workers) {
+        let plan = &self.plan;
+        let (mut copy, mut changed) = (&mut self.copy[..], &mut self.changed[..]);
+        let looks = shares(plan.rows, self.scratch.len()).map(|bands| Look {
+            plan,
+            frames,
+            step,
+            copy: split_off(&mut copy, bands.len() * plan.side * plan.width),
+            changed: split_off(&mut changed, bands.len() * plan.columns * frames.len()),
+            bands,
+        });
+        workers.run(looks);
+    }
+
+    /// Blocks of the sample in one frame that would be saved, of how many.
+    fn sample(&self, frame: usize, frames: usize) -> (usize, usize) {
         let plan = &self.plan;
         let (mut saved, mut blocks, mut runs) = (0, 0, Vec::new());
-        for changed in self.changed.chunks_exact(plan.columns).step_by(SAMPLE) {
+        let bands = self.changed.chunks_exact(plan.columns * frames).step_by(SAMPLE);
+        for changed in bands.map(|band| &band[frame * plan.columns..][..plan.columns]) {
             change::runs(plan, changed, &mut runs);
             saved += plan.blocks - runs.iter().map(Range::len).sum::<usize>();
             blocks += plan.blocks;
@@ -100,56 +159,76 @@ impl<T: Lane> Core<T> {
         (saved, blocks)
     }
 
-    fn look(&mut self, raw: Pixels<'_, T>, workers: &Workers, step: Step) {
-        let plan = &self.plan;
-        let share = plan.rows.div_ceil(self.scratch.len());
-        let (mut copy, mut changed) = (&mut self.copy[..], &mut self.changed[..]);
-        let looks = (0..plan.rows).step_by(share).map(|first| Look {
-            plan,
-            raw,
-            bands: first..(first + share).min(plan.rows),
-            step,
-            copy: split_off(&mut copy, share * plan.side * plan.width),
-            changed: split_off(&mut changed, share * plan.columns),
-        });
-        workers.run(looks);
-    }
-
+    /// Takes the frames through all strips; changes are known from frame `first` on.
     fn compute(
         &mut self,
-        raw: Pixels<'_, T>,
+        frames: &[Pixels<'_, T>],
         workers: &Workers,
-        compared: bool,
+        first: usize,
         outcome: &mut Outcome,
+        keep: Keep<'_, T>,
     ) {
         let plan = &self.plan;
-        let changed = compared.then_some(&self.changed[..]);
-        let share = plan.rows.div_ceil(self.scratch.len());
-        let rows = share * plan.side;
+        let changes = Changes { changed: &self.changed, frames: frames.len(), first };
         let (mut denoised, mut reference) = (&mut self.denoised[..], &mut self.reference[..]);
         let (mut valid, mut black) = (&mut self.valid[..], &mut self.black[..]);
-        let mut settled = &mut self.settled[..];
-        let (mut screen, mut results) = (&mut self.screen[..], outcome.results());
-        let firsts = (0..plan.rows).step_by(share);
-        let strips = firsts.zip(&mut self.scratch).map(|(first, (scratch, skipped))| {
-            let bands = first..(first + share).min(plan.rows);
-            let regions = bands.len() * plan.columns;
+        let (mut settled, mut screen) = (&mut self.settled[..], &mut self.screen[..]);
+        let mut results = outcome.results();
+        let Keep { outcomes, screens } = keep;
+        let screens = screens.iter_mut();
+        let screens = screens.map(|screen| (&mut screen.pixels[..], &mut screen.black[..]));
+        let screens = screens.chain(iter::repeat_with(|| (&mut [][..], &mut [][..])));
+        let kept = outcomes.iter_mut().map(Outcome::results).zip(screens);
+        let mut kept: Vec<_> =
+            kept.map(|(results, (screen, black))| Kept { results, screen, black }).collect();
+        let bands = shares(plan.rows, self.scratch.len());
+        let strips = bands.zip(&mut self.scratch).map(|(bands, (scratch, skipped))| {
+            let (rows, regions) = (bands.len() * plan.side, bands.len() * plan.columns);
+            let kept = kept.iter_mut().map(|kept| Kept {
+                results: kept.results.split_off(regions),
+                screen: split_off(&mut kept.screen, rows * plan.width),
+                black: split_off(&mut kept.black, regions),
+            });
             Strip {
                 plan,
-                raw,
-                bands,
+                frames,
                 denoised: split_off(&mut denoised, rows * plan.stride()),
                 reference: split_off(&mut reference, rows * plan.stride()),
                 screen: split_off(&mut screen, rows * plan.width),
                 valid: split_off(&mut valid, regions),
                 black: split_off(&mut black, regions),
-                settled: split_off(&mut settled, share),
+                settled: split_off(&mut settled, bands.len()),
+                bands,
                 results: results.split_off(regions),
+                kept: kept.collect(),
                 scratch,
-                changed,
+                changes,
                 skipped,
             }
         });
         workers.run(strips);
+        self.count_skipped(first..frames.len(), outcome, outcomes);
     }
+
+    /// Puts together what the strips have skipped, and lets the policy know.
+    fn count_skipped(&mut self, known: Range<usize>, last: &mut Outcome, outcomes: &mut [Outcome]) {
+        let frame = |number: usize| {
+            let mut all = Skipped::default();
+            self.scratch.iter().for_each(|(_, skipped)| all += skipped[number]);
+            all
+        };
+        for (number, outcome) in outcomes.iter_mut().enumerate() {
+            outcome.skipped = frame(number).regions;
+        }
+        last.skipped = frame(known.end - 1).regions;
+        if !known.is_empty() {
+            let blocks = self.plan.blocks * self.plan.rows * known.len();
+            self.policy.saved(known.map(|number| frame(number).blocks).sum(), blocks);
+        }
+    }
+}
+
+/// All bands, in shares that differ by one at most.
+fn shares(bands: usize, strips: usize) -> impl ExactSizeIterator<Item = Range<usize>> {
+    (0..strips).map(move |strip| bands * strip / strips..bands * (strip + 1) / strips)
 }

@@ -4,8 +4,7 @@
 use foveate_model::Frame;
 use foveate_spec::Design;
 
-use crate::core::Core;
-use crate::lane::Lane;
+use crate::core::{Core, Keep};
 use crate::pixels::Pixels;
 use crate::plan::{Plan, index};
 use crate::workers::Workers;
@@ -15,7 +14,8 @@ use crate::{EngineError, Level, Outcome};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Threads, that of the caller among them; 0 takes one per processor. Frames of fewer than some
-    /// ten thousand pixels are not worth dividing, and stay on the thread of the caller.
+    /// ten thousand pixels are not worth dividing, and stay on the thread of the caller unless several
+    /// are given at once.
     pub threads: usize,
     /// Whether regions that are bit-identical to the last frame may be skipped.
     pub skip: bool,
@@ -40,7 +40,7 @@ pub enum Rendered<'a> {
 }
 
 #[derive(Debug)]
-enum Lanes {
+pub(crate) enum Lanes {
     Bytes(Core<u8>),
     Words(Core<u16>),
 }
@@ -48,10 +48,12 @@ enum Lanes {
 /// An RCM with its renderer: what [`foveate_model::Camera`] computes, fast.
 #[derive(Debug)]
 pub struct Engine {
-    design: Design,
-    workers: Workers,
-    lanes: Lanes,
-    outcome: Outcome,
+    pub(crate) design: Design,
+    pub(crate) workers: Workers,
+    pub(crate) lanes: Lanes,
+    pub(crate) outcome: Outcome,
+    /// Of a batch, and of longer ones before.
+    pub(crate) outcomes: Vec<Outcome>,
     /// A frame as bytes, where it came as words.
     narrow: Vec<u8>,
 }
@@ -83,12 +85,19 @@ impl Engine {
 
     fn on(design: &Design, options: Options, workers: Workers) -> Self {
         let lanes = if design.pixel_bits() <= 8 {
-            Lanes::Bytes(Core::new(Plan::new(design), options.skip, &workers))
+            Lanes::Bytes(Core::new(Plan::new(design), options.skip))
         } else {
-            Lanes::Words(Core::new(Plan::new(design), options.skip, &workers))
+            Lanes::Words(Core::new(Plan::new(design), options.skip))
         };
         let outcome = Outcome::new(design.features().len(), index(design.regions()));
-        Self { design: design.clone(), workers, lanes, outcome, narrow: Vec::new() }
+        Self {
+            design: design.clone(),
+            workers,
+            lanes,
+            outcome,
+            outcomes: Vec::new(),
+            narrow: Vec::new(),
+        }
     }
 
     /// The design.
@@ -131,11 +140,11 @@ impl Engine {
                 narrow.clear();
                 narrow.extend(frame.pixels().iter().map(byte));
                 let raw = Pixels { values: &narrow[..], stride: width, width, height };
-                core.step(raw, workers, outcome);
+                core.step(&[raw], workers, outcome, Keep::nothing());
             }
             Lanes::Words(core) => {
                 let raw = Pixels { values: frame.pixels(), stride: width, width, height };
-                core.step(raw, workers, outcome);
+                core.step(&[raw], workers, outcome, Keep::nothing());
             }
         }
         Ok(&self.outcome)
@@ -147,9 +156,10 @@ impl Engine {
     /// # Errors
     /// When that is no frame of the design; nothing has changed then.
     pub fn step_u8(&mut self, pixels: &[u8], stride: usize) -> Result<&Outcome, EngineError> {
-        let raw = checked(&self.design, pixels, stride)?;
-        match &mut self.lanes {
-            Lanes::Bytes(core) => core.step(raw, &self.workers, &mut self.outcome),
+        let raw = Pixels::checked(&self.design, pixels, stride)?;
+        let Self { workers, lanes, outcome, .. } = self;
+        match lanes {
+            Lanes::Bytes(core) => core.step(&[raw], workers, outcome, Keep::nothing()),
             Lanes::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
         }
         Ok(&self.outcome)
@@ -160,15 +170,16 @@ impl Engine {
     /// # Errors
     /// When that is no frame of the design; nothing has changed then.
     pub fn step_u16(&mut self, pixels: &[u16], stride: usize) -> Result<&Outcome, EngineError> {
-        let raw = checked(&self.design, pixels, stride)?;
-        match &mut self.lanes {
-            Lanes::Words(core) => core.step(raw, &self.workers, &mut self.outcome),
+        let raw = Pixels::checked(&self.design, pixels, stride)?;
+        let Self { workers, lanes, outcome, .. } = self;
+        match lanes {
+            Lanes::Words(core) => core.step(&[raw], workers, outcome, Keep::nothing()),
             Lanes::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
         }
         Ok(&self.outcome)
     }
 
-    fn wrong_lanes(&self, expected: &'static str, given: &'static str) -> EngineError {
+    pub(crate) fn wrong_lanes(&self, expected: &'static str, given: &'static str) -> EngineError {
         EngineError::LaneWidth { bits: self.design.pixel_bits(), expected, given }
     }
 
@@ -197,31 +208,4 @@ impl Rendered<'_> {
             Self::Words(pixels) => pixels.to_vec(),
         }
     }
-}
-
-/// The pixels as a frame of the design.
-fn checked<'a, T: Lane>(
-    design: &Design,
-    values: &'a [T],
-    stride: usize,
-) -> Result<Pixels<'a, T>, EngineError> {
-    let (width, height) = (index(design.width()), index(design.height()));
-    let needed = (height - 1).saturating_mul(stride.max(width)).saturating_add(width);
-    if stride < width || values.len() < needed {
-        let given = values.len();
-        return Err(EngineError::FrameLength { given, stride, width, height, needed });
-    }
-    let raw = Pixels { values, stride, width, height };
-    let max = u64::from(design.pixel_max());
-    // Where the type holds no more than the bits, there is nothing to look for.
-    let rows = if max < T::MAX.into() { 0..height } else { 0..0 };
-    for y in rows {
-        let largest = raw.row(y).iter().copied().fold(T::default(), T::max);
-        if largest.into() > max {
-            let x = raw.row(y).iter().position(|&pixel| pixel == largest).unwrap_or_default();
-            let (bits, max) = (design.pixel_bits(), design.pixel_max());
-            return Err(EngineError::PixelRange { x, y, value: largest.into(), bits, max });
-        }
-    }
-    Ok(raw)
 }

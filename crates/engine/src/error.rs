@@ -56,6 +56,14 @@ pub enum EngineError {
         /// The type that came.
         given: &'static str,
     },
+    /// One of several frames is refused.
+    #[error("frame {number} of the batch: {error}")]
+    InBatch {
+        /// Which one, from 0.
+        number: usize,
+        /// What is wrong with it.
+        error: Box<EngineError>,
+    },
     /// The system gave no threads.
     #[error("the system gives no {threads} threads: {reason}")]
     Threads {

@@ -7,11 +7,13 @@
 //!   operations would go through memory once per step;
 //! - plain loops over fixed blocks of lanes, compiled for several instruction sets and entered
 //!   through the best that the processor has;
-//! - bands shared among threads, with the same bits however many there are;
+//! - bands shared among threads, with the same bits however many there are; several frames at once
+//!   are handed over once, [`Engine::step_batch_u8`];
 //! - regions that are bit-identical to the last frame are proved so and skipped.
 
 mod aligned;
 mod band;
+mod batch;
 mod change;
 mod core;
 mod decide;
@@ -20,12 +22,14 @@ mod engine;
 mod error;
 mod kernel;
 mod lane;
+mod look;
 mod outcome;
 mod pixels;
 mod plan;
 mod policy;
 mod render;
 mod scratch;
+mod screens;
 mod simd;
 mod strip;
 mod workers;
@@ -33,4 +37,5 @@ mod workers;
 pub use engine::{Engine, Options, Rendered};
 pub use error::EngineError;
 pub use outcome::Outcome;
+pub use screens::Screens;
 pub use simd::Level;

@@ -83,6 +83,19 @@ impl<'a> Results<'a> {
 }
 
 impl Results<'_> {
+    /// Takes over the results of other regions, as many.
+    #[inline(always)]
+    pub(crate) fn copy_from(&mut self, other: &Results<'_>) {
+        self.srs.copy_from_slice(other.srs);
+        self.trs.copy_from_slice(other.trs);
+        self.active.copy_from_slice(other.active);
+        self.actions.copy_from_slice(other.actions);
+        self.temporal_count.copy_from_slice(other.temporal_count);
+        for (own, other) in self.scores.iter_mut().zip(&other.scores) {
+            own.copy_from_slice(other);
+        }
+    }
+
     /// The results of some of the regions.
     #[inline(always)]
     pub(crate) fn rows(&mut self, regions: Range<usize>) -> Results<'_> {
@@ -105,7 +118,7 @@ impl Results<'_> {
 
 /// Some of the values, or none where there are none.
 #[inline(always)]
-fn within<'s, T>(values: &'s mut [T], range: &Range<usize>) -> &'s mut [T] {
+pub(crate) fn within<'s, T>(values: &'s mut [T], range: &Range<usize>) -> &'s mut [T] {
     let len = values.len();
     &mut values[range.start.min(len)..range.end.min(len)]
 }

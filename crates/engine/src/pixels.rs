@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pixels of one frame as their source holds them: rows some stride apart, nothing copied.
 
+use foveate_spec::Design;
+
+use crate::EngineError;
+use crate::lane::Lane;
+use crate::plan::index;
+
 /// A borrowed frame of `width` x `height` pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pixels<'a, T> {
@@ -15,5 +21,34 @@ impl<'a, T> Pixels<'a, T> {
     #[inline(always)]
     pub(crate) fn row(&self, y: usize) -> &'a [T] {
         &self.values[y.min(self.height - 1) * self.stride..][..self.width]
+    }
+}
+
+impl<'a, T: Lane> Pixels<'a, T> {
+    /// The pixels as a frame of the design.
+    pub(crate) fn checked(
+        design: &Design,
+        values: &'a [T],
+        stride: usize,
+    ) -> Result<Self, EngineError> {
+        let (width, height) = (index(design.width()), index(design.height()));
+        let needed = (height - 1).saturating_mul(stride.max(width)).saturating_add(width);
+        if stride < width || values.len() < needed {
+            let given = values.len();
+            return Err(EngineError::FrameLength { given, stride, width, height, needed });
+        }
+        let raw = Self { values, stride, width, height };
+        let max = u64::from(design.pixel_max());
+        // Where the type holds no more than the bits, there is nothing to look for.
+        let rows = if max < T::MAX.into() { 0..height } else { 0..0 };
+        for y in rows {
+            let largest = raw.row(y).iter().copied().fold(T::default(), T::max);
+            if largest.into() > max {
+                let x = raw.row(y).iter().position(|&pixel| pixel == largest).unwrap_or_default();
+                let (bits, max) = (design.pixel_bits(), design.pixel_max());
+                return Err(EngineError::PixelRange { x, y, value: largest.into(), bits, max });
+            }
+        }
+        Ok(raw)
     }
 }

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! When it pays to ask which regions are bit-identical to the last frame.
 //!
-//! Asking costs a copy and a comparison of every frame. So the engine asks all of a frame only while
-//! the answer saves work; otherwise it looks at a sample of bands now and then, less often the
-//! longer nothing is found. What is computed never depends on it.
+//! Asking costs a comparison of every frame, and a copy of the last of a batch. So the engine asks all
+//! of a batch only while the answer saves work; otherwise it looks at a sample of bands now and then,
+//! less often the longer nothing is found. What is computed never depends on it.
 
-/// What to do with a frame.
+/// What to do with a batch of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
     /// Nothing.
     Rest,
-    /// Keep a copy of a sample of bands.
+    /// Keep a copy of a sample of the last frame's bands.
     Sample,
-    /// Compare the sample with its copy.
-    Judge,
-    /// Keep a copy of all of it.
+    /// Compare the sample in frame 0 with its copy, or in a later one with the frame before.
+    Judge(usize),
+    /// Compare all frames but the first, and keep a copy of the last.
     Keep,
-    /// Compare all of it with its copy, and keep what has changed.
+    /// Compare all frames, the first with the copy, and keep a copy of the last.
     Compare,
 }
 
@@ -26,7 +26,7 @@ impl Step {
     pub(crate) fn concerns(self, band: usize) -> bool {
         match self {
             Self::Rest => false,
-            Self::Sample | Self::Judge => band.is_multiple_of(SAMPLE),
+            Self::Sample | Self::Judge(_) => band.is_multiple_of(SAMPLE),
             Self::Keep | Self::Compare => true,
         }
     }
@@ -62,24 +62,26 @@ impl Policy {
         Self { phase: if on { Phase::Resting(0) } else { Phase::Off }, rest: RESTS.0 }
     }
 
-    /// What to do with the next frame.
-    pub(crate) fn next(&mut self) -> Step {
+    /// What to do with the next frames.
+    pub(crate) fn next(&mut self, frames: usize) -> Step {
         match self.phase {
             Phase::Off => Step::Rest,
+            Phase::Resting(0) if frames > 1 => Step::Judge(1),
             Phase::Resting(0) => {
                 self.phase = Phase::Sampled;
                 Step::Sample
             }
             Phase::Resting(left) => {
-                self.phase = Phase::Resting(left - 1);
+                let frames = u32::try_from(frames).unwrap_or(u32::MAX);
+                self.phase = Phase::Resting(left.saturating_sub(frames));
                 Step::Rest
             }
-            Phase::Sampled => Step::Judge,
+            Phase::Sampled => Step::Judge(0),
             Phase::Kept => Step::Compare,
         }
     }
 
-    /// Learns how many blocks of the sample could be saved; says whether to keep this frame.
+    /// Learns how many blocks of the sample could be saved; says whether to keep these frames.
     pub(crate) fn judge(&mut self, saved: usize, blocks: usize) -> bool {
         let promising = saved * PROMISES > blocks;
         if promising {
@@ -113,10 +115,10 @@ mod tests {
     fn rests_grow_while_nothing_is_found_and_end_when_it_pays() {
         let mut policy = Policy::new(true);
         let mut film = |sample: usize, saved: usize, frames: usize| -> String {
-            let step = |_| match policy.next() {
+            let step = |_| match policy.next(1) {
                 Step::Rest => '.',
                 Step::Sample => 's',
-                Step::Judge => match policy.judge(sample, 100) {
+                Step::Judge(_) => match policy.judge(sample, 100) {
                     true => 'K',
                     false => 'j',
                 },
@@ -132,6 +134,20 @@ mod tests {
         assert_eq!(film(0, 0, 16), "................");
         assert_eq!(film(60, 60, 5), "sKccc");
         assert_eq!(film(60, 10, 9), "c....sKc.");
-        assert_eq!(Policy::new(false).next(), Step::Rest);
+        assert_eq!(Policy::new(false).next(1), Step::Rest);
+    }
+
+    #[test]
+    fn batches_are_judged_by_themselves_and_shorten_rests() {
+        let mut policy = Policy::new(true);
+        assert_eq!(policy.next(8), Step::Judge(1));
+        assert!(!policy.judge(0, 100));
+        assert_eq!(
+            [policy.next(3), policy.next(3), policy.next(1)],
+            [Step::Rest, Step::Rest, Step::Sample]
+        );
+        assert_eq!(policy.next(3), Step::Judge(0));
+        assert!(policy.judge(60, 100));
+        assert_eq!(policy.next(3), Step::Compare);
     }
 }

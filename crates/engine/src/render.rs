@@ -48,9 +48,7 @@ impl<T: Lane> Canvas<'_, T> {
                 Action::Hold => {}
                 Action::Blank if self.black[column] => {}
                 Action::Blank => {
-                    for y in 0..height {
-                        self.screen[y * plan.width + left..][..width].fill(T::default());
-                    }
+                    clear(&mut self.screen[left..], plan.width, width, height);
                     self.black[column] = true;
                 }
             }
@@ -65,6 +63,45 @@ impl<T: Lane> Canvas<'_, T> {
                 (Reference::LastSent, Action::Blank) => self.valid[column] = false,
             }
         }
+    }
+}
+
+/// Pixels that are copied in one go in the time that a row of a region takes by itself.
+const PIECE: usize = 64;
+
+/// Makes band `number` of a kept screen that of the screen; each comes with the regions that are black.
+#[inline(always)]
+pub(crate) fn show<T: Lane>(
+    plan: &Plan<T>,
+    number: usize,
+    (screen, black): (&[T], &[bool]),
+    (kept, kept_black): (&mut [T], &mut [bool]),
+) {
+    let height = plan.side.min(plan.height - number * plan.side);
+    let written = black.iter().zip(&*kept_black).filter(|(black, kept)| !(**black & **kept));
+    if written.count() * PIECE > plan.width {
+        kept[..height * plan.width].copy_from_slice(&screen[..height * plan.width]);
+        kept_black.copy_from_slice(black);
+        return;
+    }
+    for (column, (&black, kept_black)) in black.iter().zip(kept_black).enumerate() {
+        let left = column * plan.side;
+        let width = plan.side.min(plan.width - left);
+        let kept = &mut kept[left..];
+        match (black, *kept_black) {
+            (false, _) => copy(&screen[left..], plan.width, kept, plan.width, width, height),
+            (true, false) => clear(kept, plan.width, width, height),
+            (true, true) => {}
+        }
+        *kept_black = black;
+    }
+}
+
+/// Makes `width` x `height` values of a plane zero.
+#[inline(always)]
+fn clear<T: Lane>(plane: &mut [T], stride: usize, width: usize, height: usize) {
+    for y in 0..height {
+        plane[y * stride..][..width].fill(T::default());
     }
 }
 

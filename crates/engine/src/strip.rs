@@ -1,49 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Consecutive bands as one worker's share of a frame.
+//! Consecutive bands as one worker's share of a batch of frames.
+//!
+//! What is kept between frames belongs to a region, and what is seen of other regions are raw pixels
+//! of the same frame: so a strip goes through all frames of a batch without waiting for the others.
 
 use std::ops::{AddAssign, Range};
 
 use crate::band::Band;
 use crate::change;
 use crate::lane::Lane;
-use crate::outcome::Results;
+use crate::look::Changes;
+use crate::outcome::{Results, within};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
-use crate::policy::Step;
-use crate::render::Canvas;
+use crate::render::{Canvas, show};
 use crate::scratch::Scratch;
 use crate::simd::Task;
-
-/// Finds what has changed in some bands.
-#[derive(Debug)]
-pub(crate) struct Look<'a, T: Lane> {
-    pub(crate) plan: &'a Plan<T>,
-    pub(crate) raw: Pixels<'a, T>,
-    pub(crate) bands: Range<usize>,
-    pub(crate) step: Step,
-    /// Their part of the last frame.
-    pub(crate) copy: &'a mut [T],
-    pub(crate) changed: &'a mut [bool],
-}
-
-impl<T: Lane> Task for Look<'_, T> {
-    #[inline(always)]
-    fn run(self) {
-        let Self { plan, raw, bands, step, copy, changed } = self;
-        let copies = copy.chunks_mut(plan.side * plan.width);
-        let bands = bands.zip(copies).zip(changed.chunks_exact_mut(plan.columns));
-        for ((band, copy), changed) in bands {
-            if !step.concerns(band) {
-                continue;
-            }
-            match step {
-                Step::Rest => {}
-                Step::Sample | Step::Keep => change::keep(plan, raw, band, copy),
-                Step::Judge | Step::Compare => change::compare(plan, raw, band, copy, changed),
-            }
-        }
-    }
-}
 
 /// What did not have to be computed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,11 +33,21 @@ impl AddAssign for Skipped {
     }
 }
 
-/// Takes one frame through some bands.
+/// A strip's part of what is kept of one frame.
+#[derive(Debug)]
+pub(crate) struct Kept<'a, T> {
+    pub(crate) results: Results<'a>,
+    /// Empty where the screen is not asked for.
+    pub(crate) screen: &'a mut [T],
+    /// Regions of it that are black.
+    pub(crate) black: &'a mut [bool],
+}
+
+/// Takes a batch of frames through some bands.
 #[derive(Debug)]
 pub(crate) struct Strip<'a, T: Lane> {
     pub(crate) plan: &'a Plan<T>,
-    pub(crate) raw: Pixels<'a, T>,
+    pub(crate) frames: &'a [Pixels<'a, T>],
     pub(crate) bands: Range<usize>,
     pub(crate) denoised: &'a mut [T],
     pub(crate) reference: &'a mut [T],
@@ -74,36 +56,49 @@ pub(crate) struct Strip<'a, T: Lane> {
     pub(crate) black: &'a mut [bool],
     /// By band: no result, reference or pixel of the screen would change if it stood still again.
     pub(crate) settled: &'a mut [bool],
+    /// Of the last frame.
     pub(crate) results: Results<'a>,
+    /// By frame, or empty.
+    pub(crate) kept: Vec<Kept<'a, T>>,
     pub(crate) scratch: &'a mut Scratch<T>,
-    /// Which regions of the frame have changed, where that is known.
-    pub(crate) changed: Option<&'a [bool]>,
-    pub(crate) skipped: &'a mut Skipped,
+    pub(crate) changes: Changes<'a>,
+    /// By frame.
+    pub(crate) skipped: &'a mut Vec<Skipped>,
 }
 
 impl<T: Lane> Task for Strip<'_, T> {
     #[inline(always)]
     fn run(mut self) {
-        for row in &mut self.scratch.denoised {
-            row.holds = None;
-        }
-        *self.skipped = Skipped::default();
-        let bands = self.bands.clone();
-        for (row, band) in bands.enumerate() {
-            self.band(row, band);
+        self.skipped.clear();
+        for frame in 0..self.frames.len() {
+            for row in &mut self.scratch.denoised {
+                row.holds = None;
+            }
+            self.skipped.push(Skipped::default());
+            for row in 0..self.bands.len() {
+                self.band(frame, row);
+                // Not the band that has only just been written: its stores are still on their way.
+                if let Some(last) = row.checked_sub(1) {
+                    self.keep_screen(frame, last);
+                }
+            }
+            self.keep_screen(frame, self.bands.len() - 1);
+            if let Some(kept) = self.kept.get_mut(frame) {
+                kept.results.copy_from(&self.results);
+            }
         }
     }
 }
 
 impl<T: Lane> Strip<'_, T> {
-    /// Band `number`, the strip's `row`th.
+    /// Takes a frame through the strip's `row`th band.
     #[inline(always)]
-    fn band(&mut self, row: usize, number: usize) {
-        let plan = self.plan;
+    fn band(&mut self, frame: usize, row: usize) {
+        let (plan, raw, number) = (self.plan, self.frames[frame], self.bands.start + row);
         let rows = row * plan.side * plan.stride()..(row + 1) * plan.side * plan.stride();
         let regions = row * plan.columns..(row + 1) * plan.columns;
         let lines = row * plan.side * plan.width;
-        self.select(number);
+        self.select(frame, number);
         let still = self.scratch.runs.is_empty();
         if still && self.settled[row] {
             return;
@@ -114,7 +109,7 @@ impl<T: Lane> Strip<'_, T> {
         if !still {
             let mut band = Band {
                 plan,
-                raw: self.raw,
+                raw,
                 number,
                 denoised: &mut self.denoised[rows.clone()],
                 reference: &self.reference[reference.clone()],
@@ -131,25 +126,40 @@ impl<T: Lane> Strip<'_, T> {
             valid,
             black: &mut self.black[regions],
         };
-        canvas.act(plan, self.raw, number, results.actions);
+        canvas.act(plan, raw, number, results.actions);
     }
 
     /// Chooses what of band `number` has to be computed.
     #[inline(always)]
-    fn select(&mut self, number: usize) {
+    fn select(&mut self, frame: usize, number: usize) {
         let (plan, scratch) = (self.plan, &mut *self.scratch);
-        match self.changed {
+        match self.changes.around(plan, frame, number) {
             Some(changed) => {
-                change::affected(plan, changed, number, &mut scratch.affected);
+                change::affected(plan, changed, &mut scratch.affected);
                 change::runs(plan, &scratch.affected, &mut scratch.runs);
                 let computed: usize = scratch.runs.iter().map(Range::len).sum();
                 let skipped = scratch.affected.iter().filter(|affected| !**affected).count();
-                *self.skipped += Skipped { regions: skipped, blocks: plan.blocks - computed };
+                self.skipped[frame] += Skipped { regions: skipped, blocks: plan.blocks - computed };
             }
             None => {
                 scratch.affected.fill(true);
                 scratch.runs.clear();
                 scratch.runs.push(0..plan.blocks);
+            }
+        }
+    }
+
+    /// Copies what is on the screen, where it is kept, while it is in the cache.
+    #[inline(always)]
+    fn keep_screen(&mut self, frame: usize, row: usize) {
+        let plan = self.plan;
+        if let Some(kept) = self.kept.get_mut(frame) {
+            let regions = row * plan.columns..(row + 1) * plan.columns;
+            let black = within(kept.black, &regions);
+            if !black.is_empty() {
+                let top = row * plan.side * plan.width;
+                let screen = (&self.screen[top..], &self.black[regions]);
+                show(plan, self.bands.start + row, screen, (&mut kept.screen[top..], black));
             }
         }
     }

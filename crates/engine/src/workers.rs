@@ -39,12 +39,12 @@ impl Workers {
         self.others.as_ref().map_or(0, rayon::ThreadPool::current_num_threads)
     }
 
-    /// Into how many strips a frame of so many bands and pixels is divided.
-    pub(crate) fn strips(&self, bands: usize, pixels: usize) -> usize {
+    /// Into how many strips, at most `most`, so many pixels of one frame or several are divided.
+    pub(crate) fn strips(&self, most: usize, pixels: usize) -> usize {
         match self.others() {
             0 => 1,
             others => {
-                let most = ((others + 1) * STRIPS_PER_THREAD).min(bands);
+                let most = ((others + 1) * STRIPS_PER_THREAD).min(most);
                 (pixels / SMALLEST_STRIP).clamp(1, most)
             }
         }

@@ -10,7 +10,12 @@ use foveate_spec::{
 use crate::film::{Change, film};
 use crate::properties::check;
 
-fn design(width: u32, height: u32, side: u32, change: impl FnOnce(&mut Config)) -> Design {
+pub(crate) fn design(
+    width: u32,
+    height: u32,
+    side: u32,
+    change: impl FnOnce(&mut Config),
+) -> Design {
     let mut config = Config::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
     config.region.size = side;

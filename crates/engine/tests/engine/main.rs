@@ -2,6 +2,7 @@
 //! The engine against the functional model: every design, every way to run, many frames.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod batches;
 mod film;
 mod hard_cases;
 mod properties;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What is no frame of the design is refused by name, and changes nothing.
 
-use foveate_engine::{Engine, EngineError, Outcome};
+use foveate_engine::{Engine, EngineError, Outcome, Screens};
 use foveate_model::Frame;
 use foveate_spec::{Config, Design};
 
@@ -44,4 +44,37 @@ fn what_is_no_frame_of_the_design_is_refused() {
     let refused = message(engine.step_u16(&[0; 180], 20));
     assert_eq!(refused, "pixels of 6 bits are held as u8; the design was given u16");
     assert!(Engine::new(&design(9)).step_u8(&[0; 180], 20).is_err());
+}
+
+#[test]
+fn batches_with_a_wrong_frame_change_nothing() {
+    fn refused<T: std::fmt::Debug>(result: Result<T, EngineError>) -> String {
+        result.unwrap_err().to_string()
+    }
+    let mut engine = Engine::new(&design(6));
+    let (good, bad) = (&[9; 180][..], &[64; 180][..]);
+    engine.step_batch_u8(&[good, good], 20, None).unwrap();
+    let before = (engine.outcome().clone(), engine.rendered().to_words());
+    assert_eq!(
+        refused(engine.step_batch_u8(&[good, good, bad], 20, None)),
+        "frame 2 of the batch: pixel (0, 0) is 64; the largest value of 6 bits is 63"
+    );
+    assert_eq!(
+        refused(engine.step_batch_u8(&[&good[1..]], 20, None)),
+        "frame 0 of the batch: 179 pixels in rows 20 apart hold no frame of 20x9; the stride must \
+         be at least 20 and the pixels at least 180"
+    );
+    assert_eq!(
+        refused(engine.step_batch_u16(&[&[0; 180]], 20, None)),
+        "pixels of 6 bits are held as u8; the design was given u16"
+    );
+    let mut screens = Screens::new();
+    engine.step_batch_u8(&[good], 20, Some(&mut screens)).unwrap();
+    assert!(engine.step_batch_u8(&[bad], 20, Some(&mut screens)).is_err());
+    assert_eq!(screens.get(0).map(<[u8]>::to_vec), Some(vec![0; 180]));
+    assert_eq!(screens.get(1), None);
+    assert!(Engine::new(&design(9)).step_batch_u8(&[good], 20, None).is_err());
+    assert_eq!((engine.outcome().clone(), engine.rendered().to_words()), before);
+    assert!(engine.step_batch_u8(&[], 20, None).unwrap().is_empty());
+    assert_eq!((engine.outcome().clone(), engine.rendered().to_words()), before);
 }

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Several frames at once give what they give one by one, for every design, film, division into
+//! batches, number of threads and instruction set.
+
+use foveate_engine::{Engine, Level, Options, Outcome, Rendered, Screens};
+use foveate_model::{Camera, Frame};
+use foveate_spec::{Design, FeatureKind, Neighborhood, Reference, SpatialConfig};
+use proptest::prelude::*;
+
+use crate::film::{Change, film, scripts};
+use crate::hard_cases::design;
+use crate::properties::assert_same;
+use crate::recipe::designs;
+
+/// One call.
+#[derive(Clone, Copy, Debug)]
+struct Call {
+    frames: usize,
+    /// Whether the screens are asked for.
+    screens: bool,
+    /// Whether everything is forgotten before.
+    reset: bool,
+    /// Whether frames are given one by one all the same.
+    single: bool,
+}
+
+fn calls() -> impl Strategy<Value = Vec<Call>> {
+    let call = (0usize..=7, any::<bool>(), proptest::bool::weighted(0.15), any::<bool>());
+    let call = call.prop_map(|(frames, screens, reset, single)| Call {
+        frames,
+        screens,
+        reset,
+        single: single && frames == 1,
+    });
+    proptest::collection::vec(call, 1..6)
+}
+
+/// Rows with a gap between them, of values that no frame could have.
+fn strided(design: &Design, frame: &Frame, gap: usize) -> Vec<u16> {
+    let rows = frame.pixels().chunks(usize::try_from(design.width()).unwrap());
+    rows.flat_map(|row| row.iter().copied().chain(vec![u16::MAX; gap])).collect()
+}
+
+/// Screens of both widths, which all engines write to in turn.
+#[derive(Default)]
+struct Kept {
+    bytes: Screens<u8>,
+    words: Screens<u16>,
+}
+
+/// Outcomes of some frames at once, and their screens where they are asked for.
+fn step(
+    engine: &mut Engine,
+    frames: &[Frame],
+    gap: usize,
+    kept: Option<&mut Kept>,
+) -> (Vec<Outcome>, Vec<Vec<u16>>) {
+    let design = engine.design().clone();
+    let stride = usize::try_from(design.width()).unwrap() + gap;
+    let words: Vec<Vec<u16>> = frames.iter().map(|f| strided(&design, f, gap)).collect();
+    if design.pixel_bits() > 8 {
+        let frames: Vec<&[u16]> = words.iter().map(Vec::as_slice).collect();
+        let mut screens = kept.map(|kept| &mut kept.words);
+        let outcomes = engine.step_batch_u16(&frames, stride, screens.as_deref_mut());
+        let screens = screens.iter().flat_map(|screens| screens.iter());
+        return (outcomes.unwrap().to_vec(), screens.map(<[u16]>::to_vec).collect());
+    }
+    let bytes = |words: &Vec<u16>| words.iter().map(|word| word.to_le_bytes()[0]).collect();
+    let bytes: Vec<Vec<u8>> = words.iter().map(bytes).collect();
+    let frames: Vec<&[u8]> = bytes.iter().map(Vec::as_slice).collect();
+    let mut screens = kept.map(|kept| &mut kept.bytes);
+    let outcomes = engine.step_batch_u8(&frames, stride, screens.as_deref_mut());
+    let screens = screens.iter().flat_map(|screens| screens.iter());
+    let screens = screens.map(|screen| Rendered::Bytes(screen).to_words()).collect();
+    (outcomes.unwrap().to_vec(), screens)
+}
+
+/// Runs a film through the model frame by frame and through engines call by call, over and over until
+/// the calls end; returns how many regions were skipped with one thread.
+fn check(design: &Design, film: &[Frame], calls: &[Call], options: Options, gap: usize) -> usize {
+    let mut camera = Camera::new(design);
+    let engine = |threads| Engine::with_options(design, Options { threads, ..options }).unwrap();
+    let mut engines = [1, 2, 3].map(engine);
+    let (mut film, mut skipped, mut kept) = (film.iter().cycle(), 0, Kept::default());
+    for call in calls {
+        let context = format!("{call:?} of {calls:?}, {options:?}, {:?}", design.config());
+        if call.reset {
+            camera.reset();
+            engines.iter_mut().for_each(Engine::reset);
+        }
+        let frames: Vec<Frame> = film.by_ref().take(call.frames).cloned().collect();
+        let clear: Vec<_> =
+            frames.iter().map(|frame| camera.step(frame).unwrap().clone()).collect();
+        let found = engines.each_mut().map(|engine| match (call.single, &frames[..]) {
+            (true, [frame]) => (vec![engine.step(frame).unwrap().clone()], Vec::new()),
+            _ => step(engine, &frames, gap, call.screens.then_some(&mut kept)),
+        });
+        // Not even what is skipped depends on the number of threads.
+        assert_eq!(found[0], found[1], "two threads, {context}");
+        assert_eq!(found[0], found[2], "three threads, {context}");
+        let [(outcomes, screens), ..] = &found;
+        assert_eq!(outcomes.len(), frames.len(), "{context}");
+        let asked = call.screens && !call.single;
+        assert_eq!(screens.len(), if asked { frames.len() } else { 0 }, "{context}");
+        for (number, (fast, clear)) in outcomes.iter().zip(&clear).enumerate() {
+            assert_same(fast, clear, &format!("frame {number} in {context}"));
+            skipped += fast.skipped;
+        }
+        for (number, (screen, clear)) in screens.iter().zip(&clear).enumerate() {
+            assert_eq!(screen, clear.rendered.pixels(), "screen {number} in {context}");
+        }
+        for engine in &engines {
+            if let (Some(last), Some(clear)) = (outcomes.last(), clear.last()) {
+                assert_eq!(engine.outcome(), last, "last outcome, {context}");
+                let rendered = engine.rendered().to_words();
+                assert_eq!(rendered, clear.rendered.pixels(), "last screen, {context}");
+            }
+        }
+    }
+    skipped
+}
+
+fn batch(frames: usize) -> Call {
+    Call { frames, screens: true, reset: false, single: false }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn batches_equal_the_model(
+        design in designs(),
+        (seed, script) in scripts(),
+        calls in calls(),
+        skip in any::<bool>(),
+        level in proptest::sample::select(Level::available()),
+        gap in 0usize..4,
+    ) {
+        let options = Options { threads: 1, skip, level };
+        check(&design, &film(&design, seed, &script), &calls, options, gap);
+    }
+}
+
+/// Frames that a batch divides among threads, still and moving, in batches of every length.
+#[test]
+fn strips_go_through_a_batch_without_a_seam() {
+    use Change::{Noise, Patch, Spot, Still};
+    let script =
+        [Still, Still, Patch(0.4, 0.2), Still, Still, Noise, Still, Spot(0.5, 0.5), Still, Still];
+    for side in [5, 8, 32] {
+        for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
+            for reference in [Reference::Previous, Reference::LastSent] {
+                for bits in [8, 10] {
+                    let design = design(330, 170, side, |config| {
+                        config.spatial =
+                            FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+                        config.frame.pixel_bits = bits;
+                        config.region.neighborhood = neighborhood;
+                        config.temporal.reference = reference;
+                    });
+                    let calls = [batch(2), batch(5), batch(1), batch(9), batch(4)];
+                    let film = film(&design, 9, &script);
+                    assert!(check(&design, &film, &calls, Options::default(), 0) > 0);
+                }
+            }
+        }
+    }
+}
+
+/// What lies still is found within a batch, without one before it.
+#[test]
+fn a_single_batch_is_skipped_where_it_stands_still() {
+    let design = design(250, 70, 8, |_| {});
+    let frames = film(&design, 5, &[Change::Still; 7]);
+    let skipped = check(&design, &frames, &[batch(8)], Options::default(), 0);
+    assert_eq!(skipped, 7 * usize::try_from(design.regions()).unwrap());
+}
+
+/// More frames than go through the engine together.
+#[test]
+fn long_batches_are_one_film() {
+    let design = design(1500, 1100, 64, |_| {});
+    let script = [Change::Still, Change::Patch(0.3, 0.4), Change::Still, Change::Fade];
+    let calls = [batch(7), batch(6)];
+    check(&design, &film(&design, 11, &script), &calls, Options::default(), 0);
+}
