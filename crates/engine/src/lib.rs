@@ -24,13 +24,15 @@ mod outcome;
 mod pixels;
 mod plan;
 mod policy;
+mod raster;
 mod render;
 mod scratch;
 mod simd;
 mod strip;
 mod workers;
 
-pub use engine::{Engine, Options, Rendered};
+pub use engine::{Engine, Options};
 pub use error::EngineError;
 pub use outcome::Outcome;
+pub use raster::{Plane, Raster};
 pub use simd::Level;
