@@ -7,6 +7,7 @@ use foveate_spec::Design;
 use crate::core::{Core, Keep};
 use crate::pixels::Pixels;
 use crate::plan::{Plan, index};
+use crate::raster::{Plane, Raster};
 use crate::workers::Workers;
 use crate::{EngineError, Level, Outcome};
 
@@ -28,15 +29,6 @@ impl Default for Options {
     fn default() -> Self {
         Self { threads: 1, skip: true, level: Level::detect() }
     }
-}
-
-/// What is on the screen, without padding, row by row with nothing between.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rendered<'a> {
-    /// Of a design with up to 8 bits per pixel.
-    Bytes(&'a [u8]),
-    /// Of a design with more.
-    Words(&'a [u16]),
 }
 
 #[derive(Debug)]
@@ -126,12 +118,7 @@ impl Engine {
     /// # Errors
     /// When the frame is not of the design's size and depth; nothing has changed then.
     pub fn step(&mut self, frame: &Frame) -> Result<&Outcome, EngineError> {
-        let expected = (self.design.width(), self.design.height(), self.design.pixel_bits());
-        let given = (frame.width(), frame.height(), frame.bits());
-        if given != expected {
-            let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
-            return Err(EngineError::FrameKind { given: kind(given), expected: kind(expected) });
-        }
+        self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         let (width, height) = (index(frame.width()), index(frame.height()));
         let Self { workers, lanes, outcome, narrow, .. } = self;
         match lanes {
@@ -148,6 +135,27 @@ impl Engine {
             }
         }
         Ok(&self.outcome)
+    }
+
+    /// Takes the next frame where it lies.
+    ///
+    /// # Errors
+    /// When the frame is not of the design's size and depth; nothing has changed then.
+    pub fn step_raster(&mut self, frame: &Raster) -> Result<&Outcome, EngineError> {
+        self.check_kind((frame.width(), frame.height(), frame.bits()))?;
+        match frame.plane() {
+            Plane::Bytes(pixels) => self.step_u8(pixels, index(frame.width())),
+            Plane::Words(pixels) => self.step_u16(pixels, index(frame.width())),
+        }
+    }
+
+    fn check_kind(&self, given: (u32, u32, u32)) -> Result<(), EngineError> {
+        let expected = (self.design.width(), self.design.height(), self.design.pixel_bits());
+        if given == expected {
+            return Ok(());
+        }
+        let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
+        Err(EngineError::FrameKind { given: kind(given), expected: kind(expected) })
     }
 
     /// Takes the next frame of a design with up to 8 bits per pixel, where it lies: rows of bytes,
@@ -191,21 +199,10 @@ impl Engine {
 
     /// What is on the screen after the last frame.
     #[must_use]
-    pub fn rendered(&self) -> Rendered<'_> {
+    pub fn rendered(&self) -> Plane<'_> {
         match &self.lanes {
-            Lanes::Bytes(core) => Rendered::Bytes(&core.screen),
-            Lanes::Words(core) => Rendered::Words(&core.screen),
-        }
-    }
-}
-
-impl Rendered<'_> {
-    /// The pixels as words, copied: what [`Frame`] holds.
-    #[must_use]
-    pub fn to_words(self) -> Vec<u16> {
-        match self {
-            Self::Bytes(pixels) => pixels.iter().map(|&pixel| pixel.into()).collect(),
-            Self::Words(pixels) => pixels.to_vec(),
+            Lanes::Bytes(core) => Plane::Bytes(&core.screen),
+            Lanes::Words(core) => Plane::Words(&core.screen),
         }
     }
 }

@@ -27,6 +27,7 @@ mod outcome;
 mod pixels;
 mod plan;
 mod policy;
+mod raster;
 mod render;
 mod scratch;
 mod screens;
@@ -34,8 +35,9 @@ mod simd;
 mod strip;
 mod workers;
 
-pub use engine::{Engine, Options, Rendered};
+pub use engine::{Engine, Options};
 pub use error::EngineError;
 pub use outcome::Outcome;
+pub use raster::{Plane, Raster};
 pub use screens::Screens;
 pub use simd::Level;

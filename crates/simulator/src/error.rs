@@ -13,6 +13,7 @@ use foveate_toolchain::ToolError;
 use thiserror::Error;
 
 use crate::Crop;
+use crate::output::is_full;
 use crate::picture::{MAX_FILE_GIB, MAX_SIDE};
 
 /// What the reader understands, for messages.
@@ -208,6 +209,12 @@ pub enum SimulatorError {
         /// Why.
         source: io::Error,
     },
+    /// The system gave no thread.
+    #[error("the system gives no thread: {reason}; try again with less running beside it")]
+    Thread {
+        /// What it says.
+        reason: String,
+    },
     /// No video can be written on this machine.
     #[error("video cannot be written: {0}; or write pictures, for example with --rendered png")]
     NoVideo(#[source] Box<ToolError>),
@@ -274,6 +281,19 @@ pub enum SimulatorError {
     /// The scene does not exist.
     #[error(transparent)]
     Scene(#[from] SceneError),
+}
+
+impl SimulatorError {
+    /// Whether there was no room for an output.
+    pub(crate) fn is_full(&self) -> bool {
+        match self {
+            Self::Write { source, .. } => is_full(source),
+            Self::VideoOutput { problem, .. } => ["No space left on device", "Disk quota exceeded"]
+                .iter()
+                .any(|p| problem.contains(p)),
+            _ => false,
+        }
+    }
 }
 
 impl From<ToolError> for SimulatorError {

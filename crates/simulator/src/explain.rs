@@ -152,7 +152,7 @@ pub fn explain(
             camera.reset();
         }
         let reference = camera.reference(number);
-        let outcome = camera.step(&current.frame)?;
+        let outcome = camera.step(&current.frame.to_frame()?)?;
         if frames == frame {
             return Ok(gather::explanation(&design, frame, &current, number, reference, outcome));
         }

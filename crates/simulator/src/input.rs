@@ -108,7 +108,7 @@ fn feed(
             return scene(name, config, options);
         }
         if let Some(device) = after("v4l2:", input) {
-            return Ok(Box::new(Video::open(Medium::Camera(device.into()), bits, rate)?));
+            return Ok(Box::new(Video::open(Medium::Camera(device.into()), bits, rate, 0)?));
         }
         if *input == Path::new("-") {
             let stdin = Box::new(BufReader::new(std::io::stdin()));
@@ -163,7 +163,9 @@ fn file(
             Box::new(Y4m::new(name, open_unpacked(path)?, bits, options.frame_rate)?)
         }
         sniff::FileKind::Video => {
-            Box::new(Video::open(Medium::File(path.to_owned()), bits, options.frame_rate)?)
+            let start = options.selection.start_us.unwrap_or(0);
+            let medium = Medium::File(path.to_owned());
+            Box::new(Video::open(medium, bits, options.frame_rate, start)?)
         }
     })
 }

@@ -15,6 +15,7 @@ mod input;
 mod natural;
 mod output;
 mod picture;
+mod samples;
 mod sets;
 mod simulation;
 mod source;

@@ -7,11 +7,13 @@
 mod arrays;
 mod bandwidth;
 mod canvas;
+mod crew;
 mod csv;
 mod data_set;
 mod events;
 mod font;
 mod gallery;
+mod growing;
 mod headed;
 mod heatmap;
 mod npy;
@@ -33,13 +35,18 @@ pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
 pub use data_set::DataSet;
 pub use options::{EventTables, Medium, PixelEvents, RunOptions};
 pub use pixel_camera::{PixelCamera, PixelEvent};
-pub(crate) use recorder::Recorder;
+pub(crate) use recorder::{DISK_FULL, Recorder};
 pub use summary::{Grid, Range, Summary};
 
 use std::io;
 use std::path::Path;
 
 use crate::SimulatorError;
+
+/// Whether an error of the operating system says that there is no room.
+pub(crate) fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+}
 
 /// Names the file in an error of the operating system.
 fn cannot_write(path: &Path) -> impl Fn(io::Error) -> SimulatorError + '_ {

@@ -7,7 +7,8 @@ use foveate_engine::Engine;
 use foveate_spec::{Config, Design};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 
-use crate::output::Recorder;
+use crate::output::{DISK_FULL, Recorder};
+use crate::source::ahead::read_ahead;
 use crate::{Kind, RunOptions, SimulatorError, Source, Summary};
 
 /// What a summary says of a run that the user stopped.
@@ -69,7 +70,8 @@ impl Simulation {
 
     /// Runs to the end of the source, or until `hooks` cancels. The folder `output` appears when
     /// everything is written; on an error nothing is left. A source that ends early, such as a
-    /// truncated video, and an interrupt leave what was done, with `complete: false` in the summary.
+    /// truncated video, an interrupt, and a full disk leave what was done, with `complete: false` in the
+    /// summary.
     ///
     /// # Errors
     /// When a frame cannot be read, the output cannot be written, or there is no frame.
@@ -88,48 +90,64 @@ impl Simulation {
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
         let mut recorder =
             Recorder::create(staging.folder(), &self.design, &self.source.form(), options)?;
-        let cancelled = self.record(&mut recorder, hooks)?;
-        let problem = match (cancelled, recorder.frames()) {
-            (true, 0) => return Err(SimulatorError::Cancelled),
-            (false, 0) => {
+        let end = self.record(&mut recorder, hooks);
+        let problem = match (end, recorder.frames()) {
+            (Ok(End::Cancelled), 0) => return Err(SimulatorError::Cancelled),
+            (Ok(End::Source), 0) => {
                 let inputs = self.source.inputs().join(", ");
                 return Err(SimulatorError::NoFrames { inputs });
             }
-            (true, _) => Some(INTERRUPTED.to_owned()),
-            (false, _) => self.source.problem(),
+            (Ok(End::Cancelled), _) => Some(INTERRUPTED.to_owned()),
+            (Ok(End::Source), _) => self.source.problem(),
+            (Err(error), 1..) if error.is_full() => Some(full(&error, recorder.frames())),
+            (Err(error), _) => return Err(error),
         };
         let summary = recorder.finish(staging.folder(), self.source.inputs(), problem)?;
         staging.commit()?;
         Ok(summary)
     }
 
-    /// Whether it was cancelled.
+    /// Shows every frame to the engine, while those after it are read.
     fn record(
         &mut self,
         recorder: &mut Recorder,
         hooks: &mut dyn Hooks,
-    ) -> Result<bool, SimulatorError> {
+    ) -> Result<End, SimulatorError> {
         let mut engine = Engine::new(&self.design);
-        let source = &mut self.source;
-        let total = source.frames();
-        let mut next = source.next_frame()?;
-        while let Some(current) = next {
-            if hooks.cancelled() {
-                return Ok(true);
+        let (total, kind) = (self.source.frames(), self.source.kind());
+        read_ahead(self.source.as_mut(), |frames| {
+            while let Some(current) = frames.next()? {
+                if hooks.cancelled() {
+                    return Ok(End::Cancelled);
+                }
+                if kind == Kind::Set {
+                    engine.reset();
+                }
+                engine.step_raster(&current.frame)?;
+                recorder.push(&current, &engine)?;
+                frames.give_back(current);
+                hooks.progress(Progress { done: recorder.frames(), total });
             }
-            if source.kind() == Kind::Set {
-                engine.reset();
-            }
-            engine.step(&current.frame)?;
-            // While a frame is written the one after it is read.
-            let (written, read) =
-                rayon::join(|| recorder.push(&current, &engine), || source.next_frame());
-            written?;
-            next = read?;
-            hooks.progress(Progress { done: recorder.frames(), total });
-        }
-        Ok(false)
+            Ok(End::Source)
+        })
     }
+}
+
+/// Why no more frames came.
+enum End {
+    Source,
+    Cancelled,
+}
+
+/// What a summary says of a run that found no room.
+fn full(error: &SimulatorError, frames: u64) -> String {
+    let file = match error {
+        SimulatorError::Write { path, .. } | SimulatorError::VideoOutput { path, .. } => {
+            path.file_name().unwrap_or_default().display().to_string()
+        }
+        _ => String::new(),
+    };
+    format!("{DISK_FULL} after {frames} frames, at {file}")
 }
 
 impl std::fmt::Debug for Simulation {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where frames come from, and what every frame knows of itself.
 
+pub(crate) mod ahead;
 pub(crate) mod feed;
 pub(crate) mod files;
 pub(crate) mod form;
 pub(crate) mod resize;
 pub(crate) mod select;
 
-use foveate_model::Frame;
+use foveate_engine::Raster;
 
 use crate::SimulatorError;
 use form::SetForm;
@@ -22,7 +23,7 @@ pub struct SourceFrame {
     /// The class of an image of a labelled set.
     pub label: Option<String>,
     /// The pixels.
-    pub frame: Frame,
+    pub frame: Raster,
 }
 
 /// How frames of a source belong together.
@@ -61,6 +62,9 @@ pub trait Source: Send {
     /// # Errors
     /// When it cannot be read or does not have the size of the others.
     fn next_frame(&mut self) -> Result<Option<SourceFrame>, SimulatorError>;
+
+    /// Takes back a frame that is done with, to use its memory again.
+    fn give_back(&mut self, _frame: SourceFrame) {}
 
     /// Whether frames follow each other in time; of a set every frame is a first frame.
     fn kind(&self) -> Kind {

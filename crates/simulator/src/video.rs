@@ -6,22 +6,25 @@
 //! * ffmpeg's `showinfo` filter says size, format and time of a frame on the standard error before the
 //!   frame itself comes through the pipe, so that times are the container's, and a change of size in
 //!   mid-stream is seen. `-fps_mode passthrough` keeps ffmpeg from repeating or dropping frames.
+//! * A late start is sought where that gives the same frames, see [`seek`].
 //! * Rotation is ignored, as EXIF is.
 
+mod decoder;
 mod log;
 mod probe;
+mod seek;
 mod truncated;
 
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use foveate_model::Frame;
-use foveate_toolchain::{Invocation, Stream, Tool, Toolchain};
+use foveate_engine::Raster;
+use foveate_toolchain::{Tool, Toolchain};
 
-use self::log::{Info, Report, Shown};
+use self::decoder::{Decoder, Ffmpeg, Start};
+use self::log::Shown;
 use self::probe::Probe;
 use crate::source::feed::Feed;
-use crate::{FrameRate, SimulatorError, SourceFrame, convert_depth, luma};
+use crate::{FrameRate, SimulatorError, SourceFrame};
 
 /// What to read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,11 +69,11 @@ impl Medium {
 /// The frames of a video.
 pub(crate) struct Video {
     medium: Medium,
-    stream: Stream,
+    decoder: Decoder,
     total: Option<u64>,
     bits: u32,
     rate: FrameRate,
-    report: Report,
+    /// Memory for the next frame.
     bytes: Vec<u8>,
     first_pts: Option<i64>,
     frames: u64,
@@ -78,87 +81,61 @@ pub(crate) struct Video {
 }
 
 impl Video {
-    pub(crate) fn open(medium: Medium, bits: u32, rate: FrameRate) -> Result<Self, SimulatorError> {
+    /// Opens it; frames before `start_us` are not wanted, and may be missing.
+    pub(crate) fn open(
+        medium: Medium,
+        bits: u32,
+        rate: FrameRate,
+        start_us: u64,
+    ) -> Result<Self, SimulatorError> {
         let tools = Toolchain::system();
-        let ffmpeg = tools.find(Tool::Ffmpeg)?;
-        let probe = Probe::of(&tools, &medium)?;
-        // The option had another name before ffmpeg 5.1; builds between releases have no version.
-        let renamed = ffmpeg.version.is_none_or(|version| version.reaches(5, 1));
-        let passthrough = if renamed { "-fps_mode" } else { "-vsync" };
-        let invocation = Invocation::new(ffmpeg.path)
-            .args(["-hide_banner", "-nostdin", "-nostats", "-loglevel", "repeat+level+info"])
-            .arg("-noautorotate")
-            .args(medium.arguments())
-            .args(["-map", "0:v:0", "-vf"])
-            .arg(format!("{},showinfo=checksum=0", probe.conversion()))
-            // Frames stay as large as they are, and two never fall on one tick.
-            .args(["-autoscale", "0", "-enc_time_base", "1:1000000"])
-            .args([passthrough, "passthrough", "-f", "rawvideo", "pipe:1"]);
-        let stream = Stream::start(&invocation)?;
+        // Starting a program of ffmpeg's size takes as long as decoding some dozen frames.
+        let (found, probe) = std::thread::scope(|scope| {
+            let found = scope.spawn(|| tools.find(Tool::Ffmpeg));
+            let probe = Probe::of(&tools, &medium);
+            (found.join(), probe)
+        });
+        let found = found.unwrap_or_else(|_| tools.find(Tool::Ffmpeg))?;
+        let probe = probe?;
+        let ffmpeg = Ffmpeg { found, medium: medium.clone(), conversion: probe.conversion() };
+        let sought = seek::start(&tools, &ffmpeg, &probe, start_us)?;
+        let (decoder, first_pts) = match sought {
+            Some(sought) => (sought.decoder, Some(sought.first_pts)),
+            None => (Decoder::start(&ffmpeg, Start::Plain)?, None),
+        };
         Ok(Self {
             medium,
-            stream,
+            decoder,
             total: probe.frames,
             bits,
             rate,
-            report: Report::default(),
             bytes: Vec::new(),
-            first_pts: None,
+            first_pts,
             frames: 0,
             problem: None,
         })
     }
 
-    /// The next frame that ffmpeg announces, or `None` when it will announce no more.
-    fn announced(&mut self) -> Option<Shown> {
-        while let Some(line) = self.stream.next_line() {
-            if let Some(Info::Frame(shown)) = self.report.take(&line) {
-                return Some(shown);
-            }
-        }
-        None
-    }
-
-    fn pixels(&mut self, shown: &Shown) -> io::Result<Vec<u16>> {
-        let samples = shown.width as usize * shown.height as usize * shown.format.channels();
-        self.bytes.resize(samples * shown.format.bytes_per_sample(), 0);
-        self.stream.read_exact(&mut self.bytes)?;
-        let (depth, bits) = (shown.format.bits, self.bits);
-        let deep = || self.bytes.chunks_exact(2).map(|b| u16::from_le_bytes([b[0], b[1]]));
-        let flat = || self.bytes.iter().map(|&byte| u16::from(byte));
-        Ok(match (shown.format.colour, shown.format.bytes_per_sample()) {
-            (false, 1) => flat().map(|value| convert_depth(value, depth, bits)).collect(),
-            (false, _) => deep().map(|value| convert_depth(value, depth, bits)).collect(),
-            (true, 1) => mixed(&flat().collect::<Vec<_>>(), depth, bits),
-            (true, _) => mixed(&deep().collect::<Vec<_>>(), depth, bits),
-        })
+    fn raster(&mut self, shown: &Shown) -> Result<Raster, String> {
+        let mut bytes = std::mem::take(&mut self.bytes);
+        self.decoder.pixels(shown.layout, &mut bytes).map_err(|error| error.to_string())?;
+        shown.layout.raster(bytes, self.bits).map_err(|error| error.to_string())
     }
 
     /// Time since the first frame by the container; of frames to which it gives none, by the rate.
     fn time_us(&mut self, shown: &Shown) -> u64 {
         let Some(pts) = shown.pts else { return self.rate.time_us(self.frames) };
-        let since = i128::from(pts) - i128::from(*self.first_pts.get_or_insert(pts));
-        let (numerator, denominator) = self.report.time_base;
-        let scaled = since.max(0) * i128::from(numerator) * 1_000_000;
-        let denominator = i128::from(denominator.max(1));
-        u64::try_from((scaled + denominator / 2) / denominator).unwrap_or(u64::MAX)
+        let first = *self.first_pts.get_or_insert(pts);
+        self.decoder.time_us(first, pts)
     }
 
     /// What is to be said once there are no more frames.
     fn conclude(&mut self) -> Result<(), SimulatorError> {
-        let status = self.stream.finish();
-        let mut problem = self.report.problem();
-        match status {
-            Ok((true, _)) => {}
-            Ok((false, status)) => {
-                problem = problem.or(Some(format!("ffmpeg ended with {status}")));
-            }
-            Err(error) => problem = problem.or(Some(error.to_string())),
-        }
+        let mut problem = self.decoder.conclude();
         if let Medium::File(path) = &self.medium {
             problem = truncated::problem(path).or(problem);
         }
-        if self.frames == 0 {
+        if self.frames == 0 && self.first_pts.is_none() {
             return Err(SimulatorError::Video {
                 path: self.medium.path().to_owned(),
                 problem: problem.unwrap_or_else(|| "it holds no frame".to_owned()),
@@ -174,15 +151,12 @@ impl Feed for Video {
         if self.problem.is_some() {
             return Ok(None);
         }
-        let Some(shown) = self.announced() else {
+        let Some(shown) = self.decoder.announced() else {
             self.conclude()?;
             return Ok(None);
         };
         let name = self.medium.path().display().to_string();
-        let frame = self.pixels(&shown).map_err(|error| error.to_string()).and_then(|pixels| {
-            Frame::new(shown.width, shown.height, self.bits, pixels).map_err(|e| e.to_string())
-        });
-        match frame {
+        match self.raster(&shown) {
             Ok(frame) => {
                 let time_us = self.time_us(&shown);
                 self.frames += 1;
@@ -202,6 +176,14 @@ impl Feed for Video {
         self.total
     }
 
+    fn give_back(&mut self, bytes: Vec<u8>) {
+        self.bytes = bytes;
+    }
+
+    fn stop(&mut self) {
+        self.decoder.stop();
+    }
+
     fn problem(&self) -> Option<String> {
         self.problem.clone()
     }
@@ -209,9 +191,4 @@ impl Feed for Video {
     fn is_stream(&self) -> bool {
         true
     }
-}
-
-fn mixed(samples: &[u16], depth: u32, bits: u32) -> Vec<u16> {
-    let mix = |rgb: &[u16]| convert_depth(luma(rgb[0], rgb[1], rgb[2]), depth, bits);
-    samples.chunks_exact(3).map(mix).collect()
 }

@@ -7,11 +7,12 @@ mod header;
 
 use std::io::{self, BufRead, Read};
 
-use foveate_model::Frame;
+use foveate_engine::Raster;
 
 use self::header::{Header, line};
+use crate::samples::Layout;
 use crate::source::feed::Feed;
-use crate::{FrameRate, SimulatorError, SourceFrame, convert_depth};
+use crate::{FrameRate, SimulatorError, SourceFrame};
 
 /// What a stream starts with.
 pub(crate) const MAGIC: &[u8] = b"YUV4MPEG2";
@@ -23,6 +24,7 @@ pub(crate) struct Y4m {
     header: Header,
     rate: FrameRate,
     bits: u32,
+    /// Memory for the next frame.
     bytes: Vec<u8>,
     frames: u64,
     problem: Option<String>,
@@ -43,7 +45,7 @@ impl Y4m {
         Ok(Self { name, input, header, rate, bits, bytes: Vec::new(), frames: 0, problem: None })
     }
 
-    fn frame(&mut self) -> Result<Option<Frame>, String> {
+    fn frame(&mut self) -> Result<Option<Raster>, String> {
         if self.input.fill_buf().map_err(|error| error.to_string())?.is_empty() {
             return Ok(None);
         }
@@ -53,23 +55,16 @@ impl Y4m {
         }
         let Header { width, height, depth, others, .. } = self.header;
         let wide = depth > 8;
-        let size = width as usize * height as usize * if wide { 2 } else { 1 };
-        self.bytes.resize(size, 0);
-        self.input.read_exact(&mut self.bytes).map_err(|error| cut(&error))?;
+        let layout = Layout { width, height, depth, colour: false };
+        let mut bytes = std::mem::take(&mut self.bytes);
+        bytes.resize(layout.bytes(), 0);
+        self.input.read_exact(&mut bytes).map_err(|error| cut(&error))?;
         let rest = others * if wide { 2 } else { 1 };
         let skipped = io::copy(&mut (&mut *self.input).take(rest), &mut io::sink());
         if skipped.map_err(|error| cut(&error))? < rest {
             return Err(cut(&io::ErrorKind::UnexpectedEof.into()));
         }
-        let max = u16::MAX >> (16 - depth);
-        let convert = |value: u16| convert_depth(value.min(max), depth, self.bits);
-        let pixels = if wide {
-            let pairs = self.bytes.chunks_exact(2);
-            pairs.map(|pair| convert(u16::from_le_bytes([pair[0], pair[1]]))).collect()
-        } else {
-            self.bytes.iter().map(|&byte| convert(byte.into())).collect()
-        };
-        Frame::new(width, height, self.bits, pixels).map(Some).map_err(|error| error.to_string())
+        layout.raster(bytes, self.bits).map(Some).map_err(|error| error.to_string())
     }
 }
 
@@ -96,6 +91,10 @@ impl Feed for Y4m {
 
     fn total(&self) -> Option<u64> {
         None
+    }
+
+    fn give_back(&mut self, bytes: Vec<u8>) {
+        self.bytes = bytes;
     }
 
     fn problem(&self) -> Option<String> {
@@ -149,7 +148,7 @@ mod tests {
             }
             let (frames, problem) = read(&bytes, 8).unwrap();
             assert_eq!((frames.len(), problem), (3, None), "{colour}");
-            assert_eq!(frames[2].frame.pixels(), [20, 21, 22, 23, 24, 25], "{colour}");
+            assert_eq!(frames[2].frame.plane().to_words(), [20, 21, 22, 23, 24, 25], "{colour}");
             assert_eq!(frames[2].time_us, 160_000);
         }
     }
@@ -158,8 +157,8 @@ mod tests {
     fn deep_samples_follow_the_rule_of_depth() {
         let mut bytes = b"YUV4MPEG2 W2 H1 Cmono10\nFRAME\n".to_vec();
         bytes.extend([0x55, 0x02, 0xFF, 0xFF]);
-        assert_eq!(read(&bytes, 10).unwrap().0[0].frame.pixels(), [0x255, 0x3FF]);
-        assert_eq!(read(&bytes, 8).unwrap().0[0].frame.pixels(), [0x95, 0xFF]);
+        assert_eq!(read(&bytes, 10).unwrap().0[0].frame.plane().to_words(), [0x255, 0x3FF]);
+        assert_eq!(read(&bytes, 8).unwrap().0[0].frame.plane().to_words(), [0x95, 0xFF]);
     }
 
     #[test]

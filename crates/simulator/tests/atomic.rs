@@ -206,7 +206,12 @@ impl Source for Foreign {
 
     fn next_frame(&mut self) -> Result<Option<SourceFrame>, SimulatorError> {
         let name = "frame".to_owned();
-        Ok(self.frames.pop().map(|frame| SourceFrame { name, time_us: 7, label: None, frame }))
+        Ok(self.frames.pop().map(|frame| SourceFrame {
+            name,
+            time_us: 7,
+            label: None,
+            frame: (&frame).into(),
+        }))
     }
 }
 

@@ -121,7 +121,7 @@ fn cifar_comes_as_batches_and_as_sheets() {
         assert_eq!(seen.len(), 3);
         assert_eq!(seen[2].label, Some((10 * (tags - 1) + 2).to_string()));
         let expected: Vec<u16> = (0..1024).map(|pixel| mix(colour(2, pixel))).collect();
-        assert_eq!(seen[2].frame.pixels(), expected);
+        assert_eq!(seen[2].frame.plane().to_words(), expected);
     }
     let path = dir.path().join("sheet.png");
     let sheet =
@@ -131,7 +131,7 @@ fn cifar_comes_as_batches_and_as_sheets() {
     let seen = read(&path, &options).unwrap();
     assert_eq!((seen.len(), seen[1].frame.width(), seen[1].frame.height()), (3, 32, 32));
     let expected: Vec<u16> = (0..1024).map(|pixel| mix(colour(1, pixel))).collect();
-    assert_eq!(seen[1].frame.pixels(), expected);
+    assert_eq!(seen[1].frame.plane().to_words(), expected);
     grey(&path, 100, 3, |_, _| 0);
     assert!(read(&path, &options).unwrap_err().to_string().contains("1024 pixels wide"));
 }

@@ -8,7 +8,9 @@
 mod error;
 mod file;
 mod folder;
+mod reserve;
 
 pub use error::StagingError;
 pub use file::{check_file, write_file};
 pub use folder::{Kind, StagedFolder};
+pub use reserve::Reserve;

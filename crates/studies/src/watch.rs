@@ -117,7 +117,7 @@ impl Watcher<'_> {
                 if set {
                     camera.reset();
                 }
-                let outcome = camera.step(&current.frame)?;
+                let outcome = camera.step_raster(&current.frame)?;
                 let (without_reference, time_us) = (!set && frame == 0, current.time_us);
                 see(value, design, &Seen { without_reference, time_us, outcome });
                 Ok::<_, StudyError>(())

@@ -30,6 +30,6 @@ pub use invocation::{Input, Invocation, Output};
 pub use key::{Key, KeyBuilder, sha256_hex};
 pub use located::Located;
 pub use ports::PortBits;
-pub use stream::{Stream, apart};
+pub use stream::{Feeder, Stream};
 pub use tool::{Tool, Version};
 pub use toolchain::Toolchain;

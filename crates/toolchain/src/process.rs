@@ -49,7 +49,6 @@ fn wait(
     let failed =
         |source| ToolError::Io { action: "wait for", path: invocation.program.clone(), source };
     let start = Instant::now();
-    let mut pause = Duration::from_micros(500);
     loop {
         if let Some(status) = child.try_wait().map_err(failed)? {
             let stopped = !status.success() && (by_keyboard(status) || soon(cancel));
@@ -63,8 +62,8 @@ fn wait(
             stop(child);
             return Err(ToolError::TimedOut { command: invocation.command_line(), limit });
         }
-        sleep(pause);
-        pause = (pause * 2).min(Duration::from_millis(10));
+        // Looking ever more rarely, a short run is not made longer by much.
+        sleep((start.elapsed() / 16).clamp(Duration::from_micros(500), Duration::from_millis(10)));
     }
 }
 

@@ -27,7 +27,7 @@ pub fn require_tools(tools: &[Tool]) -> bool {
     };
     let required = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
     assert!(!required, "FOVEATE_REQUIRE_TOOLS is 1, but {error}");
-    say_skipped(&error.to_string());
+    skip(&error.to_string());
     false
 }
 
@@ -37,13 +37,13 @@ pub fn require_tools(tools: &[Tool]) -> bool {
 pub fn data_folder() -> Option<PathBuf> {
     let folder = std::env::var_os("FOVEATE_DATA").map(PathBuf::from).filter(|path| path.is_dir());
     if folder.is_none() {
-        say_skipped("FOVEATE_DATA names no folder");
+        skip("FOVEATE_DATA names no folder");
     }
     folder
 }
 
-/// Writes past the capture of the test harness.
-fn say_skipped(reason: &str) {
+/// Says that a test is skipped, and why, past the capture of the test harness.
+pub fn skip(reason: &str) {
     let name = std::thread::current().name().unwrap_or("test").to_owned();
     // One write, so that tests side by side do not mix; nothing can be done for a lost terminal.
     let line = format!("\nSKIPPED {name}: {reason}\n");

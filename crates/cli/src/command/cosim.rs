@@ -9,7 +9,7 @@ use foveate_cosim::{
 };
 use foveate_emit::SourceFile;
 use foveate_model::Frame;
-use foveate_simulator::{InputOptions, Simulation, open};
+use foveate_simulator::{InputOptions, Simulation, SimulatorError, open};
 use foveate_spec::Design;
 use foveate_staging::{check_file, write_file};
 use foveate_toolchain::Cache;
@@ -108,7 +108,7 @@ fn design_and_frames(args: &CosimArgs) -> Result<(Design, Vec<Frame>), CliError>
     let mut source = open(&args.inputs, &config, &options)?;
     let mut frames = Vec::new();
     while let Some(next) = source.next_frame()? {
-        frames.push(next.frame);
+        frames.push(next.frame.to_frame().map_err(SimulatorError::from)?);
     }
     Ok((design, frames))
 }

@@ -2,7 +2,7 @@
 //! Engine and model give the same results for every design, film, instruction set and number of
 //! threads, whether regions are skipped or not.
 
-use foveate_engine::{Engine, Level, Options, Outcome, Rendered};
+use foveate_engine::{Engine, Level, Options, Outcome, Plane};
 use foveate_model::{Camera, Frame};
 use foveate_spec::Design;
 use proptest::prelude::*;
@@ -84,7 +84,7 @@ proptest! {
                 false => prop_assert_eq!(strided.step_u16(&words, width + gap).unwrap(), expected),
             }
             prop_assert_eq!(strided.rendered(), plain.rendered());
-            let bytes = matches!(plain.rendered(), Rendered::Bytes(_));
+            let bytes = matches!(plain.rendered(), Plane::Bytes(_));
             prop_assert_eq!(bytes, plain_bits(&design));
         }
     }

@@ -39,14 +39,22 @@ impl Arrays {
 impl Sink for Arrays {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let outcome = step.outcome;
-        self.srs.push(outcome.srs.iter().copied().map(u8::from))?;
-        self.trs.push(outcome.trs.iter().copied().map(u8::from))?;
-        self.active.push(outcome.active.iter().copied().map(u8::from))?;
-        self.temporal_count.push(outcome.temporal_count.iter().copied())?;
+        self.srs.push(outcome.srs.iter().copied().map(u8::from));
+        self.trs.push(outcome.trs.iter().copied().map(u8::from));
+        self.active.push(outcome.active.iter().copied().map(u8::from));
+        self.temporal_count.push(outcome.temporal_count.iter().copied());
         for (writer, scores) in self.scores.iter_mut().zip(&outcome.scores) {
-            writer.push(scores.iter().copied())?;
+            writer.push(scores.iter().copied());
         }
         Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        for flags in [&mut self.srs, &mut self.trs, &mut self.active] {
+            flags.write_out(all)?;
+        }
+        self.temporal_count.write_out(all)?;
+        self.scores.iter_mut().try_for_each(|scores| scores.write_out(all))
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

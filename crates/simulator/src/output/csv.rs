@@ -1,48 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A text file of comma-separated lines, open.
 
-use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{BufWriter, Write as _};
-use std::path::{Path, PathBuf};
+use std::io::Write as _;
+use std::path::Path;
 
-use super::cannot_write;
+use super::growing::GrowingFile;
 use crate::SimulatorError;
 
-/// The file and the line in the making.
-pub(super) struct Csv {
-    path: PathBuf,
-    file: BufWriter<File>,
-    line: String,
-}
+/// The file.
+pub(super) struct Csv(GrowingFile);
 
 impl Csv {
     /// Creates the file with its first line.
     pub(super) fn create(path: &Path, heading: &str) -> Result<Self, SimulatorError> {
-        let file = File::create(path).map_err(cannot_write(path))?;
-        let file = BufWriter::new(file);
-        let mut csv = Self { path: path.to_owned(), file, line: String::new() };
-        csv.line([heading])?;
+        let mut csv = Self(GrowingFile::create(path)?);
+        csv.line([heading]);
         Ok(csv)
     }
 
     /// Appends a line of fields that need no quotes.
-    pub(super) fn line(
-        &mut self,
-        fields: impl IntoIterator<Item = impl std::fmt::Display>,
-    ) -> Result<(), SimulatorError> {
-        self.line.clear();
+    pub(super) fn line(&mut self, fields: impl IntoIterator<Item = impl std::fmt::Display>) {
+        let line = self.0.end();
         for (index, field) in fields.into_iter().enumerate() {
             let comma = if index == 0 { "" } else { "," };
-            // A string takes everything.
-            let _ = write!(self.line, "{comma}{field}");
+            // Memory takes everything.
+            let _ = write!(line, "{comma}{field}");
         }
-        self.line.push('\n');
-        self.file.write_all(self.line.as_bytes()).map_err(cannot_write(&self.path))
+        line.push(b'\n');
     }
 
-    pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
-        self.file.flush().map_err(cannot_write(&self.path))
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.0.write_out(all)
     }
 }
 

@@ -69,7 +69,12 @@ struct Numbers {
 
 impl Sink for Numbers {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        self.file.push([self.labels.number(step.source.label.as_deref())].into_iter())
+        self.file.push([self.labels.number(step.source.label.as_deref())].into_iter());
+        Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.file.write_out(all)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

@@ -4,7 +4,7 @@
 //! What the columns are is said once, here; how they are written is the business of a [`RowWriter`].
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use foveate_spec::Design;
 
@@ -123,17 +123,27 @@ pub(super) fn columns(design: &Design) -> Vec<(String, Field)> {
 
 /// A file format of the table.
 pub(super) trait RowWriter: Send {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value>) -> Result<(), SimulatorError>;
+    fn row(&mut self, values: &mut dyn Iterator<Item = Value>);
+    /// As [`Sink::write_out`].
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
+    /// As [`Sink::expendable`].
+    fn expendable(&self) -> Option<PathBuf> {
+        None
+    }
     fn finish(self: Box<Self>) -> Result<(), SimulatorError>;
 }
 
 impl RowWriter for Csv {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value>) -> Result<(), SimulatorError> {
-        self.line(values)
+    fn row(&mut self, values: &mut dyn Iterator<Item = Value>) {
+        self.line(values);
     }
 
-    fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
-        Csv::finish(*self)
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        Csv::write_out(self, all)
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
+        Csv::write_out(&mut self, true)
     }
 }
 
@@ -170,10 +180,18 @@ impl Sink for EventTable {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         for (region, &active) in step.outcome.active.iter().enumerate() {
             if active || !self.only_active {
-                self.writer.row(&mut self.fields.iter().map(|field| field.of(step, region)))?;
+                self.writer.row(&mut self.fields.iter().map(|field| field.of(step, region)));
             }
         }
         Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.writer.write_out(all)
+    }
+
+    fn expendable(&self) -> Option<PathBuf> {
+        self.writer.expendable()
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

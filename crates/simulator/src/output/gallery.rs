@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A series of pictures of one kind, as numbered PNGs or as a video.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use foveate_model::Frame;
+use foveate_engine::Plane;
+use foveate_spec::Design;
 
 use super::Medium;
 use super::canvas::Canvas;
-use super::png::{PngSeries, low_byte};
+use super::png::{self, PngSeries, low_byte};
 use super::sink::{Sink, Step};
 use super::video::VideoFile;
 use crate::{SimulatorError, convert_depth, display_depth};
@@ -42,16 +43,27 @@ impl From<Canvas> for Picture {
 }
 
 impl Picture {
-    /// A grey frame at the depth that [`display_depth`] gives it.
-    pub(super) fn grey(frame: &Frame) -> Self {
-        let depth = display_depth(frame.bits());
-        let values = frame.pixels().iter().map(|&value| convert_depth(value, frame.bits(), depth));
-        let (samples, bytes) = if depth == 8 {
-            (Samples::Grey8, values.map(low_byte).collect())
-        } else {
-            (Samples::Grey16, values.flat_map(u16::to_ne_bytes).collect())
+    /// What is on the screen, at the depth that [`display_depth`] gives it, in the memory of `bytes`.
+    pub(super) fn grey(step: &Step<'_>, mut bytes: Vec<u8>) -> Self {
+        let bits = step.design.pixel_bits();
+        let depth = display_depth(bits);
+        let shown = |value: u16| convert_depth(value, bits, depth);
+        bytes.clear();
+        let samples = match step.screen {
+            Plane::Bytes(pixels) if bits == depth => {
+                bytes.extend_from_slice(pixels);
+                Samples::Grey8
+            }
+            Plane::Bytes(pixels) => {
+                bytes.extend(pixels.iter().map(|&value| low_byte(shown(value.into()))));
+                Samples::Grey8
+            }
+            Plane::Words(pixels) => {
+                bytes.extend(pixels.iter().flat_map(|&value| shown(value).to_ne_bytes()));
+                Samples::Grey16
+            }
         };
-        Self { width: frame.width(), height: frame.height(), samples, bytes }
+        Self { width: step.design.width(), height: step.design.height(), samples, bytes }
     }
 }
 
@@ -89,17 +101,41 @@ impl Sink for Gallery {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let picture = match &mut self.painter {
             Some(painter) => painter.paint(step).into(),
-            None => Picture::grey(step.rendered()?),
+            None => Picture::grey(step, self.series.spare()),
         };
         match &mut self.series {
-            Series::Folder(series) => series.push(&picture),
-            Series::Video(video) => video.push(picture, step.source.time_us),
+            Series::Folder(series) => series.push(picture),
+            Series::Video(video) => video.push(picture, step.source.time_us)?,
+        }
+        Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        match &mut self.series {
+            Series::Folder(series) => series.crew.write_out(all),
+            Series::Video(video) => video.check(),
+        }
+    }
+
+    fn owed(&self, design: &Design) -> u64 {
+        // A painting has some lines below the frame, and is drawn larger where that is small.
+        let (lines, samples) = if self.painter.is_some() { (256, 12) } else { (0, 2) };
+        match &self.series {
+            Series::Folder(_) => png::owed(design.width(), design.height() + lines, samples),
+            Series::Video(_) => 0,
+        }
+    }
+
+    fn expendable(&self) -> Option<PathBuf> {
+        match &self.series {
+            Series::Folder(_) => None,
+            Series::Video(video) => Some(video.path().to_owned()),
         }
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
         match self.series {
-            Series::Folder(_) => Ok(()),
+            Series::Folder(series) => series.crew.finish(),
             Series::Video(video) => video.finish(),
         }
     }
@@ -111,6 +147,14 @@ impl Series {
             Medium::Png => PngSeries::create(folder.join(name)).map(Self::Folder),
             Medium::Mkv => VideoFile::create(&folder.join(format!("{name}.mkv"))).map(Self::Video),
             Medium::Mp4 => VideoFile::create(&folder.join(format!("{name}.mp4"))).map(Self::Video),
+        }
+    }
+
+    /// Memory for the next picture, if there is some.
+    fn spare(&mut self) -> Vec<u8> {
+        match self {
+            Self::Folder(series) => series.crew.spare(),
+            Self::Video(_) => Vec::new(),
         }
     }
 }

@@ -4,15 +4,14 @@
 //! Gzipped, the header is a stored block of its own before the compressed rest, so that it can be
 //! written in place at the end; the checksum is combined from both. The bytes hold no time or name.
 
-use std::fs::OpenOptions;
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write as _;
+use std::path::Path;
 
 use crc32fast::Hasher;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 
-use super::cannot_write;
+use super::growing::GrowingFile;
 use crate::SimulatorError;
 
 /// Magic, deflate, no flags, no time, no level, no system.
@@ -20,81 +19,68 @@ const GZIP: [u8; 10] = [0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0xFF];
 
 /// The file, open; `HEADER` bytes are reserved.
 pub(super) struct HeadedFile<const HEADER: usize> {
-    path: PathBuf,
-    body: Body,
+    file: GrowingFile,
+    packer: Option<Packer>,
 }
 
-enum Body {
-    Plain(BufWriter<std::fs::File>),
-    Packed {
-        encoder: DeflateEncoder<BufWriter<std::fs::File>>,
-        checksum: Hasher,
-        /// Modulo 2^32, as gzip has it.
-        length: u32,
-    },
+/// Packs into memory, from where the file takes it.
+struct Packer {
+    encoder: DeflateEncoder<Vec<u8>>,
+    checksum: Hasher,
+    /// Modulo 2^32, as gzip has it.
+    length: u32,
 }
 
 impl<const HEADER: usize> HeadedFile<HEADER> {
     /// Creates a file that is not there yet.
     pub(super) fn create(path: &Path, packed: bool) -> Result<Self, SimulatorError> {
-        let file = OpenOptions::new().write(true).create_new(true).open(path);
-        let file = BufWriter::new(file.map_err(cannot_write(path))?);
-        let body = if packed { Body::packed::<HEADER>(file) } else { Body::plain::<HEADER>(file) };
-        Ok(Self { path: path.to_owned(), body: body.map_err(cannot_write(path))? })
+        let mut file = GrowingFile::create_new(path)?;
+        if packed {
+            // A header has a few bytes; a stored block takes 65,535.
+            let length = u16::try_from(HEADER).unwrap_or(u16::MAX);
+            file.append(&GZIP);
+            file.append(&[0]);
+            file.append(&length.to_le_bytes());
+            file.append(&(!length).to_le_bytes());
+        }
+        file.append(&[0; HEADER]);
+        Ok(Self { file, packer: packed.then(Packer::new) })
     }
 
-    pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), SimulatorError> {
-        let written = match &mut self.body {
-            Body::Plain(file) => file.write_all(bytes),
-            Body::Packed { encoder, checksum, length } => {
-                checksum.update(bytes);
-                *length = length.wrapping_add(low_word(bytes.len()));
-                encoder.write_all(bytes)
+    pub(super) fn write(&mut self, bytes: &[u8]) {
+        match &mut self.packer {
+            None => self.file.append(bytes),
+            Some(packer) => {
+                packer.checksum.update(bytes);
+                packer.length = packer.length.wrapping_add(low_word(bytes.len()));
+                // Memory takes everything.
+                let _ = packer.encoder.write_all(bytes);
+                self.file.end().append(packer.encoder.get_mut());
             }
-        };
-        written.map_err(cannot_write(&self.path))
+        }
+    }
+
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.file.write_out(all)
     }
 
     /// Completes the file with its header.
-    pub(super) fn finish(self, header: &[u8; HEADER]) -> Result<(), SimulatorError> {
-        self.body.finish(header).map_err(cannot_write(&self.path))
+    pub(super) fn finish(mut self, header: &[u8; HEADER]) -> Result<(), SimulatorError> {
+        let Some(packer) = self.packer else { return self.file.write_over(0, header) };
+        let mut whole = Hasher::new();
+        whole.update(header);
+        whole.combine(&packer.checksum);
+        self.file.append(&packer.encoder.finish().unwrap_or_default());
+        self.file.append(&whole.finalize().to_le_bytes());
+        self.file.append(&packer.length.wrapping_add(low_word(header.len())).to_le_bytes());
+        self.file.write_over(GZIP.len() as u64 + 5, header)
     }
 }
 
-impl Body {
-    fn plain<const HEADER: usize>(mut file: BufWriter<std::fs::File>) -> io::Result<Self> {
-        file.write_all(&[0; HEADER])?;
-        Ok(Self::Plain(file))
-    }
-
-    fn packed<const HEADER: usize>(mut file: BufWriter<std::fs::File>) -> io::Result<Self> {
-        // A header has a few bytes; a stored block takes 65,535.
-        let length = u16::try_from(HEADER).unwrap_or(u16::MAX);
-        file.write_all(&GZIP)?;
-        file.write_all(&[0])?;
-        file.write_all(&length.to_le_bytes())?;
-        file.write_all(&(!length).to_le_bytes())?;
-        file.write_all(&[0; HEADER])?;
-        let encoder = DeflateEncoder::new(file, Compression::default());
-        Ok(Self::Packed { encoder, checksum: Hasher::new(), length: 0 })
-    }
-
-    fn finish(self, header: &[u8]) -> io::Result<()> {
-        let (mut file, start) = match self {
-            Self::Plain(file) => (file, 0),
-            Self::Packed { encoder, checksum, length } => {
-                let mut file = encoder.finish()?;
-                let mut whole = Hasher::new();
-                whole.update(header);
-                whole.combine(&checksum);
-                file.write_all(&whole.finalize().to_le_bytes())?;
-                file.write_all(&length.wrapping_add(low_word(header.len())).to_le_bytes())?;
-                (file, GZIP.len() as u64 + 5)
-            }
-        };
-        file.seek(SeekFrom::Start(start))?;
-        file.write_all(header)?;
-        file.flush()
+impl Packer {
+    fn new() -> Self {
+        let encoder = DeflateEncoder::new(Vec::new(), Compression::default());
+        Self { encoder, checksum: Hasher::new(), length: 0 }
     }
 }
 
@@ -117,7 +103,7 @@ mod tests {
             let path = dir.path().join(name);
             let mut file = HeadedFile::<4>::create(&path, packed).unwrap();
             let body: Vec<u8> = (0..7).cycle().take(200_000).collect();
-            body.chunks(999).for_each(|chunk| file.write(chunk).unwrap());
+            body.chunks(999).for_each(|chunk| file.write(chunk));
             file.finish(b"head").unwrap();
             let bytes = std::fs::read(&path).unwrap();
             let mut seen = Vec::new();

@@ -2,12 +2,10 @@
 //! NumPy files (NPY 1.0) that grow frame by frame: the header has room for any number of frames and
 //! gets the real one at the end.
 
-use std::fs::File;
-use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::marker::PhantomData;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::cannot_write;
+use super::growing::GrowingFile;
 use crate::SimulatorError;
 
 /// Bytes of the header; a multiple of 64 that holds the largest numbers.
@@ -50,12 +48,10 @@ impl Scalar for i64 {
 
 /// An array of frames x rows x columns, or of one value per frame.
 pub(super) struct NpyWriter<T> {
-    path: PathBuf,
-    file: BufWriter<File>,
+    file: GrowingFile,
     /// The other dimensions, as they are written.
     shape: String,
     frames: u64,
-    bytes: Vec<u8>,
     scalar: PhantomData<T>,
 }
 
@@ -70,40 +66,34 @@ impl<T: Scalar> NpyWriter<T> {
     }
 
     fn with_shape(path: &Path, shape: String) -> Result<Self, SimulatorError> {
-        let file = File::create(path).map_err(cannot_write(path))?;
-        let mut writer = Self {
-            path: path.to_owned(),
-            file: BufWriter::new(file),
-            shape,
-            frames: 0,
-            bytes: Vec::new(),
-            scalar: PhantomData,
-        };
-        writer.write_header()?;
+        let file = GrowingFile::create(path)?;
+        let mut writer = Self { file, shape, frames: 0, scalar: PhantomData };
+        let header = writer.header();
+        writer.file.append(&header);
         Ok(writer)
     }
 
     /// Appends the values of one frame, row by row.
-    pub(super) fn push(&mut self, values: impl Iterator<Item = T>) -> Result<(), SimulatorError> {
-        self.bytes.clear();
+    pub(super) fn push(&mut self, values: impl Iterator<Item = T>) {
         for value in values {
-            value.append_to(&mut self.bytes);
+            value.append_to(self.file.end());
         }
         self.frames += 1;
-        self.file.write_all(&self.bytes).map_err(cannot_write(&self.path))
+    }
+
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.file.write_out(all)
     }
 
     /// Writes the number of frames into the header.
     pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
-        self.file.seek(SeekFrom::Start(0)).map_err(cannot_write(&self.path))?;
-        self.write_header()?;
-        self.file.flush().map_err(cannot_write(&self.path))
+        let header = self.header();
+        self.file.write_over(0, &header)
     }
 
-    fn write_header(&mut self) -> Result<(), SimulatorError> {
+    fn header(&self) -> Vec<u8> {
         let shape = format!("{},{}", self.frames, self.shape);
-        let header = header::<HEADER>(&format!("'{}'", T::DESCR), &shape);
-        self.file.write_all(&header).map_err(cannot_write(&self.path))
+        header::<HEADER>(&format!("'{}'", T::DESCR), &shape)
     }
 }
 

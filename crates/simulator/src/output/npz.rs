@@ -3,19 +3,18 @@
 //! as it grows; its sizes, its checksum and its length are filled in at the end. Every entry has
 //! ZIP64 sizes, so that nothing changes beyond 4 GiB.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
-
 use crc32fast::Hasher;
 
+use super::growing::GrowingFile;
 use super::npy;
+use crate::SimulatorError;
 
 /// Bytes of an NPY header here; a multiple of 64.
 const HEADER: usize = 192;
 
 /// An archive with one entry in the making.
 pub(super) struct Npz {
-    file: BufWriter<File>,
+    file: GrowingFile,
     at: u64,
     done: Vec<Entry>,
     open: Entry,
@@ -35,20 +34,23 @@ struct Entry {
 
 impl Npz {
     /// An archive whose first array is `name`, of elements `descr`.
-    pub(super) fn create(file: File, name: &'static str, descr: &'static str) -> io::Result<Self> {
+    pub(super) fn new(file: GrowingFile, name: &'static str, descr: &'static str) -> Self {
         let open = Entry { name, descr, start: 0, bytes: 0, crc: 0 };
-        let mut npz =
-            Self { file: BufWriter::new(file), at: 0, done: Vec::new(), open, crc: Hasher::new() };
-        npz.begin()?;
-        Ok(npz)
+        let mut npz = Self { file, at: 0, done: Vec::new(), open, crc: Hasher::new() };
+        npz.begin();
+        npz
     }
 
     /// Appends elements to the open array.
-    pub(super) fn write(&mut self, elements: &[u8]) -> io::Result<()> {
+    pub(super) fn write(&mut self, elements: &[u8]) {
         self.crc.update(elements);
         self.open.bytes += length(elements);
         self.at += length(elements);
-        self.file.write_all(elements)
+        self.file.append(elements);
+    }
+
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.file.write_out(all)
     }
 
     /// Closes the open array, which has `count` elements, and begins another.
@@ -57,43 +59,41 @@ impl Npz {
         count: u64,
         name: &'static str,
         descr: &'static str,
-    ) -> io::Result<()> {
+    ) -> Result<(), SimulatorError> {
         self.close(count)?;
         let next = Entry { name, descr, start: self.at, bytes: 0, crc: 0 };
         let closed = std::mem::replace(&mut self.open, next);
         self.done.push(closed);
-        self.begin()
+        self.begin();
+        Ok(())
     }
 
     /// Closes the open array and the archive.
-    pub(super) fn finish(mut self, count: u64) -> io::Result<()> {
+    pub(super) fn finish(mut self, count: u64) -> Result<(), SimulatorError> {
         self.close(count)?;
         self.done.push(self.open);
         let directory: Vec<u8> = self.done.iter().flat_map(Entry::central).collect();
-        self.file.write_all(&directory)?;
-        self.file.write_all(&end(self.at, length(&directory), length(&self.done)))?;
-        self.file.flush()
+        self.file.append(&directory);
+        self.file.append(&end(self.at, length(&directory), length(&self.done)));
+        self.file.write_out(true)
     }
 
     /// Leaves room for the headers of the open entry.
-    fn begin(&mut self) -> io::Result<()> {
+    fn begin(&mut self) {
         self.crc = Hasher::new();
         let room = [self.open.local(), npy::header::<HEADER>(self.open.descr, "0,")].concat();
         self.at += length(&room);
-        self.file.write_all(&room)
+        self.file.append(&room);
     }
 
-    fn close(&mut self, count: u64) -> io::Result<()> {
+    fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
         let header = npy::header::<HEADER>(self.open.descr, &format!("{count},"));
         let mut crc = Hasher::new();
         crc.update(&header);
         crc.combine(&std::mem::take(&mut self.crc));
         self.open.crc = crc.finalize();
         self.open.bytes += length(&header);
-        self.file.seek(SeekFrom::Start(self.open.start))?;
-        self.file.write_all(&self.open.local())?;
-        self.file.write_all(&header)?;
-        self.file.seek(SeekFrom::Start(self.at)).map(drop)
+        self.file.write_over(self.open.start, &[self.open.local(), header].concat())
     }
 }
 

@@ -5,7 +5,7 @@
 //! The colours are of the Okabe-Ito palette, made to be told apart with any colour vision; active
 //! regions have an outline besides.
 
-use foveate_model::Frame;
+use foveate_engine::Raster;
 
 use super::canvas::{Canvas, Colour, Layout};
 use super::font;
@@ -49,7 +49,7 @@ impl Painter for Overlay {
     }
 }
 
-fn draw_frame(canvas: &mut Canvas, frame: &Frame, step: &Step<'_>, layout: Layout) {
+fn draw_frame(canvas: &mut Canvas, frame: &Raster, step: &Step<'_>, layout: Layout) {
     let side = step.design.region_size();
     let cell = side * layout.scale;
     for y in 0..frame.height() {

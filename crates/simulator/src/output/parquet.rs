@@ -35,6 +35,8 @@ pub(super) struct ParquetTable {
     writer: SerializedFileWriter<File>,
     columns: Vec<Column>,
     rows: usize,
+    /// A group could not be written: the file cannot be completed any more.
+    broken: bool,
 }
 
 impl ParquetTable {
@@ -52,6 +54,7 @@ impl ParquetTable {
             path: path.to_owned(),
             columns: columns.iter().map(|(_, field)| Column::new(field.kind())).collect(),
             rows: 0,
+            broken: false,
         })
     }
 
@@ -86,18 +89,30 @@ impl ParquetTable {
 }
 
 impl RowWriter for ParquetTable {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value>) -> Result<(), SimulatorError> {
+    fn row(&mut self, values: &mut dyn Iterator<Item = Value>) {
         for (column, value) in self.columns.iter_mut().zip(values) {
             column.push(value);
         }
         self.rows += 1;
-        if self.rows == GROUP {
-            self.write_group().map_err(failed(&self.path))?;
+    }
+
+    fn write_out(&mut self, _all: bool) -> Result<(), SimulatorError> {
+        if self.rows < GROUP {
+            return Ok(());
         }
-        Ok(())
+        let written = self.write_group();
+        self.broken = written.is_err();
+        written.map_err(failed(&self.path))
+    }
+
+    fn expendable(&self) -> Option<PathBuf> {
+        Some(self.path.clone())
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
+        if self.broken {
+            return Err(cannot_write(&self.path)(io::ErrorKind::StorageFull.into()));
+        }
         if self.rows > 0 {
             self.write_group().map_err(failed(&self.path))?;
         }
@@ -137,5 +152,15 @@ fn schema(columns: &[(String, Field)]) -> String {
 }
 
 fn failed(path: &Path) -> impl Fn(ParquetError) -> SimulatorError + '_ {
-    |error| cannot_write(path)(io::Error::other(error))
+    |error| {
+        let error = match error {
+            // What the system said, so that a full disk is recognized.
+            ParquetError::External(cause) => match cause.downcast::<io::Error>() {
+                Ok(cause) => *cause,
+                Err(cause) => io::Error::other(cause),
+            },
+            other => io::Error::other(other),
+        };
+        cannot_write(path)(error)
+    }
 }

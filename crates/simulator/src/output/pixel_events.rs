@@ -2,12 +2,13 @@
 //! The events of a pixel camera as files: NPZ with the fields that tonic uses, and CSV.
 
 use std::fs::{self, File};
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use foveate_spec::Design;
 
 use super::csv::Csv;
+use super::growing::GrowingFile;
 use super::npz::Npz;
 use super::sink::Step;
 use super::{PixelCamera, PixelEvents, cannot_write};
@@ -28,10 +29,9 @@ pub(super) struct PixelRecorder {
 
 /// The archive, and beside it the number of events before each frame until there is room for them.
 struct NpzFile {
-    path: PathBuf,
     npz: Npz,
     starts_path: PathBuf,
-    starts: BufWriter<File>,
+    starts: GrowingFile,
     frames: u64,
 }
 
@@ -55,9 +55,8 @@ impl PixelRecorder {
         let Self { camera, npz, csv, events, bytes } = self;
         let time = step.source.time_us;
         let before = *events;
-        let mut lines = Ok(());
         bytes.clear();
-        camera.step(&step.source.frame, |event| {
+        camera.step(&step.source.frame.to_frame()?, |event| {
             *events += 1;
             let polarity = u8::from(event.brighter);
             if npz.is_some() {
@@ -67,23 +66,29 @@ impl PixelRecorder {
                 bytes.extend(time.to_le_bytes());
                 bytes.push(polarity);
             }
-            if let (Some(csv), Ok(())) = (csv.as_mut(), &lines) {
-                let fields = [event.x.into(), event.y.into(), time, polarity.into()];
-                lines = csv.line(fields);
+            if let Some(csv) = csv {
+                csv.line([event.x.into(), event.y.into(), time, polarity.into()]);
             }
         });
-        lines?;
-        npz.as_mut().map_or(Ok(()), |npz| npz.push(before, bytes).map_err(cannot_write(&npz.path)))
+        if let Some(npz) = npz {
+            npz.push(before, bytes);
+        }
+        Ok(())
+    }
+
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(all))?;
+        self.npz.as_mut().map_or(Ok(()), |npz| {
+            npz.starts.write_out(all)?;
+            npz.npz.write_out(all)
+        })
     }
 
     /// Completes the files; how many events they hold.
-    pub(super) fn finish(self) -> Result<u64, SimulatorError> {
-        if let Some(csv) = self.csv {
-            csv.finish()?;
-        }
+    pub(super) fn finish(mut self) -> Result<u64, SimulatorError> {
+        self.write_out(true)?;
         if let Some(npz) = self.npz {
-            let path = npz.path.clone();
-            npz.finish(self.events).map_err(cannot_write(&path))?;
+            npz.finish(self.events)?;
         }
         Ok(self.events)
     }
@@ -93,32 +98,33 @@ impl NpzFile {
     fn create(folder: &Path) -> Result<Self, SimulatorError> {
         let path = folder.join("pixel_events.npz");
         let starts_path = folder.join(".frame_start.partial");
-        let file = File::create(&path).map_err(cannot_write(&path))?;
-        let starts = File::create(&starts_path).map_err(cannot_write(&starts_path))?;
-        let npz = Npz::create(file, "events", EVENT).map_err(cannot_write(&path))?;
-        Ok(Self { path, npz, starts_path, starts: BufWriter::new(starts), frames: 0 })
+        let npz = Npz::new(GrowingFile::create(&path)?, "events", EVENT);
+        let starts = GrowingFile::create(&starts_path)?;
+        Ok(Self { npz, starts_path, starts, frames: 0 })
     }
 
-    fn push(&mut self, before: u64, events: &[u8]) -> io::Result<()> {
+    fn push(&mut self, before: u64, events: &[u8]) {
         self.frames += 1;
-        self.starts.write_all(&before.to_le_bytes())?;
-        self.npz.write(events)
+        self.starts.append(&before.to_le_bytes());
+        self.npz.write(events);
     }
 
-    fn finish(mut self, events: u64) -> io::Result<()> {
-        self.starts.write_all(&events.to_le_bytes())?;
-        self.starts.flush()?;
+    fn finish(mut self, events: u64) -> Result<(), SimulatorError> {
+        let failed = cannot_write(&self.starts_path);
+        self.starts.append(&events.to_le_bytes());
+        self.starts.write_out(true)?;
         drop(self.starts);
         self.npz.next(events, "frame_start", "'<i8'")?;
-        let mut starts = BufReader::new(File::open(&self.starts_path)?);
+        let mut starts = File::open(&self.starts_path).map_err(&failed)?;
         let mut chunk = [0; 1 << 13];
         loop {
-            match starts.read(&mut chunk)? {
+            match starts.read(&mut chunk).map_err(&failed)? {
                 0 => break,
-                length => self.npz.write(&chunk[..length])?,
+                length => self.npz.write(&chunk[..length]),
             }
+            self.npz.write_out(false)?;
         }
         self.npz.finish(self.frames + 1)?;
-        fs::remove_file(&self.starts_path)
+        fs::remove_file(&self.starts_path).map_err(&failed)
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use foveate_engine::{Engine, Outcome};
 use foveate_spec::Design;
+use foveate_staging::Reserve;
 use rayon::prelude::*;
 
 use super::arrays::Arrays;
@@ -19,6 +20,13 @@ use super::table::{FrameTable, Row};
 use super::{RunOptions, Summary, events};
 use crate::{SetForm, SimulatorError, SourceFrame};
 
+/// How a full disk is called in a summary.
+pub(crate) const DISK_FULL: &str = "disk full";
+/// Bytes of an output that may wait in memory, beside those of its last frame.
+const BUFFERS: u64 = 1 << 17;
+/// Kept back for the summary, and for outputs that gather much, such as a group of a Parquet file.
+const LEAST_RESERVE: u64 = 1 << 20;
+
 /// Every file of a run, open.
 pub(crate) struct Recorder {
     design: Design,
@@ -28,6 +36,8 @@ pub(crate) struct Recorder {
     sinks: Vec<Box<dyn Sink>>,
     data_set: Option<DataSet>,
     totals: Totals,
+    /// Room to complete every file on a full disk.
+    reserve: Option<Reserve>,
 }
 
 impl Recorder {
@@ -56,6 +66,7 @@ impl Recorder {
         if options.data_set {
             sinks.append(&mut data_set::sinks(folder, form)?);
         }
+        let owed: u64 = sinks.iter().map(|sink| BUFFERS + sink.owed(design)).sum();
         let pixels = options.pixel_events;
         let pixels = pixels.wanted().then(|| PixelRecorder::create(folder, design, pixels));
         Ok(Self {
@@ -64,6 +75,7 @@ impl Recorder {
             pixels: pixels.transpose()?,
             sinks,
             totals: Totals::default(),
+            reserve: Reserve::new(folder, LEAST_RESERVE + owed),
             design: design.clone(),
         })
     }
@@ -74,8 +86,9 @@ impl Recorder {
         source: &SourceFrame,
         engine: &Engine,
     ) -> Result<(), SimulatorError> {
+        self.write_out(false)?;
         let number = self.totals.frames;
-        self.push_row(source, engine.outcome())?;
+        self.push_row(source, engine.outcome());
         let Self { pixels, sinks, .. } = self;
         let step = Step::new(engine, number, source);
         let (pixels, sinks) = rayon::join(
@@ -85,15 +98,36 @@ impl Recorder {
         pixels.and(sinks)
     }
 
-    /// Completes every file and adds the summary; `problem` is why the source ended early, if it did.
+    /// Writes what has gathered, if it is much or if `all` is to go. When there is no room for it, it is
+    /// kept, and every file holds the same frames.
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.table.write_out(all)?;
+        self.pixels.as_mut().map_or(Ok(()), |pixels| pixels.write_out(all))?;
+        self.sinks.iter_mut().try_for_each(|sink| sink.write_out(all))
+    }
+
+    /// Completes every file and adds the summary; `problem` is why the run ended early, if it did.
+    /// Where there is no room left, what was kept back for this is used up.
     pub(crate) fn finish(
-        self,
+        mut self,
         folder: &Path,
         inputs: &[String],
-        problem: Option<String>,
+        mut problem: Option<String>,
     ) -> Result<Summary, SimulatorError> {
-        self.table.finish()?;
-        self.sinks.into_iter().try_for_each(Sink::finish)?;
+        if let Err(error) = self.write_out(true)
+            && !error.is_full()
+        {
+            return Err(error);
+        }
+        drop(self.reserve);
+        self.table.write_out(true)?;
+        for sink in self.sinks {
+            let expendable = sink.expendable();
+            match (sink.finish(), expendable) {
+                (Err(error), Some(path)) if error.is_full() => give_up(&path, &mut problem),
+                (other, _) => other?,
+            }
+        }
         let pixel_events = self.pixels.map(PixelRecorder::finish).transpose()?;
         let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
         summary.data_set = self.data_set;
@@ -106,7 +140,7 @@ impl Recorder {
         self.totals.frames
     }
 
-    fn push_row(&mut self, source: &SourceFrame, outcome: &Outcome) -> Result<(), SimulatorError> {
+    fn push_row(&mut self, source: &SourceFrame, outcome: &Outcome) {
         let (srs, trs) = (count(&outcome.srs), count(&outcome.trs));
         let active = count(&outcome.active);
         let pixels_forwarded = (0..)
@@ -118,8 +152,20 @@ impl Recorder {
         let label = source.label.as_deref();
         self.totals.add(srs, trs, active, pixels_forwarded);
         self.totals.at(time_us);
-        self.table.push(&Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded })
+        self.table.push(&Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded });
     }
+}
+
+/// Leaves out a file that cannot be completed, and says so.
+fn give_up(path: &Path, problem: &mut Option<String>) {
+    // It is useless; where it cannot be removed it is at least named.
+    let _ = std::fs::remove_file(path);
+    let name = path.file_name().unwrap_or_default().display();
+    let left_out = format!("{name} is left out");
+    *problem = Some(match problem.take() {
+        Some(problem) => format!("{problem}; {left_out}"),
+        None => format!("{DISK_FULL}; {left_out}"),
+    });
 }
 
 fn count(bits: &[bool]) -> u64 {

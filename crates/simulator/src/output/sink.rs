@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where outcomes go: anything that takes frames one at a time and is finished once.
 
-use std::sync::OnceLock;
+use std::path::PathBuf;
 
-use foveate_engine::{Engine, Outcome};
-use foveate_model::Frame;
+use foveate_engine::{Engine, Outcome, Plane};
 use foveate_spec::Design;
 
 use crate::{SimulatorError, SourceFrame};
@@ -16,33 +15,38 @@ pub(super) struct Step<'a> {
     pub(super) number: u64,
     pub(super) source: &'a SourceFrame,
     pub(super) outcome: &'a Outcome,
-    engine: &'a Engine,
-    rendered: OnceLock<Frame>,
+    /// What is on the screen.
+    pub(super) screen: Plane<'a>,
 }
 
 impl<'a> Step<'a> {
     /// The last step of `engine`, which took `source`.
     pub(super) fn new(engine: &'a Engine, number: u64, source: &'a SourceFrame) -> Self {
         let (design, outcome) = (engine.design(), engine.outcome());
-        Self { design, number, source, outcome, engine, rendered: OnceLock::new() }
-    }
-
-    /// What is on the screen; made when a sink asks for it first.
-    pub(super) fn rendered(&self) -> Result<&Frame, SimulatorError> {
-        if let Some(frame) = self.rendered.get() {
-            return Ok(frame);
-        }
-        let words = self.engine.rendered().to_words();
-        let (width, height) = (self.design.width(), self.design.height());
-        let frame = Frame::new(width, height, self.design.pixel_bits(), words)?;
-        Ok(self.rendered.get_or_init(|| frame))
+        Self { design, number, source, outcome, screen: engine.rendered() }
     }
 }
 
 /// An output that grows frame by frame in constant memory. Sinks of one run work side by side.
+///
+/// A full disk comes up in [`Sink::write_out`], which is asked before a frame is taken: so either all
+/// sinks take a frame or none does, and what they have taken is still there to be written.
 pub(super) trait Sink: Send {
-    /// Writes what there is to say about the next frame.
+    /// Takes what there is to say about the next frame.
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError>;
+
+    /// Writes what has gathered if it is much, or `all` of it.
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
+
+    /// At most how many bytes, beside some buffers, may have to be written after a full disk.
+    fn owed(&self, _design: &Design) -> u64 {
+        0
+    }
+
+    /// A file that can only be given up when there is no room to complete it.
+    fn expendable(&self) -> Option<PathBuf> {
+        None
+    }
 
     /// Completes what was written; one that is dropped instead leaves something unfinished.
     fn finish(self: Box<Self>) -> Result<(), SimulatorError>;

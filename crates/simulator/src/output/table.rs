@@ -28,14 +28,14 @@ impl FrameTable {
         Csv::create(path, heading).map(Self)
     }
 
-    pub(super) fn push(&mut self, row: &Row<'_>) -> Result<(), SimulatorError> {
+    pub(super) fn push(&mut self, row: &Row<'_>) {
         let Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded } = row;
         let (name, label) = (quoted(name), quoted(label.unwrap_or_default()));
         let counts = format!("{srs},{trs},{active},{pixels_forwarded}");
-        self.0.line([format!("{frame},{time_us},{name},{label},{counts}")])
+        self.0.line([format!("{frame},{time_us},{name},{label},{counts}")]);
     }
 
-    pub(super) fn finish(self) -> Result<(), SimulatorError> {
-        self.0.finish()
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.0.write_out(all)
     }
 }

@@ -3,12 +3,10 @@
 //!
 //! The video runs at one rate, that of its first two frames; a single frame is shown for 1/30 s.
 
-use std::io::{Read, Write};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::thread::JoinHandle;
 
-use foveate_toolchain::{Tool, Toolchain, apart};
+use foveate_toolchain::{Feeder, Invocation, Tool, Toolchain};
 
 use super::cannot_write;
 use super::gallery::{Picture, Samples};
@@ -25,13 +23,9 @@ enum State {
     Empty,
     /// The first picture waits for the time of the second.
     First(Picture, u64),
-    Running(Encoder),
-}
-
-/// The process, and what it complains about.
-struct Encoder {
-    child: Child,
-    complaints: Option<JoinHandle<String>>,
+    Running(Feeder),
+    /// ffmpeg has ended too early, and said this.
+    Failed(String),
 }
 
 impl VideoFile {
@@ -42,43 +36,49 @@ impl VideoFile {
         Ok(Self { path: path.to_owned(), ffmpeg, state: State::Empty })
     }
 
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Takes the next picture; that ffmpeg does not, [`VideoFile::check`] says.
     pub(super) fn push(&mut self, picture: Picture, time_us: u64) -> Result<(), SimulatorError> {
-        match std::mem::replace(&mut self.state, State::Empty) {
-            State::Empty => self.state = State::First(picture, time_us),
+        self.state = match std::mem::replace(&mut self.state, State::Empty) {
+            State::Empty => State::First(picture, time_us),
             State::First(first, start) => {
                 let rate = frame_rate(time_us.saturating_sub(start));
-                let encoder = self.start(&first, &rate)?;
-                self.state = State::Running(encoder);
-                self.feed(&first.bytes)?;
-                self.feed(&picture.bytes)?;
+                let feeder = self.start(&first, &rate)?;
+                match self.feed(feeder, &first)? {
+                    State::Running(feeder) => self.feed(feeder, &picture)?,
+                    other => other,
+                }
             }
-            State::Running(encoder) => {
-                self.state = State::Running(encoder);
-                self.feed(&picture.bytes)?;
-            }
-        }
+            State::Running(feeder) => self.feed(feeder, &picture)?,
+            failed @ State::Failed(_) => failed,
+        };
         Ok(())
+    }
+
+    /// Whether ffmpeg has taken all pictures so far.
+    pub(super) fn check(&self) -> Result<(), SimulatorError> {
+        let State::Failed(problem) = &self.state else { return Ok(()) };
+        Err(SimulatorError::VideoOutput { path: self.path.clone(), problem: problem.clone() })
     }
 
     pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
         if let State::First(first, _) = &self.state {
-            let encoder = self.start(first, "30")?;
-            let state = std::mem::replace(&mut self.state, State::Running(encoder));
-            if let State::First(first, _) = state {
-                self.feed(&first.bytes)?;
+            let feeder = self.start(first, "30")?;
+            self.state = self.feed(feeder, first)?;
+        }
+        if let State::Running(feeder) = &mut self.state {
+            let (success, said) = feeder.finish().map_err(cannot_write(&self.path))?;
+            if !success {
+                self.state = State::failed(said);
             }
         }
-        match &mut self.state {
-            State::Running(encoder) => {
-                drop(encoder.child.stdin.take());
-                let status = encoder.child.wait().map_err(cannot_write(&self.path))?;
-                if status.success() { Ok(()) } else { Err(self.failure()) }
-            }
-            State::Empty | State::First(..) => Ok(()),
-        }
+        self.check()
     }
 
-    fn start(&self, picture: &Picture, rate: &str) -> Result<Encoder, SimulatorError> {
+    fn start(&self, picture: &Picture, rate: &str) -> Result<Feeder, SimulatorError> {
         let format = match picture.samples {
             Samples::Grey8 => "gray",
             Samples::Grey16 if cfg!(target_endian = "big") => "gray16be",
@@ -86,21 +86,13 @@ impl VideoFile {
             Samples::Rgb8 => "rgb24",
         };
         let size = format!("{}x{}", picture.width, picture.height);
-        let mut command = Command::new(&self.ffmpeg);
-        command.args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"]);
-        command.args(["-pixel_format", format, "-video_size", &size, "-framerate", rate]);
-        command.args(["-i", "pipe:0", "-an"]).args(self.codec(picture.samples)).arg(&self.path);
-        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
-        apart(&mut command);
-        let mut child = command.spawn().map_err(cannot_write(&self.path))?;
-        let complaints = child.stderr.take().map(|mut stderr| {
-            std::thread::spawn(move || {
-                let mut text = Vec::new();
-                let _ = stderr.read_to_end(&mut text);
-                String::from_utf8_lossy(&text).into_owned()
-            })
-        });
-        Ok(Encoder { child, complaints })
+        let invocation = Invocation::new(&self.ffmpeg)
+            .args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"])
+            .args(["-pixel_format", format, "-video_size", &size, "-framerate", rate])
+            .args(["-i", "pipe:0", "-an"])
+            .args(self.codec(picture.samples))
+            .arg(&self.path);
+        Ok(Feeder::start(&invocation)?)
     }
 
     fn codec(&self, samples: Samples) -> &'static [&'static str] {
@@ -125,37 +117,19 @@ impl VideoFile {
         }
     }
 
-    fn feed(&mut self, bytes: &[u8]) -> Result<(), SimulatorError> {
-        let State::Running(encoder) = &mut self.state else { return Ok(()) };
-        let written = encoder.child.stdin.as_mut().map_or(Ok(()), |pipe| pipe.write_all(bytes));
-        written.map_err(|_| self.failure())
-    }
-
-    /// Why ffmpeg has ended too early.
-    fn failure(&mut self) -> SimulatorError {
-        let mut said = String::new();
-        if let State::Running(encoder) = &mut self.state {
-            drop(encoder.child.stdin.take());
-            let _ = encoder.child.wait();
-            let complaints = encoder.complaints.take().and_then(|thread| thread.join().ok());
-            said = complaints.unwrap_or_default();
+    fn feed(&self, mut feeder: Feeder, picture: &Picture) -> Result<State, SimulatorError> {
+        if feeder.write_all(&picture.bytes).is_ok() {
+            return Ok(State::Running(feeder));
         }
-        let problem = said.lines().map(str::trim).rfind(|line| !line.is_empty());
-        SimulatorError::VideoOutput {
-            path: self.path.clone(),
-            problem: problem.unwrap_or("ffmpeg ended too early").to_owned(),
-        }
+        let (_, said) = feeder.finish().map_err(cannot_write(&self.path))?;
+        Ok(State::failed(said))
     }
 }
 
-impl Drop for Encoder {
-    /// Nothing of an unfinished video is of use.
-    fn drop(&mut self) {
-        drop(self.child.stdin.take());
-        if !matches!(self.child.try_wait(), Ok(Some(_))) {
-            let _ = self.child.kill();
-            let _ = self.child.wait();
-        }
+impl State {
+    fn failed(said: Option<String>) -> Self {
+        let said = said.map(|line| line.trim().to_owned());
+        Self::Failed(said.unwrap_or_else(|| "ffmpeg ended too early".to_owned()))
     }
 }
 

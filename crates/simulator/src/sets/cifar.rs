@@ -7,6 +7,7 @@ use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+use foveate_engine::Raster;
 use foveate_model::Frame;
 
 use super::{damaged, unreadable};
@@ -63,7 +64,7 @@ impl Feed for Batch {
         let pixels = red.iter().zip(green).zip(blue).map(mix).collect();
         let name = format!("{}#{}", self.path.display(), self.next);
         self.next += 1;
-        let frame = Frame::new(SIDE, SIDE, self.bits, pixels)?;
+        let frame = Raster::from_words(SIDE, SIDE, self.bits, pixels)?;
         Ok(Some(SourceFrame { name, time_us: 0, label: labels.last().map(u8::to_string), frame }))
     }
 
@@ -108,7 +109,7 @@ impl Feed for Sheet {
         let pixels = self.sheet.row(self.next).to_vec();
         let name = format!("{}#{}", self.path.display(), self.next);
         self.next += 1;
-        let frame = Frame::new(SIDE, SIDE, self.sheet.bits(), pixels)?;
+        let frame = Raster::from_words(SIDE, SIDE, self.sheet.bits(), pixels)?;
         Ok(Some(SourceFrame { name, time_us: 0, label: None, frame }))
     }
 

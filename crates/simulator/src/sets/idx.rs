@@ -4,12 +4,11 @@
 use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
 
-use foveate_model::Frame;
-
 use super::{cut, damaged, is_packed, open_unpacked};
+use crate::samples::Layout;
 use crate::source::feed::Feed;
 use crate::source::form::{IdxFile, Labels, SetFiles, SetForm};
-use crate::{Kind, MAX_SIDE, SimulatorError, SourceFrame, convert_depth};
+use crate::{Kind, MAX_SIDE, SimulatorError, SourceFrame};
 
 /// What a file of images starts with: unsigned bytes in three dimensions.
 pub(crate) const MAGIC: [u8; 4] = [0, 0, 8, 3];
@@ -72,8 +71,9 @@ impl Feed for Idx {
         let size = u64::from(width) * u64::from(height);
         // Memory grows with what is there, not with what the header says.
         (&mut *self.input).take(size).read_to_end(&mut bytes).map_err(cut(&self.path))?;
-        let pixels = bytes.iter().map(|&byte| convert_depth(byte.into(), 8, self.bits)).collect();
-        let frame = Frame::new(width, height, self.bits, pixels)
+        let layout = Layout { width, height, depth: 8, colour: false };
+        let frame = layout
+            .raster(bytes, self.bits)
             .map_err(|_| damaged(&self.path, "it ends before its last image"))?;
         let index = self.next;
         self.next += 1;

@@ -31,6 +31,12 @@ pub(crate) trait Feed: Send {
         None
     }
 
+    /// Takes back the memory of a frame that is done with.
+    fn give_back(&mut self, _bytes: Vec<u8>) {}
+
+    /// No more frames are wanted: what feeds them may end.
+    fn stop(&mut self) {}
+
     /// Whether what came before a fault is a result worth keeping, as of a long recording.
     fn is_stream(&self) -> bool {
         false
@@ -119,15 +125,23 @@ impl Input {
                         next.frame = resize::crop(&next.frame, part)?;
                     }
                     if let Some((width, height)) = self.adjustment.size {
-                        next.frame = resize::resize(&next.frame, width, height)?;
+                        next.frame = resize::resize(next.frame, width, height)?;
                     }
                     self.taken += 1;
+                    if limit.is_some_and(|limit| self.taken >= limit) {
+                        self.end();
+                    }
                     return Ok(Some(next));
                 }
             }
         }
-        self.ended = true;
+        self.end();
         Ok(None)
+    }
+
+    fn end(&mut self) {
+        self.ended = true;
+        self.feed.stop();
     }
 
     /// A stream that changes its size ends there, with what came before; images are refused.
@@ -141,7 +155,7 @@ impl Input {
                 other_size,
             });
         }
-        self.ended = true;
+        self.end();
         self.problem = Some(format!(
             "the frame size changes from {}x{} to {}x{} at {}.{:06} s; --resize makes them one size",
             self.size.0,
@@ -181,6 +195,12 @@ impl Source for Input {
                 self.other_size(&next)
             }
             next => Ok(next),
+        }
+    }
+
+    fn give_back(&mut self, frame: SourceFrame) {
+        if let Some(bytes) = frame.frame.into_bytes() {
+            self.feed.give_back(bytes);
         }
     }
 

@@ -48,7 +48,7 @@ impl Feed for ImageFiles {
         let Some(ImageFile { path, label }) = self.files.next() else {
             return Ok(None);
         };
-        let frame = picture::read(&path, self.bits)?;
+        let frame = (&picture::read(&path, self.bits)?).into();
         let time_us = self.kind.time_us(self.rate, self.next);
         self.next += 1;
         Ok(Some(SourceFrame { name: path.display().to_string(), time_us, label, frame }))
@@ -88,7 +88,8 @@ impl Feed for SceneFeed {
         let time_us = self.rate.time_us(self.next);
         self.next += 1;
         let name = self.name.clone();
-        Ok(self.frames.next().map(|frame| SourceFrame { name, time_us, label: None, frame }))
+        let frame = self.frames.next();
+        Ok(frame.map(|frame| SourceFrame { name, time_us, label: None, frame: (&frame).into() }))
     }
 
     fn total(&self) -> Option<u64> {

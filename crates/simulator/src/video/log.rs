@@ -1,51 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What ffmpeg says while it decodes: frames announced by `showinfo`, and faults.
 
+use crate::samples::Layout;
+
 /// Faults that are kept in words.
 const LENGTH: usize = 200;
-
-/// The layout of raw pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Format {
-    /// Bits per sample.
-    pub(super) bits: u32,
-    /// Red, green and blue instead of one value.
-    pub(super) colour: bool,
-}
-
-impl Format {
-    pub(super) fn parse(name: &str) -> Option<Self> {
-        let (bits, colour) = match name {
-            "gray" => (8, false),
-            "gray9le" => (9, false),
-            "gray10le" => (10, false),
-            "gray12le" => (12, false),
-            "gray14le" => (14, false),
-            "gray16le" => (16, false),
-            "rgb24" => (8, true),
-            "rgb48le" => (16, true),
-            _ => return None,
-        };
-        Some(Self { bits, colour })
-    }
-
-    pub(super) fn channels(self) -> usize {
-        if self.colour { 3 } else { 1 }
-    }
-
-    pub(super) fn bytes_per_sample(self) -> usize {
-        if self.bits > 8 { 2 } else { 1 }
-    }
-}
 
 /// A frame that is on its way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Shown {
     /// In units of the time base.
     pub(super) pts: Option<i64>,
-    pub(super) width: u32,
-    pub(super) height: u32,
-    pub(super) format: Format,
+    pub(super) layout: Layout,
 }
 
 /// What a line says.
@@ -124,11 +90,25 @@ fn frame(line: &str) -> Option<Shown> {
     let value =
         |key: &str| line.split_once(key).and_then(|(_, rest)| rest.split_whitespace().next());
     let (width, height) = value(" s:")?.split_once('x')?;
+    let (depth, colour) = samples(value(" fmt:")?)?;
     Some(Shown {
         pts: value(" pts:")?.parse().ok(),
-        width: width.parse().ok()?,
-        height: height.parse().ok()?,
-        format: Format::parse(value(" fmt:")?)?,
+        layout: Layout { width: width.parse().ok()?, height: height.parse().ok()?, depth, colour },
+    })
+}
+
+/// Bits per sample, and whether there are three to a pixel.
+fn samples(format: &str) -> Option<(u32, bool)> {
+    Some(match format {
+        "gray" => (8, false),
+        "gray9le" => (9, false),
+        "gray10le" => (10, false),
+        "gray12le" => (12, false),
+        "gray14le" => (14, false),
+        "gray16le" => (16, false),
+        "rgb24" => (8, true),
+        "rgb48le" => (16, true),
+        _ => return None,
     })
 }
 
@@ -146,8 +126,8 @@ mod tests {
         let mut report = Report::default();
         assert_eq!(report.take(CONFIG), None);
         assert_eq!(report.time_base, (1, 12_800));
-        let format = Format { bits: 8, colour: false };
-        let shown = Shown { pts: Some(21_504), width: 320, height: 240, format };
+        let layout = Layout { width: 320, height: 240, depth: 8, colour: false };
+        let shown = Shown { pts: Some(21_504), layout };
         assert_eq!(report.take(FRAME), Some(Info::Frame(shown)));
         let without = FRAME.replace("pts:  21504", "pts:NOPTS");
         assert_eq!(report.take(&without), Some(Info::Frame(Shown { pts: None, ..shown })));

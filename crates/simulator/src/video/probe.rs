@@ -17,6 +17,10 @@ const LIMIT: Duration = Duration::from_secs(60);
 pub(super) struct Probe {
     /// The number of frames, if the container says.
     pub(super) frames: Option<u64>,
+    /// Names of the container, with commas between.
+    pub(super) container: String,
+    /// Name of the codec.
+    pub(super) codec: String,
     pixel_format: String,
 }
 
@@ -24,12 +28,22 @@ pub(super) struct Probe {
 struct Answer {
     #[serde(default)]
     streams: Vec<Stream>,
+    #[serde(default)]
+    format: Container,
+}
+
+#[derive(Default, Deserialize)]
+struct Container {
+    #[serde(default)]
+    format_name: String,
 }
 
 #[derive(Deserialize)]
 struct Stream {
     #[serde(default)]
     pix_fmt: String,
+    #[serde(default)]
+    codec_name: String,
     nb_frames: Option<String>,
 }
 
@@ -41,7 +55,8 @@ impl Probe {
         }
         let ask = Invocation::new(tools.find(Tool::Ffprobe)?.path)
             .args(["-v", "error", "-select_streams", "v:0"])
-            .args(["-show_entries", "stream=pix_fmt,nb_frames", "-of", "json"])
+            .args(["-show_entries", "stream=pix_fmt,codec_name,nb_frames:format=format_name"])
+            .args(["-of", "json"])
             .args(medium.arguments())
             .timeout(LIMIT);
         let output = tools.run(&ask)?;
@@ -61,7 +76,12 @@ impl Probe {
         let stream = answer.streams.into_iter().next();
         let stream = stream.ok_or_else(|| refused("it has no video stream".to_owned()))?;
         let frames = stream.nb_frames.and_then(|number| number.parse().ok());
-        Ok(Self { frames, pixel_format: stream.pix_fmt })
+        Ok(Self {
+            frames,
+            container: answer.format.format_name,
+            codec: stream.codec_name,
+            pixel_format: stream.pix_fmt,
+        })
     }
 
     /// The filter that leaves luma, or the colours that luma is made of.
@@ -89,7 +109,7 @@ mod tests {
     #[test]
     fn colours_decide_what_is_asked_for() {
         let conversion =
-            |name: &str| Probe { frames: None, pixel_format: name.to_owned() }.conversion();
+            |name: &str| Probe { pixel_format: name.to_owned(), ..Probe::default() }.conversion();
         for name in ["yuv420p", "yuvj422p", "nv12", "p010le", "gray", "gray12le", "ya8", ""] {
             assert_eq!(conversion(name), "extractplanes=y", "{name}");
         }

@@ -5,6 +5,8 @@
 
 use std::path::Path;
 
+use foveate_engine::Plane;
+
 use super::super::headed::HeadedFile;
 use super::super::png::low_byte;
 use super::super::sink::{Sink, Step};
@@ -45,13 +47,20 @@ struct Images {
 
 impl Sink for Images {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        let frame = step.rendered()?;
-        let byte = |&value: &u16| low_byte(convert_depth(value, frame.bits(), BITS));
+        let byte = |value: u16| low_byte(convert_depth(value, step.design.pixel_bits(), BITS));
         self.bytes.clear();
-        self.bytes.extend(frame.pixels().iter().map(byte));
-        self.size = (frame.width(), frame.height());
+        match step.screen {
+            Plane::Bytes(pixels) => self.bytes.extend(pixels.iter().map(|&p| byte(p.into()))),
+            Plane::Words(pixels) => self.bytes.extend(pixels.iter().map(|&p| byte(p))),
+        }
+        self.size = (step.design.width(), step.design.height());
         self.count += 1;
-        self.file.write(&self.bytes)
+        self.file.write(&self.bytes);
+        Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.file.write_out(all)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
@@ -71,7 +80,12 @@ impl Sink for LabelBytes {
         // The reader of IDX makes text of bytes.
         let label = step.source.label.as_deref().and_then(|label| label.parse().ok());
         self.count += 1;
-        self.file.write(&[label.unwrap_or_default()])
+        self.file.write(&[label.unwrap_or_default()]);
+        Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.file.write_out(all)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

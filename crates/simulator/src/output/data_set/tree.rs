@@ -3,11 +3,14 @@
 //! row of the arrays.
 
 use std::ffi::OsStr;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
+use foveate_spec::Design;
+
 use super::super::cannot_write;
+use super::super::crew::Crew;
 use super::super::csv::{Csv, quoted};
 use super::super::gallery::Picture;
 use super::super::png;
@@ -31,6 +34,7 @@ pub(super) struct Tree {
     folder: PathBuf,
     names: Names,
     table: Csv,
+    crew: Crew,
 }
 
 impl Tree {
@@ -38,11 +42,11 @@ impl Tree {
         let images = folder.join(FOLDER);
         fs::create_dir(&images).map_err(cannot_write(&images))?;
         let table = Csv::create(&folder.join("images.csv"), "image,file,label")?;
-        Ok(Self { folder: folder.to_owned(), names, table })
+        Ok(Self { folder: folder.to_owned(), names, table, crew: Crew::new()? })
     }
 
-    /// A new file for an image, with its path below the folder of the run.
-    fn place(&self, step: &Step<'_>) -> Result<(PathBuf, File), SimulatorError> {
+    /// The path of a new file for an image, below the folder of the run; its name is taken.
+    fn place(&self, step: &Step<'_>) -> Result<PathBuf, SimulatorError> {
         let mut below = PathBuf::from(FOLDER);
         if let Some(label) = &step.source.label {
             below.push(single(label));
@@ -60,11 +64,12 @@ impl Tree {
             (Err(error), Some(stem)) if error.kind() == ErrorKind::AlreadyExists => {
                 let other = below.join(format!("{stem}-{number}.png"));
                 let path = self.folder.join(&other);
-                Ok((other, create(&path).map_err(cannot_write(&path))?))
+                create(&path).map_err(cannot_write(&path))?;
+                Ok(other)
             }
             (file, _) => {
-                let file = file.map_err(cannot_write(&self.folder.join(&first)))?;
-                Ok((first, file))
+                file.map_err(cannot_write(&self.folder.join(&first)))?;
+                Ok(first)
             }
         }
     }
@@ -72,21 +77,32 @@ impl Tree {
 
 impl Sink for Tree {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        let (below, file) = self.place(step)?;
-        png::encode(file, &Picture::grey(step.rendered()?))
-            .map_err(cannot_write(&self.folder.join(&below)))?;
+        let below = self.place(step)?;
+        let picture = Picture::grey(step, self.crew.spare());
+        self.crew.push(self.folder.join(&below), picture);
         let label = step.source.label.as_deref().unwrap_or_default();
         let (file, label) = (quoted(&below.display().to_string()), quoted(label));
-        self.table.line([step.number.to_string(), file, label])
+        self.table.line([step.number.to_string(), file, label]);
+        Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
-        self.table.finish()
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.crew.write_out(all)?;
+        self.table.write_out(all)
+    }
+
+    fn owed(&self, design: &Design) -> u64 {
+        png::owed(design.width(), design.height(), 2)
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
+        self.table.write_out(true)?;
+        self.crew.finish()
     }
 }
 
 fn create(path: &Path) -> io::Result<File> {
-    OpenOptions::new().write(true).create_new(true).open(path)
+    File::create_new(path)
 }
 
 /// A label as the name of one folder, wherever it comes from.

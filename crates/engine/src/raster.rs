@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A frame as the engine takes it: a byte per pixel up to 8 bits, a word above, so that video goes
+//! from a pipe into the engine without being widened, narrowed or copied on the way.
+
+use foveate_model::{Frame, ModelError};
+
+use crate::plan::index;
+
+/// Pixels row by row with nothing between: a frame, or what is on the screen, without padding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane<'a> {
+    /// Of up to 8 bits per pixel.
+    Bytes(&'a [u8]),
+    /// Of more.
+    Words(&'a [u16]),
+}
+
+impl Plane<'_> {
+    /// The pixels as words, copied: what [`Frame`] holds.
+    #[must_use]
+    pub fn to_words(self) -> Vec<u16> {
+        match self {
+            Self::Bytes(pixels) => pixels.iter().map(|&pixel| pixel.into()).collect(),
+            Self::Words(pixels) => pixels.to_vec(),
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Held {
+    Bytes(Vec<u8>),
+    Words(Vec<u16>),
+}
+
+/// A frame that owns its pixels; every value is known to fit into its bits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Raster {
+    width: u32,
+    height: u32,
+    bits: u32,
+    held: Held,
+}
+
+impl Raster {
+    /// A frame of up to 8 bits per pixel, row by row.
+    ///
+    /// # Errors
+    /// As [`Frame::new`], and when `bits` is above 8.
+    pub fn from_bytes(
+        width: u32,
+        height: u32,
+        bits: u32,
+        pixels: Vec<u8>,
+    ) -> Result<Self, ModelError> {
+        check_size(width, height, pixels.len())?;
+        if !(1..=8).contains(&bits) {
+            return Err(ModelError::PixelBits { bits });
+        }
+        // Where the type holds no more than the bits, there is nothing to look for.
+        if bits < 8 {
+            check_values(width, bits, &pixels)?;
+        }
+        Ok(Self { width, height, bits, held: Held::Bytes(pixels) })
+    }
+
+    /// A frame of any depth, row by row.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn from_words(
+        width: u32,
+        height: u32,
+        bits: u32,
+        pixels: Vec<u16>,
+    ) -> Result<Self, ModelError> {
+        check_size(width, height, pixels.len())?;
+        if !(1..=16).contains(&bits) {
+            return Err(ModelError::PixelBits { bits });
+        }
+        check_values(width, bits, &pixels)?;
+        Ok(Self { width, height, bits, held: hold(bits, pixels) })
+    }
+
+    /// Width in pixels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Bits per pixel.
+    #[must_use]
+    pub fn bits(&self) -> u32 {
+        self.bits
+    }
+
+    /// The pixels where they lie.
+    #[must_use]
+    pub fn plane(&self) -> Plane<'_> {
+        match &self.held {
+            Held::Bytes(pixels) => Plane::Bytes(pixels),
+            Held::Words(pixels) => Plane::Words(pixels),
+        }
+    }
+
+    /// The pixel at column `x` and row `y`.
+    ///
+    /// # Panics
+    /// When it is outside of the frame.
+    #[must_use]
+    pub fn get(&self, x: u32, y: u32) -> u16 {
+        assert!(x < self.width, "column {x} of a frame {} pixels wide", self.width);
+        let place = index(y) * index(self.width) + index(x);
+        match &self.held {
+            Held::Bytes(pixels) => pixels[place].into(),
+            Held::Words(pixels) => pixels[place],
+        }
+    }
+
+    /// The frame in the model's type, copied.
+    ///
+    /// # Errors
+    /// As [`Frame::new`]: never for a frame that is one.
+    pub fn to_frame(&self) -> Result<Frame, ModelError> {
+        Frame::new(self.width, self.height, self.bits, self.plane().to_words())
+    }
+
+    /// The memory of its bytes, to be used again; none of a frame of words.
+    #[must_use]
+    pub fn into_bytes(self) -> Option<Vec<u8>> {
+        match self.held {
+            Held::Bytes(pixels) => Some(pixels),
+            Held::Words(_) => None,
+        }
+    }
+}
+
+impl From<&Frame> for Raster {
+    fn from(frame: &Frame) -> Self {
+        let (width, height, bits) = (frame.width(), frame.height(), frame.bits());
+        Self { width, height, bits, held: hold(bits, frame.pixels().to_vec()) }
+    }
+}
+
+/// Words that fit into the bits, as bytes where these are enough.
+fn hold(bits: u32, pixels: Vec<u16>) -> Held {
+    if bits > 8 {
+        return Held::Words(pixels);
+    }
+    Held::Bytes(pixels.into_iter().map(|pixel| u8::try_from(pixel).unwrap_or(u8::MAX)).collect())
+}
+
+fn check_size(width: u32, height: u32, given: usize) -> Result<(), ModelError> {
+    if width == 0 || height == 0 {
+        return Err(ModelError::EmptyFrame { width, height });
+    }
+    let needed = u64::from(width) * u64::from(height);
+    if u64::try_from(given) != Ok(needed) {
+        return Err(ModelError::FrameLength { width, height, needed, given });
+    }
+    Ok(())
+}
+
+fn check_values<T: Copy + Ord + Into<u16>>(
+    width: u32,
+    bits: u32,
+    pixels: &[T],
+) -> Result<(), ModelError> {
+    let max = u16::MAX >> (16 - bits);
+    let largest = pixels.iter().copied().max().map_or(0, Into::into);
+    if largest <= max {
+        return Ok(());
+    }
+    let place = pixels.iter().position(|&pixel| pixel.into() > max).unwrap_or_default();
+    let at = |place: usize| u32::try_from(place).unwrap_or(u32::MAX);
+    let (x, y) = (at(place % index(width)), at(place / index(width)));
+    Err(ModelError::PixelRange { x, y, value: pixels[place].into(), bits, max })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_and_words_are_one_frame() {
+        let bytes = Raster::from_bytes(3, 2, 4, vec![0, 1, 2, 3, 4, 15]).unwrap();
+        let words = Raster::from_words(3, 2, 4, vec![0, 1, 2, 3, 4, 15]).unwrap();
+        assert_eq!(bytes, words);
+        assert_eq!((bytes.get(2, 1), bytes.get(1, 0)), (15, 1));
+        assert_eq!(Raster::from(&bytes.to_frame().unwrap()), bytes);
+        assert_eq!(bytes.into_bytes(), Some(vec![0, 1, 2, 3, 4, 15]));
+        let deep = Raster::from_words(1, 2, 12, vec![4095, 7]).unwrap();
+        assert_eq!(deep.plane(), Plane::Words(&[4095, 7]));
+        assert_eq!(Raster::from(&deep.to_frame().unwrap()), deep);
+        assert_eq!(deep.into_bytes(), None);
+    }
+
+    #[test]
+    fn what_is_no_frame_is_refused_as_the_model_does() {
+        for (width, height, bits, pixels) in [
+            (0, 3, 8, vec![]),
+            (1, 1, 0, vec![0]),
+            (1, 1, 17, vec![0]),
+            (3, 2, 8, vec![0; 5]),
+            (2, 2, 3, vec![7, 0, 8, 9]),
+        ] {
+            let expected = Frame::new(width, height, bits, pixels.clone()).unwrap_err();
+            let bytes = pixels.iter().map(|&pixel| u8::try_from(pixel).unwrap()).collect();
+            assert_eq!(Raster::from_bytes(width, height, bits, bytes), Err(expected.clone()));
+            assert_eq!(Raster::from_words(width, height, bits, pixels), Err(expected));
+        }
+        let deep = Raster::from_bytes(1, 1, 9, vec![0]);
+        assert_eq!(deep, Err(ModelError::PixelBits { bits: 9 }));
+    }
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A file that grows, and loses nothing of what it was given when the disk is full: bytes gather in
+//! memory, and those that do not fit stay there until there is room for them.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::cannot_write;
+use crate::SimulatorError;
+
+/// Bytes that are worth a call of the system.
+const ENOUGH: usize = 1 << 16;
+
+/// The file, open, and what is not written yet.
+pub(super) struct GrowingFile {
+    path: PathBuf,
+    file: File,
+    pending: Vec<u8>,
+}
+
+impl GrowingFile {
+    pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
+        Self::open(path, OpenOptions::new().write(true).create(true).truncate(true))
+    }
+
+    /// A file that is not there yet.
+    pub(super) fn create_new(path: &Path) -> Result<Self, SimulatorError> {
+        Self::open(path, OpenOptions::new().write(true).create_new(true))
+    }
+
+    fn open(path: &Path, options: &OpenOptions) -> Result<Self, SimulatorError> {
+        let file = options.open(path).map_err(cannot_write(path))?;
+        Ok(Self { path: path.to_owned(), file, pending: Vec::new() })
+    }
+
+    pub(super) fn append(&mut self, bytes: &[u8]) {
+        self.pending.extend_from_slice(bytes);
+    }
+
+    /// What is to be appended, to be written to.
+    pub(super) fn end(&mut self) -> &mut Vec<u8> {
+        &mut self.pending
+    }
+
+    /// Writes what has gathered, once it is worth it or if `all` is to go.
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        if self.pending.len() < ENOUGH && !all {
+            return Ok(());
+        }
+        let mut written = 0;
+        let result = write_counting(&mut self.file, &self.pending, &mut written);
+        self.pending.drain(..written);
+        result.map_err(cannot_write(&self.path))
+    }
+
+    /// Writes everything, and then over bytes that are there already.
+    pub(super) fn write_over(&mut self, at: u64, bytes: &[u8]) -> Result<(), SimulatorError> {
+        self.write_out(true)?;
+        self.file
+            .seek(SeekFrom::Start(at))
+            .and_then(|_| self.file.write_all(bytes))
+            .and_then(|()| self.file.seek(SeekFrom::End(0)))
+            .map(drop)
+            .map_err(cannot_write(&self.path))
+    }
+}
+
+/// As `write_all`, which does not tell how far it came.
+fn write_counting(file: &mut File, bytes: &[u8], written: &mut usize) -> io::Result<()> {
+    while let Some(rest) = bytes.get(*written..).filter(|rest| !rest.is_empty()) {
+        match file.write(rest) {
+            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+            Ok(count) => *written += count,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_go_out_when_they_are_many_or_asked_for_and_the_start_can_change() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("file");
+        let mut file = GrowingFile::create(&path).unwrap();
+        file.append(b"head");
+        file.write_out(false).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"");
+        file.append(&[7; ENOUGH]);
+        file.write_out(false).unwrap();
+        file.write_over(0, b"HE").unwrap();
+        file.append(b"end");
+        file.write_out(true).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        assert_eq!((&bytes[..5], bytes.len()), (&b"HEad\x07"[..], ENOUGH + 7));
+        assert!(GrowingFile::create_new(&path).is_err(), "nothing is written over");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_does_not_fit_is_kept() {
+        let mut file = GrowingFile::create(Path::new("/dev/full")).unwrap();
+        file.append(b"kept");
+        let error = file.write_out(true).unwrap_err();
+        assert!(error.is_full() && error.to_string().contains("/dev/full"), "{error}");
+        assert_eq!(file.end(), b"kept");
+    }
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From samples as they lie in a pipe or a file to a frame: 8-bit luma for a design of 8 bits stays
+//! where it is, everything else is converted in one pass.
+
+use foveate_engine::Raster;
+use foveate_model::ModelError;
+
+use crate::{convert_depth, luma};
+
+/// How samples lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    /// Bits per sample; above 8 they are words, low bytes first.
+    pub(crate) depth: u32,
+    /// Red, green and blue instead of one value.
+    pub(crate) colour: bool,
+}
+
+impl Layout {
+    /// Bytes of a frame.
+    pub(crate) fn bytes(self) -> usize {
+        let channels = if self.colour { 3 } else { 1 };
+        self.width as usize * self.height as usize * channels * if self.depth > 8 { 2 } else { 1 }
+    }
+
+    /// The frame of `bits` bits per pixel; samples beyond their depth count as its largest value.
+    pub(crate) fn raster(self, bytes: Vec<u8>, bits: u32) -> Result<Raster, ModelError> {
+        let Self { width, height, depth, colour } = self;
+        if depth == bits && depth == 8 && !colour {
+            return Raster::from_bytes(width, height, bits, bytes);
+        }
+        let max = u16::MAX >> (16 - depth);
+        let words = bytes.chunks_exact(2).map(|b| u16::from_le_bytes([b[0], b[1]]).min(max));
+        let flat = bytes.iter().map(|&byte| u16::from(byte).min(max));
+        let pixels = match (colour, depth > 8) {
+            (false, false) => flat.map(|value| convert_depth(value, depth, bits)).collect(),
+            (false, true) => words.map(|value| convert_depth(value, depth, bits)).collect(),
+            (true, false) => mixed(flat, depth, bits),
+            (true, true) => mixed(words, depth, bits),
+        };
+        Raster::from_words(width, height, bits, pixels)
+    }
+}
+
+fn mixed(mut samples: impl Iterator<Item = u16>, depth: u32, bits: u32) -> Vec<u16> {
+    let mut pixels = Vec::with_capacity(samples.size_hint().0 / 3);
+    while let (Some(red), Some(green), Some(blue)) =
+        (samples.next(), samples.next(), samples.next())
+    {
+        pixels.push(convert_depth(luma(red, green, blue), depth, bits));
+    }
+    pixels
+}
