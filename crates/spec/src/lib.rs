@@ -6,8 +6,10 @@
 //! fingerprint. Nothing downstream validates again or derives a width again. This crate does no
 //! I/O.
 
+mod choice;
 mod config;
 mod decimal;
+mod derived;
 mod design;
 mod error;
 mod feature;
@@ -18,12 +20,16 @@ mod port;
 mod preset;
 mod reciprocal;
 mod timing;
+mod validate;
 mod width;
 
+pub use choice::{
+    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
+    Thresholds,
+};
 pub use config::{
-    Combine, Config, DecisionConfig, DenoiseConfig, FeatureKind, Filter, FrameConfig,
-    HardwareConfig, Irrelevant, Neighborhood, Organization, Payload, Reference, RegionConfig,
-    RenderConfig, SpatialConfig, TemporalConfig, Thresholds,
+    Config, DecisionConfig, DenoiseConfig, FrameConfig, HardwareConfig, RegionConfig, RenderConfig,
+    SpatialConfig, TemporalConfig,
 };
 pub use decimal::Decimal;
 pub use design::{Design, Temporal};
