@@ -114,6 +114,17 @@ choice! {
     }
 }
 choice! {
+    /// How pixels enter the serial organization.
+    #[derive(Default)]
+    Feed {
+        /// One pixel per lane at a time: every lane has its own stream.
+        #[default]
+        Parallel = "parallel",
+        /// One pixel at a time: the frame, row by row.
+        Raster = "raster",
+    }
+}
+choice! {
     /// Where the thresholds of a core come from.
     Thresholds {
         /// Input ports.

@@ -5,7 +5,7 @@
 //! [`crate::keys`], so that the message can name the nearest known key.
 
 use crate::{
-    Combine, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
+    Combine, Decimal, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload,
     Reference, Thresholds,
 };
 use serde::{Deserialize, Serialize};
@@ -175,14 +175,23 @@ pub struct RenderConfig {
 pub struct HardwareConfig {
     /// The structure of the array.
     pub organization: Organization,
-    /// Regions per lane of the serial organization; 1 for `pipelined`.
+    /// Regions per lane K of the serial organization, 1..=M; 1 for `pipelined`.
     pub fold: u32,
+    /// How pixels enter the serial organization; left out it is `parallel`. A design has it only if it
+    /// is serial: `pipelined` knows no other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub feed: Option<Feed>,
     /// Whether thresholds are inputs of the core or constants in it.
     pub thresholds: Thresholds,
 }
 
 impl Default for HardwareConfig {
     fn default() -> Self {
-        Self { organization: Organization::Pipelined, fold: 1, thresholds: Thresholds::Runtime }
+        Self {
+            organization: Organization::Pipelined,
+            fold: 1,
+            feed: None,
+            thresholds: Thresholds::Runtime,
+        }
     }
 }

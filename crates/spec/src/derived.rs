@@ -3,8 +3,7 @@
 
 use crate::width::index_bits;
 use crate::{
-    Design, FeatureKind, Filter, Neighborhood, Payload, SpatialFeature, Timing, bits_for,
-    fingerprint,
+    Design, FeatureKind, Filter, Neighborhood, Payload, SpatialFeature, bits_for, fingerprint,
 };
 
 impl Design {
@@ -117,12 +116,6 @@ impl Design {
     #[must_use]
     pub fn slot_bits(&self) -> u32 {
         index_bits(self.region_pixels().into())
-    }
-
-    /// Latencies.
-    #[must_use]
-    pub fn timing(&self) -> Timing {
-        Timing::of(self)
     }
 
     /// A short name: 16 hexadecimal digits, equal for equal configurations.

@@ -2,7 +2,7 @@
 //! The validated configuration: one immutable value from which everything else is derived.
 
 use crate::{
-    Combine, Config, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
+    Combine, Config, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
     SpatialFeature, Thresholds,
 };
 
@@ -114,6 +114,18 @@ impl Design {
     #[must_use]
     pub fn organization(&self) -> Organization {
         self.config.hardware.organization
+    }
+
+    /// Regions per lane K: 1 for `pipelined`, where an RPU has but one.
+    #[must_use]
+    pub fn fold(&self) -> u32 {
+        self.config.hardware.fold
+    }
+
+    /// How pixels enter; `pipelined` is always fed in parallel.
+    #[must_use]
+    pub fn feed(&self) -> Feed {
+        self.config.hardware.feed.unwrap_or_default()
     }
 
     /// Where the thresholds come from.

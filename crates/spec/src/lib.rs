@@ -16,15 +16,17 @@ mod feature;
 mod fingerprint;
 mod keys;
 mod parse;
+mod pipelined_ports;
 mod port;
 mod preset;
 mod reciprocal;
+mod serial;
 mod timing;
 mod validate;
 mod width;
 
 pub use choice::{
-    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
+    Combine, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
     Thresholds,
 };
 pub use config::{
@@ -35,8 +37,9 @@ pub use decimal::Decimal;
 pub use design::{Design, Temporal};
 pub use error::SpecError;
 pub use feature::{Mean, SpatialFeature, Variance};
-pub use port::{Direction, Port, PortRole};
+pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
 pub use reciprocal::Reciprocal;
-pub use timing::Timing;
+pub use serial::{Area, AreaKind, LaneMemory, MemoryKind, Phase, SerialTiming};
+pub use timing::{PipelinedTiming, Timing};
 pub use width::{bits_for, index_bits, mad_score_max};

@@ -3,7 +3,10 @@
 
 use std::ops::RangeInclusive;
 
-use crate::{Config, Design, Organization, SpatialConfig, SpatialFeature, SpecError, Temporal};
+use crate::{
+    Config, Design, Feed, HardwareConfig, Organization, SpatialConfig, SpatialFeature, SpecError,
+    Temporal,
+};
 
 /// Frame size where the configuration leaves it out.
 const DEFAULT_SIDE: u32 = 224;
@@ -12,6 +15,8 @@ const MAX_SIDE: u32 = 16_384;
 /// Most regions of a frame: those of the largest frame at 8x8 pixels. What a model keeps per region
 /// then stays within memory.
 const MAX_REGIONS: u32 = 1 << 22;
+/// Smallest side of a region in the serial organization.
+const MIN_SERIAL_SIDE: u32 = 4;
 
 impl Config {
     /// Checks every range and combination.
@@ -25,19 +30,23 @@ impl Config {
         in_range("frame.height", height, 1..=MAX_SIDE, "")?;
         in_range("frame.pixel_bits", self.frame.pixel_bits, 1..=16, "")?;
         in_range("region.size", self.region.size, 2..=64, "")?;
-        self.check_regions(width, height)?;
+        let regions = self.check_regions(width, height)?;
+        self.check_hardware(regions)?;
         let n = self.region.size * self.region.size;
         let pixel_max = (1 << self.frame.pixel_bits) - 1;
         let pixels = format!(" for pixels of {} bits", self.frame.pixel_bits);
         in_range("temporal.level", self.temporal.level, 0..=pixel_max, &pixels)?;
         let region = format!(" for regions of {n} pixels");
         in_range("temporal.min_count", self.temporal.min_count, 0..=n, &region)?;
-        self.check_hardware()?;
         self.check_features()?;
         let mut config = self.clone();
         config.spatial = self.spatial.iter().map(SpatialConfig::with_defaults).collect();
         let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), pixel_max);
         let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
+        config.hardware.feed = match config.hardware.organization {
+            Organization::Pipelined => None,
+            Organization::Serial => Some(config.hardware.feed.unwrap_or_default()),
+        };
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
         let temporal = Temporal {
             level: self.temporal.level,
@@ -71,11 +80,12 @@ impl Config {
         Ok(())
     }
 
-    fn check_regions(&self, width: u32, height: u32) -> Result<(), SpecError> {
+    /// The regions of the frame.
+    fn check_regions(&self, width: u32, height: u32) -> Result<u32, SpecError> {
         let size = self.region.size;
         let regions = width.div_ceil(size) * height.div_ceil(size);
         if regions <= MAX_REGIONS {
-            return Ok(());
+            return Ok(regions);
         }
         Err(SpecError::Combination {
             key: "region.size".to_owned(),
@@ -106,30 +116,39 @@ impl Config {
         Ok(())
     }
 
-    fn check_hardware(&self) -> Result<(), SpecError> {
+    fn check_hardware(&self, regions: u32) -> Result<(), SpecError> {
         let clash = |key: &str, value: String, remedy: &str| SpecError::Combination {
-            key: format!("hardware.{key}"),
+            key: key.to_owned(),
             value,
-            with: "this version".to_owned(),
+            with: format!("organization = \"{}\"", self.hardware.organization),
             remedy: remedy.to_owned(),
         };
-        match self.hardware.organization {
-            Organization::Pipelined => {}
+        let HardwareConfig { organization, fold, feed, thresholds: _ } = self.hardware;
+        match organization {
+            Organization::Pipelined => {
+                if fold != 1 {
+                    let remedy = "only the serial organization folds; use 1";
+                    return Err(clash("hardware.fold", fold.to_string(), remedy));
+                }
+                match feed {
+                    None | Some(Feed::Parallel) => Ok(()),
+                    Some(Feed::Raster) => {
+                        let remedy = "only the serial organization takes the frame row by row; \
+                                      leave the key out";
+                        Err(clash("hardware.feed", format!("\"{}\"", Feed::Raster), remedy))
+                    }
+                }
+            }
             Organization::Serial => {
-                let remedy = "the serial organization is not there yet; use \"pipelined\"";
-                return Err(clash("organization", "\"serial\"".to_owned(), remedy));
+                let size = self.region.size;
+                if size < MIN_SERIAL_SIDE {
+                    let remedy = format!("use {MIN_SERIAL_SIDE}..=64, or \"pipelined\"");
+                    return Err(clash("region.size", size.to_string(), &remedy));
+                }
+                let why = format!(", the regions of the frame; fold = {regions} makes one lane");
+                in_range("hardware.fold", fold, 1..=regions, &why)
             }
         }
-        if self.hardware.fold != 1 {
-            let remedy = "only the serial organization folds; use 1";
-            return Err(SpecError::Combination {
-                key: "hardware.fold".to_owned(),
-                value: self.hardware.fold.to_string(),
-                with: "organization = \"pipelined\"".to_owned(),
-                remedy: remedy.to_owned(),
-            });
-        }
-        Ok(())
     }
 }
 
