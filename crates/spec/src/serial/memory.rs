@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The memory of a lane: which areas a slot has, where, and of what it is built.
 
+use std::fmt;
+
 use crate::{Design, Filter, Reference, index_bits};
 
 /// Memory LUTs up to which a lane's memory is distributed.
@@ -17,6 +19,16 @@ pub enum AreaKind {
     Denoised,
     /// The region of the frame it is compared with, n.
     Reference,
+}
+
+impl fmt::Display for AreaKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Raw => "raw",
+            Self::Denoised => "denoised",
+            Self::Reference => "reference",
+        })
+    }
 }
 
 /// A square of pixels in a slot, row by row.
@@ -55,6 +67,15 @@ impl MemoryKind {
             Self::Distributed => 0,
             Self::Block => 1,
         }
+    }
+}
+
+impl fmt::Display for MemoryKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Distributed => "distributed",
+            Self::Block => "block",
+        })
     }
 }
 

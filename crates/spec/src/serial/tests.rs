@@ -240,3 +240,27 @@ fn every_window_is_filled_once() {
         }
     }
 }
+
+#[test]
+fn the_largest_fold_is_the_last_that_is_fast_enough() {
+    for feed in ["parallel", "raster"] {
+        for neighborhood in ["isolated", "shared"] {
+            let feed = format!("hardware.feed={feed}");
+            let region = format!("region.neighborhood={neighborhood}");
+            let design = design(&["frame.width=100", "frame.height=40", &feed, &region]);
+            let clocks: Vec<u64> = (1..=design.regions())
+                .map(|fold| timing(&design.with_fold(fold).unwrap()).clocks_per_frame())
+                .collect();
+            assert_eq!(clocks.iter().min(), clocks.first(), "fold 1 is the fastest");
+            for limit in clocks.iter().flat_map(|&clocks| [clocks - 1, clocks, clocks + 1]) {
+                let last = clocks.iter().rposition(|&clocks| clocks <= limit);
+                let expected = last.map(|place| u32::try_from(place + 1).unwrap());
+                assert_eq!(design.largest_fold(limit), expected, "{limit}");
+            }
+        }
+    }
+    let design = design(&[]);
+    assert_eq!((design.with_fold(0), design.with_fold(785)), (None, None));
+    let folded = design.with_fold(784).unwrap();
+    assert_eq!(folded.config().validate().unwrap(), folded);
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The steps of a serial array: what it does with a frame, in which order and for how long.
 
+use std::fmt;
+
 use crate::{Design, FeatureKind, Feed, Filter, Reference, SpatialFeature};
 
 /// What the lanes do for one slot, in this order.
@@ -22,6 +24,21 @@ pub enum Phase {
     Copy,
     /// The pixels of active regions leave.
     Unload,
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::DenoiseTemporal => f.pad("denoise and temporal"),
+            Self::Border => f.pad("border"),
+            Self::Temporal => f.pad("temporal"),
+            Self::RotateCount => f.pad("rotate count"),
+            Self::Pass(kind) => f.pad(kind.name()),
+            Self::RotateScore(kind) => f.pad(&format!("rotate {kind}")),
+            Self::Copy => f.pad("copy"),
+            Self::Unload => f.pad("unload"),
+        }
+    }
 }
 
 /// When a serial array says what; all of `docs/serial.md` in numbers.
