@@ -2,6 +2,7 @@
 //! The command line as clap sees it, and the design that its options describe.
 
 mod analyze;
+mod check;
 mod dataset;
 mod explain;
 mod input;
@@ -18,6 +19,7 @@ use foveate_spec::{Config, Design, Preset, SpecError};
 use self::input::InputArgs;
 use crate::error::CliError;
 pub(crate) use analyze::AnalyzeArgs;
+pub(crate) use check::{CheckArgs, Clock, Rate};
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use outputs::OutputArgs;
@@ -90,20 +92,6 @@ impl DesignArgs {
         let alone = Config::from_toml(text).and_then(|config| config.validate());
         CliError::Spec { file: self.config.clone().filter(|_| alone.is_err()), error }
     }
-}
-
-/// Check a configuration and print what follows from it
-#[derive(Args, Debug)]
-#[command(after_help = "Example: foveate check camera.toml")]
-pub(crate) struct CheckArgs {
-    /// Configuration file (TOML); the same as --config
-    #[arg(value_name = "FILE", conflicts_with_all = ["config", "preset"])]
-    pub(crate) file: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) design: DesignArgs,
-    /// Print JSON
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 /// Write the Verilog of a design, with file lists, constraints, bench and README

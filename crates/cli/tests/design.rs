@@ -31,6 +31,59 @@ fn check_prints_the_card_as_text_and_json() {
 }
 
 #[test]
+fn check_tells_how_fast_each_organization_is() {
+    let dir = tempfile::tempdir().unwrap();
+    let check = |args: &[&str]| succeed_in(dir.path(), &[&["check"], args].concat());
+    let json = |args: &[&str]| -> Value {
+        serde_json::from_str(&check(&[args, &["--json"]].concat())).unwrap()
+    };
+    assert!(check(&[]).contains("3906250 frames/s at 250 MHz"));
+    let card = json(&["--clock", "64kHz"]);
+    assert_eq!(
+        (&card["rate"]["clock_hz"], &card["rate"]["frames_per_second"]),
+        (&64_000.into(), &1000.0.into())
+    );
+    assert!(card.get("array").is_none() && card.get("proposal").is_none());
+
+    let text = check(&["--preset", "serial"]);
+    for part in [
+        "784, 1 region each, parallel feed",
+        "128 words of 8 bits, distributed; 128 per slot for raw 8x8",
+        "7905: 64 to take the frame, 7840 steps, 1 between",
+        "31625 frames/s at 250 MHz",
+        "ready_o",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let card = json(&["--preset", "serial", "--set", "hardware.fold=4"]);
+    assert_eq!(
+        (&card["array"]["lanes"], &card["array"]["memory"]["words"]),
+        (&196.into(), &512.into())
+    );
+    assert_eq!(card["timing"]["phases"].as_array().unwrap().len(), 5);
+}
+
+#[test]
+fn check_proposes_the_largest_fold_that_reaches_a_rate() {
+    let dir = tempfile::tempdir().unwrap();
+    let ask = |fps| ["check", "--preset", "serial", "--fps", fps, "--clock", "250MHz", "--json"];
+    let card: Value = serde_json::from_str(&succeed_in(dir.path(), &ask("1000"))).unwrap();
+    let proposal = &card["proposal"];
+    assert_eq!((&proposal["reached"], &proposal["lanes"]), (&true.into(), &21.into()));
+    assert_eq!((&proposal["fold"], &proposal["cycles_per_frame"]), (&38.into(), &244797.into()));
+    let text = succeed_in(dir.path(), &ask("1000")[..7]);
+    assert!(text.contains("fold 38 for 1000 frames/s: 21 lanes"), "{text}");
+    // The design itself takes 250 MHz / 7905 = 31,625.5 frames per second: no fold is faster.
+    let none = ["no fold reaches 31626 frames/s", "fold 1 is the fastest", "7905 clocks per frame"];
+    fail_in(dir.path(), 1, &ask("31626")[..7], &none);
+    succeed_in(dir.path(), &ask("31625.5"));
+    fail_in(dir.path(), 2, &["check", "--fps", "1000"], &["hardware.organization=serial"]);
+    for args in [["--clock", "fast"], ["--fps", "0"]] {
+        assert_eq!(run_in(dir.path(), &[&["check"], &args[..]].concat()).code, 2, "{args:?}");
+    }
+}
+
+#[test]
 fn wrong_configurations_end_with_2_and_one_line() {
     let dir = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(dir.path().join(name), text).unwrap();
@@ -48,7 +101,8 @@ fn wrong_configurations_end_with_2_and_one_line() {
     fail(&["check", "missing.toml"], &["missing.toml", "No such file"]);
     fail(&["check", "--preset", "papre"], &["`papre`", "paper"]);
     fail(&["check", "--set", "region.size"], &["--set region.size", "KEY=VALUE"]);
-    fail(&["check", "--set", "hardware.organization=serial"], &["not there yet"]);
+    fail(&["check", "--set", "hardware.fold=2"], &["`hardware.fold` = 2", "use 1"]);
+    fail(&["generate", "--preset", "serial", "-o", "core"], &["\"serial\"", "use \"pipelined\""]);
     fail(&["generate", "--set", "region.size=1", "-o", "core"], &["2..=64"]);
     assert!(!dir.path().join("core").exists());
 }

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `foveate check`, clocks and frame rates among them.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use clap::Args;
+use foveate_spec::Decimal;
+
+use super::DesignArgs;
+
+/// Check a configuration and print what follows from it
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate check camera.toml
+          foveate check --preset serial --fps 1000 --clock 250MHz")]
+pub(crate) struct CheckArgs {
+    /// Configuration file (TOML); the same as --config
+    #[arg(value_name = "FILE", conflicts_with_all = ["config", "preset"])]
+    pub(crate) file: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Clock at which frames per second are told, for example 100MHz or 1.5GHz
+    #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
+    pub(crate) clock: Clock,
+    /// Propose the largest fold of a serial design that still reaches this many frames per second; exit
+    /// code 1 if none does
+    #[arg(long, value_name = "RATE", value_parser = Rate::parse)]
+    pub(crate) fps: Option<Rate>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// The frequency of a clock in Hz, 1..=10^12.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Clock(pub(crate) u64);
+
+/// Names of units, largest first, with what they are in Hz.
+const UNITS: [(&str, u64); 4] =
+    [("GHz", 1_000_000_000), ("MHz", 1_000_000), ("kHz", 1000), ("Hz", 1)];
+
+impl Clock {
+    const MAX: u64 = 1_000_000_000_000;
+
+    fn parse(text: &str) -> Result<Self, String> {
+        let split = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
+        let (number, unit) = text.split_at(split);
+        let unit = match unit {
+            "" => Some(1),
+            unit => UNITS.iter().find(|(name, _)| unit.eq_ignore_ascii_case(name)).map(|u| u.1),
+        };
+        let hertz = unit.and_then(|unit| Some(decimal(number)?.ceil_times(unit)));
+        hertz
+            .and_then(|hertz| u64::try_from(hertz).ok())
+            .filter(|hertz| (1..=Self::MAX).contains(hertz))
+            .map(Self)
+            .ok_or_else(|| "expected 1Hz to 1000GHz, for example 250MHz".to_owned())
+    }
+}
+
+impl fmt::Display for Clock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, unit) = UNITS.iter().find(|(_, unit)| self.0 >= *unit).unwrap_or(&("Hz", 1));
+        let fraction = format!("{:09}", self.0 % unit * (1_000_000_000 / unit));
+        let fraction = fraction.trim_end_matches('0');
+        let point = if fraction.is_empty() { "" } else { "." };
+        write!(f, "{}{point}{fraction} {name}", self.0 / unit)
+    }
+}
+
+/// Frames per second, above 0 and at most 10^9.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rate(pub(crate) Decimal);
+
+impl Rate {
+    const NANO: u64 = 1_000_000_000;
+
+    fn parse(text: &str) -> Result<Self, String> {
+        decimal(text)
+            .filter(|rate| (1..=1_000_000_000).contains(&rate.ceil_times(1)))
+            .map(Self)
+            .ok_or_else(|| "expected frames per second above 0, for example 1000".to_owned())
+    }
+
+    /// The most clocks that a frame may take.
+    pub(crate) fn max_clocks(self, clock: Clock) -> u64 {
+        let clocks = u128::from(clock.0) * u128::from(Self::NANO) / self.0.ceil_times(Self::NANO);
+        u64::try_from(clocks).unwrap_or(u64::MAX)
+    }
+}
+
+fn decimal(text: &str) -> Option<Decimal> {
+    text.trim().parse().ok().and_then(Decimal::from_f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clocks_are_read_and_shown() {
+        for (text, hertz, shown) in [
+            ("250MHz", 250_000_000, "250 MHz"),
+            ("1.5GHz", 1_500_000_000, "1.5 GHz"),
+            ("48 kHz", 48_000, "48 kHz"),
+            ("100000000", 100_000_000, "100 MHz"),
+            ("33.333333mhz", 33_333_333, "33.333333 MHz"),
+            ("7Hz", 7, "7 Hz"),
+        ] {
+            let clock = Clock::parse(text).unwrap();
+            assert_eq!((clock.0, clock.to_string().as_str()), (hertz, shown));
+        }
+        for text in ["", "MHz", "0", "-1MHz", "5 megahertz", "nan", "1e30", "2000GHz"] {
+            assert!(Clock::parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_rate_allows_whole_clocks() {
+        let clocks = |rate| Rate::parse(rate).unwrap().max_clocks(Clock(250_000_000));
+        assert_eq!(
+            (clocks("1000"), clocks("3"), clocks("29.97")),
+            (250_000, 83_333_333, 8_341_675)
+        );
+        for text in ["0", "-1", "inf", "many", "1e10"] {
+            assert!(Rate::parse(text).is_err(), "{text}");
+        }
+    }
+}

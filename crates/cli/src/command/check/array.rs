@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The part of the card that is about silicon against speed: lanes, memory, frames per second, folds.
+
+use foveate_spec::{Area, Design, Organization};
+use serde::Serialize;
+
+use crate::args::{Clock, Rate};
+use crate::error::CliError;
+
+/// The lanes of a serial design.
+#[derive(Serialize)]
+pub(super) struct Array {
+    pub(super) lanes: u32,
+    pub(super) fold: u32,
+    pub(super) feed: &'static str,
+    pub(super) memory: Memory,
+}
+
+/// The memory of a lane, in words of a pixel.
+#[derive(Serialize)]
+pub(super) struct Memory {
+    pub(super) kind: String,
+    pub(super) read_latency: u32,
+    pub(super) words: u64,
+    pub(super) slot_words: u32,
+    pub(super) areas: Vec<AreaRow>,
+}
+
+#[derive(Serialize)]
+pub(super) struct AreaRow {
+    pub(super) area: String,
+    pub(super) base: u32,
+    pub(super) side: u32,
+    pub(super) words: u32,
+}
+
+/// Frames per second at a clock.
+#[derive(Serialize)]
+pub(super) struct FrameRate {
+    pub(super) clock_hz: u64,
+    pub(super) frames_per_second: f64,
+    #[serde(skip)]
+    pub(super) text: String,
+}
+
+/// The largest fold that reaches a rate, or what fold 1 reaches where none does.
+#[derive(Serialize)]
+pub(super) struct Proposal {
+    pub(super) wanted: f64,
+    /// Whether there is such a fold.
+    pub(super) reached: bool,
+    pub(super) fold: u32,
+    pub(super) lanes: u32,
+    pub(super) cycles_per_frame: u64,
+    pub(super) frames_per_second: f64,
+    #[serde(skip)]
+    pub(super) text: String,
+}
+
+impl Array {
+    pub(super) fn of(design: &Design) -> Self {
+        let memory = design.lane_memory();
+        let row = |area: &Area| AreaRow {
+            area: area.kind.to_string(),
+            base: area.base,
+            side: area.side,
+            words: area.words(),
+        };
+        Self {
+            lanes: design.lanes(),
+            fold: design.fold(),
+            feed: design.feed().name(),
+            memory: Memory {
+                kind: memory.kind.to_string(),
+                read_latency: memory.read_latency(),
+                words: memory.depth,
+                slot_words: memory.slot_words,
+                areas: memory.areas.iter().map(row).collect(),
+            },
+        }
+    }
+}
+
+impl FrameRate {
+    pub(super) fn of(clock: Clock, clocks: u64) -> Self {
+        Self {
+            clock_hz: clock.0,
+            frames_per_second: per_second(clock, clocks),
+            text: format!("{} frames/s at {clock}", shown(clock, clocks)),
+        }
+    }
+}
+
+impl Proposal {
+    /// What is proposed for a serial design; its own fold does not matter.
+    pub(super) fn of(design: &Design, rate: Rate, clock: Clock) -> Result<Self, CliError> {
+        match design.organization() {
+            Organization::Serial => {}
+            Organization::Pipelined => {
+                return Err(CliError::Usage(
+                    "--fps proposes a fold, which only a serial design has; add \
+                     --set hardware.organization=serial or leave --fps out"
+                        .to_owned(),
+                ));
+            }
+        }
+        let found = design.largest_fold(rate.max_clocks(clock));
+        let fold = found.unwrap_or(1);
+        let best = design.with_fold(fold).unwrap_or_else(|| design.clone());
+        let clocks = best.timing().clocks_per_frame();
+        let reach =
+            format!("{clocks} clocks per frame, {} frames/s at {clock}", shown(clock, clocks));
+        let lanes = best.lanes();
+        let text = match found {
+            Some(fold) => format!("fold {fold} for {} frames/s: {lanes} lanes, {reach}", rate.0),
+            None => format!("no fold reaches {} frames/s; fold 1 is the fastest: {reach}", rate.0),
+        };
+        Ok(Self {
+            wanted: rate.0.to_string().parse().unwrap_or_default(),
+            reached: found.is_some(),
+            fold,
+            lanes,
+            cycles_per_frame: clocks,
+            frames_per_second: per_second(clock, clocks),
+            text,
+        })
+    }
+}
+
+/// Both are far below 2^53.
+#[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
+fn per_second(clock: Clock, clocks: u64) -> f64 {
+    clock.0 as f64 / clocks as f64
+}
+
+/// Frames per second, rounded down: whole from 100 on, else with two digits after the point.
+fn shown(clock: Clock, clocks: u64) -> String {
+    let hundredths = clock.0 * 100 / clocks;
+    match hundredths {
+        10_000.. => (hundredths / 100).to_string(),
+        _ => format!("{}.{:02}", hundredths / 100, hundredths % 100),
+    }
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The card as text.
+
+use std::fmt::Write;
+
+use foveate_spec::{Design, Neighborhood};
+
+use super::array::{Array, Memory};
+use super::card::{Card, Clocks, Feature, Latencies, PortRow, Steps};
+use crate::output;
+
+pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
+    let mut lines = vec![
+        ("design", card.fingerprint.clone()),
+        (
+            "frame",
+            format!(
+                "{} x {} pixels, {} bits",
+                design.width(),
+                design.height(),
+                design.pixel_bits()
+            ),
+        ),
+        (
+            "grid",
+            format!(
+                "{} x {} = {} regions of {}x{}",
+                card.grid.columns,
+                card.grid.rows,
+                card.grid.regions,
+                design.region_size(),
+                design.region_size()
+            ),
+        ),
+        ("filter", format!("{}, {} neighborhood", design.filter(), design.neighborhood())),
+    ];
+    for feature in &card.features {
+        lines.push((feature.feature, feature_line(feature)));
+    }
+    lines.push(("temporal", temporal_line(design)));
+    lines.push(("SRS", format!("{} of the features", design.combine())));
+    lines.push(("stream", stream_line(design, card)));
+    if let Some(array) = &card.array {
+        lines.push(("lanes", lanes_line(array)));
+        lines.push(("lane memory", memory_line(design, &array.memory)));
+    }
+    match &card.timing {
+        Clocks::Pipelined(timing) => {
+            lines.push(("cycles per frame", timing.cycles_per_frame.to_string()));
+            lines.push(("decision", decision_line(timing)));
+            lines.push(("pixels leave", forward_line(timing)));
+        }
+        Clocks::Serial(timing) => {
+            lines.push(("steps per slot", steps_line(timing)));
+            lines.push(("cycles per frame", frame_line(timing)));
+        }
+    }
+    lines.push(("rate", card.rate.text.clone()));
+    if let Some(proposal) = &card.proposal {
+        lines.push(("proposal", proposal.text.clone()));
+    }
+    let mut text = String::new();
+    for (name, value) in lines {
+        let start = format!("{name:<17} ");
+        wrap(&mut text, &start, &value);
+    }
+    ports(&mut text, "rpu", &card.rpu_ports);
+    ports(&mut text, "rcm", &card.rcm_ports);
+    text
+}
+
+fn feature_line(feature: &Feature) -> String {
+    let level = feature.level.map(|level| format!("level {level}, ")).unwrap_or_default();
+    format!(
+        "{level}votes from {} on; scores 0..={}, {} bits",
+        feature.min_score, feature.score_max, feature.score_bits
+    )
+}
+
+fn temporal_line(design: &Design) -> String {
+    let temporal = design.temporal();
+    format!(
+        "level {}, TRS from {} on, against {}; counts 0..={}, {} bits",
+        temporal.level,
+        temporal.min_count,
+        temporal.reference,
+        design.region_pixels(),
+        design.count_bits()
+    )
+}
+
+fn stream_line(design: &Design, card: &Card<'_>) -> String {
+    let halo = match design.neighborhood() {
+        Neighborhood::Isolated => String::new(),
+        Neighborhood::Shared => format!(", halo {} included", card.stream.halo),
+    };
+    format!("{0} x {0} = {1} pixels per region{halo}", card.stream.side, card.stream.pixels)
+}
+
+fn lanes_line(array: &Array) -> String {
+    let each = if array.fold == 1 { "region" } else { "regions" };
+    format!("{}, {} {each} each, {} feed", array.lanes, array.fold, array.feed)
+}
+
+fn memory_line(design: &Design, memory: &Memory) -> String {
+    let areas = memory.areas.iter().map(|row| format!("{0} {1}x{1}", row.area, row.side));
+    format!(
+        "{} words of {} bits, {}; {} per slot for {}",
+        memory.words,
+        design.pixel_bits(),
+        memory.kind,
+        memory.slot_words,
+        areas.collect::<Vec<_>>().join(", ")
+    )
+}
+
+fn steps_line(timing: &Steps) -> String {
+    let phases = timing.phases.iter().map(|row| format!("{} {}", row.phase, row.steps));
+    format!("{}: {}", timing.slot_steps, phases.collect::<Vec<_>>().join(", "))
+}
+
+fn frame_line(timing: &Steps) -> String {
+    let (load, steps) = (timing.load_clocks, timing.steps);
+    format!("{}: {load} to take the frame, {steps} steps, 1 between", timing.cycles_per_frame)
+}
+
+fn decision_line(timing: &Latencies) -> String {
+    let of = if timing.decision_frames == 0 { "" } else { " of the next frame" };
+    format!("valid {} clocks after the last pixel{of}", timing.decision_latency)
+}
+
+fn forward_line(timing: &Latencies) -> String {
+    let which = if timing.forward_frames == 1 { "next frame" } else { "next frame but one" };
+    format!("while the {which} enters")
+}
+
+fn ports(text: &mut String, module: &str, rows: &[PortRow]) {
+    let _ = writeln!(text, "\nports of {module}");
+    for row in rows {
+        let lanes = if row.lanes == 1 { String::new() } else { format!("{} x ", row.lanes) };
+        let bits = format!("{lanes}{}", row.width);
+        let start = format!("  {:<6} {bits:>10}  {:<17} ", row.direction, row.name);
+        wrap(text, &start, &row.doc);
+    }
+}
+
+/// A line that starts with `start`; what does not fit goes on under `rest`.
+fn wrap(text: &mut String, start: &str, rest: &str) {
+    let indent = " ".repeat(start.len());
+    let options = textwrap::Options::new(output::width())
+        .initial_indent(start)
+        .subsequent_indent(&indent)
+        .break_words(false);
+    let _ = writeln!(text, "{}", textwrap::fill(rest, options));
+}
