@@ -5,7 +5,7 @@ use foveate_spec::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
 };
 
-use super::Thresholds;
+use crate::Thresholds;
 use crate::number::index;
 
 /// Most features that a design can have.
@@ -63,10 +63,7 @@ impl Plan {
             reference: design.temporal().reference,
             irrelevant: design.irrelevant(),
             payload: design.payload(),
-            constants: match design.thresholds() {
-                foveate_spec::Thresholds::Runtime => None,
-                foveate_spec::Thresholds::Constant => Some(Thresholds::of(design)),
-            },
+            constants: Thresholds::constants(design),
         }
     }
 
