@@ -129,6 +129,7 @@ fn check(recipe: &SerialRecipe, film: &[Frame]) {
         let taking: i64 =
             (0..recipe.frame_pixels()).map(|pixel| recipe.clocks_of_pixel(pixel)).sum();
         assert_eq!(clocks, taking + recipe.steps_per_frame() + 1, "{recipe:?}");
+        assert_eq!(clocks as u64, screen.design.timing().clocks_per_frame(), "{recipe:?}");
         let seen = Frame::from_fn(frame.width(), frame.height(), frame.bits(), |x, y| {
             screen.pixels[(y * width + x) as usize]
         });

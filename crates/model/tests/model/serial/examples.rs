@@ -159,3 +159,17 @@ fn a_reset_takes_no_pixel_and_makes_ready() {
     assert!((0..63).all(|_| step(false, true)), "what was under way is forgotten");
     assert!(!step(false, true));
 }
+
+/// The core of one RPU with three slots: a row of three regions, whose border is the frame's.
+#[test]
+fn one_lane_is_a_row_of_its_slots() {
+    let design = design(
+        "[frame]\nwidth = 40\nheight = 16\n[region]\nneighborhood = \"shared\"\n\
+         [hardware]\norganization = \"serial\"\nfold = 3\n",
+    );
+    let (outputs, taken) = play(&design.one_lane(), 3 * 144);
+    assert_eq!((outputs[0].forward_valid.len(), taken.len()), (1, 432));
+    let regions: Vec<u32> = decisions(&outputs).into_iter().map(|(_, region)| region).collect();
+    assert_eq!(regions, [0, 1, 2]);
+    assert_eq!(outputs.len() as u64 - 1, design.one_lane().timing().clocks_per_frame());
+}
