@@ -5,9 +5,7 @@ use std::ops::Range;
 
 use foveate_spec::Reference;
 
-use crate::aligned::Aligned;
 use crate::change;
-use crate::lane::Lane;
 use crate::outcome::{Outcome, split_off};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
@@ -15,6 +13,8 @@ use crate::policy::{Policy, SAMPLE, Step};
 use crate::scratch::Scratch;
 use crate::strip::{Look, Skipped, Strip};
 use crate::workers::Workers;
+use foveate_lanes::Aligned;
+use foveate_lanes::Lane;
 
 /// The state between frames.
 #[derive(Debug)]

@@ -5,11 +5,11 @@ use foveate_model::Frame;
 use foveate_spec::Design;
 
 use crate::core::Core;
-use crate::lane::Lane;
 use crate::pixels::Pixels;
 use crate::plan::{Plan, index};
 use crate::workers::Workers;
 use crate::{EngineError, Level, Outcome};
+use foveate_lanes::Lane;
 
 /// How an engine runs; what it computes does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,7 +10,6 @@
 //! - bands shared among threads, with the same bits however many there are;
 //! - regions that are bit-identical to the last frame are proved so and skipped.
 
-mod aligned;
 mod band;
 mod change;
 mod core;
@@ -19,18 +18,16 @@ mod denoised;
 mod engine;
 mod error;
 mod kernel;
-mod lane;
 mod outcome;
 mod pixels;
 mod plan;
 mod policy;
 mod render;
 mod scratch;
-mod simd;
 mod strip;
 mod workers;
 
 pub use engine::{Engine, Options, Rendered};
 pub use error::EngineError;
+pub use foveate_lanes::Level;
 pub use outcome::Outcome;
-pub use simd::Level;

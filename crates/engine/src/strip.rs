@@ -5,14 +5,14 @@ use std::ops::{AddAssign, Range};
 
 use crate::band::Band;
 use crate::change;
-use crate::lane::Lane;
 use crate::outcome::Results;
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::policy::Step;
 use crate::render::Canvas;
 use crate::scratch::Scratch;
-use crate::simd::Task;
+use foveate_lanes::Lane;
+use foveate_lanes::Task;
 
 /// Finds what has changed in some bands.
 #[derive(Debug)]
