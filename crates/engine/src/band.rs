@@ -7,10 +7,10 @@ use foveate_spec::Reference;
 
 use crate::denoised::Denoiser;
 use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};
-use crate::lane::{BLOCK, Block, Lane, threshold};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::scratch::{Columns, Scratch, Sums};
+use foveate_lanes::{BLOCK, Block, Lane, threshold};
 
 /// Rows of a padded plane, by blocks.
 #[inline(always)]

@@ -5,7 +5,7 @@ use foveate_spec::Design;
 
 use crate::core::{Core, Keep};
 use crate::engine::{Engine, Lanes};
-use crate::lane::Lane;
+use foveate_lanes::Lane;
 use crate::pixels::Pixels;
 use crate::plan::index;
 use crate::workers::Workers;

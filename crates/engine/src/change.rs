@@ -3,9 +3,9 @@
 
 use std::ops::Range;
 
-use crate::lane::{BLOCK, Lane};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
+use foveate_lanes::{BLOCK, Lane};
 
 /// The share of a band's blocks from which on it is computed as a whole.
 const NEARLY: (usize, usize) = (4, 5);

@@ -6,9 +6,8 @@ use std::ops::Range;
 
 use foveate_spec::Reference;
 
-use crate::aligned::Aligned;
 use crate::change;
-use crate::lane::Lane;
+use foveate_lanes::Lane;
 use crate::look::{Changes, Look};
 use crate::outcome::{Outcome, split_off};
 use crate::pixels::Pixels;
@@ -18,6 +17,7 @@ use crate::scratch::Scratch;
 use crate::screens::Screen;
 use crate::strip::{Kept, Skipped, Strip};
 use crate::workers::Workers;
+use foveate_lanes::Aligned;
 
 /// Rows of the smallest strip.
 const SMALLEST_HEIGHT: usize = 48;

@@ -5,10 +5,10 @@ use foveate_model::Action;
 use foveate_spec::{Combine, FeatureKind, Irrelevant, Reference};
 
 use crate::kernel::mad;
-use crate::lane::Lane;
 use crate::outcome::Results;
 use crate::plan::Plan;
 use crate::scratch::Sums;
+use foveate_lanes::Lane;
 
 impl<T: Lane> Plan<T> {
     /// Decides every region of one band; those that are not affected keep their scores, and their

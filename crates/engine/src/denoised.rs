@@ -4,10 +4,10 @@
 use std::ops::Range;
 
 use crate::kernel::{Open, Seams, Windows, median};
-use crate::lane::{BLOCK, Block, Lane};
 use crate::pixels::Pixels;
 use crate::plan::{Plan, SeamMasks};
 use crate::scratch::{DenoisedRow, Row};
+use foveate_lanes::{BLOCK, Block, Lane};
 
 impl<T: Lane> SeamMasks<T> {
     /// Those of some blocks.

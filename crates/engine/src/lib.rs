@@ -11,7 +11,6 @@
 //!   are handed over once, [`Engine::step_batch_u8`];
 //! - regions that are bit-identical to the last frame are proved so and skipped.
 
-mod aligned;
 mod band;
 mod batch;
 mod change;
@@ -21,7 +20,6 @@ mod denoised;
 mod engine;
 mod error;
 mod kernel;
-mod lane;
 mod look;
 mod outcome;
 mod pixels;
@@ -31,13 +29,12 @@ mod raster;
 mod render;
 mod scratch;
 mod screens;
-mod simd;
 mod strip;
 mod workers;
 
 pub use engine::{Engine, Options};
 pub use error::EngineError;
+pub use foveate_lanes::Level;
 pub use outcome::Outcome;
 pub use raster::{Plane, Raster};
 pub use screens::Screens;
-pub use simd::Level;

@@ -4,11 +4,11 @@
 use std::ops::Range;
 
 use crate::change;
-use crate::lane::Lane;
+use foveate_lanes::Lane;
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::policy::Step;
-use crate::simd::Task;
+use foveate_lanes::Task;
 
 /// Finds what has changed in some bands of a batch of frames.
 #[derive(Debug)]

@@ -4,7 +4,7 @@
 use foveate_spec::Design;
 
 use crate::EngineError;
-use crate::lane::Lane;
+use foveate_lanes::Lane;
 use crate::plan::index;
 
 /// A borrowed frame of `width` x `height` pixels.

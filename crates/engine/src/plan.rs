@@ -5,8 +5,8 @@ use foveate_spec::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
 };
 
-use crate::aligned::Aligned;
-use crate::lane::{BLOCK, Lane, threshold};
+use foveate_lanes::Aligned;
+use foveate_lanes::{BLOCK, Lane, threshold};
 
 /// Features a design can have.
 pub(crate) const FEATURES: usize = 4;

@@ -4,9 +4,9 @@
 use foveate_model::Action;
 use foveate_spec::{Payload, Reference};
 
-use crate::lane::Lane;
 use crate::pixels::Pixels;
 use crate::plan::Plan;
+use foveate_lanes::Lane;
 
 /// The part of a band's planes that its actions change. The screen has no padding.
 #[derive(Debug)]

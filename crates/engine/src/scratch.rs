@@ -3,10 +3,10 @@
 
 use std::ops::Range;
 
-use crate::aligned::Aligned;
 use crate::kernel::Near;
-use crate::lane::{BLOCK, Block, Lane};
 use crate::plan::Plan;
+use foveate_lanes::Aligned;
+use foveate_lanes::{BLOCK, Block, Lane};
 
 /// A row with a block to spare on each side, so that it can be read shifted by one.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@
 //! Most of a rendered frame is black, and was black in the frame that was here before: what is known
 //! to be black already is not written again, which is why the buffers are not simply the caller's.
 
-use crate::lane::Lane;
+use foveate_lanes::Lane;
 use crate::plan::Plan;
 
 /// Rendered frames, one per frame of the last batch; to be given to batch after batch, of any engine.

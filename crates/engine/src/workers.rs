@@ -5,7 +5,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use crate::simd::{Level, Task};
+use foveate_lanes::{Level, Task};
 
 /// Strips per thread: enough that a thread that is interrupted does not hold up the others.
 const STRIPS_PER_THREAD: usize = 4;

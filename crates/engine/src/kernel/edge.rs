@@ -5,7 +5,7 @@
 //! sum of three differences of pixels, which is compared with half the level, rounded down.
 
 use crate::kernel::{Sides, Windows, near};
-use crate::lane::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK, Block, Lane};
 
 /// Adds one to every lane whose window is an edge; `half` is half of the level, rounded down.
 #[inline(always)]

@@ -6,7 +6,7 @@
 //! `max(x - m, 0)` and `K` the number of pixels above `m`, the score is
 //! `2 (2^f Q - r K) + n mu - 2^f S`: one saturating subtraction of bytes per pixel, whatever f.
 
-use crate::lane::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK, Block, Lane};
 
 /// Adds to every column what its pixels are above `mean`.
 #[inline(always)]

@@ -4,8 +4,8 @@
 //! Of the nine, the median is the median of the largest low, the middle mid and the smallest high.
 
 use crate::kernel::{Near, Sides, near};
-use crate::lane::{BLOCK, Block, Lane};
-use crate::simd::prefetch;
+use foveate_lanes::prefetch;
+use foveate_lanes::{BLOCK, Block, Lane};
 
 /// The three pixels of every column, sorted.
 #[inline(always)]

@@ -15,7 +15,7 @@ pub(crate) mod median;
 pub(crate) mod sums;
 pub(crate) mod temporal;
 
-use crate::lane::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK, Block, Lane};
 
 /// A row from one lane before its first block to one lane after its last.
 pub(crate) type Near<'a, T> = &'a [T];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Column sums of pixels and of their squares, and how columns become regions.
 
-use crate::lane::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK, Block, Lane};
 
 /// Adds every pixel to its column.
 #[inline(always)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The temporal score: pixels that differ from their reference by more than a level.
 
-use crate::lane::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK, Block, Lane};
 
 /// Adds one to every lane that has changed, and makes what is now the next reference.
 #[inline(always)]

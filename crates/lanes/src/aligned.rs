@@ -7,7 +7,7 @@ use crate::lane::{BLOCK, Block};
 
 /// Values in a row, the first of them at the start of a cache line.
 #[derive(Debug)]
-pub(crate) struct Aligned<T> {
+pub struct Aligned<T> {
     store: Vec<T>,
     start: usize,
     len: usize,
@@ -15,7 +15,7 @@ pub(crate) struct Aligned<T> {
 
 impl<T: Copy + Default> Aligned<T> {
     /// `len` values, each the default.
-    pub(crate) fn new(len: usize) -> Self {
+    pub fn new(len: usize) -> Self {
         let store = vec![T::default(); len + BLOCK];
         let start = store.as_ptr().align_offset(64).min(BLOCK);
         Self { store, start, len }
@@ -24,12 +24,12 @@ impl<T: Copy + Default> Aligned<T> {
 
 impl<T> Aligned<T> {
     /// The values block by block; what is left after the last whole block is left out.
-    pub(crate) fn blocks(&self) -> &[Block<T>] {
+    pub fn blocks(&self) -> &[Block<T>] {
         self.as_chunks().0
     }
 
     /// The same, to be written.
-    pub(crate) fn blocks_mut(&mut self) -> &mut [Block<T>] {
+    pub fn blocks_mut(&mut self) -> &mut [Block<T>] {
         self.as_chunks_mut().0
     }
 }

@@ -11,7 +11,7 @@
 
 /// Work whose `run` (and everything it calls) is marked `#[inline(always)]`, so that it is compiled
 /// for the instruction set from which it is called.
-pub(crate) trait Task {
+pub trait Task {
     /// Does the work.
     fn run(self);
 }
@@ -74,7 +74,7 @@ impl Level {
     }
 
     /// Runs a task with these instructions.
-    pub(crate) fn run(self, task: impl Task) {
+    pub fn run(self, task: impl Task) {
         match self.0 {
             Set::Portable => task.run(),
             // SAFETY: the field is private and only `available` makes this value, after asking the
@@ -102,7 +102,7 @@ fn run_avx512(task: impl Task) {
 
 /// Asks for a value to be brought near the processor, without waiting for it.
 #[inline(always)]
-pub(crate) fn prefetch<T>(value: &T) {
+pub fn prefetch<T>(value: &T) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};

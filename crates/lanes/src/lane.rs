@@ -8,13 +8,13 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitXor, Neg, Sub};
 
 /// Lanes per block: a full AVX-512 register of bytes.
-pub(crate) const BLOCK: usize = 64;
+pub const BLOCK: usize = 64;
 
 /// A block of values.
-pub(crate) type Block<T> = [T; BLOCK];
+pub type Block<T> = [T; BLOCK];
 
 /// A pixel as the kernels hold it.
-pub(crate) trait Lane:
+pub trait Lane:
     Copy
     + Debug
     + Default
@@ -105,6 +105,6 @@ lane!(u16, signed i32, sum u32, square u64);
 
 /// A threshold that the design has checked against its pixel range, as lane type. What does not fit
 /// cannot be exceeded, and the largest value of the type stands for it.
-pub(crate) fn threshold<T: Lane>(value: u32) -> T {
+pub fn threshold<T: Lane>(value: u32) -> T {
     T::try_from(value).unwrap_or(T::MAX)
 }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pixels in vector lanes: what the fast models have in common.
+//!
+//! * [`Level`]: which vector instructions, chosen when the program runs; a [`Task`] is compiled once for each.
+//! * [`Lane`]: a pixel as a byte or a word, and the arithmetic on it that vectorises; [`Block`]: a register's worth.
+//! * [`Aligned`]: buffers whose blocks are cache lines.
+//! * [`best_arc`]: FAST 5/8 as a network of minima and maxima.
+
+mod aligned;
+mod lane;
+mod level;
+mod ring;
+
+pub use aligned::Aligned;
+pub use lane::{BLOCK, Block, Lane, threshold};
+pub use level::{Level, Task, prefetch};
+pub use ring::best_arc;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! FAST 5/8 as a network of minima and maxima.
+//!
+//! The best arc of five of the ring is the largest of eight minima. Two arcs that share four pixels
+//! are `min(four, max(pixel before, pixel after))`, so four groups of four serve all eight arcs.
+
+use crate::Lane;
+
+/// The best over the eight arcs of five neighbors in a ring, of the worst pixel of each.
+#[inline(always)]
+pub fn best_arc<T: Lane>(x: [T; 8], worse: impl Fn(T, T) -> T, better: impl Fn(T, T) -> T) -> T {
+    let pair = [worse(x[0], x[1]), worse(x[2], x[3]), worse(x[4], x[5]), worse(x[6], x[7])];
+    // Pixels k..k+4, with k - 1 or k + 4 as the fifth.
+    let arcs = |four: T, before: T, after: T| worse(four, better(before, after));
+    let a = arcs(worse(pair[0], pair[1]), x[7], x[4]);
+    let b = arcs(worse(pair[1], pair[2]), x[1], x[6]);
+    let c = arcs(worse(pair[2], pair[3]), x[3], x[0]);
+    let d = arcs(worse(pair[3], pair[0]), x[5], x[2]);
+    better(better(a, b), better(c, d))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_ring_of_zeros_and_ones_has_its_best_arc() {
+        for bits in 0..256u32 {
+            let ring: [u8; 8] = std::array::from_fn(|place| u8::from(bits >> place & 1 == 1));
+            let arc = |value| (0..8).any(|start| (0..5).all(|k| ring[(start + k) % 8] == value));
+            assert_eq!(best_arc(ring, u8::min, u8::max) == 1, arc(1), "{ring:?}");
+            assert_eq!(best_arc(ring, u8::max, u8::min) == 0, arc(0), "{ring:?}");
+        }
+    }
+}
