@@ -6,6 +6,7 @@ mod dataset;
 mod explain;
 mod input;
 mod outputs;
+mod stress;
 
 use std::fs;
 use std::path::PathBuf;
@@ -21,6 +22,7 @@ pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use outputs::OutputArgs;
+pub(crate) use stress::StressArgs;
 
 /// A region-based event camera: bit-exact model, Verilog, co-simulation and area.
 #[derive(Debug, Parser)]
@@ -44,6 +46,7 @@ pub(crate) enum Command {
     Dataset(DatasetArgs),
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
+    Stress(StressArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),
 }

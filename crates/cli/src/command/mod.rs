@@ -11,3 +11,4 @@ pub(crate) mod explain;
 pub(crate) mod generate;
 pub(crate) mod presets;
 pub(crate) mod simulate;
+pub(crate) mod stress;
