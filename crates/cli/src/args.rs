@@ -7,6 +7,7 @@ mod dataset;
 mod explain;
 mod input;
 mod outputs;
+mod stress;
 
 use std::fs;
 use std::path::PathBuf;
@@ -23,6 +24,7 @@ pub(crate) use check::{CheckArgs, Clock, Rate};
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use outputs::OutputArgs;
+pub(crate) use stress::StressArgs;
 
 /// A region-based event camera: bit-exact model, Verilog, co-simulation and area.
 #[derive(Debug, Parser)]
@@ -46,6 +48,7 @@ pub(crate) enum Command {
     Dataset(DatasetArgs),
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
+    Stress(StressArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),
 }

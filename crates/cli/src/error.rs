@@ -42,6 +42,9 @@ pub(crate) enum CliError {
     /// The user stopped it; what was done is there.
     #[error("interrupted; what was done until then is in `{}`", path.display())]
     Interrupted { path: PathBuf },
+    /// The user stopped something that leaves no files.
+    #[error("interrupted after {done}")]
+    Stopped { done: String },
     /// The check that was asked for did not hold; what and where has been printed.
     #[error("{0}")]
     Failed(String),
@@ -61,7 +64,7 @@ impl CliError {
                 _ => INPUT,
             },
             Self::Failed(_) => 1,
-            Self::Interrupted { .. } => interrupt::EXIT_CODE,
+            Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::EXIT_CODE,
             Self::Tool(error) => tool_code(error),
             Self::Cosim(CosimError::Tool(error)) => tool_code(error),
             Self::Cosim(CosimError::Short { .. }) => TOOL,

@@ -37,6 +37,7 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Dataset(args) => command::dataset::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Analyze(args) => command::analyze::run(args),
+        Command::Stress(args) => command::stress::run(args),
         Command::Presets(args) => command::presets::run(args),
         Command::Completions(args) => command::completions::run(args),
     }

@@ -5,11 +5,11 @@ use foveate_spec::Design;
 
 use crate::core::{Core, Keep};
 use crate::engine::{Engine, Lanes};
-use foveate_lanes::Lane;
 use crate::pixels::Pixels;
 use crate::plan::index;
 use crate::workers::Workers;
 use crate::{EngineError, Outcome, Screens, screens};
+use foveate_lanes::Lane;
 
 /// Bytes of frames that go through the engine together: what is compared first should still be in the
 /// last-level cache when it is computed.

@@ -7,7 +7,6 @@ use std::ops::Range;
 use foveate_spec::Reference;
 
 use crate::change;
-use foveate_lanes::Lane;
 use crate::look::{Changes, Look};
 use crate::outcome::{Outcome, split_off};
 use crate::pixels::Pixels;
@@ -18,6 +17,7 @@ use crate::screens::Screen;
 use crate::strip::{Kept, Skipped, Strip};
 use crate::workers::Workers;
 use foveate_lanes::Aligned;
+use foveate_lanes::Lane;
 
 /// Rows of the smallest strip.
 const SMALLEST_HEIGHT: usize = 48;

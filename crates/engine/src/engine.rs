@@ -10,7 +10,6 @@ use crate::plan::{Plan, index};
 use crate::raster::{Plane, Raster};
 use crate::workers::Workers;
 use crate::{EngineError, Level, Outcome};
-use foveate_lanes::Lane;
 
 /// How an engine runs; what it computes does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,10 @@
 use std::ops::Range;
 
 use crate::change;
-use foveate_lanes::Lane;
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::policy::Step;
+use foveate_lanes::Lane;
 use foveate_lanes::Task;
 
 /// Finds what has changed in some bands of a batch of frames.

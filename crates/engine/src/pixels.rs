@@ -4,8 +4,8 @@
 use foveate_spec::Design;
 
 use crate::EngineError;
-use foveate_lanes::Lane;
 use crate::plan::index;
+use foveate_lanes::Lane;
 
 /// A borrowed frame of `width` x `height` pixels.
 #[derive(Clone, Copy, Debug)]

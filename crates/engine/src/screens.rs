@@ -4,8 +4,8 @@
 //! Most of a rendered frame is black, and was black in the frame that was here before: what is known
 //! to be black already is not written again, which is why the buffers are not simply the caller's.
 
-use foveate_lanes::Lane;
 use crate::plan::Plan;
+use foveate_lanes::Lane;
 
 /// Rendered frames, one per frame of the last batch; to be given to batch after batch, of any engine.
 /// Pixels are `u8` up to 8 bits and `u16` beyond.

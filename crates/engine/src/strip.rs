@@ -8,13 +8,13 @@ use std::ops::{AddAssign, Range};
 
 use crate::band::Band;
 use crate::change;
-use foveate_lanes::Lane;
 use crate::look::Changes;
 use crate::outcome::{Results, within};
 use crate::pixels::Pixels;
 use crate::plan::Plan;
 use crate::render::{Canvas, show};
 use crate::scratch::Scratch;
+use foveate_lanes::Lane;
 use foveate_lanes::Task;
 
 /// What did not have to be computed.

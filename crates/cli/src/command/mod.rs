@@ -18,3 +18,4 @@ pub(crate) mod simulate;
 fn pipelined(design: &Design) -> Result<PipelinedTiming, SpecError> {
     design.pipelined_timing("the Verilog")
 }
+pub(crate) mod stress;

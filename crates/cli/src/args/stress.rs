@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `foveate stress`.
+
+use clap::Args;
+
+/// Run the hard cases and print what was expected, what came out and the worst error
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate stress --short
+          foveate stress --markdown > stress.md")]
+pub(crate) struct StressArgs {
+    /// Seconds instead of minutes: fewer frames, regions and widths, the same cases
+    #[arg(long)]
+    pub(crate) short: bool,
+    /// Print JSON
+    #[arg(long, conflicts_with = "markdown")]
+    pub(crate) json: bool,
+    /// Print a Markdown table
+    #[arg(long)]
+    pub(crate) markdown: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}

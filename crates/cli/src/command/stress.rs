@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate stress`: hard cases, and whether what must come out of them does.
+
+use std::sync::atomic::Ordering;
+
+use foveate_stress::{Depth, Row};
+use serde::Serialize;
+
+use crate::args::StressArgs;
+use crate::error::CliError;
+use crate::{interrupt, output, progress};
+
+#[derive(Serialize)]
+struct Report<'a> {
+    format_version: u32,
+    holds: bool,
+    rows: &'a [Row],
+}
+
+pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
+    let interrupted = interrupt::flag()?;
+    let bar = progress::bar(args.quiet, 1, "cases");
+    let done = |done: usize, all: usize| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    };
+    let depth = if args.short { Depth::Short } else { Depth::Full };
+    let rows = foveate_stress::run(depth, &done, &|| interrupted.load(Ordering::Relaxed));
+    bar.finish_and_clear();
+    let broken = rows.iter().filter(|row| !row.holds).count();
+    let holds = broken == 0 && !interrupted.load(Ordering::Relaxed);
+    if args.json {
+        output::json(&Report { format_version: 1, holds, rows: &rows })?;
+    } else if args.markdown {
+        output::text(&markdown(&rows))?;
+    } else {
+        output::text(&text(&rows))?;
+    }
+    match (interrupted.load(Ordering::Relaxed), broken) {
+        (true, _) => Err(CliError::Stopped { done: format!("{} rows", rows.len()) }),
+        (false, 0) => Ok(()),
+        (false, _) => Err(CliError::Failed(format!("{broken} of {} do not hold", rows.len()))),
+    }
+}
+
+fn verdict(row: &Row) -> &'static str {
+    if row.holds { "ok" } else { "FAILED" }
+}
+
+/// Two lines a row, so that it fits into any terminal.
+fn text(rows: &[Row]) -> String {
+    let width = output::width();
+    let mut text = String::new();
+    for row in rows {
+        let Row { case, designs, expected, observed, worst, .. } = row;
+        let first = format!("{:<6} {case}: {designs}", verdict(row));
+        let second = format!("expected {expected}; observed {observed}; worst error {worst}");
+        let indented = textwrap::Options::new(width).subsequent_indent("       ");
+        text += &textwrap::fill(&first, &indented);
+        text.push('\n');
+        text += &textwrap::fill(&second, indented.initial_indent("       "));
+        text.push('\n');
+    }
+    let held = rows.iter().filter(|row| row.holds).count();
+    text + &format!("{held} of {} hold\n", rows.len())
+}
+
+fn markdown(rows: &[Row]) -> String {
+    let mut text = "| case | designs | expected | observed | worst error | verdict |\n\
+                    | --- | --- | --- | --- | --- | --- |\n"
+        .to_owned();
+    for row in rows {
+        let Row { case, designs, expected, observed, worst, .. } = row;
+        let verdict = verdict(row);
+        text +=
+            &format!("| {case} | {designs} | {expected} | {observed} | {worst} | {verdict} |\n");
+    }
+    text
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Variance of data with a large mean and a small spread: where the sum of squares and the square of
+//! the sum agree in all their leading digits.
+
+use foveate_model::{Camera, Frame};
+use foveate_spec::{FeatureKind, bits_for};
+
+use crate::designs::{config, design};
+use crate::pixels::Random;
+use crate::{Depth, Row};
+
+/// Our integers beside single-pass f32, both against two passes in f64.
+pub(crate) fn variance(depth: Depth) -> Vec<Row> {
+    let regions = depth.pick(200, 5_000);
+    [(8, 8), (32, 8), (8, 16), (64, 16)].into_iter().flat_map(|size| pair(size, regions)).collect()
+}
+
+fn pair((side, bits): (u32, u32), regions: u32) -> [Row; 2] {
+    let mut config = config((side, side), side, bits, &[FeatureKind::Variance]);
+    config.denoise.filter = foveate_spec::Filter::None;
+    let design = design(&config);
+    let mut random = Random::new(u64::from(side));
+    let base = design.pixel_max() - 4;
+    let (mut ours, mut naive) = (0.0_f64, 0.0_f64);
+    for _ in 0..regions {
+        let region = crate::pixels::frame((side, side), bits, {
+            let spread: Vec<u32> = (0..design.region_pixels())
+                .map(|_| u32::try_from(random.below(4)).unwrap_or(0))
+                .collect();
+            move |x, y| base + spread[(y * side + x) as usize]
+        });
+        let exact = two_pass(&region);
+        let score = Camera::new(&design).step(&region).map_or(0, |outcome| outcome.scores[0][0]);
+        let n = f64::from(design.region_pixels());
+        ours = ours.max((to_f64(score) / (n * n) - exact).abs() / exact);
+        naive = naive.max((f64::from(single_pass(&region)) - exact).abs() / exact);
+    }
+    let designs = format!("variance, N {side}, P {bits}, mean {}", base + 2);
+    let row = |case, expected: &str, error: f64, holds| Row {
+        case,
+        designs: designs.clone(),
+        expected: expected.to_owned(),
+        observed: format!("{:.2e} of it", error),
+        worst: format!("{:.2e}", error),
+        holds,
+    };
+    // Where the sum of squares fits into its 24 bits f32 is as good as an integer.
+    let cancels = bits_for(u64::from(design.region_pixels()) * u64::from(base + 3).pow(2)) > 24;
+    [
+        row("variance, integers", "error below 1e-9", ours, ours < 1e-9),
+        row(
+            "variance, single-pass f32 (not used)",
+            if cancels { "error above 10 %" } else { "error below 10 %" },
+            naive,
+            (naive > 0.1) == cancels,
+        ),
+    ]
+}
+
+fn two_pass(region: &Frame) -> f64 {
+    let pixels = || region.pixels().iter().map(|&pixel| f64::from(pixel));
+    let n = pixels().map(|_| 1.0).sum::<f64>();
+    let mean = pixels().sum::<f64>() / n;
+    pixels().map(|pixel| (pixel - mean) * (pixel - mean)).sum::<f64>() / n
+}
+
+fn single_pass(region: &Frame) -> f32 {
+    let (mut n, mut sum, mut squares) = (0.0_f32, 0.0_f32, 0.0_f32);
+    for &pixel in region.pixels() {
+        let pixel = f32::from(pixel);
+        n += 1.0;
+        sum += pixel;
+        squares += pixel * pixel;
+    }
+    squares / n - (sum / n) * (sum / n)
+}
+
+#[allow(clippy::cast_precision_loss, reason = "compared within 1e-9")]
+fn to_f64(value: u64) -> f64 {
+    value as f64
+}

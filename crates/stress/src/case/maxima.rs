@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Accumulators reach their derived maximum, and are not one bit short, nor one bit too wide.
+
+use foveate_engine::Engine;
+use foveate_model::Camera;
+use foveate_spec::{FeatureKind, bits_for};
+
+use crate::designs::{config, design};
+use crate::pixels::frame;
+use crate::{Depth, Row};
+
+/// The sums: half of the pixels at the maximum, the others at zero; at the largest region, and at odd ones.
+pub(crate) fn largest_scores(_: Depth) -> Vec<Row> {
+    let sizes = [(64, 16), (64, 8), (8, 8), (7, 16), (5, 10), (2, 1)];
+    let sums = [FeatureKind::Variance, FeatureKind::Mad];
+    sizes.into_iter().flat_map(|size| sums.map(|kind| largest_score(kind, size))).collect()
+}
+
+fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> Row {
+    let mut config = config((side, side), side, bits, &[kind]);
+    config.denoise.filter = foveate_spec::Filter::None;
+    let design = design(&config);
+    let max = design.pixel_max();
+    let n = design.region_pixels();
+    let feature = &design.features()[0];
+    // For an odd n the best split has one pixel more on one side; which, is what the width's derivation
+    // says, so both are tried.
+    let scores = [n / 2, n.div_ceil(2)].map(|ones| {
+        let half = frame((side, side), bits, |x, y| if y * side + x < ones { max } else { 0 });
+        let clear = Camera::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
+        let fast = Engine::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
+        // What the two disagree on is no score at all.
+        clear.ok().filter(|clear| fast.ok() == Some(*clear)).unwrap_or(0)
+    });
+    let [low, high] = scores;
+    let observed = low.max(high);
+    let tight = bits_for(observed) == feature.score_bits();
+    let designs = format!("{kind}, N {side}, P {bits}: {} bits", feature.score_bits());
+    let row = Row::equal("largest score reached", designs, feature.score_max(), observed);
+    Row { holds: row.holds && tight, ..row }
+}
+
+/// The counts: every pixel of a region a hit.
+pub(crate) fn counts(_: Depth) -> Vec<Row> {
+    let edge = |(side, bits): (u32, u32)| {
+        let mut config = config((side, side), side, bits, &[FeatureKind::Edge]);
+        config.spatial[0].level = Some(0);
+        config.denoise.filter = foveate_spec::Filter::None;
+        let design = design(&config);
+        // A slope has a gradient everywhere, in the clamped windows of the border too.
+        let slope = frame((side, side), bits, |x, _| x * design.pixel_max() / (side - 1));
+        let outcome = Camera::new(&design)
+            .step(&slope)
+            .map(|outcome| (outcome.scores[0][0], u64::from(outcome.temporal_count[0])));
+        let (hits, changed) = outcome.unwrap_or_default();
+        let n = u64::from(design.region_pixels());
+        let designs = format!("edge and temporal, N {side}, P {bits}");
+        Row::equal("count reaches n", designs, 2 * n, hits + changed)
+    };
+    [(64, 16), (64, 8), (8, 8), (3, 8)].map(edge).into()
+}

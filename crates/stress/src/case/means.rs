@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Means that end in exactly one half, one pixel less and one more.
+
+use foveate_model::Camera;
+use foveate_spec::FeatureKind;
+
+use crate::designs::{config, design};
+use crate::pixels::frame;
+use crate::{Depth, Row};
+
+/// For every sum around a half the score is that of the mean rounded up at one half: in exact rational
+/// arithmetic, `floor((2 sum + n) / (2 n))`.
+pub(crate) fn halves(_: Depth) -> Vec<Row> {
+    [2, 3, 5, 8, 16].map(around_halves).into()
+}
+
+fn around_halves(side: u32) -> Row {
+    let mut config = config((side, side), side, 8, &[FeatureKind::Mad]);
+    config.denoise.filter = foveate_spec::Filter::None;
+    config.spatial[0].mean_fraction_bits = Some(0);
+    let design = design(&config);
+    let n = design.region_pixels();
+    let (mut wrong, mut tried, mut worst) = (0, 0, 0);
+    for base in [0, 1, 127, 253] {
+        for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
+            // `above` pixels are one level higher: the mean is base + above / n.
+            let region = frame((side, side), 8, |x, y| base + u32::from(y * side + x < above));
+            let mean = base + u32::from(2 * above >= n);
+            let expected: u64 = region
+                .pixels()
+                .iter()
+                .map(|&pixel| u64::from(u32::from(pixel).abs_diff(mean)))
+                .sum();
+            let score = Camera::new(&design).step(&region).map_or(u64::MAX, |o| o.scores[0][0]);
+            let error = score.abs_diff(expected);
+            (wrong, tried, worst) = (wrong + u64::from(error > 0), tried + 1, worst.max(error));
+        }
+    }
+    Row::none(
+        "means on one half",
+        format!("mad, N {side}, f 0"),
+        "scores wrong",
+        (wrong, tried),
+        worst,
+    )
+}

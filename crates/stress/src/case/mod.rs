@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cases, one file each, in the order of the table.
+
+mod agreement;
+mod cancellation;
+mod division;
+mod maxima;
+mod means;
+mod references;
+mod thresholds;
+mod wraps;
+
+use crate::{Depth, Row};
+
+/// Runs one case.
+pub(crate) type Case = fn(Depth) -> Vec<Row>;
+
+/// Every case.
+pub(crate) const ALL: &[Case] = &[
+    maxima::largest_scores,
+    maxima::counts,
+    division::reciprocals,
+    means::halves,
+    cancellation::variance,
+    thresholds::on_below_above,
+    references::slow_fade,
+    references::flicker,
+    references::blanked,
+    references::invariant_on_scenes,
+    agreement::scenes,
+    agreement::sizes,
+    agreement::depths,
+    agreement::unrest,
+    wraps::long_runs,
+];

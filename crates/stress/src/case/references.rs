@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is on the screen beside what is in front of the camera, over long runs.
+
+use foveate_model::{Camera, Frame, Outcome};
+use foveate_scenes::{Scene, SceneSize};
+use foveate_spec::{Config, Design, FeatureKind, Filter, Reference};
+
+use crate::designs::{config, design};
+use crate::pixels::frame;
+use crate::{Depth, Row};
+
+const SIDE: u32 = 8;
+const SIZE: (u32, u32) = (16, 16);
+
+/// A checked texture, so that every region is relevant, whose brightness `light` gives.
+fn textured(light: u32) -> Frame {
+    frame(SIZE, 8, |x, y| if (x / 2 + y / 2) % 2 == 0 { light } else { light + 100 })
+}
+
+fn with(reference: Reference) -> Config {
+    let mut config = config(SIZE, SIDE, 8, &[FeatureKind::Edge]);
+    config.denoise.filter = Filter::None;
+    config.temporal.level = 8;
+    config.temporal.min_count = 5;
+    config.temporal.reference = reference;
+    config
+}
+
+/// How far the screen was off in relevant regions, at worst.
+#[derive(Clone, Copy, Debug, Default)]
+struct Worst {
+    /// Frames and regions in which `min_count` pixels or more were off by more than `level`.
+    broken: u64,
+    /// Frames and regions that were looked at: those with SRS.
+    relevant: u64,
+    /// Largest difference of a pixel.
+    difference: u32,
+}
+
+impl Worst {
+    fn look(&mut self, design: &Design, outcome: &Outcome) {
+        let side = design.region_size();
+        let temporal = design.temporal();
+        for region in 0..design.regions() {
+            if !outcome.srs[region as usize] {
+                continue;
+            }
+            let (left, top) = (region % design.columns() * side, region / design.columns() * side);
+            let inside = (top..(top + side).min(design.height()))
+                .flat_map(|y| (left..(left + side).min(design.width())).map(move |x| (x, y)));
+            let off: Vec<u32> = inside
+                .map(|(x, y)| {
+                    u32::from(outcome.rendered.get(x, y).abs_diff(outcome.denoised.get(x, y)))
+                })
+                .collect();
+            let above = off.iter().filter(|&&off| off > temporal.level).count();
+            self.relevant += 1;
+            self.broken +=
+                u64::from(temporal.min_count > 0 && above >= temporal.min_count as usize);
+            self.difference = self.difference.max(off.into_iter().max().unwrap_or(0));
+        }
+    }
+}
+
+fn watch(design: &Design, frames: impl Iterator<Item = Frame>) -> Worst {
+    let mut worst = Worst::default();
+    let mut camera = Camera::new(design);
+    for frame in frames {
+        if let Ok(outcome) = camera.step(&frame) {
+            worst.look(design, outcome);
+        }
+    }
+    worst
+}
+
+/// What `last-sent` promises.
+fn invariant(case: &'static str, designs: String, worst: Worst) -> Row {
+    let tally = (worst.broken, worst.relevant);
+    Row::none(case, designs, "regions off by min_count pixels", tally, worst.difference)
+}
+
+/// One level per frame, up and down.
+pub(crate) fn slow_fade(depth: Depth) -> Vec<Row> {
+    let frames = depth.pick(600, 10_000);
+    let light = |t: u32| if (t / 150).is_multiple_of(2) { t % 150 } else { 150 - t % 150 };
+    let run = |reference| watch(&design(&with(reference)), (0..frames).map(|t| textured(light(t))));
+    let designs = |reference| format!("{reference}, level 8, {frames} frames");
+    let drift = run(Reference::Previous);
+    vec![
+        invariant(
+            "fade of one level per frame",
+            designs(Reference::LastSent),
+            run(Reference::LastSent),
+        ),
+        Row {
+            case: "fade of one level per frame",
+            designs: designs(Reference::Previous),
+            expected: "drifts: 150 levels off".to_owned(),
+            observed: format!("{} of {} regions off", drift.broken, drift.relevant),
+            worst: drift.difference.to_string(),
+            holds: drift.difference == 150,
+        },
+    ]
+}
+
+/// Two neighboring levels in turn: below the temporal level, so nothing is sent, and nothing is wrong.
+pub(crate) fn flicker(depth: Depth) -> Vec<Row> {
+    let frames = depth.pick(600, 10_000);
+    let amplitudes = [1, 8, 9];
+    amplitudes
+        .map(|amplitude| {
+            let frames = (0..frames).map(|t| textured(20 + amplitude * (t % 2)));
+            let worst = watch(&design(&with(Reference::LastSent)), frames);
+            let designs = format!("last-sent, level 8, amplitude {amplitude}");
+            invariant("flicker", designs, worst)
+        })
+        .into()
+}
+
+/// A region whose relevance goes and comes back, unchanged: `last-sent` sends it again, `previous` leaves
+/// it black, as the paper defines it.
+pub(crate) fn blanked(_: Depth) -> Vec<Row> {
+    let plain = || frame(SIZE, 8, |_, _| 50);
+    let black = |reference| {
+        let design = design(&with(reference));
+        let mut camera = Camera::new(&design);
+        let mut shown = 0;
+        // Seen, gone, and back for two frames; at the second of them nothing changes any more.
+        for frame in [textured(0), plain(), textured(0), textured(0)] {
+            if let Ok(outcome) = camera.step(&frame) {
+                shown = outcome.rendered.pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
+            }
+        }
+        shown
+    };
+    let lit: u64 = textured(0).pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
+    // A texture that comes back at the brightness of the plain is no change for half of its pixels, but
+    // for the other half it is: both references see it. A return without any change needs SRS alone to move.
+    let returned = |reference| {
+        let mut config = with(reference);
+        config.spatial[0].level = Some(390);
+        let design = design(&config);
+        let mut camera = Camera::new(&design);
+        let mut shown = 0;
+        // The contrast sinks below what counts as an edge by less than the temporal level, and returns.
+        for contrast in [100, 95, 100] {
+            let frame = frame(SIZE, 8, |x, y| if (x / 2 + y / 2) % 2 == 0 { 0 } else { contrast });
+            if let Ok(outcome) = camera.step(&frame) {
+                shown = outcome.rendered.pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
+            }
+        }
+        shown
+    };
+    vec![
+        Row::equal(
+            "region comes back, changed",
+            "last-sent, lit pixels",
+            lit,
+            black(Reference::LastSent),
+        ),
+        Row::equal(
+            "region comes back, changed",
+            "previous, lit pixels",
+            lit,
+            black(Reference::Previous),
+        ),
+        Row::equal(
+            "region comes back as it was",
+            "last-sent, lit pixels",
+            lit,
+            returned(Reference::LastSent),
+        ),
+        Row::equal(
+            "region comes back as it was (stays black)",
+            "previous, lit pixels",
+            0,
+            returned(Reference::Previous),
+        ),
+    ]
+}
+
+/// The promise of `last-sent` on every scene.
+pub(crate) fn invariant_on_scenes(depth: Depth) -> Vec<Row> {
+    let mut worst = Worst::default();
+    let size = depth.pick((48, 40), (224, 224));
+    for &scene in Scene::ALL {
+        for filter in Filter::ALL {
+            let mut config = with(Reference::LastSent);
+            (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
+            config.denoise.filter = *filter;
+            let design = design(&config);
+            let (width, height) = size;
+            let frames = scene.default_frames();
+            let kind = SceneSize { width, height, bits: 8, region_size: SIDE, frames };
+            let seen = watch(&design, scene.frames(kind));
+            worst.broken += seen.broken;
+            worst.relevant += seen.relevant;
+            worst.difference = worst.difference.max(seen.difference);
+        }
+    }
+    let designs = format!("last-sent, {} scenes, both filters", Scene::ALL.len());
+    vec![invariant("screen follows the scene", designs, worst)]
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds exactly on what is measured, one below and one above.
+
+use foveate_engine::Engine;
+use foveate_model::{Camera, Frame};
+use foveate_spec::{Config, Decimal, FeatureKind, Filter};
+
+use crate::designs::{config, design};
+use crate::pixels::Random;
+use crate::{Depth, Row};
+
+/// A score votes at its own value and not one above; a pixel is a hit one below its magnitude and not at it.
+pub(crate) fn on_below_above(depth: Depth) -> Vec<Row> {
+    let rounds = depth.pick(12, 200);
+    vec![
+        scores(FeatureKind::Edge, rounds),
+        scores(FeatureKind::Corner, rounds),
+        levels(rounds),
+        counts(rounds),
+    ]
+}
+
+const SIDE: u32 = 8;
+
+fn bare(feature: FeatureKind) -> Config {
+    let mut config = config((SIDE, SIDE), SIDE, 8, &[feature]);
+    config.denoise.filter = Filter::None;
+    config
+}
+
+/// Both models' answer to one question about the second of two frames; `None` if they differ.
+fn ask<A: PartialEq>(
+    config: &Config,
+    frames: [&Frame; 2],
+    clear: impl Fn(&foveate_model::Outcome) -> A,
+    fast: impl Fn(&foveate_engine::Outcome) -> A,
+) -> Option<A> {
+    let design = design(config);
+    let (mut camera, mut engine) = (Camera::new(&design), Engine::new(&design));
+    camera.step(frames[0]).ok()?;
+    engine.step(frames[0]).ok()?;
+    let clear = clear(camera.step(frames[1]).ok()?);
+    (clear == fast(engine.step(frames[1]).ok()?)).then_some(clear)
+}
+
+/// `wrong` of `tried` questions.
+fn row(designs: &str, what: &str, answers: &[bool]) -> Row {
+    let wrong = answers.iter().map(|&right| u64::from(!right)).sum();
+    Row::none(
+        "thresholds on, below, above",
+        designs,
+        what,
+        (wrong, answers.len() as u64),
+        u8::from(wrong > 0),
+    )
+}
+
+fn scores(kind: FeatureKind, rounds: u64) -> Row {
+    let mut answers = Vec::new();
+    for seed in 0..rounds {
+        let frame = Random::new(seed).frame((SIDE, SIDE), 8);
+        let mut config = bare(kind);
+        config.spatial[0].level = Some(40);
+        let score = ask(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
+        let score = score.and_then(|score| u32::try_from(score).ok()).unwrap_or(0);
+        for min in [score.saturating_sub(1), score, (score + 1).min(SIDE * SIDE)] {
+            config.spatial[0].min_score = Some(Decimal::whole(min.into()));
+            let voted = ask(&config, [&frame, &frame], |o| o.srs[0], |o| o.srs[0]);
+            answers.push(voted == Some(score >= min));
+        }
+    }
+    row(&format!("{kind}, N {SIDE}, min_score"), "votes wrong", &answers)
+}
+
+/// The level of `edge`, swept over the magnitude of one step in brightness.
+fn levels(rounds: u64) -> Row {
+    let mut answers = Vec::new();
+    for step in 1..=rounds.min(255) {
+        let step = u32::try_from(step).unwrap_or(1);
+        // A vertical step of brightness: |Gx| is four times its height in the two columns beside it.
+        let frame = crate::pixels::frame((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
+        for level in [4 * step - 1, 4 * step, 4 * step + 1] {
+            let mut config = bare(FeatureKind::Edge);
+            config.spatial[0].level = Some(level);
+            let hits = ask(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
+            let expected = if 4 * step > level { 2 * SIDE } else { 0 };
+            answers.push(hits == Some(expected.into()));
+        }
+    }
+    row(&format!("edge, N {SIDE}, level"), "hits wrong", &answers)
+}
+
+/// The temporal level and count, on a known difference in a known number of pixels.
+fn counts(rounds: u64) -> Row {
+    let mut answers = Vec::new();
+    for seed in 0..rounds {
+        let mut random = Random::new(seed);
+        let changed = u32::try_from(random.below(u64::from(SIDE * SIDE) + 1)).unwrap_or(0);
+        let by = 1 + u32::try_from(random.below(200)).unwrap_or(0);
+        let still = crate::pixels::frame((SIDE, SIDE), 8, |_, _| 20);
+        let moved = crate::pixels::frame((SIDE, SIDE), 8, |x, y| {
+            if y * SIDE + x < changed { 20 + by } else { 20 }
+        });
+        for level in [by - 1, by, by + 1] {
+            for min in [changed.saturating_sub(1), changed, (changed + 1).min(SIDE * SIDE)] {
+                let mut config = bare(FeatureKind::Edge);
+                (config.temporal.level, config.temporal.min_count) = (level, min);
+                let trs = ask(&config, [&still, &moved], |o| o.trs[0], |o| o.trs[0]);
+                let count = if by > level { changed } else { 0 };
+                answers.push(trs == Some(count >= min));
+            }
+        }
+    }
+    row(&format!("temporal, N {SIDE}, level and min_count"), "TRS wrong", &answers)
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Long runs: positions, windows and flags wrap thousands of times, and frame numbers pass every width
+//! that a careless counter might have.
+
+use crate::designs::matrix;
+use crate::pixels::Random;
+use crate::trio::{Tally, compare};
+use crate::{Depth, Row};
+
+/// More frames than 8 bits count, and in the long form more than 16 bits do.
+pub(crate) fn long_runs(depth: Depth) -> Vec<Row> {
+    let frames = depth.pick(300, 66_000);
+    let designs = matrix((4, 2), 2, 8);
+    // Random frames with long pauses in which nothing changes.
+    let frame = |t: u64| Random::new(if t % 100 < 40 { t } else { t / 100 }).frame((4, 2), 8);
+    let picked = [0, 5, 10, 15].map(|at: usize| &designs[at.min(designs.len() - 1)]);
+    let tally = picked
+        .iter()
+        .map(|design| compare(design, (0..frames).map(frame), false))
+        .fold(Tally::default(), Tally::plus);
+    let designs = format!("{} designs, N 2, {frames} frames", picked.len());
+    let counts = (tally.wrong, tally.tried);
+    vec![Row::none("long runs", designs, "values differ", counts, u8::from(tally.wrong > 0))]
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The designs that the cases run on.
+
+use foveate_spec::{
+    Config, Decimal, Design, FeatureKind, Filter, Neighborhood, Payload, Reference, SpatialConfig,
+};
+
+/// A configuration for frames of `size` with regions of side `side` and pixels of `bits`, thresholds low
+/// enough for any depth.
+pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[FeatureKind]) -> Config {
+    let mut config = Config::default();
+    (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
+    config.frame.pixel_bits = bits;
+    config.region.size = side;
+    config.temporal.level = (1u32 << bits) / 32;
+    config.temporal.min_count = 3;
+    config.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    for spatial in &mut config.spatial {
+        match spatial.feature {
+            FeatureKind::Edge | FeatureKind::Corner => {
+                spatial.level = Some((1 << bits) / 4);
+                spatial.min_score = Some(Decimal::whole(2));
+            }
+            FeatureKind::Mad | FeatureKind::Variance => {
+                spatial.min_score = Decimal::from_f64(0.2);
+            }
+        }
+    }
+    config
+}
+
+/// A design that the author of a case knows to be one.
+pub(crate) fn design(config: &Config) -> Design {
+    config.validate().unwrap_or_else(|error| unreachable!("the matrix holds designs: {error}"))
+}
+
+/// Every neighborhood, filter, reference and payload, with the features by turns.
+pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+    use FeatureKind::{Corner, Edge, Mad, Variance};
+    let features: [&[FeatureKind]; 4] =
+        [&[Edge], &[Edge, Corner], &[Mad, Edge], &[Variance, Corner, Edge, Mad]];
+    let mut designs = Vec::new();
+    for &neighborhood in Neighborhood::ALL {
+        for &filter in Filter::ALL {
+            for &reference in Reference::ALL {
+                for &payload in Payload::ALL {
+                    let turn = designs.len() % features.len();
+                    let mut config = config(size, side, bits, features[turn]);
+                    config.region.neighborhood = neighborhood;
+                    config.denoise.filter = filter;
+                    config.temporal.reference = reference;
+                    config.render.payload = payload;
+                    designs.push(design(&config));
+                }
+            }
+        }
+    }
+    designs
+}

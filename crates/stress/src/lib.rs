@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Hard cases, and what must come out of them.
+//!
+//! Every case says what is expected before it looks, and how far off the worst observation was. A case
+//! that shows a *failure that the contract keeps on purpose* (the drift of `previous`), or the error of
+//! a method that Foveate does not use (single-pass variance in f32), expects that failure: if it did not
+//! show, the case would not be hard.
+//!
+//! Agreement of the models is not assumed: where frames run, they run through the functional model, the
+//! engine and the cycle-level array.
+
+mod case;
+mod designs;
+mod pixels;
+mod row;
+mod trio;
+
+use rayon::prelude::*;
+
+pub use row::Row;
+
+/// How much of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// Seconds: what the tests run.
+    Short,
+    /// Minutes: all that is promised.
+    Full,
+}
+
+impl Depth {
+    /// One of two numbers.
+    fn pick<T>(self, short: T, full: T) -> T {
+        match self {
+            Self::Short => short,
+            Self::Full => full,
+        }
+    }
+}
+
+/// Runs every case, side by side; `done` hears how many of how many are finished. Rows come in the order
+/// of the documentation; those of cases that had not begun when `cancelled` became true are missing.
+pub fn run(
+    depth: Depth,
+    done: &(dyn Fn(usize, usize) + Sync),
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Vec<Row> {
+    let cases = case::ALL;
+    let finished = std::sync::atomic::AtomicUsize::new(0);
+    let rows: Vec<Vec<Row>> = cases
+        .par_iter()
+        .map(|case| {
+            let rows = if cancelled() { Vec::new() } else { case(depth) };
+            let finished = finished.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            done(finished, cases.len());
+            rows
+        })
+        .collect();
+    rows.into_iter().flatten().collect()
+}

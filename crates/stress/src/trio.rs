@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The same frames through the functional model, the engine and the cycle-level array.
+
+use foveate_array::PipelinedArray;
+use foveate_engine::Engine;
+use foveate_model::{Camera, Frame, RpuOutput, Thresholds, region_stream};
+use foveate_spec::Design;
+
+use crate::pixels::Random;
+
+/// What disagreed, and how often it could have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Tally {
+    /// Values that differ from the functional model's.
+    pub(crate) wrong: u64,
+    /// Values that were compared.
+    pub(crate) tried: u64,
+}
+
+impl Tally {
+    fn check(&mut self, equal: bool) {
+        self.wrong += u64::from(!equal);
+        self.tried += 1;
+    }
+
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self { wrong: self.wrong + other.wrong, tried: self.tried + other.tried }
+    }
+}
+
+/// Runs frames through all three. `unrest` puts gaps between pixels, and before every eighth frame a
+/// part of a frame with a reset in its midst, after which everything starts anew.
+pub(crate) fn compare(
+    design: &Design,
+    frames: impl IntoIterator<Item = Frame>,
+    unrest: bool,
+) -> Tally {
+    let mut tally = Tally::default();
+    let mut camera = Camera::new(design);
+    let mut engine = Engine::new(design);
+    let mut clocks = Clocks::new(design, unrest);
+    // A decision may come a frame late, and an interrupted run owes some for ever.
+    let mut owed = std::collections::VecDeque::new();
+    for (number, frame) in (0u64..).zip(frames) {
+        if unrest && number % 8 == 7 {
+            clocks.interrupt(&frame);
+            camera.reset();
+            engine.reset();
+            owed.clear();
+        }
+        let (Ok(expected), Ok(fast)) = (camera.step(&frame), engine.step(&frame)) else {
+            tally.check(false);
+            continue;
+        };
+        tally.check(expected.srs == fast.srs && expected.trs == fast.trs);
+        tally.check(expected.scores == fast.scores);
+        tally.check(expected.temporal_count == fast.temporal_count);
+        tally.check(expected.actions == fast.actions);
+        let rendered = expected.rendered.pixels() == engine.rendered().to_words();
+        tally.check(rendered);
+        owed.push_back(expected.clone());
+        for decision in clocks.frame(&frame) {
+            let Some(expected) = owed.pop_front() else {
+                tally.check(false);
+                continue;
+            };
+            for (region, output) in decision.iter().enumerate() {
+                let scores = expected.scores.iter().map(|scores| scores[region]);
+                tally.check(
+                    output.srs == expected.srs[region] && output.trs == expected.trs[region],
+                );
+                tally.check(scores.zip(output.scores).all(|(want, got)| want == got));
+                tally.check(output.temporal_count == expected.temporal_count[region]);
+            }
+        }
+    }
+    tally
+}
+
+/// The array, fed with whole frames.
+struct Clocks<'a> {
+    design: &'a Design,
+    array: PipelinedArray,
+    thresholds: Thresholds,
+    random: Random,
+    unrest: bool,
+}
+
+impl<'a> Clocks<'a> {
+    fn new(design: &'a Design, unrest: bool) -> Self {
+        Self {
+            design,
+            array: PipelinedArray::new(design),
+            thresholds: Thresholds::of(design),
+            random: Random::new(7),
+            unrest,
+        }
+    }
+
+    /// One frame, with gaps or at once, and silence until nothing more can come of it. Returns the
+    /// outputs of every decision.
+    fn frame(&mut self, frame: &Frame) -> Vec<Vec<RpuOutput>> {
+        let mut decisions = Vec::new();
+        for pixels in self.streams(frame) {
+            while self.unrest && self.random.below(4) == 0 {
+                self.clock(None, &mut decisions);
+            }
+            self.clock(Some(&pixels), &mut decisions);
+        }
+        for _ in 0..2 * self.design.region_size() + 8 {
+            self.clock(None, &mut decisions);
+        }
+        decisions
+    }
+
+    /// A part of a frame, and a reset.
+    fn interrupt(&mut self, frame: &Frame) {
+        let streams = self.streams(frame);
+        let cut = self.random.below(streams.len() as u64);
+        for pixels in streams.iter().take(usize::try_from(cut).unwrap_or(0)) {
+            self.clock(Some(pixels), &mut Vec::new());
+        }
+        let idle = vec![0; self.design.regions() as usize];
+        self.array.step(true, false, &idle, &self.thresholds);
+    }
+
+    fn clock(&mut self, pixels: Option<&[u16]>, decisions: &mut Vec<Vec<RpuOutput>>) {
+        let idle = vec![0; self.design.regions() as usize];
+        let valid = pixels.is_some();
+        let outputs = self.array.step(false, valid, pixels.unwrap_or(&idle), &self.thresholds);
+        if outputs.decision_valid() {
+            decisions.push((0..idle.len()).map(|region| outputs.rpu(region)).collect());
+        }
+    }
+
+    /// What all regions take, pixel by pixel.
+    fn streams(&self, frame: &Frame) -> Vec<Vec<u16>> {
+        let stream = |region| {
+            let mut stream = Vec::new();
+            region_stream(self.design, frame, region, &mut stream);
+            stream
+        };
+        let streams: Vec<_> = (0..self.design.regions()).map(stream).collect();
+        let length = streams.first().map_or(0, Vec::len);
+        (0..length).map(|at| streams.iter().map(|stream| stream[at]).collect()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::designs::{config, design};
+    use foveate_spec::FeatureKind;
+
+    #[test]
+    fn frames_of_another_design_are_noticed() {
+        let config = config((16, 16), 8, 8, &[FeatureKind::Edge]);
+        let frames = || (0..3).map(|seed| Random::new(seed).frame((16, 16), 8));
+        let tally = compare(&design(&config), frames(), false);
+        assert_eq!(tally.wrong, 0);
+        assert!(tally.tried > 3 * (5 + 4), "{tally:?}");
+        let wrong_size = compare(&design(&config), [Random::new(1).frame((16, 24), 8)], false);
+        assert_eq!(wrong_size.wrong, 1);
+    }
+}

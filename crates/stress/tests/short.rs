@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The short form holds, row by row.
+
+use foveate_stress::{Depth, run};
+
+#[test]
+fn every_hard_case_holds() {
+    let rows = run(Depth::Short, &|_, _| {}, &|| false);
+    assert!(rows.len() > 50, "{} rows", rows.len());
+    let broken: Vec<_> = rows.iter().filter(|row| !row.holds).collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
+#[test]
+fn what_is_cancelled_ends_without_rows() {
+    assert!(run(Depth::Full, &|_, _| {}, &|| true).is_empty());
+}
