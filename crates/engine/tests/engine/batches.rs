@@ -2,7 +2,7 @@
 //! Several frames at once give what they give one by one, for every design, film, division into
 //! batches, number of threads and instruction set.
 
-use foveate_engine::{Engine, Level, Options, Outcome, Rendered, Screens};
+use foveate_engine::{Engine, Level, Options, Outcome, Plane, Screens};
 use foveate_model::{Camera, Frame};
 use foveate_spec::{Design, FeatureKind, Neighborhood, Reference, SpatialConfig};
 use proptest::prelude::*;
@@ -71,7 +71,7 @@ fn step(
     let mut screens = kept.map(|kept| &mut kept.bytes);
     let outcomes = engine.step_batch_u8(&frames, stride, screens.as_deref_mut());
     let screens = screens.iter().flat_map(|screens| screens.iter());
-    let screens = screens.map(|screen| Rendered::Bytes(screen).to_words()).collect();
+    let screens = screens.map(|screen| Plane::Bytes(screen).to_words()).collect();
     (outcomes.unwrap().to_vec(), screens)
 }
 
