@@ -67,7 +67,8 @@ module serial_array #(
     output wire [                POSITION_BITS-1:0] forward_position_o
 );
 
-    localparam GROUPS = (LANES + 63) / 64;
+    localparam GROUP_LANES = RASTER != 0 ? 64 : 96;  // a group selects one of 64
+    localparam GROUPS = (LANES + GROUP_LANES - 1) / GROUP_LANES;
     localparam EDGE = KINDS[1:0] == 0 || (FEATURES > 1 && KINDS[3:2] == 0)
         || (FEATURES > 2 && KINDS[5:4] == 0) || (FEATURES > 3 && KINDS[7:6] == 0);
     localparam CORNER = KINDS[1:0] == 1 || (FEATURES > 1 && KINDS[3:2] == 1)
@@ -97,9 +98,8 @@ module serial_array #(
         {ACC_BITS{1'b1}}, 3'b111, HAS_MEDIAN, 3'b111,
         HAS_RUN, HAS_CORNER, HAS_RUN, 1'b1, HAS_CORNER,
         HAS_SUMS, HAS_SUMS, HAS_MAD, HAS_VARIANCE, HAS_VARIANCE,
-        1'b1, HAS_SUMS, HAS_RASTER, 2'b11
+        1'b1, HAS_SUMS, HAS_RASTER, 1'b1, !HAS_RASTER
     };
-    localparam PORTS = RASTER != 0 ? 1 : LANES;
 
     // Feed.
     wire working, reopen, start, open, take, place;
@@ -236,7 +236,7 @@ module serial_array #(
 
     generate
         for (i = 0; i < LANES; i = i + 1) begin : g_lane
-            localparam GROUP = i / 64;
+            localparam GROUP = i / GROUP_LANES;
             wire [ADDRESS_BITS-1:0] address = addresses[GROUP*ADDRESS_BITS+:ADDRESS_BITS];
             wire [3:0] sides;
             wire [WIDTH-1:0] pixel;
@@ -245,7 +245,7 @@ module serial_array #(
             wire lane_clear, lane_run, lane_run_corner, lane_run_clear, lane_count, lane_count_corner;
             wire lane_double, lane_divide, lane_deviate, lane_masked, lane_from_aux;
             wire lane_shift, lane_keep, lane_fetch, lane_chain_clear, lane_unload;
-            wire lane_write_active, lane_write_border;
+            wire lane_write_active, lane_write_border, lane_leaves;
             wire [1:0] lane_side;
 
             assign {lane_write_active, lane_write_border, lane_side} =
@@ -287,18 +287,18 @@ module serial_array #(
                 .run_corner_i(lane_run_corner), .run_clear_i(lane_run_clear), .count_i(lane_count),
                 .count_corner_i(lane_count_corner), .double_i(lane_double), .divide_i(lane_divide),
                 .deviate_i(lane_deviate), .masked_i(lane_masked), .from_aux_i(lane_from_aux),
-                .shift_i(lane_shift), .keep_i(lane_keep), .fetch_i(lane_fetch),
+                .shift_i(lane_shift), .unload_i(lane_unload), .keep_i(lane_keep), .fetch_i(lane_fetch),
                 .chain_clear_i(lane_chain_clear), .word_i(ring[(i+1)*CHAIN_BITS+:CHAIN_BITS]),
                 .flags_i(flags[(i+1)*FLAGS+:FLAGS]), .word_o(ring[i*CHAIN_BITS+:CHAIN_BITS]),
-                .flags_o(flags[i*FLAGS+:FLAGS]), .pixel_o(words[i*WIDTH+:WIDTH])
+                .flags_o(flags[i*FLAGS+:FLAGS]), .leaves_o(lane_leaves), .pixel_o(words[i*WIDTH+:WIDTH])
             );
 
             if (RASTER != 0) begin : g_group_pixel
-                wire unused_unload = lane_unload;
+                wire unused_leaves = lane_leaves;
                 assign pixel = pixels[GROUP*WIDTH+:WIDTH];
             end else begin : g_own_pixel
                 assign pixel = pixel_i[i*WIDTH+:WIDTH];
-                assign forward_valid_o[i] = lane_unload && flags[i*FLAGS];
+                assign forward_valid_o[i] = lane_leaves;
                 assign forward_pixel_o[i*WIDTH+:WIDTH] = words[i*WIDTH+:WIDTH];
             end
         end

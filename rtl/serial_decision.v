@@ -37,7 +37,10 @@ module serial_decision #(
     output wire                               active_o
 );
 
+    /* verilator lint_off WIDTH */
     localparam [SCORE_BITS-1:0] EVERY = PIXELS;
+    localparam [REGION_BITS:0] BEHIND = REGIONS;
+    /* verilator lint_on WIDTH */
 
     reg first_q;  // no frame before this one
     wire temporal = index_i == {INDEX_BITS{1'b0}};
@@ -47,7 +50,7 @@ module serial_decision #(
 
     generate
         if (SLOTS > REGIONS) begin : g_empty
-            assign region_valid_o = region_i < REGIONS;
+            assign region_valid_o = {1'b0, region_i} < BEHIND;
         end else begin : g_full
             assign region_valid_o = 1'b1;
         end

@@ -73,6 +73,9 @@ module serial_lane #(
     input  wire [       FLAGS-1:0] flags_i,
     output wire [  CHAIN_BITS-1:0] word_o,
     output wire [       FLAGS-1:0] flags_o,
+    // Unloading.
+    input  wire                    unload_i,
+    output wire                    leaves_o,        // the word read is a pixel of an active region
     output wire [       WIDTH-1:0] pixel_o          // the word read
 );
 
@@ -93,6 +96,7 @@ module serial_lane #(
     assign word_o  = chain_q;
     assign flags_o = flags_q;
     assign pixel_o = word;
+    assign leaves_o = RASTER == 0 && unload_i && flags_q[0];
 
     // Memory.
     wire selected = RASTER != 0 && select_row_i && select_column_i;

@@ -19,6 +19,7 @@ module serial_neighbor #(
     output wire [SLOT_BITS-1:0] slot_o
 );
 
+    /* verilator lint_off UNUSEDSIGNAL */
     // Whole lanes from a region to the one `regions` further on, which may be negative, and the rest.
     function [LANE_BITS-1:0] lanes(input integer regions);
         integer whole;
@@ -36,6 +37,8 @@ module serial_neighbor #(
         end
     endfunction
 
+    /* verilator lint_on UNUSEDSIGNAL */
+
     reg [LANE_BITS-1:0] far;
     reg [SLOT_BITS:0] on;
     always @* begin
@@ -52,7 +55,9 @@ module serial_neighbor #(
         endcase
     end
 
+    /* verilator lint_off WIDTH */
     localparam [SLOT_BITS:0] SLOTS = FOLD;
+    /* verilator lint_on WIDTH */
     wire [SLOT_BITS:0] plain = {1'b0, slot_i} + on;
     wire over = plain >= SLOTS;
     /* verilator lint_off UNUSEDSIGNAL */

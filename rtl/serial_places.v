@@ -20,6 +20,7 @@ module serial_places #(
 );
 
     localparam INNER_BITS = $clog2(SIDE);
+    /* verilator lint_off WIDTH */
     localparam [INNER_BITS-1:0] NEAR = HALO;
     localparam [INNER_BITS-1:0] FAR = SIDE - HALO;
     localparam [INNER_BITS-1:0] LAST = SIDE - 1;
@@ -27,6 +28,7 @@ module serial_places #(
     localparam [WORD_BITS-1:0] REGION = SIDE * SCALE;
     localparam [WORD_BITS-1:0] ONE = SCALE;
     localparam [1:0] REPEATED = HALO;
+    /* verilator lint_on WIDTH */
 
     wire near_first = inner_i < NEAR;
     wire near_last = inner_i >= FAR;

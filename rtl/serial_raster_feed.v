@@ -35,8 +35,10 @@ module serial_raster_feed #(
     localparam LAST_COLUMN = COLUMNS - 1;
     localparam LAST_ROW = ROWS - 1;
     localparam LAST_SLOT = FOLD - 1;
+    /* verilator lint_off WIDTH */
     localparam [WORD_BITS-1:0] SEGMENT = SIDE - 1;                // back to the start of a segment
     localparam [WORD_BITS-1:0] NEXT_LINE = STRIDE - (SIDE - 1);
+    /* verilator lint_on WIDTH */
 
     reg ready_q;
     reg [INNER_BITS-1:0] x_q;  // in the region

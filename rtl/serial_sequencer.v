@@ -28,7 +28,7 @@ module serial_sequencer #(
     parameter COUNT_BITS = 7,      // of the pixels of a region
     parameter CLEAN_BASE = 64,     // where the denoised square starts in a slot
     parameter KEPT_BASE = 64,      // where the reference starts
-    parameter WORD_BITS = 7,       // of the address inside a slot
+    parameter WORD_BITS = 7,       // of an address inside a slot
     parameter SLOT_BITS = 1,       // of the number of a slot, at least 1
     parameter REGION_BITS = 10,    // of the number of a region, empty slots included
     parameter POSITION_BITS = 6,   // of the number of a pixel in the larger square of centers
@@ -42,7 +42,7 @@ module serial_sequencer #(
     input  wire [        WIDTH-1:0] temporal_level_i,
     input  wire [        WIDTH+1:0] edge_half_i,       // half the level
     input  wire [        WIDTH-1:0] corner_level_i,
-    output wire                     working_o,         // the address below counts
+    output wire                     working_o,         // the address is that of a step
     output wire                     reopen_o,          // the frame is done
     // Where.
     output wire [    SLOT_BITS-1:0] slot_o,
@@ -99,6 +99,8 @@ module serial_sequencer #(
     localparam SUMS = MAD || VARIANCE;
     localparam PLACES = WIDTH + COUNT_BITS;  // bits that the sum of `variance` has places for
 
+    // Numbers that fit where they are put.
+    /* verilator lint_off WIDTH */
     // First centers of the passes.
     localparam [WORD_BITS-1:0] WINDOW_START = (RAW_SIDE - CLEAN_SIDE) / 2 * (RAW_SIDE + 1);
     localparam [WORD_BITS-1:0] SCORED_START = MEDIAN != 0 ? CLEAN_BASE + INNER * (CLEAN_SIDE + 1)
@@ -117,6 +119,21 @@ module serial_sequencer #(
     localparam [WORD_BITS-1:0] ONE = 1;
     localparam [WORD_BITS-1:0] WINDOW_STRIDE = RAW_SIDE;
     localparam [WORD_BITS-1:0] SCORED_STRIDE = SCORED_SIDE;
+    // Regions, linear squares and constants.
+    localparam [REGION_BITS-1:0] LAST_LANE = (LANES - 1) * FOLD;
+    localparam [REGION_BITS-1:0] REGION_STEP = FOLD;
+    localparam [WORD_BITS-1:0] CLEAN_AT = CLEAN_BASE;
+    localparam [WORD_BITS-1:0] KEPT_AT = KEPT_BASE;
+    localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
+    localparam [SCALE_BITS-1:0] UNIT = 1;
+    localparam [SCALE_BITS-1:0] DIVISOR = PIXELS;
+    localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
+    localparam [INDEX_BITS-1:0] LAST_SCORE = FEATURES;
+    localparam [3:0] LAST_DOUBLE = FRACTION - 1;
+    localparam [SIDE_BITS-1:0] LAST_WIDE = CLEAN_SIDE - 1;
+    localparam [SIDE_BITS-1:0] LAST_SIDE = SIDE - 1;
+    localparam [SIDE_BITS-1:0] LAST_COUNTED = SIDE;
+    /* verilator lint_on WIDTH */
 
     localparam [4:0] LOAD = 5'd0;      // a frame enters
     localparam [4:0] DRAIN = 5'd1;     // a clock for the last step
@@ -167,16 +184,14 @@ module serial_sequencer #(
             || state_q == REFERENCE || state_q == TEST) && job_q == TEMPORAL;
     wire bordering = BORDERS && job_q == BORDER;
     wire wide_pass = INNER != 0 && MEDIAN != 0 && (window_pass || bordering);
-    localparam LAST_WIDE = CLEAN_SIDE - 1;
-    localparam LAST_SIDE = SIDE - 1;
     wire [SIDE_BITS-1:0] last_place =
-        wide_pass ? LAST_WIDE[SIDE_BITS-1:0] : LAST_SIDE[SIDE_BITS-1:0];
+        wide_pass ? LAST_WIDE : LAST_SIDE;
     wire last_column = column_q == last_place;
     wire last_row = row_q == last_place;
     wire last_center = last_column && last_row;
     wire last_lane;
     wire last_slot;
-    wire last_score = index_q == FEATURES;
+    wire last_score = index_q == LAST_SCORE;
 
     // What is under way.
     wire testing = state_q == TEST;
@@ -223,12 +238,11 @@ module serial_sequencer #(
     wire [WIDTH-1:0] lowest;
     wire             more_pairs;
     wire             any_pairs;
-    wire             corrects = SUM_BITS == PLACES || !scale_q[PLACES-1];
+    wire             corrects;
     wire             place_ends;
 
     generate
         if (VARIANCE) begin : g_pairs
-            localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
             reg  [PLACES-1:0] zip_q;
             reg  [ WIDTH-1:0] pairs_q;
             wire [ WIDTH-1:0] others = pairs_q & (pairs_q - 1'b1);
@@ -242,6 +256,7 @@ module serial_sequencer #(
             assign lowest = pairs_q & ~others;
             assign more_pairs = |others;
             assign any_pairs = |zip_q[WIDTH-1:0];
+            assign corrects = SUM_BITS == PLACES || !scale_q[PLACES-1];
             assign place_ends = squares
                 && (correcting
                     || (!corrects && ((doubling && !any_pairs)
@@ -254,7 +269,7 @@ module serial_sequencer #(
                 else if (squaring && last_center) pairs_q <= others;
             end
         end else begin : g_no_pairs
-            wire unused_corrects = corrects;
+            assign corrects = 1'b0;
             assign lowest = {WIDTH{1'b0}};
             assign more_pairs = 1'b0;
             assign any_pairs = 1'b0;
@@ -263,8 +278,6 @@ module serial_sequencer #(
     endgenerate
 
     // The constant that is shifted.
-    localparam [SCALE_BITS-1:0] UNIT = 1;
-    localparam [SCALE_BITS-1:0] DIVISOR = PIXELS;
     wire divided = scale_q == (squares ? UNIT : MAD ? DIVISOR : UNIT);
 
     always @(posedge clk_i) begin
@@ -316,7 +329,7 @@ module serial_sequencer #(
             SUM: if (pass_ends) state = squares ? DIVIDE : FRACTION != 0 ? DOUBLE : HALF;
             DOUBLE: begin
                 if (squares) state = any_pairs ? SQUARE : corrects ? CORRECT : DOUBLE;
-                else if (tap_q == FRACTION - 1) state = HALF;
+                else if (tap_q == LAST_DOUBLE) state = HALF;
             end
             HALF: state = DIVIDE;
             DIVIDE: if (divided) state = CLEAR;
@@ -398,8 +411,6 @@ module serial_sequencer #(
     end
 
     // Slots, regions, scores.
-    localparam [REGION_BITS-1:0] LAST_LANE = (LANES - 1) * FOLD;
-    localparam [REGION_BITS-1:0] REGION_STEP = FOLD;
 
     generate
         if (FOLD > 1) begin : g_slot
@@ -494,11 +505,9 @@ module serial_sequencer #(
         ? distance(way, SCORED_STRIDE) : distance(way, WINDOW_STRIDE);
 
     // Where the linear squares are.
-    localparam [WORD_BITS-1:0] CLEAN_AT = CLEAN_BASE;
-    localparam [WORD_BITS-1:0] KEPT_AT = KEPT_BASE;
     wire [WORD_BITS-1:0] position;
     wire [WORD_BITS-1:0] kept;
-    wire inside;
+    wire counts;
 
     generate
         if (WORD_BITS > POSITION_BITS) begin : g_extended
@@ -507,21 +516,20 @@ module serial_sequencer #(
             assign position = position_q;
         end
         if (BORDERS) begin : g_inside
-            localparam LAST_INSIDE = SIDE;
-            assign inside = column_q != 0 && column_q <= LAST_INSIDE[SIDE_BITS-1:0]
-                && row_q != 0 && row_q <= LAST_INSIDE[SIDE_BITS-1:0];
+            assign counts = column_q != 0 && column_q <= LAST_COUNTED
+                && row_q != 0 && row_q <= LAST_COUNTED;
             if (LAST_SENT != 0) begin : g_kept
                 reg [WORD_BITS-1:0] kept_q;
                 always @(posedge clk_i) begin
                     if (!window_pass) kept_q <= KEPT_AT;
-                    else if (testing && inside) kept_q <= kept_q + 1'b1;
+                    else if (testing && counts) kept_q <= kept_q + 1'b1;
                 end
                 assign kept = window_pass ? kept_q : KEPT_AT + position;
             end else begin : g_no_kept
                 assign kept = KEPT_AT + position;
             end
         end else begin : g_all_inside
-            assign inside = 1'b1;
+            assign counts = 1'b1;
             assign kept = KEPT_AT + position;
         end
     endgenerate
@@ -543,14 +551,13 @@ module serial_sequencer #(
     wire [ACC_BITS+WIDTH+1:0] wide_half = {{ACC_BITS{1'b0}}, edge_half_i};
     wire [ACC_BITS+WIDTH-1:0] wide_lowest = {{ACC_BITS{1'b0}}, lowest};
     wire unused_wide = |wide_scale || |wide_temporal || |wide_corner || |wide_half || |wide_lowest;
-    localparam HALF_PIXELS = PIXELS / 2;
 
     always @* begin
         constant = {ACC_BITS{1'b0}};
         if (testing) constant = wide_temporal[ACC_BITS-1:0];
         else if (in_gradient) constant = wide_half[ACC_BITS-1:0];
         else if (in_ring) constant = wide_corner[ACC_BITS-1:0];
-        else if (halving) constant = HALF_PIXELS[ACC_BITS-1:0];
+        else if (halving) constant = HALF_PIXELS;
         else if (squaring) constant = wide_lowest[ACC_BITS-1:0];
         else if (MEDIAN != 0 || SUMS) constant = wide_scale[ACC_BITS-1:0];
     end
@@ -575,7 +582,7 @@ module serial_sequencer #(
     assign run_o = (searching && !adjusting) || (gradient_test && !part_q[0]) || ring_test;
     assign run_corner_o = in_ring;
     assign run_clear_o = idle || adjusting || (gradient_test && part_q[0]) || (ring_test && ring_last);
-    assign count_o = (testing && inside) || (gradient_test && part_q[0]) || (ring_test && ring_last);
+    assign count_o = (testing && counts) || (gradient_test && part_q[0]) || (ring_test && ring_last);
     assign count_corner_o = in_ring;
     assign double_o = doubling;
     assign divide_o = dividing;
