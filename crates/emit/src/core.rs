@@ -2,7 +2,7 @@
 //! The files of a core beside its Verilog: file lists, FuseSoC, constraints, Vivado, README.
 
 use crate::verilog::text_of;
-use crate::{SourceFile, Top, banner, latency, verilog};
+use crate::{SourceFile, Top, banner, latency, pipelined, verilog};
 use askama::Template;
 use foveate_spec::{Design, Direction, Port, PortRole, Thresholds};
 
@@ -57,6 +57,9 @@ struct ThresholdRow {
 }
 
 /// Every file of the core of `design` but its replay bench, whose vectors come from the model.
+///
+/// # Panics
+/// When the design is serial, for which there is no Verilog yet.
 #[must_use]
 pub fn core(design: &Design) -> Vec<SourceFile> {
     let mut files = verilog(design, Top::Rcm);
@@ -94,7 +97,7 @@ fn fusesoc<'a>(design: &Design, files: Vec<&'a str>) -> FuseSoc<'a> {
 }
 
 fn readme(design: &Design) -> Readme {
-    let timing = design.timing();
+    let timing = pipelined(design);
     let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
     Readme {
         banner: banner(design),

@@ -15,7 +15,7 @@ pub use crate::core::core;
 pub use leaf::{LEAVES, Leaf};
 pub use verilog::{Parameter, Top, verilog};
 
-use foveate_spec::Design;
+use foveate_spec::{Design, PipelinedTiming};
 
 /// One file of generated text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,9 +26,18 @@ pub struct SourceFile {
     pub contents: String,
 }
 
+/// The timing of the only organization that there is Verilog for; whoever emits asks
+/// `Design::pipelined_timing` first.
+///
+/// # Panics
+/// When the design is serial.
+fn pipelined(design: &Design) -> PipelinedTiming {
+    design.pipelined_timing("the emitter").unwrap_or_else(|refusal| panic!("{refusal}"))
+}
+
 /// The latency of a decision, in words.
 fn latency(design: &Design) -> String {
-    let timing = design.timing();
+    let timing = pipelined(design);
     let last = if timing.decision_frames == 0 { "" } else { " of the following frame" };
     format!(
         "a decision is valid {} clocks after the edge that takes the last pixel{last}",

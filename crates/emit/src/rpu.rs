@@ -3,7 +3,7 @@
 
 use crate::verilog::PortLine;
 use crate::verilog::text_of;
-use crate::{banner, latency};
+use crate::{banner, latency, pipelined};
 use askama::Template;
 use foveate_spec::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PortRole, Reference,
@@ -139,7 +139,7 @@ fn view(design: &Design) -> Rpu {
         window: design.has_feature_window(),
         keeps_raw,
         keeps_second: second_pass && (last_sent || !keeps_raw),
-        tail_delay: design.timing().tail_delay > 0,
+        tail_delay: pipelined(design).tail_delay > 0,
         second_pass,
         last_sent,
         blanks: u32::from(design.irrelevant() == Irrelevant::Zero),

@@ -48,6 +48,9 @@ impl Top {
 }
 
 /// The modules that `top` is made of, each after those it instantiates.
+///
+/// # Panics
+/// When the design is serial, for which there is no Verilog yet.
 #[must_use]
 pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
     let file =
@@ -104,7 +107,7 @@ fn direction(port: &Port) -> &'static str {
 
 /// `[7:0]`, nothing for a single bit; in the array with its parameters.
 fn range(port: &Port) -> String {
-    match (port.per_region, port.width) {
+    match (port.per_lane, port.width) {
         (true, 1) => "[COLUMNS*ROWS-1:0]".to_owned(),
         (true, width) => format!("[COLUMNS*ROWS*{width}-1:0]"),
         (false, 1) => String::new(),

@@ -89,12 +89,12 @@ fn module_headers_are_the_port_lists() {
                     .find(|line| line.contains(&format!(" {}", port.name)))
                     .unwrap_or_else(|| panic!("{} is missing: {toml}", port.name));
                 assert!(line.trim_start().starts_with(direction), "{line}");
-                let range = match (port.per_region, port.width) {
+                let range = match (port.per_lane, port.width) {
                     (true, 1) => "[COLUMNS*ROWS-1:0]".to_owned(),
                     (true, width) => format!("[COLUMNS*ROWS*{width}-1:0]"),
                     (false, width) => format!("[{}:0]", width - 1),
                 };
-                assert_eq!(line.contains(&range), port.per_region || port.width > 1, "{line}");
+                assert_eq!(line.contains(&range), port.per_lane || port.width > 1, "{line}");
             }
         }
     }

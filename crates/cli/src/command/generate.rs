@@ -56,6 +56,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
 
 /// The core and its replay bench, with vectors from the model.
 fn files(design: &Design) -> Result<Vec<SourceFile>, CliError> {
+    super::pipelined(design)?;
     let mut files = foveate_emit::core(design);
     let stimulus = Stimulus { rounds: 1, ..Stimulus::default() };
     let cancel = interrupt::flag()?;
