@@ -14,7 +14,8 @@ module serial_shown #(
     output wire [REGION_BITS-1:0] next_region_o
 );
 
-    reg [WIDTH-1:0] bits_q;
+    // The initial values keep synthesis from moving these registers into a memory's address port.
+    reg [WIDTH-1:0] bits_q = {WIDTH{1'b0}};
 
     always @(posedge clk_i) begin
         if (rst_i) bits_q <= {WIDTH{1'b0}};
@@ -23,7 +24,7 @@ module serial_shown #(
 
     generate
         if (BLOCK != 0) begin : g_late
-            reg [WIDTH-1:0] late_q;
+            reg [WIDTH-1:0] late_q = {WIDTH{1'b0}};
             always @(posedge clk_i) begin
                 if (rst_i) late_q <= {WIDTH{1'b0}};
                 else late_q <= bits_q;

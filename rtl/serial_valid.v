@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// One bit per region: it has a reference. Read a clock ahead; what is read is not written in between.
+// One bit per region: it has a reference. Distributed RAM with a single port while it is small; above,
+// block RAM, which is read a clock ahead. What is read ahead is not written in between.
 `default_nettype none
 
 module serial_valid #(
@@ -14,15 +15,27 @@ module serial_valid #(
     input  wire                   valid_i
 );
 
-    reg valid_q[0:REGIONS-1];
-    reg read_q;
+    generate
+        if (REGIONS <= 8192) begin : g_distributed
+            wire unused_next = |next_i;
+            frame_store #(
+                .WIDTH(1), .PIXELS(REGIONS > 1 ? REGIONS : 2), .SLOT_BITS(REGION_BITS)
+            ) u_store (
+                .clk_i(clk_i), .write_i(write_i), .slot_i(region_i), .data_i(valid_i), .data_o(valid_o)
+            );
+        end else begin : g_block
+            (* ram_style = "block" *)
+            reg valid_q[0:REGIONS-1];
+            reg read_q;
 
-    always @(posedge clk_i) begin
-        if (write_i) valid_q[region_i] <= valid_i;
-        read_q <= valid_q[next_i];
-    end
+            always @(posedge clk_i) begin
+                if (write_i) valid_q[region_i] <= valid_i;
+                read_q <= valid_q[next_i];
+            end
 
-    assign valid_o = read_q;
+            assign valid_o = read_q;
+        end
+    endgenerate
 
 endmodule
 

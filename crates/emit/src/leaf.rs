@@ -62,7 +62,7 @@ leaves! {
     "serial_raster_feed" => ["serial_places", "serial_neighbor"],
     "serial_shown" => [],
     "serial_sides" => [],
-    "serial_valid" => [],
+    "serial_valid" => ["frame_store"],
     "serial_decision" => ["serial_valid"],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
