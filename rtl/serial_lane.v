@@ -123,6 +123,7 @@ module serial_lane #(
                 localparam MEAN_BITS = WIDTH + FRACTION;
                 wire [MEAN_BITS:0] scaled = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word} << FRACTION;
                 wire [MEAN_BITS:0] difference = scaled - {1'b0, aux[MEAN_BITS-1:0]};
+                wire unused_aux = |aux;  // one bit of two, where a mean has but one
                 assign negative = difference[MEAN_BITS];
                 assign deviation = {{(ACC_BITS - MEAN_BITS) {negative}}, difference[MEAN_BITS-1:0]};
             end else begin : g_no_deviation
