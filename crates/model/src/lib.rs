@@ -20,13 +20,15 @@ mod region;
 mod render;
 mod stream;
 mod temporal;
+mod thresholds;
 pub mod window;
 
 pub use decision::Action;
 pub use error::ModelError;
 pub use frame::Frame;
 pub use functional::{Camera, Outcome};
-pub use pipelined::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput, Thresholds};
+pub use pipelined::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput};
 pub use region::{pad, region_pixels};
 pub use stream::{region_border, region_stream};
 pub use temporal::temporal_differences;
+pub use thresholds::Thresholds;

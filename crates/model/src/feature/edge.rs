@@ -15,9 +15,10 @@ use crate::window::{RegionView, Window};
 /// ```
 #[must_use]
 pub fn magnitude(window: &Window) -> u32 {
-    let [nw, n, ne, w, _, e, sw, s, se] = window.map(i32::from);
-    let gx = (ne + 2 * e + se) - (nw + 2 * w + sw);
-    let gy = (sw + 2 * s + se) - (nw + 2 * n + ne);
+    let [nw, n, ne, w, _, e, sw, s, se] = *window;
+    let side = |a: u16, b: u16, c: u16| i32::from(a) + 2 * i32::from(b) + i32::from(c);
+    let gx = side(ne, e, se) - side(nw, w, sw);
+    let gy = side(sw, s, se) - side(nw, n, ne);
     gx.unsigned_abs() + gy.unsigned_abs()
 }
 

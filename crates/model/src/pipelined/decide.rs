@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The decision: combinational, from what the score ports show and the thresholds of the clock.
 
-use super::Thresholds;
 use super::plan::{FEATURES, Plan};
+use crate::Thresholds;
 use crate::decision::combined;
 
 /// A valid decision.

@@ -26,9 +26,7 @@ mod shared;
 mod store;
 mod tail;
 mod temporal;
-mod thresholds;
 mod window;
 
 pub use rcm::PipelinedRcm;
 pub use rpu::{PipelinedRpu, RpuInput, RpuOutput};
-pub use thresholds::Thresholds;

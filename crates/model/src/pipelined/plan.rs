@@ -6,7 +6,7 @@ use foveate_spec::{
     Reference,
 };
 
-use super::Thresholds;
+use crate::Thresholds;
 use crate::number::index;
 
 /// Most features that a design can have.
@@ -70,10 +70,7 @@ impl Plan {
             reference: design.temporal().reference,
             irrelevant: design.irrelevant(),
             payload: design.payload(),
-            constants: match design.thresholds() {
-                foveate_spec::Thresholds::Runtime => None,
-                foveate_spec::Thresholds::Constant => Some(Thresholds::of(design)),
-            },
+            constants: Thresholds::constants(design),
         }
     }
 

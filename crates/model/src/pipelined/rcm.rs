@@ -3,7 +3,8 @@
 
 use foveate_spec::Design;
 
-use super::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
+use super::{PipelinedRpu, RpuInput, RpuOutput};
+use crate::Thresholds;
 use crate::number::index;
 use crate::region_border;
 

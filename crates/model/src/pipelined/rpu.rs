@@ -3,12 +3,12 @@
 
 use foveate_spec::Design;
 
-use super::Thresholds;
 use super::median::MedianStage;
 use super::pixel::{Pixel, Step};
 use super::plan::{FEATURES, Plan};
 use super::tail::Tail;
 use super::window::{Center, WindowStage};
+use crate::Thresholds;
 use crate::feature::is_hit;
 
 /// What is applied to the inputs of an RPU at one edge.

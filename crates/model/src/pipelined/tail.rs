@@ -15,13 +15,14 @@
 
 use foveate_spec::Payload;
 
+use super::RpuOutput;
 use super::decide::Decision;
 use super::pixel::Step;
 use super::plan::Plan;
 use super::scores::Scores;
 use super::store::Store;
 use super::temporal::TemporalScore;
-use super::{RpuOutput, Thresholds};
+use crate::Thresholds;
 
 /// Everything behind the windows.
 #[derive(Clone, Debug)]

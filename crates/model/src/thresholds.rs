@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The threshold inputs of a core.
+//! The threshold inputs of a core; every organization has the same.
 
 use foveate_spec::Design;
 
@@ -34,5 +34,13 @@ impl Thresholds {
             *min_score = feature.min_score();
         }
         thresholds
+    }
+
+    /// Those of a core that has them built in; `None` where they are inputs.
+    pub(crate) fn constants(design: &Design) -> Option<Self> {
+        match design.thresholds() {
+            foveate_spec::Thresholds::Runtime => None,
+            foveate_spec::Thresholds::Constant => Some(Self::of(design)),
+        }
     }
 }
