@@ -133,7 +133,7 @@ fn a_frame_of_another_kind_is_refused_and_changes_nothing() {
 }
 
 /// Black, white, checkerboards, single pixels in each corner of a region, ramps.
-fn hard_frames(recipe: &Recipe) -> Vec<Frame> {
+pub(crate) fn hard_frames(recipe: &Recipe) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let (max, side) = (recipe.pixel_max() as u16, recipe.side as u32);
     let paint =
@@ -179,7 +179,7 @@ fn everything(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: b
 }
 
 #[test]
-fn hard_frames_at_the_ends_of_every_range() {
+pub(crate) fn hard_frames_at_the_ends_of_every_range() {
     for side in [2, 3, 5, 7] {
         for bits in [1, 10, 12, 16] {
             for (shared, last_sent) in [(false, true), (true, false), (true, true)] {

@@ -17,6 +17,7 @@ mod oracle;
 mod pipelined_properties;
 mod recipe;
 mod schedule;
+mod serial;
 mod temporal_behavior;
 mod thresholds_in_time;
 mod waveforms;

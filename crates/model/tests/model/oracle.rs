@@ -30,8 +30,13 @@ pub(crate) struct SeenRegion {
 
 /// The history of every frame of a film.
 pub(crate) fn watch(recipe: &Recipe, film: &[Frame]) -> Vec<Seen> {
+    watch_changing(&vec![recipe.clone(); film.len()], film)
+}
+
+/// The same, with the thresholds of each frame.
+pub(crate) fn watch_changing(recipes: &[Recipe], film: &[Frame]) -> Vec<Seen> {
     let mut history: Vec<Seen> = Vec::new();
-    for frame in film {
+    for (recipe, frame) in recipes.iter().zip(film) {
         let seen = look(recipe, &history, frame);
         history.push(seen);
         let now = history.len() - 1;

@@ -102,7 +102,11 @@ impl Recipe {
 
 /// Every kind of design, with frames of about three regions.
 pub(crate) fn recipes() -> impl Strategy<Value = Recipe> {
-    let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
+    recipes_of(prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12])
+}
+
+/// The same, with regions of these sides.
+pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = Recipe> {
     let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
     (sides, bits).prop_flat_map(|(side, bits)| {
         let size = 1..=2 * side + 1;

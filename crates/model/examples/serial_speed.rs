@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Clocks and frames per second of the model of the paper's array (784 lanes) over random frames:
+//! `cargo run --release -p foveate-model --example serial_speed`.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a measurement")]
+#![allow(clippy::cast_precision_loss, reason = "printed with one digit")]
+
+use std::time::{Duration, Instant};
+
+use foveate_model::{SerialInput, SerialRcm, Thresholds};
+use foveate_spec::{Config, Design};
+
+/// How long each way is measured for.
+const LASTS: Duration = Duration::from_secs(3);
+
+fn design(feed: &str) -> Design {
+    let toml = format!("[hardware]\norganization = \"serial\"\nfeed = \"{feed}\"\n");
+    Config::from_toml(&toml).unwrap().validate().unwrap()
+}
+
+/// A small generator (xorshift): what the pixels are does not matter, only that they differ.
+fn noise(state: &mut u64) -> u16 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    u16::try_from(*state & 0xff).unwrap()
+}
+
+fn measure(feed: &str, skips: bool) {
+    let design = design(feed);
+    let thresholds = Thresholds::of(&design);
+    let mut rcm = SerialRcm::new(&design);
+    let ports = rcm.output().forward_valid.len();
+    let frame = 224 * 224 / ports;
+    let mut state = 1;
+    let pixels: Vec<u16> = (0..8 * 224 * 224).map(|_| noise(&mut state)).collect();
+    let (mut clocks, mut frames) = (0u64, 0u32);
+    let start = Instant::now();
+    while start.elapsed() < LASTS {
+        for place in 0..frame {
+            let at = (frames as usize % 8 * frame + place) * ports;
+            let pixels = &pixels[at..at + ports];
+            rcm.step(&SerialInput { reset: false, valid: true, pixels, thresholds: &thresholds });
+            clocks += 1;
+        }
+        let working = rcm.clocks_until_ready();
+        clocks += working;
+        if skips {
+            rcm.skip(working);
+        } else {
+            let pixels = &pixels[..ports];
+            let idle = SerialInput { reset: false, valid: false, pixels, thresholds: &thresholds };
+            (0..working).for_each(|_| {
+                std::hint::black_box(rcm.step(&idle));
+            });
+        }
+        frames += 1;
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    let how = if skips { "work skipped" } else { "every clock" };
+    let million = clocks as f64 / seconds / 1e6;
+    println!(
+        "{feed:8} {how:12} {million:8.1} M clocks/s {:8.0} frames/s",
+        f64::from(frames) / seconds
+    );
+}
+
+fn main() {
+    for feed in ["parallel", "raster"] {
+        for skips in [false, true] {
+            measure(feed, skips);
+        }
+    }
+}

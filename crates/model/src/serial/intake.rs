@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The pixels of a frame as they come in, and the stream that each region makes of them.
+
+use foveate_spec::{Design, Feed};
+
+use super::raster::Raster;
+use super::streams::Streams;
+
+/// The raw pixels of one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Intake {
+    /// Pixels of this frame that were taken.
+    taken: usize,
+    frame: Frame,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Frame {
+    Streams(Streams),
+    Raster(Raster),
+}
+
+impl Intake {
+    pub(super) fn new(design: &Design) -> Self {
+        let frame = match design.feed() {
+            Feed::Parallel => Frame::Streams(Streams::new(design)),
+            Feed::Raster => Frame::Raster(Raster::new(design)),
+        };
+        Self { taken: 0, frame }
+    }
+
+    /// Pixels at the port.
+    pub(super) fn width(&self) -> usize {
+        match &self.frame {
+            Frame::Streams(streams) => streams.lanes(),
+            Frame::Raster(_) => 1,
+        }
+    }
+
+    /// The next pixel is the first of a frame.
+    pub(super) fn forget(&mut self) {
+        self.taken = 0;
+    }
+
+    /// Whether the last pixel of a frame was taken, and none of the next.
+    pub(super) fn is_full(&self) -> bool {
+        let frame = match &self.frame {
+            Frame::Streams(streams) => streams.clocks(),
+            Frame::Raster(raster) => raster.pixels(),
+        };
+        self.taken == frame
+    }
+
+    /// Takes what is at the port; says how many clocks it is written for.
+    pub(super) fn take(&mut self, pixels: &[u16]) -> u64 {
+        if self.is_full() {
+            self.taken = 0;
+        }
+        let at = self.taken;
+        self.taken += 1;
+        match &mut self.frame {
+            Frame::Streams(streams) => {
+                streams.write(at, pixels);
+                1
+            }
+            Frame::Raster(raster) => raster.write(at, pixels[0]),
+        }
+    }
+
+    /// What a region with its halo looks like, row by row.
+    pub(super) fn stream(&self, region: usize, out: &mut Vec<u16>) {
+        out.clear();
+        match &self.frame {
+            Frame::Streams(streams) => out.extend(streams.stream(region)),
+            Frame::Raster(raster) => raster.stream(region, out),
+        }
+    }
+
+    /// A raw pixel of a region, without halo.
+    pub(super) fn pixel(&self, region: usize, position: usize) -> u16 {
+        match &self.frame {
+            Frame::Streams(streams) => streams.pixel(region, position),
+            Frame::Raster(raster) => raster.pixel(region, position),
+        }
+    }
+}

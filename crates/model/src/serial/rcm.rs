@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The array: where in a frame it is, and what its outputs show there.
+
+use foveate_spec::{Design, Payload};
+
+use super::intake::Intake;
+use super::ports::{SerialInput, SerialOutput};
+use super::regions::Regions;
+use super::schedule::{Schedule, Seen};
+use crate::number::index;
+use crate::{Thresholds, region_border};
+
+/// The cycle-level model of a serial array, as after a reset when new.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SerialRcm {
+    schedule: Schedule,
+    /// The thresholds, where they are constants of the core.
+    constants: Option<Thresholds>,
+    payload: Payload,
+    borders: Vec<u8>,
+    intake: Intake,
+    regions: Regions,
+    stage: Stage,
+    output: SerialOutput,
+    /// Whether a `forward_valid_o` is 1.
+    is_forwarding: bool,
+}
+
+/// Where in a frame the array is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stage {
+    /// Takes pixels; the last one is still being written for so many clocks.
+    Taking { writing: u64 },
+    /// So many edges ago was T0.
+    Working { clock: u64 },
+}
+
+impl SerialRcm {
+    /// The array of the design. That of [`Design::one_lane`] is the core of one RPU.
+    ///
+    /// # Panics
+    /// When the design is not serial.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
+        let intake = Intake::new(design);
+        let output = SerialOutput { ready: true, ..SerialOutput::silent(intake.width()) };
+        Self {
+            schedule: Schedule::new(design),
+            constants: Thresholds::constants(design),
+            payload: design.payload(),
+            borders: (0..design.regions()).map(|region| region_border(design, region)).collect(),
+            regions: Regions::new(design),
+            stage: Stage::Taking { writing: 0 },
+            is_forwarding: false,
+            intake,
+            output,
+        }
+    }
+
+    /// One rising edge; returns what every output shows after it.
+    ///
+    /// # Panics
+    /// When there are not as many pixels as `pixel_i` has.
+    pub fn step(&mut self, input: &SerialInput<'_>) -> &SerialOutput {
+        assert_eq!(
+            input.pixels.len(),
+            self.intake.width(),
+            "a pixel per lane of the port is needed"
+        );
+        if input.reset {
+            self.reset();
+        } else if input.valid && self.output.ready {
+            self.take(input);
+        } else {
+            self.pass(1);
+        }
+        self.show();
+        &self.output
+    }
+
+    /// As many steps without reset and without a pixel, at once.
+    pub fn skip(&mut self, clocks: u64) -> &SerialOutput {
+        self.pass(clocks);
+        self.show();
+        &self.output
+    }
+
+    /// What the outputs show.
+    #[must_use]
+    pub fn output(&self) -> &SerialOutput {
+        &self.output
+    }
+
+    /// How many clocks without a pixel it takes until `ready_o` is 1.
+    #[must_use]
+    pub fn clocks_until_ready(&self) -> u64 {
+        match self.stage {
+            Stage::Taking { writing } if self.intake.is_full() => {
+                writing + self.schedule.clocks_until_ready(0)
+            }
+            Stage::Taking { writing } => writing,
+            Stage::Working { clock } => self.schedule.clocks_until_ready(clock),
+        }
+    }
+
+    /// What the next frame of a region will be compared with: scored pixels, row by row; `None` where
+    /// there is no reference. Known from the edge that takes the last pixel of a frame.
+    ///
+    /// # Panics
+    /// When the design has no such region.
+    #[must_use]
+    pub fn reference(&self, region: u32) -> Option<&[u16]> {
+        self.regions.reference(index(region))
+    }
+
+    fn reset(&mut self) {
+        self.intake.forget();
+        self.regions.forget();
+        self.stage = Stage::Taking { writing: 0 };
+    }
+
+    fn take(&mut self, input: &SerialInput<'_>) {
+        let clocks = self.intake.take(input.pixels);
+        if self.intake.is_full() {
+            // The thresholds stay still from here, and nobody sees the scores before they are due.
+            self.judge(input.thresholds);
+        }
+        self.stage = Stage::Taking { writing: clocks };
+        self.pass(1);
+    }
+
+    fn judge(&mut self, applied: &Thresholds) {
+        let thresholds = self.constants.as_ref().unwrap_or(applied);
+        let mut stream = Vec::new();
+        for (region, &border) in self.borders.iter().enumerate() {
+            self.intake.stream(region, &mut stream);
+            self.regions.judge(region, stream.iter().copied(), border, thresholds);
+        }
+    }
+
+    /// Lets clocks pass. A pixel that is written for c clocks was taken c - 1 edges before T0.
+    fn pass(&mut self, clocks: u64) {
+        self.stage = match self.stage {
+            Stage::Taking { writing } if clocks < writing => {
+                Stage::Taking { writing: writing - clocks }
+            }
+            Stage::Taking { writing } if self.intake.is_full() => {
+                Stage::Working { clock: clocks - writing }
+            }
+            Stage::Taking { .. } => Stage::Taking { writing: 0 },
+            Stage::Working { clock } => Stage::Working { clock: clock.saturating_add(clocks) },
+        };
+    }
+
+    fn show(&mut self) {
+        // The ports of the lanes are touched only where something is seen on them.
+        if std::mem::take(&mut self.is_forwarding) {
+            self.output.stop_forwarding();
+        }
+        self.output.stop_saying();
+        self.output.ready = self.clocks_until_ready() == 0;
+        let seen = match self.stage {
+            Stage::Taking { .. } => None,
+            Stage::Working { clock } => self.schedule.at(clock),
+        };
+        if let Some((slot, seen)) = seen {
+            match seen {
+                Seen::Score { number, lane, decides } => {
+                    if let Some(region) = self.schedule.region(lane, slot) {
+                        self.show_score(region, number, decides);
+                    }
+                }
+                Seen::Pixels { position } => self.show_pixels(slot, position),
+                Seen::Pixel { position, lane } => {
+                    if let Some(region) = self.schedule.region(lane, slot) {
+                        self.show_pixel(region, position);
+                    }
+                }
+            }
+        }
+    }
+
+    fn show_score(&mut self, region: u32, number: u32, decides: bool) {
+        let verdict = self.regions.verdict(index(region));
+        let output = &mut self.output;
+        output.score_valid = true;
+        (output.region, output.score_index) = (region, number);
+        output.score = verdict.score(number);
+        if decides {
+            output.decision_valid = true;
+            (output.srs, output.trs, output.active) = (verdict.srs, verdict.trs, verdict.active());
+        }
+    }
+
+    /// Every lane at once.
+    fn show_pixels(&mut self, slot: u32, position: u32) {
+        (self.output.forward_slot, self.output.forward_position) = (slot, position);
+        for lane in 0..self.schedule.lanes() {
+            if let Some(region) = self.schedule.region(lane, slot)
+                && self.regions.verdict(index(region)).active()
+            {
+                self.forward(lane, region, position);
+            }
+        }
+    }
+
+    fn show_pixel(&mut self, region: u32, position: u32) {
+        if self.regions.verdict(index(region)).active() {
+            self.forward(0, region, position);
+            (self.output.forward_region, self.output.forward_position) = (region, position);
+        }
+    }
+
+    fn forward(&mut self, port: u32, region: u32, position: u32) {
+        self.is_forwarding = true;
+        self.output.forward_valid[index(port)] = true;
+        self.output.forward_pixel[index(port)] = self.forwarded(region, position);
+    }
+
+    fn forwarded(&self, region: u32, position: u32) -> u16 {
+        let (region, position) = (index(region), index(position));
+        match self.payload {
+            Payload::Denoised => self.regions.scored(region, position),
+            Payload::Raw => self.intake.pixel(region, position),
+        }
+    }
+}

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whole films: scores, decisions and the rendered frame, against the functional camera, over a
+//! matrix of designs that has every value of every choice beside every other.
+
+use foveate_model::{
+    Action, Camera, Frame, Outcome, RegionScorer, SerialInput, SerialRcm, Thresholds,
+    region_border, region_stream,
+};
+use foveate_spec::Design;
+
+use super::bench::applied;
+use super::recipe::SerialRecipe;
+use crate::hard_cases::hard_frames;
+use crate::recipe::{FeatureRecipe, Recipe};
+
+/// The screen behind an array.
+struct Screen {
+    design: Design,
+    pixels: Vec<u16>,
+}
+
+impl Screen {
+    fn place(&self, region: u32, position: u32) -> usize {
+        let (side, columns) = (self.design.region_size(), self.design.columns());
+        let x = region % columns * side + position % side;
+        let y = region / columns * side + position / side;
+        (y * columns * side + x) as usize
+    }
+
+    fn act(&mut self, region: u32, srs: bool, trs: bool) {
+        // A pixel that the array does not send must not look like the one before.
+        let value = match Action::of(&self.design, srs, trs) {
+            Action::Hold => return,
+            Action::Blank => 0,
+            Action::Forward => u16::MAX,
+        };
+        for position in 0..self.design.region_pixels() {
+            let place = self.place(region, position);
+            self.pixels[place] = value;
+        }
+    }
+}
+
+/// Feeds a frame as fast as it is taken; returns the clocks until the array is ready again.
+fn play(
+    recipe: &SerialRecipe,
+    rcm: &mut SerialRcm,
+    frame: &Frame,
+    screen: &mut Screen,
+    outcome: &Outcome,
+) -> i64 {
+    let thresholds = Thresholds::of(&screen.design);
+    let mut pixels = applied(recipe, frame).into_iter();
+    let idle = vec![0; recipe.ports() as usize];
+    let (mut clocks, mut scores, mut decisions) = (0, 0, 0);
+    loop {
+        let now = if rcm.output().ready { pixels.next() } else { None };
+        if clocks > 0 && rcm.output().ready && now.is_none() {
+            break;
+        }
+        let valid = now.is_some();
+        let pixels = now.unwrap_or_else(|| idle.clone());
+        let output = rcm.step(&SerialInput {
+            reset: false,
+            valid,
+            pixels: &pixels,
+            thresholds: &thresholds,
+        });
+        clocks += 1;
+        let at = output.region as usize;
+        if output.score_valid {
+            scores += 1;
+            let due = match output.score_index.checked_sub(1) {
+                None => outcome.temporal_count[at].into(),
+                Some(feature) => outcome.scores[feature as usize][at],
+            };
+            assert_eq!(output.score, due, "score {} of region {at}", output.score_index);
+        }
+        if output.decision_valid {
+            decisions += 1;
+            let due = (outcome.srs[at], outcome.trs[at], outcome.active[at]);
+            assert_eq!((output.srs, output.trs, output.active), due, "decision of region {at}");
+            screen.act(output.region, output.srs, output.trs);
+        }
+        for (port, (&valid, &pixel)) in
+            output.forward_valid.iter().zip(&output.forward_pixel).enumerate()
+        {
+            if valid {
+                let region = if recipe.raster {
+                    output.forward_region
+                } else {
+                    port as u32 * recipe.fold as u32 + output.forward_slot
+                };
+                let place = screen.place(region, output.forward_position);
+                screen.pixels[place] = pixel;
+            }
+        }
+    }
+    let regions = recipe.regions();
+    assert_eq!((decisions, scores), (regions, regions * (1 + recipe.base.features.len() as i64)));
+    clocks
+}
+
+/// What will be said of a frame is known before it is fed.
+fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &Outcome, design: &Design) {
+    let (thresholds, mut scorer) = (Thresholds::of(design), RegionScorer::new(design));
+    for region in 0..design.regions() {
+        let mut stream = Vec::new();
+        region_stream(design, frame, region, &mut stream);
+        scorer.take(stream.into_iter(), region_border(design, region));
+        let count = scorer.temporal_count(rcm.reference(region), &thresholds);
+        assert_eq!(count, outcome.temporal_count[region as usize]);
+        let scores = outcome.scores.iter().map(|scores| scores[region as usize]);
+        assert!(scores.eq(scorer.scores(&thresholds).into_iter().take(outcome.scores.len())));
+    }
+}
+
+fn check(recipe: &SerialRecipe, film: &[Frame]) {
+    let design = recipe.design();
+    let mut camera = Camera::new(&design);
+    let mut rcm = SerialRcm::new(&design);
+    let side = design.region_size();
+    let (width, height) = (design.columns() * side, design.rows() * side);
+    let mut screen = Screen { pixels: vec![0; (width * height) as usize], design };
+    for frame in film {
+        let outcome = camera.step(frame).unwrap();
+        predict(&rcm, frame, outcome, &screen.design);
+        let clocks = play(recipe, &mut rcm, frame, &mut screen, outcome);
+        let taking: i64 =
+            (0..recipe.frame_pixels()).map(|pixel| recipe.clocks_of_pixel(pixel)).sum();
+        assert_eq!(clocks, taking + recipe.steps_per_frame() + 1, "{recipe:?}");
+        assert_eq!(clocks as u64, screen.design.timing().clocks_per_frame(), "{recipe:?}");
+        let seen = Frame::from_fn(frame.width(), frame.height(), frame.bits(), |x, y| {
+            screen.pixels[(y * width + x) as usize]
+        });
+        assert_eq!(seen.unwrap(), outcome.rendered, "{recipe:?}");
+        let references = |region| rcm.reference(region).map(<[u16]>::to_vec);
+        for region in 0..recipe.regions() as u32 {
+            assert_eq!(references(region), camera.reference(region), "of region {region}");
+        }
+    }
+}
+
+/// Some of the four features; `which` has a bit for each.
+fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureRecipe> {
+    let max = (1i64 << bits) - 1;
+    let feature =
+        |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 1 };
+    let all = [
+        feature("variance", 0, 100 * max * max),
+        feature("corner", max / 2, 1000),
+        feature("mad", 0, 250 * max),
+        feature("edge", 2 * max, 1000 * side),
+    ];
+    all.into_iter().enumerate().filter(|(at, _)| which >> at & 1 == 1).map(|(_, f)| f).collect()
+}
+
+#[test]
+fn films_over_the_matrix() {
+    let mut number = 0usize;
+    for side in [4i64, 5, 8, 16] {
+        for bits in [1, 8, 12, 16] {
+            for switches in 0..32usize {
+                // What is not in the loops goes through its values at its own pace.
+                number += 1;
+                let on = |bit: usize| switches >> bit & 1 == 1;
+                let size = [(2 * side + 1, side + 2), (3 * side, side), (side, 1)][number % 3];
+                let base = Recipe {
+                    width: size.0,
+                    height: size.1,
+                    bits,
+                    side,
+                    shared: on(0),
+                    median: on(1),
+                    features: features(1 + number % 15, side, bits),
+                    all_must_vote: number.is_multiple_of(7),
+                    temporal_level: ((1 << bits) - 1) / 2,
+                    temporal_min: side,
+                    last_sent: on(2),
+                    blank_irrelevant: number % 5 < 3,
+                    raw_payload: on(4),
+                    constant: number.is_multiple_of(11),
+                };
+                let frames = hard_frames(&base);
+                let film: Vec<Frame> =
+                    (0..4).map(|at| frames[(number + at * at) % frames.len()].clone()).collect();
+                let mut recipe = SerialRecipe { base, raster: on(3), fold: 1 };
+                recipe.fold = 1 + number as i64 % recipe.regions();
+                check(&recipe, &film);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_fold_of_a_grid_of_seven() {
+    for raster in [false, true] {
+        for fold in 1..=7 {
+            let base = Recipe {
+                width: 28,
+                height: 4,
+                bits: 8,
+                side: 4,
+                shared: true,
+                median: true,
+                features: features(15, 4, 8),
+                all_must_vote: false,
+                temporal_level: 3,
+                temporal_min: 2,
+                last_sent: true,
+                blank_irrelevant: true,
+                raw_payload: false,
+                constant: false,
+            };
+            let film = hard_frames(&base);
+            check(&SerialRecipe { base, raster, fold }, &film);
+        }
+    }
+}
+
+#[test]
+fn the_largest_region() {
+    for (raster, shared) in [(false, true), (true, true), (true, false)] {
+        let base = Recipe {
+            width: 65,
+            height: 64,
+            bits: 16,
+            side: 64,
+            shared,
+            median: shared,
+            features: features(15, 64, 16),
+            all_must_vote: false,
+            temporal_level: 100,
+            temporal_min: 9,
+            last_sent: shared,
+            blank_irrelevant: false,
+            raw_payload: true,
+            constant: false,
+        };
+        let film = hard_frames(&base);
+        check(&SerialRecipe { base, raster, fold: 2 }, &film[2..5]);
+    }
+}

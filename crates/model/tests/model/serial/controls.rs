@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Wrong expectations must be noticed: the same bench, with one thing changed in what it expects.
+
+use foveate_model::SerialRcm;
+
+use super::bench::{Bench, Check, Manner};
+use super::properties::jobs;
+use super::recipe::SerialRecipe;
+use super::waveform::Facts;
+use crate::frames::Content;
+use crate::recipe::{FeatureRecipe, Recipe};
+
+fn recipe() -> SerialRecipe {
+    let feature =
+        |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 1 };
+    SerialRecipe {
+        base: Recipe {
+            width: 15,
+            height: 9,
+            bits: 8,
+            side: 5,
+            shared: true,
+            median: true,
+            features: vec![feature("edge", 150, 9000), feature("mad", 0, 20_000)],
+            all_must_vote: false,
+            temporal_level: 20,
+            temporal_min: 9,
+            last_sent: true,
+            blank_irrelevant: true,
+            raw_payload: false,
+            constant: true,
+        },
+        raster: true,
+        fold: 2,
+    }
+}
+
+/// Runs the array of the recipe above against an expectation that `spoil` has had its hands on: the
+/// recipe it is made from, or the frames.
+fn expect(built: &SerialRecipe, spoil: &Spoil) -> Check {
+    use Content::{AlmostFlat, Noise, Repeat, Touch};
+    let script = vec![(Noise, 5), (Touch, 2), (Repeat, 3), (AlmostFlat, 4), (Touch, 6), (Noise, 7)];
+    let mut expected = built.clone();
+    let mut jobs_of_both = jobs(built, &script);
+    if let Spoil::Recipe(change) = spoil {
+        change(&mut expected);
+        for (job, other) in jobs_of_both.iter_mut().zip(jobs(&expected, &script)) {
+            job.facts = other.facts;
+        }
+    }
+    let mut bench = Bench::new(&expected, SerialRcm::new(&built.design()), Manner::DENSE);
+    match spoil {
+        Spoil::Nothing | Spoil::Recipe(_) => {}
+        Spoil::Clock => bench.late = 1,
+        Spoil::Facts(change) => jobs_of_both.iter_mut().for_each(|job| change(&mut job.facts)),
+    }
+    bench.run(&jobs_of_both)
+}
+
+enum Spoil {
+    Nothing,
+    Clock,
+    Recipe(fn(&mut SerialRecipe)),
+    Facts(fn(&mut Vec<Facts>)),
+}
+
+#[test]
+fn every_planted_fault_is_noticed() {
+    let faults = [
+        ("clock", Spoil::Clock),
+        ("regions swapped", Spoil::Facts(|facts| facts.swap(0, 3))),
+        ("one pixel of a region", Spoil::Facts(|facts| facts[1].payload[24] ^= 1)),
+        ("one bit of a score", Spoil::Facts(|facts| facts[5].scores[2] ^= 1)),
+        ("edge level", Spoil::Recipe(|recipe| recipe.base.features[0].level += 30)),
+        ("edge minimum", Spoil::Recipe(|recipe| recipe.base.features[0].min_milli += 4000)),
+        ("fraction bits", Spoil::Recipe(|recipe| recipe.base.features[1].fraction_bits = 2)),
+        ("order of features", Spoil::Recipe(|recipe| recipe.base.features.reverse())),
+        ("combination", Spoil::Recipe(|recipe| recipe.base.all_must_vote = true)),
+        ("median", Spoil::Recipe(|recipe| recipe.base.median = false)),
+        ("neighborhood", Spoil::Recipe(|recipe| recipe.base.shared = false)),
+        ("temporal level", Spoil::Recipe(|recipe| recipe.base.temporal_level += 1)),
+        ("temporal minimum", Spoil::Recipe(|recipe| recipe.base.temporal_min = 25)),
+        ("reference", Spoil::Recipe(|recipe| recipe.base.last_sent = false)),
+        ("irrelevant", Spoil::Recipe(|recipe| recipe.base.blank_irrelevant = false)),
+        ("payload", Spoil::Recipe(|recipe| recipe.base.raw_payload = true)),
+        ("fold", Spoil::Recipe(|recipe| recipe.fold = 3)),
+        ("depth", Spoil::Recipe(|recipe| recipe.base.bits = 9)),
+    ];
+    for raster in [false, true] {
+        let recipe = SerialRecipe { raster, ..recipe() };
+        assert_eq!(expect(&recipe, &Spoil::Nothing), Ok(()));
+        for (fault, spoil) in &faults {
+            assert!(expect(&recipe, spoil).is_err(), "{fault} goes unnoticed");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Small frames with every clock worked out by hand from `docs/serial.md`. The edge that takes the first
+//! pixel is number 1.
+
+use std::ops::RangeInclusive;
+
+use foveate_model::{SerialInput, SerialOutput, SerialRcm, Thresholds};
+use foveate_spec::{Config, Design};
+
+fn design(toml: &str) -> Design {
+    Config::from_toml(toml).unwrap().validate().unwrap()
+}
+
+/// The outputs after every edge of a frame of ones, applied as fast as it is taken, from edge 1 to the
+/// one after which the array is ready again; and the edges that took a pixel.
+fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
+    let mut rcm = SerialRcm::new(design);
+    let ones = vec![1; rcm.output().forward_valid.len()];
+    let thresholds = Thresholds::of(design);
+    let (mut outputs, mut taken) = (vec![rcm.output().clone()], Vec::new());
+    while taken.len() < pixels || !rcm.output().ready {
+        if rcm.output().ready {
+            taken.push(outputs.len());
+        }
+        // A pixel is there even when the array is not ready.
+        let input =
+            SerialInput { reset: false, valid: true, pixels: &ones, thresholds: &thresholds };
+        outputs.push(rcm.step(&input).clone());
+    }
+    (outputs, taken)
+}
+
+/// Edge, number and region of each score.
+fn scores(outputs: &[SerialOutput]) -> Vec<(usize, u32, u32)> {
+    let said = outputs.iter().enumerate().filter(|(_, output)| output.score_valid);
+    said.map(|(edge, output)| (edge, output.score_index, output.region)).collect()
+}
+
+/// Edge and region of each decision.
+fn decisions(outputs: &[SerialOutput]) -> Vec<(usize, u32)> {
+    let said = outputs.iter().enumerate().filter(|(_, output)| output.decision_valid);
+    said.map(|(edge, output)| (edge, output.region)).collect()
+}
+
+fn forwarding(outputs: &[SerialOutput]) -> Vec<usize> {
+    let any = |edge: &usize| outputs[*edge].forward_valid.contains(&true);
+    (0..outputs.len()).filter(any).collect()
+}
+
+/// The edges in `edges` after which `ready_o` is 0.
+fn busy(outputs: &[SerialOutput], edges: RangeInclusive<usize>) -> Vec<usize> {
+    edges.filter(|&edge| !outputs[edge].ready).collect()
+}
+
+/// 64 pixels, then 64 * 83 steps to denoise, 784 for the count, 14 * 64 for edges, 784 for their score,
+/// 64 to unload. Step j is seen after edge 64 + 1 + j.
+#[test]
+fn the_papers_frame() {
+    let always = "[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0\n";
+    let design = design(&format!("{always}[hardware]\norganization = \"serial\"\n"));
+    let (outputs, taken) = play(&design, 64);
+    assert_eq!(taken, (1..=64).collect::<Vec<_>>());
+    let rotation = |first: usize, number| (0..784).map(move |at| (first + at, number, at as u32));
+    let due: Vec<_> = rotation(65 + 5312, 0).chain(rotation(65 + 6992, 1)).collect();
+    assert_eq!(scores(&outputs), due);
+    assert_eq!(
+        decisions(&outputs),
+        (0..784).map(|at| (65 + 6992 + at, at as u32)).collect::<Vec<_>>()
+    );
+    assert_eq!(forwarding(&outputs), (65 + 7776..65 + 7840).collect::<Vec<_>>());
+    assert!(outputs[65 + 7776].forward_valid.iter().all(|&valid| valid));
+    assert_eq!(busy(&outputs, 0..=7905), (64..=7904).collect::<Vec<_>>());
+    assert_eq!(outputs.len() - 1, 7905, "the next frame's first pixel is taken at edge 7906");
+}
+
+/// Three regions in two lanes of two slots; slot 1 of lane 1 is empty. Per slot 3 * 16 steps to compare,
+/// 2, 14 * 16 for edges, 2, 16 to unload: 292. The last of 2 * 16 pixels is taken at edge 32.
+#[test]
+fn two_slots_one_of_them_empty() {
+    let design = design(
+        "[frame]\nwidth = 12\nheight = 4\npixel_bits = 1\n[region]\nsize = 4\n\
+         [denoise]\nfilter = \"none\"\n[temporal]\nlevel = 0\nmin_count = 0\n\
+         [[spatial]]\nfeature = \"edge\"\nlevel = 1\nmin_score = 0\n\
+         [hardware]\norganization = \"serial\"\nfold = 2\n",
+    );
+    let (outputs, taken) = play(&design, 32);
+    assert_eq!(taken, (1..=32).collect::<Vec<_>>());
+    assert_eq!(
+        scores(&outputs),
+        [(81, 0, 0), (82, 0, 2), (307, 1, 0), (308, 1, 2), (373, 0, 1), (599, 1, 1)]
+    );
+    assert_eq!(decisions(&outputs), [(307, 0), (308, 2), (599, 1)]);
+    assert_eq!(forwarding(&outputs), (309..=324).chain(601..=616).collect::<Vec<_>>());
+    let (slot_0, slot_1) = (&outputs[320], &outputs[602]);
+    assert_eq!((&slot_0.forward_valid[..], slot_0.forward_position), (&[true, true][..], 11));
+    assert_eq!((&slot_1.forward_valid[..], slot_1.forward_slot), (&[true, false][..], 1));
+    assert_eq!((&slot_1.forward_pixel[..], slot_1.forward_position), (&[1, 0][..], 1));
+    assert_eq!(busy(&outputs, 0..=617), (32..=616).collect::<Vec<_>>());
+    assert_eq!(outputs.len() - 1, 32 + 584 + 1);
+}
+
+/// Two regions of 4x4 with a halo of 1. Column x is shown 2 1 1 2 2 1 1 2 times, row y 2 1 1 2 times; so
+/// the first row takes 24 clocks, the next two 12, the last 24, and T0 is edge 72.
+#[test]
+fn a_raster_frame_with_halos() {
+    let design = design(
+        "[frame]\nwidth = 8\nheight = 4\n[region]\nsize = 4\nneighborhood = \"shared\"\n\
+         [denoise]\nfilter = \"none\"\n[temporal]\nmin_count = 0\n\
+         [[spatial]]\nfeature = \"edge\"\nmin_score = 0\n\
+         [hardware]\norganization = \"serial\"\nfeed = \"raster\"\n",
+    );
+    let (outputs, taken) = play(&design, 32);
+    assert_eq!(taken[..9], [1, 5, 7, 9, 13, 17, 19, 21, 25]);
+    assert_eq!((taken[16], taken[24], taken[31]), (37, 49, 69));
+    assert_eq!(busy(&outputs, 0..=12), [1, 2, 3, 5, 7, 9, 10, 11]);
+    // 48 steps to compare, 2, 224, 2, then 16 rounds of 3.
+    assert_eq!(scores(&outputs), [(121, 0, 0), (122, 0, 1), (347, 1, 0), (348, 1, 1)]);
+    assert_eq!(decisions(&outputs), [(347, 0), (348, 1)]);
+    let rounds = (0..16).flat_map(|round| [350 + 3 * round, 351 + 3 * round]);
+    assert_eq!(forwarding(&outputs), rounds.collect::<Vec<_>>());
+    let place = |edge: usize| (outputs[edge].forward_region, outputs[edge].forward_position);
+    assert_eq!([350, 351, 353, 396].map(place), [(0, 0), (1, 0), (0, 1), (1, 15)]);
+    assert_eq!(busy(&outputs, 70..=397), (70..=396).collect::<Vec<_>>());
+    assert_eq!(outputs.len() - 1, 72 + 324 + 1);
+}
+
+/// 3 * 256 words of 16 bits are 1024 deep: 256 LUTs, so block memory, and all is seen a clock later. The
+/// last pixel leaves in the clock in which the array is ready again.
+#[test]
+fn block_memory_is_a_clock_late() {
+    let design = design(
+        "[frame]\nwidth = 16\nheight = 16\npixel_bits = 16\n[region]\nsize = 16\n\
+         [temporal]\nmin_count = 0\nreference = \"last-sent\"\n\
+         [[spatial]]\nfeature = \"mad\"\nmin_score = 0\n[hardware]\norganization = \"serial\"\n",
+    );
+    let (outputs, _) = play(&design, 256);
+    // 256 * 165 steps to denoise, 1, 2 * 256 + 16 + 3 for the deviation, 1, 3 * 256 to copy, 256.
+    assert_eq!(scores(&outputs), [(258 + 42_240, 0, 0), (258 + 42_240 + 1 + 531, 1, 0)]);
+    assert_eq!(decisions(&outputs), [(43_030, 0)]);
+    assert_eq!(forwarding(&outputs), (43_799..=44_054).collect::<Vec<_>>());
+    assert_eq!(busy(&outputs, 256..=44_054), (256..=44_053).collect::<Vec<_>>());
+    assert_eq!(outputs.len() - 1, 256 + 43_797 + 1);
+}
+
+#[test]
+fn a_reset_takes_no_pixel_and_makes_ready() {
+    let design = design("[frame]\nwidth = 8\nheight = 8\n[hardware]\norganization = \"serial\"\n");
+    let thresholds = Thresholds::of(&design);
+    let mut rcm = SerialRcm::new(&design);
+    let mut step = |reset, valid| {
+        let input = SerialInput { reset, valid, pixels: &[9], thresholds: &thresholds };
+        rcm.step(&input).ready
+    };
+    assert!((0..63).all(|_| step(false, true)));
+    assert!(step(false, false) && step(true, true));
+    assert!((0..63).all(|_| step(false, true)), "the first pixel of a frame again");
+    assert!(!step(false, true));
+    assert!(!step(false, true) && step(true, true));
+    assert!((0..63).all(|_| step(false, true)), "what was under way is forgotten");
+    assert!(!step(false, true));
+}
+
+/// The core of one RPU with three slots: a row of three regions, whose border is the frame's.
+#[test]
+fn one_lane_is_a_row_of_its_slots() {
+    let design = design(
+        "[frame]\nwidth = 40\nheight = 16\n[region]\nneighborhood = \"shared\"\n\
+         [hardware]\norganization = \"serial\"\nfold = 3\n",
+    );
+    let (outputs, taken) = play(&design.one_lane(), 3 * 144);
+    assert_eq!((outputs[0].forward_valid.len(), taken.len()), (1, 432));
+    let regions: Vec<u32> = decisions(&outputs).into_iter().map(|(_, region)| region).collect();
+    assert_eq!(regions, [0, 1, 2]);
+    assert_eq!(outputs.len() as u64 - 1, design.one_lane().timing().clocks_per_frame());
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow.
+
+use foveate_spec::{Design, Feed, Organization};
+use proptest::prelude::*;
+use proptest::sample::select;
+
+use crate::recipe::{FeatureRecipe, Recipe, recipes_of};
+
+#[derive(Clone, Debug)]
+pub(crate) struct SerialRecipe {
+    pub(crate) base: Recipe,
+    pub(crate) raster: bool,
+    pub(crate) fold: i64,
+}
+
+/// A phase of a slot and its steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Phase {
+    Hidden(i64),
+    Rotation,
+    Unload,
+}
+
+impl SerialRecipe {
+    pub(crate) fn design(&self) -> Design {
+        let mut config = self.base.design().config().clone();
+        config.hardware.organization = Organization::Serial;
+        config.hardware.feed = Some(if self.raster { Feed::Raster } else { Feed::Parallel });
+        config.hardware.fold = self.fold as u32;
+        config.validate().unwrap_or_else(|error| panic!("{error}\n{self:?}"))
+    }
+
+    pub(crate) fn regions(&self) -> i64 {
+        self.base.columns() * self.base.rows()
+    }
+
+    pub(crate) fn lanes(&self) -> i64 {
+        (self.regions() + self.fold - 1) / self.fold
+    }
+
+    /// Pixels at the port.
+    pub(crate) fn ports(&self) -> i64 {
+        if self.raster { 1 } else { self.lanes() }
+    }
+
+    fn has_window(&self) -> bool {
+        self.base.has("edge") || self.base.has("corner")
+    }
+
+    pub(crate) fn halo(&self) -> i64 {
+        if self.base.shared {
+            i64::from(self.base.median) + i64::from(self.has_window())
+        } else {
+            0
+        }
+    }
+
+    /// S.
+    fn denoised_side(&self) -> i64 {
+        self.base.side + if self.base.shared && self.has_window() { 2 } else { 0 }
+    }
+
+    /// Q.
+    pub(crate) fn address_to_data(&self) -> i64 {
+        let mut words = (self.base.side + 2 * self.halo()).pow(2);
+        if self.base.median {
+            words += self.denoised_side().pow(2);
+        }
+        if !self.base.median || self.base.last_sent {
+            words += self.base.n();
+        }
+        let mut slot = 1;
+        while slot < words {
+            slot *= 2;
+        }
+        let luts = i64::from(self.base.bits) * ((self.fold * slot + 63) / 64);
+        if luts <= 128 { 0 } else { 1 }
+    }
+
+    /// The phases of a slot.
+    pub(crate) fn phases(&self) -> Vec<Phase> {
+        use Phase::{Hidden, Rotation, Unload};
+        let (n, p, q) = (self.base.n(), i64::from(self.base.bits), self.address_to_data());
+        let (median, last_sent) = (self.base.median, self.base.last_sent);
+        let mut phases = Vec::new();
+        if median {
+            let per_pixel = 10 * p + 3 + q + i64::from(last_sent);
+            phases.push(Hidden(self.denoised_side().pow(2) * per_pixel));
+        }
+        if self.halo() == 2 {
+            phases.push(Hidden(4 * (self.base.side + 2) * (2 + q)));
+        }
+        if !median {
+            phases.push(Hidden(if last_sent { 3 * n } else { n * (3 + q) }));
+        }
+        phases.push(Rotation);
+        for feature in &self.base.features {
+            phases.push(Hidden(self.pass(feature)));
+            phases.push(Rotation);
+        }
+        if last_sent {
+            phases.push(Hidden(n * (2 + q)));
+        }
+        phases.push(Unload);
+        phases
+    }
+
+    fn pass(&self, feature: &FeatureRecipe) -> i64 {
+        let (n, p) = (self.base.n(), i64::from(self.base.bits));
+        let bits = |largest: i64| (0..).find(|&bits| largest >> bits == 0).unwrap_or(0i64);
+        match feature.name {
+            "edge" => 14 * n,
+            "corner" => 36 * n,
+            "mad" => 2 * n + p + 2 * i64::from(feature.fraction_bits) + 3,
+            _ => {
+                let ones = (0..13).filter(|bit| n >> bit & 1 == 1).count() as i64;
+                n + p * n * ones + 2 * bits(n * self.base.pixel_max()) + p + bits(n) + 2
+            }
+        }
+    }
+
+    /// Steps of a phase.
+    pub(crate) fn steps(&self, phase: Phase) -> i64 {
+        match phase {
+            Phase::Hidden(steps) => steps,
+            Phase::Rotation => self.lanes(),
+            Phase::Unload if self.raster => self.base.n() * (1 + self.lanes()),
+            Phase::Unload => self.base.n(),
+        }
+    }
+
+    /// J.
+    pub(crate) fn steps_per_frame(&self) -> i64 {
+        self.fold * self.phases().into_iter().map(|phase| self.steps(phase)).sum::<i64>()
+    }
+
+    /// Pixels per port of a frame.
+    pub(crate) fn frame_pixels(&self) -> i64 {
+        if self.raster {
+            self.regions() * self.base.n()
+        } else {
+            self.fold * (self.base.side + 2 * self.halo()).pow(2)
+        }
+    }
+
+    /// How many clocks it takes to take a pixel of a frame.
+    pub(crate) fn clocks_of_pixel(&self, pixel: i64) -> i64 {
+        if !self.raster {
+            return 1;
+        }
+        let width = self.base.columns() * self.base.side;
+        let shown = |at: i64, regions: i64| {
+            let side = self.base.side;
+            let windows = (0..regions).flat_map(|region| {
+                (-self.halo()..side + self.halo()).map(move |place| region * side + place)
+            });
+            windows.filter(|place| (*place).clamp(0, regions * side - 1) == at).count() as i64
+        };
+        shown(pixel % width, self.base.columns()) * shown(pixel / width, self.base.rows())
+    }
+}
+
+/// Every kind of serial design, with a few regions.
+pub(crate) fn serial_recipes() -> impl Strategy<Value = SerialRecipe> {
+    let sides = prop_oneof![6 => select(vec![4i64, 4, 5, 6, 7, 8]), 1 => 4i64..=11];
+    (recipes_of(sides), any::<bool>(), 0i64..=9).prop_map(|(base, raster, fold)| {
+        let regions = base.columns() * base.rows();
+        SerialRecipe { fold: 1 + fold % regions, raster, base }
+    })
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Lanes that are given any streams, with halos that no frame has: what the serial array says of them
+//! is what the pipelined array says.
+
+use foveate_model::{PipelinedRcm, SerialRcm, Thresholds};
+use proptest::prelude::*;
+
+use super::bench::{Bench, Job, Manner, by_port};
+use super::recipe::{SerialRecipe, serial_recipes};
+use super::waveform::Facts;
+use crate::frames::Random;
+
+/// By frame, region and place; every frame keeps some of the one before.
+fn streams(recipe: &SerialRecipe, frames: usize, seed: u64) -> Vec<Vec<Vec<u16>>> {
+    let mut random = Random(seed);
+    let top = recipe.base.pixel_max() + 1;
+    let places = (recipe.base.side + 2 * recipe.halo()).pow(2) as usize;
+    let mut now = vec![vec![0u16; places]; (recipe.lanes() * recipe.fold) as usize];
+    let mut all = Vec::new();
+    for _ in 0..frames {
+        let (kept, spread) = (random.below(101), 1 + random.below(top));
+        for pixel in now.iter_mut().flatten() {
+            if random.below(100) >= kept {
+                *pixel = random.below(spread) as u16;
+            }
+        }
+        all.push(now.clone());
+    }
+    all
+}
+
+/// What the pipelined array says of every frame and region.
+fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>> {
+    let design = recipe.base.design();
+    let thresholds = Thresholds::of(&design);
+    let (regions, places) = (design.regions() as usize, streams[0][0].len());
+    let mut facts = vec![Vec::new(); regions];
+    let mut leaving = vec![Vec::new(); regions];
+    let mut rcm = PipelinedRcm::new(&design);
+    // Black frames behind the last drive out what is still inside.
+    for clock in 0..(streams.len() + 3) * places {
+        let at = |region: usize| {
+            streams.get(clock / places).map_or(0, |frame| frame[region][clock % places])
+        };
+        let pixels: Vec<u16> = (0..regions).map(at).collect();
+        for (region, output) in rcm.step(false, true, &pixels, &thresholds).iter().enumerate() {
+            if output.decision_valid {
+                let count = std::iter::once(output.temporal_count.into());
+                let scores = count.chain(output.scores).take(1 + recipe.base.features.len());
+                facts[region].push(Facts {
+                    scores: scores.collect(),
+                    srs: output.srs,
+                    trs: output.trs,
+                    payload: Vec::new(),
+                });
+            }
+            if output.forward_valid {
+                leaving[region].push(output.forward_pixel);
+            }
+        }
+    }
+    for (facts, leaving) in facts.iter_mut().zip(leaving) {
+        let active = facts.iter_mut().filter(|facts| facts.srs && facts.trs);
+        for (facts, pixels) in active.zip(leaving.chunks_exact(recipe.base.n() as usize)) {
+            facts.payload = pixels.to_vec();
+        }
+    }
+    (0..streams.len()).map(|frame| facts.iter().map(|of| of[frame].clone()).collect()).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn any_streams_are_judged_as_the_pipelined_array_judges_them(
+        mut recipe in serial_recipes(),
+        frames in 1usize..4,
+        seed in any::<u64>(),
+    ) {
+        recipe.raster = false;
+        let streams = streams(&recipe, frames, seed);
+        let job = |(frame, facts): (&Vec<Vec<u16>>, Vec<Facts>)| Job {
+            pixels: by_port(&recipe, frame),
+            thresholds: Thresholds::of(&recipe.design()),
+            facts,
+        };
+        let jobs: Vec<Job> = streams.iter().zip(pipelined(&recipe, &streams)).map(job).collect();
+        let rcm = SerialRcm::new(&recipe.design());
+        prop_assert_eq!(Bench::new(&recipe, rcm, Manner::DENSE).run(&jobs), Ok(()));
+    }
+}

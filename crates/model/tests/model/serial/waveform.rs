@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the ports must show after every edge: a list of edges at which something is seen, written
+//! out frame by frame, with no state but the list.
+
+use std::collections::BTreeMap;
+
+use foveate_model::SerialOutput;
+
+use super::recipe::{Phase, SerialRecipe};
+use crate::oracle::Seen;
+
+/// What is known of one region and frame: the temporal count and the scores, the decision, and the
+/// pixels that leave if it is active.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Facts {
+    pub(crate) scores: Vec<u64>,
+    pub(crate) srs: bool,
+    pub(crate) trs: bool,
+    pub(crate) payload: Vec<u16>,
+}
+
+/// What the oracle knows.
+pub(crate) fn facts(seen: &Seen) -> Vec<Facts> {
+    let facts = |region: &crate::oracle::SeenRegion| Facts {
+        scores: std::iter::once(&region.temporal_count)
+            .chain(&region.scores)
+            .map(|&score| score as u64)
+            .collect(),
+        srs: region.srs,
+        trs: region.trs,
+        payload: region.payload.iter().map(|&pixel| pixel as u16).collect(),
+    };
+    seen.regions.iter().map(facts).collect()
+}
+
+/// What means something at the ports, but for `ready_o`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Shown {
+    /// Index, region, score.
+    pub(crate) score: Option<(u32, u32, u64)>,
+    /// SRS, TRS, active.
+    pub(crate) decision: Option<(bool, bool, bool)>,
+    /// Port, pixel.
+    pub(crate) pixels: Vec<(usize, u16)>,
+    /// Position, slot, region, where there are pixels.
+    pub(crate) place: Option<(u32, u32, u32)>,
+}
+
+impl Shown {
+    pub(crate) fn by(output: &SerialOutput) -> Self {
+        let decision = (output.srs, output.trs, output.active);
+        assert!(output.decision_valid || decision == (false, false, false));
+        let ports = output.forward_valid.iter().zip(&output.forward_pixel).enumerate();
+        let pixels: Vec<(usize, u16)> = ports
+            .filter(|(_, (valid, _))| **valid)
+            .map(|(port, (_, &pixel))| (port, pixel))
+            .collect();
+        let place = (output.forward_position, output.forward_slot, output.forward_region);
+        Self {
+            score: output.score_valid.then_some((output.score_index, output.region, output.score)),
+            decision: output.decision_valid.then_some(decision),
+            place: (!pixels.is_empty()).then_some(place),
+            pixels,
+        }
+    }
+}
+
+/// What the steps of a frame show, by number of the step; steps that show nothing are left out.
+pub(crate) fn steps(recipe: &SerialRecipe, facts: &[Facts]) -> Vec<(i64, Shown)> {
+    let mut shown = Vec::new();
+    let mut start = 0;
+    for slot in 0..recipe.fold {
+        let mut rotation = 0;
+        for phase in recipe.phases() {
+            match phase {
+                Phase::Hidden(_) => {}
+                Phase::Rotation => {
+                    shown.extend(rotate(recipe, facts, slot, rotation, start));
+                    rotation += 1;
+                }
+                Phase::Unload if recipe.raster => {
+                    shown.extend(unload_raster(recipe, facts, slot, start));
+                }
+                Phase::Unload => shown.extend(unload_lanes(recipe, facts, slot, start)),
+            }
+            start += recipe.steps(phase);
+        }
+    }
+    shown
+}
+
+/// Lane and region of every region of a slot.
+fn served(recipe: &SerialRecipe, slot: i64) -> Vec<(i64, i64)> {
+    let all = (0..recipe.lanes()).map(|lane| (lane, lane * recipe.fold + slot));
+    all.filter(|&(_, region)| region < recipe.regions()).collect()
+}
+
+fn rotate(
+    recipe: &SerialRecipe,
+    facts: &[Facts],
+    slot: i64,
+    number: usize,
+    start: i64,
+) -> Vec<(i64, Shown)> {
+    let last = number == recipe.base.features.len();
+    let score = |(lane, region): (i64, i64)| {
+        let facts = &facts[region as usize];
+        let decision = (facts.srs, facts.trs, facts.srs && facts.trs);
+        let score = Some((number as u32, region as u32, facts.scores[number]));
+        (start + lane, Shown { score, decision: last.then_some(decision), ..Shown::default() })
+    };
+    served(recipe, slot).into_iter().map(score).collect()
+}
+
+fn unload_lanes(
+    recipe: &SerialRecipe,
+    facts: &[Facts],
+    slot: i64,
+    start: i64,
+) -> Vec<(i64, Shown)> {
+    let mut shown = Vec::new();
+    for position in 0..recipe.base.n() {
+        let mut pixels = Vec::new();
+        for (lane, region) in served(recipe, slot) {
+            let facts = &facts[region as usize];
+            if facts.srs && facts.trs {
+                pixels.push((lane as usize, facts.payload[position as usize]));
+            }
+        }
+        if !pixels.is_empty() {
+            let place = Some((position as u32, slot as u32, 0));
+            shown.push((start + position, Shown { pixels, place, ..Shown::default() }));
+        }
+    }
+    shown
+}
+
+fn unload_raster(
+    recipe: &SerialRecipe,
+    facts: &[Facts],
+    slot: i64,
+    start: i64,
+) -> Vec<(i64, Shown)> {
+    let mut shown = Vec::new();
+    for position in 0..recipe.base.n() {
+        for (lane, region) in served(recipe, slot) {
+            let facts = &facts[region as usize];
+            if facts.srs && facts.trs {
+                let step = start + position * (1 + recipe.lanes()) + 1 + lane;
+                let pixels = vec![(0, facts.payload[position as usize])];
+                let place = Some((position as u32, 0, region as u32));
+                shown.push((step, Shown { pixels, place, ..Shown::default() }));
+            }
+        }
+    }
+    shown
+}
+
+/// What is due, by edge.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Timeline {
+    shown: BTreeMap<i64, Shown>,
+    /// The first edge after which `ready_o` is 1 again.
+    pub(crate) ready_from: i64,
+}
+
+impl Timeline {
+    pub(crate) fn ready(&self, edge: i64) -> bool {
+        edge >= self.ready_from
+    }
+
+    pub(crate) fn shown(&self, edge: i64) -> Shown {
+        self.shown.get(&edge).cloned().unwrap_or_default()
+    }
+
+    /// A reset happens at this edge.
+    pub(crate) fn reset(&mut self, edge: i64) {
+        self.shown.split_off(&edge);
+        self.ready_from = edge;
+    }
+
+    /// A pixel of a frame is taken at this edge; the last one says what is known of the frame.
+    pub(crate) fn take(
+        &mut self,
+        recipe: &SerialRecipe,
+        edge: i64,
+        pixel: i64,
+        facts: Option<&[Facts]>,
+    ) {
+        let taken = edge + recipe.clocks_of_pixel(pixel) - 1;
+        self.ready_from = taken;
+        if let Some(facts) = facts {
+            self.ready_from = taken + 1 + recipe.steps_per_frame();
+            let first = taken + 1 + recipe.address_to_data();
+            let due = steps(recipe, facts).into_iter().map(|(step, shown)| (first + step, shown));
+            self.shown.extend(due);
+        }
+    }
+}
