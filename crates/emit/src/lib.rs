@@ -9,6 +9,8 @@ mod core;
 mod leaf;
 mod rcm;
 mod rpu;
+mod serial;
+mod thresholds;
 mod verilog;
 
 pub use crate::core::core;
@@ -26,8 +28,7 @@ pub struct SourceFile {
     pub contents: String,
 }
 
-/// The timing of the only organization that there is Verilog for; whoever emits asks
-/// `Design::pipelined_timing` first.
+/// The timing of a pipelined design; only its modules ask.
 ///
 /// # Panics
 /// When the design is serial.

@@ -29,7 +29,7 @@ pub(crate) fn render(design: &Design) -> String {
         banner: banner(design),
         columns: design.columns(),
         rows: design.rows(),
-        ports: PortLine::all(&ports),
+        ports: PortLine::all(&ports, design),
         pins,
     };
     text_of(&view)

@@ -40,6 +40,6 @@ pub use feature::{Mean, SpatialFeature, Variance};
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
 pub use reciprocal::Reciprocal;
-pub use serial::{Area, AreaKind, LaneMemory, MemoryKind, Phase, SerialTiming};
+pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryKind, Phase, SerialTiming};
 pub use timing::{PipelinedTiming, Timing};
 pub use width::{bits_for, index_bits, mad_score_max};

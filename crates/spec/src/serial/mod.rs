@@ -7,10 +7,12 @@
 mod memory;
 mod ports;
 mod timing;
+mod widths;
 
 pub use memory::{Area, AreaKind, LaneMemory, MemoryKind};
 pub(crate) use ports::ports;
 pub use timing::{Phase, SerialTiming};
+pub use widths::LaneWidths;
 
 use crate::{Design, index_bits};
 
