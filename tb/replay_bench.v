@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Replays recorded vectors through `{= top =}` and compares every output at every clock, bit by bit
-// and four-state: an X is a mismatch.
+// and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
+// where that bit is expected.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex. A line is one clock: the inputs, then the
 //                  outputs that are expected after its rising edge with these inputs still applied,
@@ -78,7 +79,7 @@ module {= bench =};
     begin
       {%- for port in outputs %}
       {%- if port.lanes == 1 %}
-      if ({= port.name =} !== {= port.name =}_expected && !{= port.name =}_failed) begin
+      if ({= port.gate =}{= port.name =} !== {= port.name =}_expected && !{= port.name =}_failed) begin
         {= port.name =}_failed = 1'b1;
         failures = failures + 1;
         $display("MISMATCH clock %0d port {= port.name =} expected %h got %h",
@@ -86,11 +87,11 @@ module {= bench =};
       end
       {%- else %}
       for (lane = 0; lane < {= port.lanes =}; lane = lane + 1) begin
-        if ({= port.lane =} !== {= port.expected_lane =}
+        if ({= port.gate =}{= port.lane =} !== {= port.expected_lane =}
             && !{= port.name =}_failed) begin
           {= port.name =}_failed = 1'b1;
           failures = failures + 1;
-          $display("MISMATCH clock %0d port {= port.name =} region %0d expected %h got %h",
+          $display("MISMATCH clock %0d port {= port.name =} lane %0d expected %h got %h",
                    clocks, lane, {= port.expected_lane =},
                    {= port.lane =});
         end
