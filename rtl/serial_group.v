@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // What the sequencer says, registered for a group of lanes, so that no net reaches all of them. Every
 // group has registers of its own, which synthesis is to keep.
-(* keep_hierarchy *)
 `default_nettype none
 
+(* keep_hierarchy = "yes" *)
 module serial_group #(
     parameter WIDTH = 8,             // bits of a pixel
     parameter ADDRESS_BITS = 7,

@@ -9,9 +9,9 @@
 // five of nine clear the bit. `run_q` counts to five in unary, which takes no logic but its enable;
 // for `edge` its lowest bit says that one of the two comparisons of a pixel was a hit, for `corner`
 // it is the length of the run.
-(* keep_hierarchy *)
 `default_nettype none
 
+(* keep_hierarchy = "yes" *)
 module serial_lane #(
     parameter WIDTH = 8,         // bits of a pixel
     parameter WORDS = 128,       // of the memory
