@@ -6,6 +6,7 @@
 //   +vectors=FILE  the vectors, by default vectors.hex. A line is one clock: the inputs, then the
 //                  outputs that are expected after its rising edge with these inputs still applied,
 //                  hexadecimal, in the order in which they are declared below
+//   +stop          ends at the first mismatch
 //   +waves=FILE    writes waves of everything: VCD, or FST with `vvp SIMULATION -fst`
 //
 // Prints the first mismatch of each output. The last line starts with PASS or FAIL.
@@ -112,7 +113,7 @@ module {= bench =};
     failures = 0;
     columns = 0;
     if (file != 0) read_line;
-    while (columns == {= columns =}) begin
+    while (columns == {= columns =} && !(failures != 0 && $test$plusargs("stop"))) begin
       apply;
       #5 {= clock.name =} = 1'b1;
       #4 compare;
@@ -121,9 +122,9 @@ module {= bench =};
       read_line;
     end
     if (file == 0) $display("FAIL cannot read the vectors from %0s", path);
+    else if (failures != 0) $display("FAIL %0d of {= outputs.len() =} outputs in %0d clocks", failures, clocks);
     else if (columns > 0) $display("FAIL line %0d of the vectors is incomplete", clocks + 1);
     else if (clocks == 0) $display("FAIL there are no vectors in %0s", path);
-    else if (failures != 0) $display("FAIL %0d of {= outputs.len() =} outputs in %0d clocks", failures, clocks);
     else $display("PASS %0d clocks", clocks);
     $finish;
   end

@@ -165,7 +165,7 @@ mod tests {
         assert!(bench.contains("module tiny_replay;"), "{bench}");
         assert!(bench.contains("tiny #(.N(4)) dut ("), "{bench}");
         assert!(bench.contains("b_o[lane*8 +: 8] !== b_o_expected[lane*8 +: 8]"), "{bench}");
-        assert!(bench.contains("while (columns == 2)"), "{bench}");
+        assert!(bench.contains("while (columns == 2 &&"), "{bench}");
     }
 
     #[test]
