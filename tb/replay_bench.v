@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Replays recorded vectors through `{= top =}` and compares every output at every clock, bit by bit
-// and four-state: an X is a mismatch.
+// and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
+// where that bit is expected.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex. A line is one clock: the inputs, then the
 //                  outputs that are expected after its rising edge with these inputs still applied,
 //                  hexadecimal, in the order in which they are declared below
+//   +stop          ends at the first mismatch
 //   +waves=FILE    writes waves of everything: VCD, or FST with `vvp SIMULATION -fst`
 //
 // Prints the first mismatch of each output. The last line starts with PASS or FAIL.
@@ -78,7 +80,7 @@ module {= bench =};
     begin
       {%- for port in outputs %}
       {%- if port.lanes == 1 %}
-      if ({= port.name =} !== {= port.name =}_expected && !{= port.name =}_failed) begin
+      if ({= port.gate =}{= port.name =} !== {= port.name =}_expected && !{= port.name =}_failed) begin
         {= port.name =}_failed = 1'b1;
         failures = failures + 1;
         $display("MISMATCH clock %0d port {= port.name =} expected %h got %h",
@@ -86,11 +88,11 @@ module {= bench =};
       end
       {%- else %}
       for (lane = 0; lane < {= port.lanes =}; lane = lane + 1) begin
-        if ({= port.lane =} !== {= port.expected_lane =}
+        if ({= port.gate =}{= port.lane =} !== {= port.expected_lane =}
             && !{= port.name =}_failed) begin
           {= port.name =}_failed = 1'b1;
           failures = failures + 1;
-          $display("MISMATCH clock %0d port {= port.name =} region %0d expected %h got %h",
+          $display("MISMATCH clock %0d port {= port.name =} lane %0d expected %h got %h",
                    clocks, lane, {= port.expected_lane =},
                    {= port.lane =});
         end
@@ -111,7 +113,7 @@ module {= bench =};
     failures = 0;
     columns = 0;
     if (file != 0) read_line;
-    while (columns == {= columns =}) begin
+    while (columns == {= columns =} && !(failures != 0 && $test$plusargs("stop"))) begin
       apply;
       #5 {= clock.name =} = 1'b1;
       #4 compare;
@@ -120,9 +122,9 @@ module {= bench =};
       read_line;
     end
     if (file == 0) $display("FAIL cannot read the vectors from %0s", path);
+    else if (failures != 0) $display("FAIL %0d of {= outputs.len() =} outputs in %0d clocks", failures, clocks);
     else if (columns > 0) $display("FAIL line %0d of the vectors is incomplete", clocks + 1);
     else if (clocks == 0) $display("FAIL there are no vectors in %0s", path);
-    else if (failures != 0) $display("FAIL %0d of {= outputs.len() =} outputs in %0d clocks", failures, clocks);
     else $display("PASS %0d clocks", clocks);
     $finish;
   end

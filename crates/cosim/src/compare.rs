@@ -47,9 +47,10 @@ pub(crate) fn compare(recording: &Recording, actual: &Path) -> Result<Compared, 
             read_up_to(&mut expected, wanted).map_err(CosimError::io("read", &expected_path))?;
         let pairs = wanted[..filled].chunks_exact(bytes).zip(got.chunks_exact(bytes));
         for (wanted, got) in pairs {
-            if wanted != got {
-                let difference = first_difference(layout, records, wanted, got);
-                return Ok(Compared { records, difference });
+            if wanted != got
+                && let Some(difference) = first_difference(layout, records, wanted, got)
+            {
+                return Ok(Compared { records, difference: Some(difference) });
             }
             records += 1;
         }
@@ -73,8 +74,10 @@ fn read_up_to(file: &mut impl Read, buffer: &mut [u8]) -> std::io::Result<usize>
 }
 
 fn first_difference(layout: &Layout, clock: u64, wanted: &[u8], got: &[u8]) -> Option<Difference> {
-    layout.fields().iter().find_map(|field| {
-        let lane = (0..field.port.lanes).find(|&l| field.get(wanted, l) != field.get(got, l))?;
+    let differing = layout.fields().iter().filter(|field| field.slice(wanted) != field.slice(got));
+    differing.into_iter().find_map(|field| {
+        let mut lanes = layout.compared_lanes(field, wanted);
+        let lane = lanes.find(|&lane| field.get(wanted, lane) != field.get(got, lane))?;
         let digits = field.port.width.div_ceil(4) as usize;
         let hex = |record| format!("{:0digits$x}", field.get(record, lane));
         let port = field.port.name.clone();
@@ -96,7 +99,7 @@ pub(crate) fn parse_mismatch(line: &str) -> Option<Difference> {
         match key {
             "clock" => difference.clock = value.parse().ok()?,
             "port" => difference.port = value.to_owned(),
-            "region" => difference.lane = value.parse().ok()?,
+            "lane" => difference.lane = value.parse().ok()?,
             "expected" => difference.expected = value.to_owned(),
             "got" => difference.got = value.to_owned(),
             _ => return None,
@@ -119,7 +122,7 @@ mod tests {
 
     #[test]
     fn lines_of_the_bench_are_read() {
-        let line = "MISMATCH clock 12 port srs_o region 3 expected 1 got x";
+        let line = "MISMATCH clock 12 port srs_o lane 3 expected 1 got x";
         let difference = parse_mismatch(line).unwrap();
         assert_eq!((difference.clock, difference.lane), (12, 3));
         assert_eq!((difference.port.as_str(), difference.got.as_str()), ("srs_o", "x"));

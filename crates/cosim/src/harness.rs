@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sources made from a port list alone: the C++ harness for Verilator and the replay bench.
 
+use crate::field::Field;
+use crate::gate::Gate;
 use crate::layout::Layout;
 use askama::Template;
 use foveate_emit::Parameter;
@@ -33,7 +35,7 @@ pub fn bench_file(top: &str) -> String {
 pub fn replay_bench(top: &str, ports: &[Port], parameters: &[Parameter]) -> String {
     let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
     let bench_ports = |layout: &Layout| -> Vec<BenchPort> {
-        layout.fields().iter().map(|field| BenchPort::new(&field.port)).collect()
+        layout.fields().iter().map(|field| BenchPort::new(field, layout.fields())).collect()
     };
     let (inputs, outputs) = (bench_ports(&inputs), bench_ports(&outputs));
     let columns = inputs.len() + outputs.len();
@@ -88,10 +90,13 @@ struct BenchPort {
     lanes: u32,
     lane: String,
     expected_lane: String,
+    /// What must hold for the port to be compared, and `&&`; nothing where it always is.
+    gate: String,
 }
 
 impl BenchPort {
-    fn new(port: &Port) -> Self {
+    fn new(field: &Field, fields: &[Field]) -> Self {
+        let port = &field.port;
         let name = &port.name;
         let range = match port.bits() {
             1 => String::new(),
@@ -109,7 +114,19 @@ impl BenchPort {
             lanes: port.lanes,
             lane: lane(name),
             expected_lane: lane(&format!("{name}_expected")),
+            gate: gate(field, fields),
         }
+    }
+}
+
+fn gate(field: &Field, fields: &[Field]) -> String {
+    match field.gate {
+        Gate::Always => String::new(),
+        Gate::SameLane(valid) if field.port.lanes == 1 => {
+            format!("{}_expected && ", fields[valid].port.name)
+        }
+        Gate::SameLane(valid) => format!("{}_expected[lane] && ", fields[valid].port.name),
+        Gate::AnyLane(valid) => format!("|{}_expected && ", fields[valid].port.name),
     }
 }
 
@@ -130,6 +147,7 @@ pub(crate) fn rendered(template: &impl Template) -> String {
 mod tests {
     use super::*;
     use crate::testing::port;
+    use foveate_spec::Qualifier;
 
     #[test]
     fn ports_of_every_width_are_named_once_per_use() {
@@ -147,6 +165,24 @@ mod tests {
         assert!(bench.contains("module tiny_replay;"), "{bench}");
         assert!(bench.contains("tiny #(.N(4)) dut ("), "{bench}");
         assert!(bench.contains("b_o[lane*8 +: 8] !== b_o_expected[lane*8 +: 8]"), "{bench}");
-        assert!(bench.contains("while (columns == 2)"), "{bench}");
+        assert!(bench.contains("while (columns == 2 &&"), "{bench}");
+    }
+
+    #[test]
+    fn a_port_without_its_valid_bit_is_not_compared() {
+        let valid = |lanes| Port {
+            role: PortRole::ForwardValid,
+            ..port("v_o", Direction::Output, 1, lanes)
+        };
+        let gated = |name, lanes| Port {
+            qualifier: Qualifier::With(PortRole::ForwardValid),
+            ..port(name, Direction::Output, 8, lanes)
+        };
+        let bench = replay_bench("tiny", &[gated("a_o", 1), gated("b_o", 3), valid(3)], &[]);
+        assert!(bench.contains("if (|v_o_expected && a_o !== a_o_expected"), "{bench}");
+        assert!(bench.contains("if (v_o_expected[lane] && b_o[lane*8 +: 8] !=="), "{bench}");
+        assert!(bench.contains("if (v_o[lane] !== v_o_expected[lane]"), "{bench}");
+        let bench = replay_bench("tiny", &[gated("a_o", 1), valid(1)], &[]);
+        assert!(bench.contains("if (v_o_expected && a_o !== a_o_expected"), "{bench}");
     }
 }

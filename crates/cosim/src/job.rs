@@ -4,18 +4,19 @@
 use crate::compare::Difference;
 use crate::error::CosimError;
 use crate::level::Level;
+use crate::locate;
 use crate::recording::Recording;
 use crate::replay::{self, About};
 use crate::report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
-use crate::stimulus::{Stimulus, pipelined};
+use crate::stimulus::Stimulus;
 use foveate_emit::{SourceFile, verilog};
-use foveate_spec::{Design, SpecError};
+use foveate_spec::{Design, Organization, SpecError};
 use foveate_toolchain::{Cache, Source, Toolchain, sha256_hex};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Arrays of more regions than this share the code of one RPU; see [`Dut::no_inline`].
+/// Arrays of more regions than this share the code of one RPU, or lane; see [`Dut::no_inline`].
 const INLINED_REGIONS: u32 = 16;
 
 /// A co-simulation to run.
@@ -59,10 +60,9 @@ impl Job {
     /// A job with the Verilog that the emitter makes for the level of the stimulus.
     ///
     /// # Errors
-    /// When the level's grid makes a frame that no design can have, or the design is serial.
+    /// When the level's grid makes a frame that no design can have.
     pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, SpecError> {
         let simulated = stimulus.level.design(design)?;
-        pipelined(&simulated)?;
         Ok(Self {
             sources: verilog(&simulated, stimulus.level.top()),
             design: design.clone(),
@@ -110,7 +110,7 @@ impl Job {
             limit: self.limit,
         };
         let outcome = run.run(&dut, &recording)?;
-        let mut report = self.report(&design, &recording, &outcome);
+        let mut report = self.report(&design, &recording, &outcome)?;
         report.seconds.vectors = vectors.as_secs_f64();
         report.rtl_sha256 = rtl_sha256(&dut.sources);
         if let (Some(difference), Some(mismatch)) = (&outcome.difference, &report.mismatch) {
@@ -133,21 +133,31 @@ impl Job {
     fn dut(&self, design: &Design) -> Dut {
         let top = self.stimulus.level.top();
         let array = self.stimulus.level != Level::Rpu && design.regions() > INLINED_REGIONS;
+        let repeated = match design.organization() {
+            Organization::Pipelined => "rpu",
+            Organization::Serial => "serial_lane",
+        };
         let source = |file: &SourceFile| (file.path.clone(), file.contents.clone());
         Dut {
             top: top.module().to_owned(),
             ports: top.ports(design),
             parameters: top.parameters(design),
             sources: self.sources.iter().map(source).collect(),
-            no_inline: if array { vec!["rpu".to_owned()] } else { Vec::new() },
+            no_inline: if array { vec![repeated.to_owned()] } else { Vec::new() },
         }
     }
 
-    fn report(&self, design: &Design, recording: &Recording, outcome: &Outcome) -> CosimReport {
+    fn report(
+        &self,
+        design: &Design,
+        recording: &Recording,
+        outcome: &Outcome,
+    ) -> Result<CosimReport, CosimError> {
         let level = self.stimulus.level;
-        let mismatch = outcome.difference.as_ref().map(|d| named(d, recording, level));
+        let name = |difference| named(difference, design, recording, level);
+        let mismatch = outcome.difference.as_ref().map(name).transpose()?;
         let clocks = mismatch.as_ref().map_or(recording.clocks(), |mismatch| mismatch.clock + 1);
-        CosimReport {
+        Ok(CosimReport {
             format_version: FORMAT_VERSION,
             name: self.name(),
             design: design.fingerprint(),
@@ -160,7 +170,7 @@ impl Job {
             sequences: recording.sequences(),
             frames: recording.frames(),
             clocks,
-            comparisons: clocks * recording.outputs().values(),
+            comparisons: recording.comparisons(clocks)?,
             mismatch,
             replay: None,
             waves: None,
@@ -169,26 +179,31 @@ impl Job {
                 build: outcome.build.as_secs_f64(),
                 run: outcome.run.as_secs_f64(),
             },
-        }
+        })
     }
 }
 
 /// A difference in the words of the vectors.
-fn named(difference: &Difference, recording: &Recording, level: Level) -> Mismatch {
+fn named(
+    difference: &Difference,
+    design: &Design,
+    recording: &Recording,
+    level: Level,
+) -> Result<Mismatch, CosimError> {
     let span = recording.span(difference.clock);
-    Mismatch {
+    let expected = recording.expected_at(difference.clock)?;
+    let first = span.and_then(|span| span.region);
+    let region = locate::region(design, level, recording.outputs(), &expected, difference, first);
+    Ok(Mismatch {
         sequence: span.map_or_else(String::new, |span| span.sequence.clone()),
         frame: span.map_or(0, |span| span.frame),
         clock: difference.clock,
         clock_in_frame: difference.clock - span.map_or(0, |span| span.first_clock),
-        region: match level {
-            Level::Rpu => span.and_then(|span| span.region),
-            Level::Rcm { .. } | Level::Full => Some(difference.lane),
-        },
+        region,
         port: difference.port.clone(),
         expected: difference.expected.clone(),
         got: difference.got.clone(),
-    }
+    })
 }
 
 /// One hash for all files, in their order.

@@ -6,19 +6,9 @@
 //! as in the Verilog vector: lane i takes bits `i * width ..= i * width + width - 1`. So a port's
 //! bytes, read as one little-endian number, are the value of the Verilog vector.
 
-use foveate_spec::{Direction, Port, PortRole};
-use std::fmt::Write as _;
-
-/// Where one port lies in a record.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Field {
-    /// The port.
-    pub port: Port,
-    /// Its first byte.
-    pub offset: usize,
-    /// How many bytes it takes.
-    pub bytes: usize,
-}
+use crate::field::Field;
+use crate::gate::Gate;
+use foveate_spec::{Direction, Port, PortRole, Qualifier};
 
 /// The layout of a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,13 +35,14 @@ impl Layout {
 
     fn of<'a>(ports: impl Iterator<Item = &'a Port>) -> Self {
         let mut offset = 0;
-        let place = |port: &Port| {
+        let ports: Vec<_> = ports.collect();
+        let place = |port: &&Port| {
             let bytes = port.bits().div_ceil(8) as usize;
-            let field = Field { port: port.clone(), offset, bytes };
+            let field = Field { port: (*port).clone(), offset, bytes, gate: gate(port, &ports) };
             offset += bytes;
             field
         };
-        let fields = ports.map(place).collect();
+        let fields = ports.iter().map(place).collect();
         Self { fields, bytes: offset }
     }
 
@@ -73,10 +64,27 @@ impl Layout {
         vec![0; self.bytes]
     }
 
-    /// Values that are compared per record: one per port and lane.
+    /// Whether every value is compared at every clock.
     #[must_use]
-    pub fn values(&self) -> u64 {
-        self.fields.iter().map(|field| u64::from(field.port.lanes)).sum()
+    pub fn is_ungated(&self) -> bool {
+        self.fields.iter().all(|field| field.gate == Gate::Always)
+    }
+
+    /// Values of a record that are compared: one per port and lane, where a valid bit belongs to the port
+    /// only those with the bit.
+    #[must_use]
+    pub fn values(&self, expected: &[u8]) -> u64 {
+        self.fields.iter().map(|field| self.compared_lanes(field, expected).count() as u64).sum()
+    }
+
+    /// The lanes of a port that are compared, by the valid bits of the expected record.
+    pub(crate) fn compared_lanes<'a>(
+        &'a self,
+        field: &'a Field,
+        expected: &'a [u8],
+    ) -> impl Iterator<Item = u32> + 'a {
+        let lanes = if field.gate.is_shut(&self.fields, expected) { 0 } else { field.port.lanes };
+        (0..lanes).filter(|&lane| field.gate.lets_pass(&self.fields, expected, lane))
     }
 
     /// Appends a record as a line's worth of hexadecimal numbers, one per port.
@@ -90,66 +98,25 @@ impl Layout {
     }
 }
 
-impl Field {
-    /// Writes one lane; bits of `value` above the lane's width are dropped.
-    pub fn set(&self, record: &mut [u8], lane: u32, value: u64) {
-        let (start, shift) = self.place(lane);
-        let mask = u128::from(mask(self.port.width));
-        let (mask, value) = (mask << shift, (u128::from(value) & mask) << shift);
-        let masks = mask.to_le_bytes().into_iter().zip(value.to_le_bytes());
-        for (byte, (mask, value)) in record[start..self.end()].iter_mut().zip(masks) {
-            *byte = (*byte & !mask) | value;
-        }
+/// The gate of a port among the others of a layout: the valid bit of its lane where there is one per
+/// lane, else that of any lane.
+fn gate(port: &Port, ports: &[&Port]) -> Gate {
+    let valid = |role| ports.iter().position(|other| other.role == role);
+    let valid = match port.qualifier {
+        Qualifier::Always => None,
+        Qualifier::With(role) => valid(role),
+    };
+    match valid {
+        None => Gate::Always,
+        Some(valid) if ports[valid].per_lane == port.per_lane => Gate::SameLane(valid),
+        Some(valid) => Gate::AnyLane(valid),
     }
-
-    /// Reads one lane.
-    #[must_use]
-    pub fn get(&self, record: &[u8], lane: u32) -> u64 {
-        let (start, shift) = self.place(lane);
-        let mut word = [0; 16];
-        for (to, from) in word.iter_mut().zip(&record[start..self.end()]) {
-            *to = *from;
-        }
-        let value = (u128::from_le_bytes(word) >> shift) & u128::from(mask(self.port.width));
-        u64::try_from(value).unwrap_or(u64::MAX)
-    }
-
-    /// Its bytes.
-    #[must_use]
-    pub fn slice<'a>(&self, record: &'a [u8]) -> &'a [u8] {
-        &record[self.offset..self.end()]
-    }
-
-    /// The whole port as one hexadecimal number, as many digits as its bits need.
-    #[must_use]
-    pub fn hex(&self, record: &[u8]) -> String {
-        let mut digits = String::with_capacity(2 * self.bytes);
-        for byte in self.slice(record).iter().rev() {
-            // Writing to a string cannot fail.
-            let _ = write!(digits, "{byte:02x}");
-        }
-        let wanted = self.port.bits().div_ceil(4) as usize;
-        digits.split_off(digits.len() - wanted)
-    }
-
-    fn end(&self) -> usize {
-        self.offset + self.bytes
-    }
-
-    /// First byte of a lane, and its first bit in that byte.
-    fn place(&self, lane: u32) -> (usize, u32) {
-        let bit = lane * self.port.width;
-        (self.offset + (bit / 8) as usize, bit % 8)
-    }
-}
-
-fn mask(width: u32) -> u64 {
-    u64::MAX.checked_shr(u64::BITS.saturating_sub(width)).unwrap_or(0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::field::mask;
     use crate::testing::port;
     use proptest::prelude::*;
 
@@ -206,6 +173,12 @@ mod tests {
             for (index, lane, value) in expected {
                 prop_assert_eq!(layout.fields()[index].get(&record, lane), value);
             }
+            let mut at_once = layout.record();
+            for field in layout.fields() {
+                let lanes = 0..field.port.lanes;
+                field.set_all(&mut at_once, lanes.map(|lane| field.get(&record, lane)));
+            }
+            prop_assert_eq!(at_once, record);
         }
     }
 }

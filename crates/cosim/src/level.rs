@@ -2,7 +2,7 @@
 //! How much of the hardware is simulated.
 
 use foveate_emit::Top;
-use foveate_spec::{Design, SpecError};
+use foveate_spec::{Design, Organization, SpecError};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -10,7 +10,8 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
-    /// One RPU, through which the regions of the frames go one after the other.
+    /// One RPU, through which the regions of the frames go one after the other; of a serial design one
+    /// lane, with as many of them as share it.
     #[default]
     Rpu,
     /// An RCM of that many regions.
@@ -40,16 +41,23 @@ impl Level {
     /// When the grid makes a frame that no design can have.
     pub fn design(self, design: &Design) -> Result<Design, SpecError> {
         match self {
-            Self::Rpu | Self::Full => Ok(design.clone()),
-            Self::Rcm { columns, rows } => {
-                let mut config = design.config().clone();
-                let side = design.region_size();
-                config.frame.width = Some(columns.saturating_mul(side));
-                config.frame.height = Some(rows.saturating_mul(side));
-                config.validate()
-            }
+            Self::Full => Ok(design.clone()),
+            Self::Rpu => match design.organization() {
+                Organization::Pipelined => Ok(design.clone()),
+                Organization::Serial => Ok(design.one_lane()),
+            },
+            Self::Rcm { columns, rows } => with_grid(design, columns, rows),
         }
     }
+}
+
+/// The design for a frame of so many regions.
+fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, SpecError> {
+    let mut config = design.config().clone();
+    let side = design.region_size();
+    config.frame.width = Some(columns.saturating_mul(side));
+    config.frame.height = Some(rows.saturating_mul(side));
+    config.validate()
 }
 
 impl fmt::Display for Level {

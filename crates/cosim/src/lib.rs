@@ -9,11 +9,14 @@
 
 mod compare;
 mod error;
+mod field;
+mod gate;
 mod harness;
 mod job;
 mod junit;
 mod layout;
 mod level;
+mod locate;
 mod recording;
 mod replay;
 mod report;
@@ -24,10 +27,12 @@ mod testing;
 
 pub use compare::Difference;
 pub use error::CosimError;
+pub use field::Field;
+pub use gate::Gate;
 pub use harness::{bench_file, bench_name, cpp_harness, replay_bench};
 pub use job::{Job, Progress};
 pub use junit::{junit_error, junit_xml};
-pub use layout::{Field, Layout};
+pub use layout::Layout;
 pub use level::Level;
 pub use recording::{Recorder, Recording, Span, vectors_hex};
 pub use report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};

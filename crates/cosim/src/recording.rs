@@ -8,7 +8,7 @@ use crate::error::CosimError;
 use crate::layout::Layout;
 use foveate_spec::Port;
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Read, Write};
+use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -53,6 +53,37 @@ impl Recording {
     #[must_use]
     pub fn clocks(&self) -> u64 {
         self.clocks
+    }
+
+    /// The expected outputs of one clock.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub(crate) fn expected_at(&self, clock: u64) -> Result<Vec<u8>, CosimError> {
+        let (path, mut record) = (self.expected_path(), self.outputs.record());
+        let mut file = open(&path)?;
+        file.seek(SeekFrom::Start(clock * record.len() as u64))
+            .and_then(|_| file.read_exact(&mut record))
+            .map_err(CosimError::io("read", &path))?;
+        Ok(record)
+    }
+
+    /// Values that are compared in the first `clocks` clocks.
+    ///
+    /// # Errors
+    /// When the expected outputs cannot be read.
+    pub fn comparisons(&self, clocks: u64) -> Result<u64, CosimError> {
+        let mut record = self.outputs.record();
+        if self.outputs.is_ungated() {
+            return Ok(clocks * self.outputs.values(&record));
+        }
+        let path = self.expected_path();
+        let (mut expected, mut values) = (open(&path)?, 0);
+        for _ in 0..clocks {
+            expected.read_exact(&mut record).map_err(CosimError::io("read", &path))?;
+            values += self.outputs.values(&record);
+        }
+        Ok(values)
     }
 
     /// Frames that were begun.

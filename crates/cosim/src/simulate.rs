@@ -235,6 +235,8 @@ impl Run<'_> {
         let mut args = vec![format!("+vectors={VECTORS_FILE}")];
         if self.trace {
             args.extend(["-fst".to_owned(), format!("+waves={WAVES_FILE}")]);
+        } else {
+            args.push("+stop".to_owned());
         }
         let output = iverilog::run(self.toolchain, program, &args, folder, self.limit)?;
         let log = output.log();

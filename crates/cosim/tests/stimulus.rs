@@ -4,8 +4,9 @@
 
 mod common;
 
+use common::vectors::{clocks, field};
 use common::{design, directed};
-use foveate_cosim::{Field, Layout, Level, Recording, Stimulus, vectors_hex};
+use foveate_cosim::{Level, Recording, Stimulus, vectors_hex};
 use foveate_model::Frame;
 use foveate_spec::{Config, Design, FeatureKind, PortRole};
 use std::collections::BTreeSet;
@@ -17,21 +18,6 @@ fn config(toml: &str) -> Config {
 
 fn record(design: &Design, stimulus: &Stimulus) -> Recording {
     stimulus.record(design, &mut |_, _| {}).unwrap()
-}
-
-fn field(layout: &Layout, role: PortRole) -> &Field {
-    layout.fields().iter().find(|field| field.port.role == role).unwrap()
-}
-
-/// Input and expected output records, clock by clock.
-fn clocks(recording: &Recording) -> Vec<(Vec<u8>, Vec<u8>)> {
-    let inputs = std::fs::read(recording.inputs_path()).unwrap();
-    let outputs = std::fs::read(recording.expected_path()).unwrap();
-    let inputs = inputs.chunks_exact(recording.inputs().record_bytes());
-    let outputs = outputs.chunks_exact(recording.outputs().record_bytes());
-    assert_eq!(inputs.len() as u64, recording.clocks());
-    assert_eq!(outputs.len() as u64, recording.clocks());
-    inputs.zip(outputs).map(|(a, b)| (a.to_vec(), b.to_vec())).collect()
 }
 
 #[test]

@@ -5,6 +5,7 @@ use super::gauge::{filtered, window};
 use super::random::Random;
 use foveate_model::Thresholds;
 use foveate_model::feature::{corner::strength, edge::magnitude};
+use foveate_model::window::Window;
 use foveate_spec::{Design, FeatureKind, Filter};
 
 /// The largest value of every threshold port.
@@ -50,20 +51,42 @@ impl Ranges {
         } else {
             (now.to_vec(), before.to_vec())
         };
-        let places = now.len().saturating_sub(1) as u64;
-        let mut place = || usize::try_from(random.up_to(places)).unwrap_or(0);
-        let (at, changed) = (place(), place());
-        let window = window(&now, at);
+        let (at, changed) = (place_in(&now, random), place_in(&now, random));
+        self.aim_at_window(&window(&now, at), thresholds, random);
+        self.aim_temporal_level(now[changed].abs_diff(before[changed]), thresholds, random);
+    }
+
+    /// Levels of features for a square of pixels as it comes in.
+    pub(crate) fn aim_feature_levels(
+        &self,
+        square: &[u16],
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
+        let at = place_in(square, random);
+        let window = if self.denoise { window(&filtered(square), at) } else { window(square, at) };
+        self.aim_at_window(&window, thresholds, random);
+    }
+
+    fn aim_at_window(&self, window: &Window, thresholds: &mut Thresholds, random: &mut Random) {
         for (index, kind) in self.kinds.iter().enumerate() {
             let value = match kind {
-                FeatureKind::Edge => magnitude(&window),
-                FeatureKind::Corner => strength(&window).unwrap_or(0),
+                FeatureKind::Edge => magnitude(window),
+                FeatureKind::Corner => strength(window).unwrap_or(0),
                 FeatureKind::Mad | FeatureKind::Variance => continue,
             };
             let max = self.level[index].into();
             thresholds.level[index] = narrow(near(value.into(), max, random));
         }
-        let difference = now[changed].abs_diff(before[changed]);
+    }
+
+    /// The temporal level for a pixel that has changed by so much.
+    pub(crate) fn aim_temporal_level(
+        &self,
+        difference: u16,
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
         thresholds.temporal_level =
             narrow(near(difference.into(), self.temporal_level.into(), random));
     }
@@ -108,6 +131,10 @@ fn near(value: u64, max: u64, random: &mut Random) -> u64 {
         _ => 0,
     };
     chosen.min(max)
+}
+
+fn place_in(square: &[u16], random: &mut Random) -> usize {
+    usize::try_from(random.up_to(square.len().saturating_sub(1) as u64)).unwrap_or(0)
 }
 
 fn narrow(value: u64) -> u32 {

@@ -14,6 +14,7 @@ mod machine;
 mod motif;
 mod random;
 mod sequence;
+mod serial;
 mod session;
 
 use crate::error::CosimError;
@@ -21,7 +22,7 @@ use crate::level::Level;
 use crate::recording::{Recorder, Recording};
 use driver::Driver;
 use foveate_model::{Frame, PipelinedRcm, PipelinedRpu};
-use foveate_spec::{Design, PipelinedTiming, SpecError};
+use foveate_spec::{Design, Organization, PipelinedTiming, Timing};
 use machine::Machine;
 use random::Random;
 use session::Session;
@@ -53,17 +54,11 @@ impl Default for Stimulus {
     }
 }
 
-/// The timing of the only organization that can be co-simulated.
-pub(crate) fn pipelined(design: &Design) -> Result<PipelinedTiming, SpecError> {
-    design.pipelined_timing("co-simulation")
-}
-
 impl Stimulus {
     /// Runs the model and records. `progress` hears how many sequences of how many are done.
     ///
     /// # Errors
-    /// When a frame is not of the design's kind, the design is serial, or there is no place for the
-    /// files.
+    /// When a frame is not of the design's kind, the or there is no place for the files.
     pub fn record(
         &self,
         design: &Design,
@@ -83,29 +78,58 @@ impl Stimulus {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, CosimError> {
         self.check(design)?;
-        let design = self.level.design(design)?;
-        let timing = pipelined(&design)?;
-        self.check_size(&design)?;
-        let mut recorder = Recorder::new(&self.level.top().ports(&design))?;
+        let simulated = self.level.design(design)?;
+        self.check_size(&simulated)?;
+        let mut recorder = Recorder::new(&self.level.top().ports(&simulated))?;
+        match simulated.timing() {
+            Timing::Pipelined(timing) => {
+                self.run_pipelined(&simulated, timing, &mut recorder, cancel, progress)?;
+            }
+            Timing::Serial(timing) => {
+                let mut random = Random::new(self.seed);
+                let driver = serial::Driver::new(&simulated, &mut recorder, random.fork(), cancel);
+                let level = self.level;
+                serial::Session::new(design, &simulated, level, &timing, driver, random).run(
+                    self.rounds,
+                    &self.frames,
+                    progress,
+                )?;
+            }
+        }
+        recorder.finish()
+    }
+
+    fn run_pipelined(
+        &self,
+        design: &Design,
+        timing: PipelinedTiming,
+        recorder: &mut Recorder,
+        cancel: &AtomicBool,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<(), CosimError> {
         let mut random = Random::new(self.seed);
         let (machine, lanes) = match self.level {
-            Level::Rpu => (Machine::Rpu(Box::new(PipelinedRpu::new(&design))), 1),
+            Level::Rpu => (Machine::Rpu(Box::new(PipelinedRpu::new(design))), 1),
             Level::Rcm { .. } | Level::Full => {
-                (Machine::Rcm(PipelinedRcm::new(&design)), design.regions())
+                (Machine::Rcm(PipelinedRcm::new(design)), design.regions())
             }
         };
         let lanes = lanes as usize;
-        let driver = Driver::new(&design, machine, lanes, &mut recorder, random.fork(), cancel);
-        let mut session = Session::new(&design, timing, self.level, driver, random);
-        session.run(self.rounds, &self.frames, progress)?;
-        recorder.finish()
+        let driver = Driver::new(design, machine, lanes, recorder, random.fork(), cancel);
+        Session::new(design, timing, self.level, driver, random).run(
+            self.rounds,
+            &self.frames,
+            progress,
+        )
     }
 
     /// Refuses an array that would not fit into memory, before any of it is made.
     fn check_size(&self, design: &Design) -> Result<(), CosimError> {
-        let regions = u64::from(match self.level {
-            Level::Rpu => 1,
-            Level::Rcm { .. } | Level::Full => design.regions(),
+        let regions = u64::from(match (self.level, design.organization()) {
+            (Level::Rpu, Organization::Pipelined) => 1,
+            (Level::Rpu, Organization::Serial) | (Level::Rcm { .. } | Level::Full, _) => {
+                design.regions()
+            }
         });
         let pixels = regions * u64::from(design.stream_pixels());
         if regions > MAX_REGIONS || pixels > MAX_PIXELS {

@@ -2,6 +2,9 @@
 //! What the tests that run whole co-simulations share.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub(crate) mod serial;
+pub(crate) mod vectors;
+
 use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator, Stimulus};
 use foveate_spec::{Config, Design};
 use foveate_toolchain::{Cache, Toolchain};

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which region a differing value belongs to.
+
+use crate::compare::Difference;
+use crate::field::Field;
+use crate::layout::Layout;
+use crate::level::Level;
+use foveate_spec::{Design, Feed, Organization, PortRole};
+
+/// The region of a difference, as far as the expected outputs of that clock tell. `first` is the region of
+/// the frame that goes through the only RPU, or lane, if it is one of a frame of the caller.
+pub(crate) fn region(
+    design: &Design,
+    level: Level,
+    layout: &Layout,
+    expected: &[u8],
+    difference: &Difference,
+    first: Option<u32>,
+) -> Option<u32> {
+    let in_array = match design.organization() {
+        Organization::Pipelined => Some(difference.lane),
+        Organization::Serial => in_serial_array(design, layout, expected, difference),
+    };
+    match level {
+        Level::Rpu => first.map(|first| first + in_array.unwrap_or(0)),
+        Level::Rcm { .. } | Level::Full => in_array,
+    }
+}
+
+/// The lanes of a serial array take turns with their regions.
+fn in_serial_array(
+    design: &Design,
+    layout: &Layout,
+    expected: &[u8],
+    difference: &Difference,
+) -> Option<u32> {
+    let fields = layout.fields();
+    let of_role = |role| fields.iter().find(|field| field.port.role == role);
+    let says = |role| {
+        let field: &Field = of_role(role)?;
+        let mut lanes = layout.compared_lanes(field, expected);
+        let value = field.get(expected, lanes.next()?);
+        u32::try_from(value).ok()
+    };
+    let role = fields.iter().find(|field| field.port.name == difference.port)?.port.role;
+    match role {
+        PortRole::ForwardValid | PortRole::ForwardPixel => match design.feed() {
+            Feed::Raster => says(PortRole::ForwardRegion),
+            Feed::Parallel if design.fold() == 1 => Some(difference.lane),
+            Feed::Parallel => {
+                let slot = says(PortRole::ForwardSlot)?;
+                Some(difference.lane * design.fold() + slot)
+            }
+        },
+        PortRole::ForwardPosition | PortRole::ForwardRegion => says(PortRole::ForwardRegion),
+        _ => says(PortRole::Region),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foveate_spec::Config;
+
+    fn design(hardware: &str) -> Design {
+        let toml = format!(
+            "[frame]\nwidth = 24\nheight = 16\n[hardware]\norganization = \"serial\"\n{hardware}"
+        );
+        Config::from_toml(&toml).unwrap().validate().unwrap()
+    }
+
+    /// The region of a difference at a port and lane, where the record shows these values.
+    fn found(
+        design: &Design,
+        shown: &[(PortRole, u32, u64)],
+        port: &str,
+        lane: u32,
+    ) -> Option<u32> {
+        let layout = Layout::outputs(&design.rcm_ports());
+        let mut expected = layout.record();
+        for &(role, lane, value) in shown {
+            let field = layout.fields().iter().find(|field| field.port.role == role).unwrap();
+            field.set(&mut expected, lane, value);
+        }
+        let (port, expected_hex, got) = (port.to_owned(), String::new(), String::new());
+        let difference = Difference { clock: 0, port, lane, expected: expected_hex, got };
+        region(design, Level::Full, &layout, &expected, &difference, None)
+    }
+
+    #[test]
+    fn a_score_belongs_to_the_region_that_is_shown() {
+        let design = design("");
+        let shown = [(PortRole::ScoreValid, 0, 1), (PortRole::Region, 0, 4)];
+        assert_eq!(found(&design, &shown, "score_o", 0), Some(4));
+        assert_eq!(found(&design, &shown, "trs_o", 0), Some(4));
+        assert_eq!(found(&design, &shown[1..], "score_valid_o", 0), None);
+    }
+
+    #[test]
+    fn a_pixel_belongs_to_its_lane_and_slot_or_to_the_region_that_is_shown() {
+        let plain = design("");
+        assert_eq!(found(&plain, &[], "forward_valid_o", 5), Some(5));
+        let folded = design("fold = 4\n");
+        let shown = [(PortRole::ForwardValid, 0, 1), (PortRole::ForwardSlot, 0, 1)];
+        assert_eq!(found(&folded, &shown, "forward_pixel_o", 1), Some(5));
+        assert_eq!(found(&folded, &[], "forward_valid_o", 1), None);
+        let raster = design("feed = \"raster\"\nfold = 4\n");
+        let shown = [(PortRole::ForwardValid, 0, 1), (PortRole::ForwardRegion, 0, 3)];
+        assert_eq!(found(&raster, &shown, "forward_pixel_o", 0), Some(3));
+        assert_eq!(found(&raster, &shown, "forward_position_o", 0), Some(3));
+    }
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds for a frame that is to come, aimed at the scores that one of its regions will have.
+
+use super::super::aim::Ranges;
+use super::super::random::Random;
+use super::feed::Feed;
+use foveate_model::{RegionScorer, SerialRcm, Thresholds, region_border};
+use foveate_spec::Design;
+
+/// How the thresholds of a frame are chosen, where they are ports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// As the design is configured.
+    Design,
+    /// Levels on, just below or just above what a pixel of the frame has, minima likewise with the scores
+    /// of its region.
+    Exact,
+    /// The least that is not nothing: what is not flat is relevant, what changes has changed.
+    Least,
+}
+
+/// Looks ahead.
+pub(super) struct Aimer {
+    design: Design,
+    ranges: Ranges,
+    scorer: RegionScorer,
+}
+
+impl Aimer {
+    pub(super) fn new(design: &Design) -> Self {
+        Self {
+            design: design.clone(),
+            ranges: Ranges::of(design),
+            scorer: RegionScorer::new(design),
+        }
+    }
+
+    /// Thresholds without any relation to the data, for clocks at which they do not matter.
+    pub(super) fn shake(&self, thresholds: &mut Thresholds, random: &mut Random) {
+        self.ranges.shake(thresholds, random);
+    }
+
+    /// Thresholds near the data of one region of the frame that the model takes next.
+    pub(super) fn exact(
+        &mut self,
+        model: &SerialRcm,
+        feed: &Feed,
+        random: &mut Random,
+    ) -> Thresholds {
+        let region = random.up_to_u32(self.design.regions() - 1);
+        let stream = feed.stream(region as usize);
+        let reference = model.reference(region);
+        self.scorer.take(stream.iter().copied(), region_border(&self.design, region));
+        let mut thresholds = Thresholds::of(&self.design);
+        let difference = reference.and_then(|reference| {
+            let pairs = self.scorer.pixels().zip(reference);
+            let differences: Vec<u16> = pairs.map(|(now, then)| now.abs_diff(*then)).collect();
+            random.of(&differences)
+        });
+        self.ranges.aim_feature_levels(stream, &mut thresholds, random);
+        self.ranges.aim_temporal_level(difference.unwrap_or(0), &mut thresholds, random);
+        let scores = self.scorer.scores(&thresholds);
+        let count = self.scorer.temporal_count(reference, &thresholds);
+        self.ranges.aim_minima(&scores, count, &mut thresholds, random);
+        thresholds
+    }
+
+    /// Levels of 0 and minima of 1.
+    pub(super) fn least() -> Thresholds {
+        Thresholds { level: [0; 4], min_score: [1; 4], temporal_level: 0, temporal_min_count: 1 }
+    }
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What goes into the model of an array, and what comes out, in records.
+
+use crate::layout::Layout;
+use foveate_model::{SerialInput, SerialOutput};
+use foveate_spec::{Design, FeatureKind, PortRole};
+
+/// Puts values of the model into records.
+pub(super) struct Codec {
+    kinds: Vec<FeatureKind>,
+}
+
+impl Codec {
+    pub(super) fn new(design: &Design) -> Self {
+        Self { kinds: design.features().iter().map(|feature| feature.kind()).collect() }
+    }
+
+    fn index(&self, kind: FeatureKind) -> usize {
+        self.kinds.iter().position(|&own| own == kind).unwrap_or(0)
+    }
+
+    pub(super) fn inputs(&self, layout: &Layout, input: &SerialInput<'_>, record: &mut [u8]) {
+        let thresholds = input.thresholds;
+        for field in layout.fields() {
+            let value = match field.port.role {
+                PortRole::Reset => input.reset.into(),
+                PortRole::Valid => input.valid.into(),
+                PortRole::Level(kind) => thresholds.level[self.index(kind)].into(),
+                PortRole::MinScore(kind) => thresholds.min_score[self.index(kind)],
+                PortRole::TemporalLevel => thresholds.temporal_level.into(),
+                PortRole::TemporalMinCount => thresholds.temporal_min_count.into(),
+                PortRole::Pixel => {
+                    field.set_all(record, input.pixels.iter().map(|&pixel| pixel.into()));
+                    continue;
+                }
+                // Outputs, and what only pipelined designs have.
+                _ => continue,
+            };
+            field.set(record, 0, value);
+        }
+    }
+
+    pub(super) fn outputs(&self, layout: &Layout, output: &SerialOutput, record: &mut [u8]) {
+        for field in layout.fields() {
+            let value = match field.port.role {
+                PortRole::Ready => output.ready.into(),
+                PortRole::ScoreValid => output.score_valid.into(),
+                PortRole::ScoreIndex => output.score_index.into(),
+                PortRole::Region => output.region.into(),
+                PortRole::AnyScore => output.score,
+                PortRole::DecisionValid => output.decision_valid.into(),
+                PortRole::Srs => output.srs.into(),
+                PortRole::Trs => output.trs.into(),
+                PortRole::Active => output.active.into(),
+                PortRole::ForwardPosition => output.forward_position.into(),
+                PortRole::ForwardSlot => output.forward_slot.into(),
+                PortRole::ForwardRegion => output.forward_region.into(),
+                PortRole::ForwardValid => {
+                    field.set_all(record, output.forward_valid.iter().map(|&valid| valid.into()));
+                    continue;
+                }
+                PortRole::ForwardPixel => {
+                    field.set_all(record, output.forward_pixel.iter().map(|&pixel| pixel.into()));
+                    continue;
+                }
+                // Inputs, and what only pipelined designs have.
+                _ => continue,
+            };
+            field.set(record, 0, value);
+        }
+    }
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Offers frames to the model of an array, clock by clock, and records what goes in and what comes out.
+
+use super::super::random::Random;
+use super::super::sequence::Gaps;
+use super::aim::{Aim, Aimer};
+use super::codec::Codec;
+use super::feed::Feed;
+use crate::error::CosimError;
+use crate::recording::Recorder;
+use foveate_model::{SerialInput, SerialOutput, SerialRcm, Thresholds};
+use foveate_spec::{Design, Thresholds as Mode};
+use foveate_toolchain::ToolError;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Offers frames to the model.
+pub(crate) struct Driver<'a> {
+    model: SerialRcm,
+    aimer: Aimer,
+    cancel: &'a AtomicBool,
+    recorder: &'a mut Recorder,
+    codec: Codec,
+    random: Random,
+    configured: Thresholds,
+    /// Thresholds as they are now.
+    thresholds: Thresholds,
+    /// Whether a frame is under way, so that thresholds must stay still.
+    is_under_way: bool,
+    constant: bool,
+    aim: Aim,
+    manners: Manners,
+    max: u16,
+    garbage: Vec<u16>,
+    input: Vec<u8>,
+    expected: Vec<u8>,
+}
+
+/// What is offered while the array takes nothing.
+#[derive(Clone, Copy, Debug)]
+enum Manners {
+    /// Nothing.
+    Quiet,
+    /// The next pixel, until it is taken.
+    Patient,
+    /// Garbage, which must not be taken, at every other clock.
+    Rude,
+}
+
+impl<'a> Driver<'a> {
+    pub(crate) fn new(
+        design: &Design,
+        recorder: &'a mut Recorder,
+        random: Random,
+        cancel: &'a AtomicBool,
+    ) -> Self {
+        let (model, configured) = (SerialRcm::new(design), Thresholds::of(design));
+        Self {
+            aimer: Aimer::new(design),
+            cancel,
+            input: recorder.inputs().record(),
+            expected: recorder.outputs().record(),
+            recorder,
+            codec: Codec::new(design),
+            random,
+            configured,
+            thresholds: configured,
+            is_under_way: false,
+            constant: design.thresholds() == Mode::Constant,
+            aim: Aim::Design,
+            manners: Manners::Quiet,
+            max: u16::try_from(design.pixel_max()).unwrap_or(u16::MAX),
+            garbage: vec![0; model.output().forward_valid.len()],
+            model,
+        }
+    }
+
+    /// Starts over: a reset, during which anything may be on the other inputs.
+    pub(super) fn begin(&mut self, aim: Aim) -> Result<(), CosimError> {
+        self.aim = if self.constant { Aim::Design } else { aim };
+        self.is_under_way = false;
+        for _ in 0..=self.random.up_to(1) {
+            let valid = self.random.one_in(2);
+            self.clock(true, valid, None)?;
+        }
+        let pause = self.random.up_to(2);
+        self.idle(pause)
+    }
+
+    /// Whether the thresholds are those of the design, so that the data must meet them.
+    pub(super) fn thresholds_are_configured(&self) -> bool {
+        self.aim == Aim::Design
+    }
+
+    /// Names the clocks from here on.
+    pub(super) fn name(&mut self, sequence: &str, frame: u64, region: Option<u32>) {
+        self.recorder.begin_frame(sequence, frame, region);
+    }
+
+    /// What the outputs show.
+    pub(super) fn output(&self) -> &SerialOutput {
+        self.model.output()
+    }
+
+    /// How many clocks without a pixel it takes until the array takes one again.
+    pub(super) fn clocks_until_ready(&self) -> u64 {
+        self.model.clocks_until_ready()
+    }
+
+    /// The first `count` pixels of a frame, each as soon as it is taken and its gap is over.
+    pub(super) fn take(&mut self, feed: &Feed, count: usize, gaps: Gaps) -> Result<(), CosimError> {
+        self.manners = match self.random.up_to(3) {
+            0 => Manners::Quiet,
+            1 => Manners::Patient,
+            _ => Manners::Rude,
+        };
+        self.wait(feed.beats().next())?;
+        self.is_under_way = false;
+        for pixels in feed.beats().take(count) {
+            self.wait(Some(pixels))?;
+            let pause = gaps.before_pixel(&mut self.random);
+            self.idle(pause)?;
+            if !self.is_under_way {
+                self.thresholds = match self.aim {
+                    Aim::Design => self.configured,
+                    Aim::Exact => self.aimer.exact(&self.model, feed, &mut self.random),
+                    Aim::Least => Aimer::least(),
+                };
+                self.is_under_way = true;
+            }
+            self.clock(false, true, Some(pixels))?;
+        }
+        Ok(())
+    }
+
+    /// Lets the array work until it takes the next pixel, which is `next`.
+    fn wait(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
+        while !self.output().ready {
+            self.busy(next)?;
+        }
+        Ok(())
+    }
+
+    /// Lets the array work on its frame until only so many clocks are left of it.
+    pub(super) fn work_until(&mut self, left: u64) -> Result<(), CosimError> {
+        while self.clocks_until_ready() > left {
+            self.busy(None)?;
+        }
+        self.is_under_way &= !self.output().ready;
+        Ok(())
+    }
+
+    /// Lets the array work on its frame until a score is at the ports.
+    pub(super) fn work_until_score(&mut self) -> Result<(), CosimError> {
+        while self.clocks_until_ready() > 0 && !self.output().score_valid {
+            self.busy(None)?;
+        }
+        Ok(())
+    }
+
+    /// One clock at which nothing is taken.
+    fn busy(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
+        match self.manners {
+            Manners::Quiet => self.clock(false, false, None),
+            Manners::Patient => self.clock(false, next.is_some(), next),
+            Manners::Rude => {
+                let valid = self.random.one_in(2);
+                self.clock(false, valid, None)
+            }
+        }
+    }
+
+    /// Clocks without a pixel; the pixel port shows anything.
+    pub(super) fn idle(&mut self, clocks: u64) -> Result<(), CosimError> {
+        for _ in 0..clocks {
+            self.clock(false, false, None)?;
+        }
+        Ok(())
+    }
+
+    /// One edge. Without pixels garbage is applied.
+    fn clock(
+        &mut self,
+        reset: bool,
+        valid: bool,
+        pixels: Option<&[u16]>,
+    ) -> Result<(), CosimError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted.into());
+        }
+        if pixels.is_none() {
+            for pixel in &mut self.garbage {
+                *pixel = self.random.pixel(self.max);
+            }
+        }
+        if !self.is_under_way && self.aim != Aim::Design {
+            self.aimer.shake(&mut self.thresholds, &mut self.random);
+        }
+        let pixels = pixels.unwrap_or(&self.garbage);
+        let input = SerialInput { reset, valid, pixels, thresholds: &self.thresholds };
+        let output = self.model.step(&input);
+        self.codec.inputs(self.recorder.inputs(), &input, &mut self.input);
+        self.codec.outputs(self.recorder.outputs(), output, &mut self.expected);
+        self.recorder.push(&self.input, &self.expected)
+    }
+}

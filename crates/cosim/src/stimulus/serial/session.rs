@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A recording under way: draws the frames of each sequence and offers them to the array.
+
+use super::super::motif::Artist;
+use super::super::random::Random;
+use super::super::sequence::Gaps;
+use super::aim::Aim;
+use super::driver::Driver;
+use super::feed::Feed;
+use super::parts;
+use super::sequence::{End, SEQUENCES, Sequence};
+use crate::error::CosimError;
+use crate::level::Level;
+use foveate_model::Frame;
+use foveate_spec::{Design, SerialTiming};
+
+/// Clocks that are simulated after the last frame of a sequence has left.
+const SILENCE: u64 = 5;
+
+/// A recording under way.
+pub(crate) struct Session<'a> {
+    /// The design whose frames the caller gives.
+    whole: &'a Design,
+    /// The design that is simulated.
+    design: &'a Design,
+    level: Level,
+    driver: Driver<'a>,
+    random: Random,
+    /// One per region.
+    artists: Vec<Artist>,
+    clocks_per_frame: u64,
+    /// Clocks in which the pixels of the last slot leave.
+    unload: u64,
+}
+
+impl<'a> Session<'a> {
+    pub(crate) fn new(
+        whole: &'a Design,
+        design: &'a Design,
+        level: Level,
+        timing: &SerialTiming,
+        driver: Driver<'a>,
+        mut random: Random,
+    ) -> Self {
+        let artist = |_| Artist::new(design, design.region_size(), random.fork());
+        let artists = (0..design.regions()).map(artist).collect();
+        Self {
+            whole,
+            design,
+            level,
+            driver,
+            random,
+            artists,
+            clocks_per_frame: timing.clocks_per_frame(),
+            unload: timing.phases().last().map_or(0, |&(_, steps)| steps),
+        }
+    }
+
+    pub(crate) fn run(
+        &mut self,
+        rounds: u32,
+        frames: &[Frame],
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<(), CosimError> {
+        let parts = self.parts(frames);
+        let total = u64::from(rounds) * SEQUENCES.len() as u64 + parts.len() as u64;
+        let mut done = 0;
+        progress(done, total);
+        for round in 0..rounds as usize {
+            for (number, sequence) in SEQUENCES.iter().enumerate() {
+                self.directed(sequence, round, number)?;
+                done += 1;
+                progress(done, total);
+            }
+        }
+        for (number, first) in parts.into_iter().enumerate() {
+            self.given(number, first, frames)?;
+            done += 1;
+            progress(done, total);
+        }
+        Ok(())
+    }
+
+    /// One directed sequence. Gaps differ from sequence to sequence and from round to round.
+    fn directed(
+        &mut self,
+        sequence: &Sequence,
+        round: usize,
+        number: usize,
+    ) -> Result<(), CosimError> {
+        let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
+        self.driver.name(sequence.name, 0, None);
+        self.driver.begin(sequence.aim)?;
+        let last = sequence.motifs.len() - 1;
+        for frame in 0..=last {
+            self.draw(sequence, frame + round);
+            if frame > 0 {
+                self.driver.name(sequence.name, frame as u64, None);
+            }
+            let drawn = self.drawn()?;
+            let feed = Feed::of(self.design, &drawn, &mut self.random);
+            let beats = match (sequence.end, frame == last) {
+                (End::Loading, true) => self.below(feed.count()),
+                _ => feed.count(),
+            };
+            self.driver.take(&feed, beats, gaps)?;
+            if frame < last && gaps == Gaps::Bursts && self.random.one_in(2) {
+                self.drain()?;
+            }
+        }
+        self.end(sequence.end)
+    }
+
+    /// Lets every artist draw the next picture.
+    fn draw(&mut self, sequence: &Sequence, turn: usize) {
+        let configured = self.driver.thresholds_are_configured();
+        for (region, artist) in self.artists.iter_mut().enumerate() {
+            let shift = if sequence.mixed { region } else { 0 };
+            let motif = sequence.motifs[(turn + shift) % sequence.motifs.len()];
+            if configured && self.random.one_in(2) {
+                artist.draw_near_minimum(motif);
+            } else {
+                artist.draw(motif);
+            }
+        }
+    }
+
+    /// Brings the array to the place at which the next reset is to find it.
+    fn end(&mut self, end: End) -> Result<(), CosimError> {
+        let left = self.driver.clocks_until_ready();
+        match end {
+            End::Drained => self.drain(),
+            End::Loading => {
+                let pause = self.random.up_to(2);
+                self.driver.idle(pause)
+            }
+            End::Start => {
+                let clocks = self.random.up_to(4);
+                self.driver.work_until(left.saturating_sub(clocks))
+            }
+            End::Working => {
+                let clocks = self.random.up_to(left);
+                self.driver.work_until(clocks)
+            }
+            End::Rotating => {
+                let clocks = self.random.up_to(u64::from(self.design.lanes()));
+                self.driver.work_until_score()?;
+                let left = self.driver.clocks_until_ready();
+                self.driver.work_until(left.saturating_sub(clocks))
+            }
+            End::Unloading => {
+                let clocks = self.random.up_to(self.unload);
+                self.driver.work_until(clocks)
+            }
+            End::Ready => {
+                let clocks = self.random.up_to(2);
+                self.driver.work_until(clocks)
+            }
+        }
+    }
+
+    /// Lets everything leave.
+    fn drain(&mut self) -> Result<(), CosimError> {
+        self.driver.work_until(0)?;
+        let pause = self.random.up_to(SILENCE);
+        self.driver.idle(pause)
+    }
+
+    /// The parts of the caller's frames that are simulated, each by its first region; of an array one.
+    fn parts(&self, frames: &[Frame]) -> Vec<u32> {
+        match self.level {
+            _ if frames.is_empty() => Vec::new(),
+            Level::Rpu => {
+                parts::first_regions(self.whole, frames.len() as u64 * self.clocks_per_frame)
+            }
+            Level::Rcm { .. } | Level::Full => vec![0],
+        }
+    }
+
+    /// The caller's frames, through one lane or through the array.
+    fn given(&mut self, number: usize, first: u32, frames: &[Frame]) -> Result<(), CosimError> {
+        let gaps = Gaps::ALL[number % Gaps::ALL.len()];
+        let region = (self.level == Level::Rpu).then_some(first);
+        self.driver.name("frames", 0, region);
+        self.driver.begin(Aim::Design)?;
+        for (number, frame) in (0..).zip(frames) {
+            if number > 0 {
+                self.driver.name("frames", number, region);
+            }
+            let part = match self.level {
+                Level::Rpu => parts::of_lane(self.whole, frame, first)?,
+                Level::Rcm { .. } | Level::Full => parts::upper_left(self.design, frame)?,
+            };
+            let feed = Feed::of(self.design, &part, &mut self.random);
+            self.driver.take(&feed, feed.count(), gaps)?;
+        }
+        self.drain()
+    }
+
+    /// What the artists have drawn, as a frame.
+    fn drawn(&self) -> Result<Frame, CosimError> {
+        let design = self.design;
+        let (side, columns) = (design.region_size(), design.columns());
+        let pixel = |x: u32, y: u32| {
+            let artist = &self.artists[(y / side * columns + x / side) as usize];
+            artist.pixels[(y % side * side + x % side) as usize]
+        };
+        Frame::from_fn(design.width(), design.height(), design.pixel_bits(), pixel)
+            .map_err(|error| CosimError::Model { reason: error.to_string() })
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        usize::try_from(self.random.up_to(count.saturating_sub(1) as u64)).unwrap_or(0)
+    }
+}
