@@ -7,10 +7,10 @@
 
 use crate::error::CosimError;
 use crate::job::Job;
-use foveate_emit::Top;
+use foveate_emit::{SourceFile, Top};
 use foveate_estimate::{EstimateJob, ToolRecord};
-use foveate_spec::Design;
-use foveate_toolchain::{Cache, Source, Toolchain, yosys};
+use foveate_spec::{Design, Organization};
+use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256, yosys};
 use serde::{Deserialize, Serialize};
 
 /// The netlist itself, as a file.
@@ -36,19 +36,34 @@ pub struct NetlistRecord {
     pub sha256: String,
 }
 
-/// The synthesis of a design's array from its Verilog, for the area estimate and for [`Netlist`].
+/// A lane of the serial organization.
+const LANE: &str = "serial_lane";
+
+/// The synthesis of a design from its Verilog, for the area estimate and for [`Netlist`]. A serial
+/// array and its lone lane have each a module of their own; a pipelined one is made of RPUs.
 #[must_use]
-pub fn synthesis(design: &Design, sources: Vec<Source>) -> EstimateJob {
-    let parameters = Top::Rcm.parameters(design).into_iter();
+pub fn synthesis(design: &Design, top: Top, sources: Vec<Source>) -> EstimateJob {
+    let (unit, array, units) = match (design.organization(), top) {
+        (Organization::Pipelined, _) => (Top::Rpu.module(), Top::Rcm, design.regions()),
+        (Organization::Serial, Top::Rcm) => (LANE, Top::Rcm, design.lanes()),
+        (Organization::Serial, Top::Rpu) => (LANE, Top::Rpu, 1),
+    };
+    let parameters = array.parameters(design).into_iter();
     EstimateJob {
         sources,
-        unit: Top::Rpu.module().to_owned(),
-        units: design.regions().into(),
-        array: Top::Rcm.module().to_owned(),
+        unit: unit.to_owned(),
+        units: units.into(),
+        array: array.module().to_owned(),
         parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
         regions: design.regions().into(),
+        rpu_sha256: sources_sha256(&named(foveate_emit::verilog(design, Top::Rpu))),
         leaves_of: None,
     }
+}
+
+/// Verilog as the tools take it.
+fn named(files: Vec<SourceFile>) -> Vec<Source> {
+    files.into_iter().map(|file| (file.path, file.contents)).collect()
 }
 
 impl Netlist {
@@ -59,14 +74,15 @@ impl Netlist {
     /// When Yosys is missing or refuses the Verilog, or a cell has no model.
     pub fn of(job: &Job, toolchain: &Toolchain, cache: &Cache) -> Result<Self, CosimError> {
         let design = job.stimulus.level.design(&job.design)?;
-        let mut sources: Vec<Source> = job.named_sources();
-        let emitted = foveate_emit::verilog(&design, Top::Rcm);
-        // Verilog of one RPU lacks the array around it, which comes last.
-        let array = emitted.into_iter().last().map(|file| (file.path, file.contents));
-        if let Some(array) = array.filter(|(name, _)| sources.iter().all(|(own, _)| own != name)) {
-            sources.push(array);
+        let top = job.stimulus.level.top();
+        let mut sources = job.named_sources();
+        if design.organization() == Organization::Pipelined {
+            // Verilog of one RPU lacks the array around it, which comes last.
+            let array = named(foveate_emit::verilog(&design, Top::Rcm)).pop();
+            let is_new = |array: &Source| sources.iter().all(|(name, _)| *name != array.0);
+            sources.extend(array.filter(is_new));
         }
-        let synthesis = synthesis(&design, sources).synthesize(toolchain, cache)?;
+        let synthesis = synthesis(&design, top, sources).synthesize(toolchain, cache)?;
         let library = yosys::cell_models(toolchain, cache, "xilinx/cells_sim.v")?;
         let models = models(&library, synthesis.cells()?)?;
         let sources =
@@ -76,7 +92,7 @@ impl Netlist {
 
     /// What a report says of it.
     pub(crate) fn record(&self) -> NetlistRecord {
-        let sha256 = foveate_toolchain::sources_sha256(&self.sources);
+        let sha256 = sources_sha256(&self.sources);
         NetlistRecord { tool: self.tool.clone(), sha256 }
     }
 }

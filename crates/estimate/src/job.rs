@@ -40,6 +40,8 @@ pub struct EstimateJob {
     pub parameters: Vec<(String, u32)>,
     /// The number of regions.
     pub regions: u64,
+    /// The hash of the RTL of one RPU, as a co-simulation of it says it; see [`sources_sha256`].
+    pub rpu_sha256: String,
     /// The module whose leaves are listed, if any.
     pub leaves_of: Option<String>,
 }
@@ -91,7 +93,7 @@ pub fn estimate(
     let [unit, array] = paths.try_into().unwrap_or_default();
     Ok(Report::new(
         synthesis.tool,
-        job.rtl(),
+        Rtl { sha256: sources_sha256(&job.sources), rpu_sha256: job.rpu_sha256.clone() },
         job.regions,
         Areas {
             unit: netlist.whole_area(without[0], &[])?,
@@ -199,19 +201,6 @@ impl EstimateJob {
             expected: self.units,
             found: total,
         })
-    }
-
-    fn rtl(&self) -> Rtl {
-        let declares = |(_, text): &&Source| {
-            let name = |line: &str| {
-                let rest = line.trim_start().strip_prefix("module ")?;
-                rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().map(str::to_owned)
-            };
-            text.lines().any(|line| name(line).as_ref() == Some(&self.array))
-        };
-        let inner: Vec<Source> =
-            self.sources.iter().filter(|source| !declares(source)).cloned().collect();
-        Rtl { sha256: sources_sha256(&self.sources), unit_sha256: sources_sha256(&inner) }
     }
 }
 

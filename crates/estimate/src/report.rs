@@ -175,7 +175,7 @@ pub(crate) struct Areas {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rtl {
     pub(crate) sha256: String,
-    pub(crate) unit_sha256: String,
+    pub(crate) rpu_sha256: String,
 }
 
 /// The area of a design.
@@ -188,7 +188,7 @@ pub struct Report {
     /// The hash of the RTL: that of `sha256sum` over all files in the order of their names. A
     /// co-simulation of the whole array says the same.
     pub rtl_sha256: String,
-    /// The same without the array's own file. A co-simulation of one RPU says the same.
+    /// The same of the RTL of one RPU. A co-simulation of it says the same.
     pub rpu_sha256: String,
     /// The device of the shares.
     pub device: Device,
@@ -232,7 +232,7 @@ impl Report {
             format_version: FORMAT_VERSION,
             tool,
             rtl_sha256: rtl.sha256,
-            rpu_sha256: rtl.unit_sha256,
+            rpu_sha256: rtl.rpu_sha256,
             device,
             regions,
             rpu: unit,
@@ -307,7 +307,7 @@ pub(crate) mod tests {
             through: ["LUT6", "CARRY4", "CARRY4", "LUT2"].map(str::to_owned).to_vec(),
         };
         let paths = Paths { rpu: path.clone(), rcm: path };
-        let rtl = Rtl { sha256: "00".into(), unit_sha256: "01".into() };
+        let rtl = Rtl { sha256: "00".into(), rpu_sha256: "01".into() };
         Report::new(tool, rtl, regions, areas, paths, leaves)
     }
 

@@ -21,6 +21,7 @@ fn toy(regions: u64) -> EstimateJob {
         array: "rcm".to_owned(),
         parameters: Vec::new(),
         regions,
+        rpu_sha256: String::new(),
         leaves_of: Some("rpu".to_owned()),
     }
 }

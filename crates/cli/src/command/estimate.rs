@@ -5,7 +5,7 @@ mod compare;
 
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, Report, estimate, render_markdown, render_text};
-use foveate_spec::Design;
+use foveate_spec::{Design, Organization};
 use foveate_toolchain::{Cache, Toolchain};
 
 use crate::args::EstimateArgs;
@@ -28,8 +28,8 @@ impl Flow {
         let sources = foveate_emit::verilog(design, Top::Rcm);
         let sources = sources.into_iter().map(|file| (file.path, file.contents)).collect();
         let job = EstimateJob {
-            leaves_of: leaves.then(|| Top::Rpu.module().to_owned()),
-            ..foveate_cosim::synthesis(design, sources)
+            leaves_of: leaves.then(|| leaves_of(design).to_owned()),
+            ..foveate_cosim::synthesis(design, Top::Rcm, sources)
         };
         Ok(estimate(&self.toolchain, &self.cache, &job)?)
     }
@@ -47,5 +47,14 @@ fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
         output::text(&render_markdown(&report))
     } else {
         output::text(&render_text(&report, output::width()))
+    }
+}
+
+/// The module whose leaves say where the area goes: of a serial array its sequencer is as much of it as
+/// its lanes.
+fn leaves_of(design: &Design) -> &'static str {
+    match design.organization() {
+        Organization::Pipelined => Top::Rpu.module(),
+        Organization::Serial => Top::Rcm.module(),
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
         match design {
             Ok(design) => {
                 let report = flow.estimate(&design, false)?;
-                comparison.push(name, design.timing().cycles_per_frame.into(), report);
+                comparison.push(name, design.timing().clocks_per_frame(), report);
             }
             Err(error) => {
                 let skipped = Skipped { name: family, reason: error.to_string() };
@@ -92,7 +92,7 @@ fn folded(base: &Config, rate: u64, comparison: &Comparison) -> Wanted {
             .map(|key| format!("hardware.{key}"));
         Config::from_toml_with(&edge, &serial)?.validate()
     };
-    let fast = |design: &Design| comparison.rate(design.timing().cycles_per_frame.into()) >= rate;
+    let fast = |design: &Design| comparison.rate(design.timing().clocks_per_frame()) >= rate;
     let design = with_fold(1).map(|single| {
         let folds = (1..=single.regions()).rev();
         folds.filter_map(|fold| with_fold(fold).ok()).find(fast).unwrap_or(single)
