@@ -17,7 +17,7 @@ pub enum CosimError {
 
     /// The Verilog could not be synthesized.
     #[error(transparent)]
-    Synthesis(EstimateError),
+    Synthesis(Box<EstimateError>),
 
     /// A cell of the netlist cannot be simulated.
     #[error(
@@ -170,7 +170,7 @@ impl From<EstimateError> for CosimError {
     fn from(error: EstimateError) -> Self {
         match error {
             EstimateError::Tool(error) => error.into(),
-            error => Self::Synthesis(error),
+            error => Self::Synthesis(Box::new(error)),
         }
     }
 }

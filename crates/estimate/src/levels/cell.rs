@@ -146,10 +146,10 @@ fn is_end(kind: CellKind, cell: &RawCell, port: &str) -> bool {
         CellKind::Srl16 => !port.starts_with('A'),
         CellKind::Memory(_) => {
             // The address that is written is one of those that are read; of a shift register, none.
-            let is_shift = cell.kind.starts_with("SRL");
+            let is_shift_address = cell.kind.starts_with("SRL") && port.starts_with('A');
             let only_read = port.starts_with("DPRA")
                 || port.strip_prefix("ADDR").is_some_and(|letter| !is_written(cell, letter));
-            !only_read && !(is_shift && port.starts_with('A'))
+            !(only_read || is_shift_address)
         }
         CellKind::Dsp => {
             let through = is_unregistered(cell, "M") && is_unregistered(cell, "P");

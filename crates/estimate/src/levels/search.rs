@@ -23,10 +23,9 @@ pub(super) fn longest(graph: &Graph<'_>) -> Result<LogicPath, EstimateError> {
     let arrives = |net: u32| arrivals[net as usize];
     let mut latest = None;
     for end in &graph.ends {
-        if let Some(arrival) = arrives(end.net) {
-            if latest.is_none_or(|(weight, _)| arrival.weight > weight) {
-                latest = Some((arrival.weight, end));
-            }
+        let longer = |arrival: &Arrival| latest.is_none_or(|(weight, _)| arrival.weight > weight);
+        if let Some(arrival) = arrives(end.net).filter(longer) {
+            latest = Some((arrival.weight, end));
         }
     }
     let Some((weight, end)) = latest else { return Ok(LogicPath::default()) };
