@@ -39,7 +39,7 @@ fn a_toy_array_is_estimated() {
     assert!(report.rcm_glue.lut_logic_high > 0, "the OR over all regions");
     assert_eq!(report.rcm, report.rpu.times(784).plus(report.rcm_glue));
     assert!(report.paths.rpu.levels >= 3, "{:?}", report.paths);
-    assert_eq!(report.paths.rpu.to, "u_rpu.event_q (FDRE.D)");
+    assert!(report.paths.rpu.to.contains("(FDRE."), "{:?}", report.paths);
     assert!(report.tool.version.starts_with("Yosys "));
     let modules: Vec<&str> = report.leaves.iter().map(|leaf| leaf.module.as_str()).collect();
     assert_eq!(modules, ["rpu", "adder", "adder", "pair", "ram"]);
