@@ -119,7 +119,8 @@ pub(crate) struct GenerateArgs {
 #[command(after_help = "Examples: foveate cosim --preset bare
           foveate cosim --level rcm --grid 4x3 photo.png
           foveate cosim --full scene:street
-          foveate cosim --config core/design.toml --rtl core/rtl")]
+          foveate cosim --config core/design.toml --rtl core/rtl
+          foveate cosim --level rcm --grid 3x2 --netlist")]
 pub(crate) struct CosimArgs {
     /// Frames to run beside the directed and random ones: images, folders, globs, scene:NAME
     #[arg(value_name = "INPUT")]
@@ -138,6 +139,9 @@ pub(crate) struct CosimArgs {
     /// Simulator to run
     #[arg(long, value_enum, default_value_t = SimulatorChoice::Verilator)]
     pub(crate) simulator: SimulatorChoice,
+    /// Simulate what Yosys makes of the Verilog, the netlist that `estimate` counts; in Icarus
+    #[arg(long, conflicts_with = "simulator")]
+    pub(crate) netlist: bool,
     /// Check the Verilog files of this folder instead of freshly generated ones
     #[arg(long, value_name = "DIR")]
     pub(crate) rtl: Option<PathBuf>,
@@ -180,16 +184,20 @@ pub(crate) enum SimulatorChoice {
     Iverilog,
 }
 
-/// Synthesize a design with Yosys and print its area beside the paper's
+/// Synthesize a design with Yosys and print its area and logic levels beside the paper's area
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate estimate --preset bare
           foveate estimate --compare --markdown")]
 pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Print one table instead: an RPU of the design with each feature, with and without denoising
+    /// Print one table instead: the design in each organization, with each feature, with and without
+    /// denoising
     #[arg(long)]
     pub(crate) compare: bool,
+    /// Clock of the frame rates of --compare in MHz; an assumption, not what a design reaches
+    #[arg(long, value_name = "MHZ", default_value_t = 250, value_parser = at_least_one(), requires = "compare")]
+    pub(crate) clock: u32,
     /// Print JSON
     #[arg(long, conflicts_with = "markdown")]
     pub(crate) json: bool,

@@ -67,7 +67,9 @@ impl CliError {
             Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::EXIT_CODE,
             Self::Tool(error) => tool_code(error),
             Self::Cosim(CosimError::Tool(error)) => tool_code(error),
-            Self::Cosim(CosimError::Short { .. }) => TOOL,
+            Self::Cosim(
+                CosimError::Short { .. } | CosimError::Synthesis(_) | CosimError::NoModel { .. },
+            ) => TOOL,
             Self::Estimate(EstimateError::Tool(error)) => tool_code(error),
             Self::Estimate(_) => TOOL,
             Self::Simulator(error) => simulator_code(error),

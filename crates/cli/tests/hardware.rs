@@ -170,6 +170,30 @@ fn the_area_is_beside_the_papers() {
     assert!(rpu["ff"].as_u64().unwrap() <= 90, "{rpu}");
 }
 
+/// The area is of the RTL that was tested, and the netlist that is counted is the one that is simulated.
+#[test]
+fn estimate_and_cosim_are_about_the_same_rtl() {
+    if !require_tools(SIMULATORS) || !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let json = |command: &[&str]| -> Value {
+        let design =
+            ["--preset", "bare", "--set", "region.size=4", "--set", "frame={width=8,height=4}"];
+        let args = [command, &design[..], &["--json"]].concat();
+        serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap()
+    };
+    let area = json(&["estimate"]);
+    let rpu = json(&["cosim", "--rounds", "1", "--netlist"]);
+    let array = json(&["cosim", "--full", "--simulator", "iverilog"]);
+    assert_eq!(rpu["name"], "rpu netlist iverilog");
+    assert_eq!(rpu["netlist"]["tool"], area["tool"]);
+    assert_eq!(rpu["rtl_sha256"], area["rpu_sha256"]);
+    assert_eq!(array["rtl_sha256"], area["rtl_sha256"]);
+    assert!(area["paths"]["rcm"]["levels"].as_u64() >= area["paths"]["rpu"]["levels"].as_u64());
+    fail_in(dir.path(), 2, &["cosim", "--netlist", "--simulator", "verilator"], &["--netlist"]);
+}
+
 #[test]
 fn a_missing_tool_ends_with_3_and_says_how_to_install_it() {
     let dir = tempfile::tempdir().unwrap();

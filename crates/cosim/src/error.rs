@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What can go wrong beside a mismatch, which is a result and no error.
 
+use foveate_estimate::EstimateError;
 use foveate_spec::SpecError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
@@ -13,6 +14,20 @@ pub enum CosimError {
     /// A tool is missing, too old, or refused its input.
     #[error(transparent)]
     Tool(ToolError),
+
+    /// The Verilog could not be synthesized.
+    #[error(transparent)]
+    Synthesis(Box<EstimateError>),
+
+    /// A cell of the netlist cannot be simulated.
+    #[error(
+        "Yosys has no model of the cell `{cell}` to simulate; co-simulate the RTL of this design, \
+         and the netlist of one without it"
+    )]
+    NoModel {
+        /// The cell.
+        cell: String,
+    },
 
     /// The design does not allow what was asked for.
     #[error(transparent)]
@@ -147,6 +162,15 @@ impl From<ToolError> for CosimError {
             }
             ToolError::NoPort { top, port } => Self::NoPort { top, port },
             error => Self::Tool(error),
+        }
+    }
+}
+
+impl From<EstimateError> for CosimError {
+    fn from(error: EstimateError) -> Self {
+        match error {
+            EstimateError::Tool(error) => error.into(),
+            error => Self::Synthesis(Box::new(error)),
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::compare::Difference;
 use crate::error::CosimError;
 use crate::level::Level;
 use crate::locate;
+use crate::netlist::Netlist;
 use crate::recording::Recording;
 use crate::replay::{self, About};
 use crate::report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
@@ -12,7 +13,7 @@ use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
 use foveate_emit::{SourceFile, verilog};
 use foveate_spec::{Design, Organization, SpecError};
-use foveate_toolchain::{Cache, Source, Toolchain, sha256_hex};
+use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -26,6 +27,8 @@ pub struct Job {
     pub design: Design,
     /// The Verilog: what the emitter makes of the design, or what a user made of that.
     pub sources: Vec<SourceFile>,
+    /// What synthesis has made of the Verilog; it is simulated instead, in Icarus.
+    pub netlist: Option<Netlist>,
     /// The vectors.
     pub stimulus: Stimulus,
     /// The simulator.
@@ -66,6 +69,7 @@ impl Job {
         Ok(Self {
             sources: verilog(&simulated, stimulus.level.top()),
             design: design.clone(),
+            netlist: None,
             stimulus,
             simulator: Simulator::default(),
             trace: false,
@@ -112,7 +116,6 @@ impl Job {
         let outcome = run.run(&dut, &recording)?;
         let mut report = self.report(&design, &recording, &outcome)?;
         report.seconds.vectors = vectors.as_secs_f64();
-        report.rtl_sha256 = rtl_sha256(&dut.sources);
         if let (Some(difference), Some(mismatch)) = (&outcome.difference, &report.mismatch) {
             let about =
                 About { difference, mismatch: &mismatch.to_string(), fingerprint: &report.design };
@@ -127,7 +130,13 @@ impl Job {
     /// Name for people, such as `rpu verilator`.
     #[must_use]
     pub fn name(&self) -> String {
-        format!("{} {}", self.stimulus.level, self.simulator)
+        let netlist = if self.netlist.is_some() { " netlist" } else { "" };
+        format!("{}{netlist} {}", self.stimulus.level, self.simulator)
+    }
+
+    /// The Verilog as the tools take it.
+    pub(crate) fn named_sources(&self) -> Vec<Source> {
+        self.sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect()
     }
 
     fn dut(&self, design: &Design) -> Dut {
@@ -137,13 +146,18 @@ impl Job {
             Organization::Pipelined => "rpu",
             Organization::Serial => "serial_lane",
         };
-        let source = |file: &SourceFile| (file.path.clone(), file.contents.clone());
-        Dut {
+        let dut = Dut {
             top: top.module().to_owned(),
             ports: top.ports(design),
             parameters: top.parameters(design),
-            sources: self.sources.iter().map(source).collect(),
+            sources: self.named_sources(),
             no_inline: if array { vec![repeated.to_owned()] } else { Vec::new() },
+        };
+        match &self.netlist {
+            None => dut,
+            Some(Netlist { sources, .. }) => {
+                Dut { parameters: Vec::new(), sources: sources.clone(), ..dut }
+            }
         }
     }
 
@@ -165,7 +179,8 @@ impl Job {
             grid: (design.columns(), design.rows()),
             simulator: self.simulator,
             simulator_version: outcome.version.clone(),
-            rtl_sha256: String::new(),
+            rtl_sha256: sources_sha256(&self.named_sources()),
+            netlist: self.netlist.as_ref().map(Netlist::record),
             seed: self.stimulus.seed,
             sequences: recording.sequences(),
             frames: recording.frames(),
@@ -204,10 +219,4 @@ fn named(
         expected: difference.expected.clone(),
         got: difference.got.clone(),
     })
-}
-
-/// One hash for all files, in their order.
-fn rtl_sha256(sources: &[Source]) -> String {
-    let each = |(name, contents): &Source| format!("{} {name}\n", sha256_hex(contents));
-    sha256_hex(sources.iter().map(each).collect::<String>())
 }

@@ -2,6 +2,7 @@
 //! What a co-simulation came to, for people and for machines.
 
 use crate::level::Level;
+use crate::netlist::NetlistRecord;
 use crate::simulate::Simulator;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -27,8 +28,12 @@ pub struct CosimReport {
     pub simulator: Simulator,
     /// What it says about its version.
     pub simulator_version: String,
-    /// SHA-256 of names and contents of the Verilog.
+    /// SHA-256 of the Verilog: that of what `sha256sum` prints for all files in the order of their
+    /// names. The area estimate says the same of the same Verilog.
     pub rtl_sha256: String,
+    /// The netlist that was simulated instead, if it was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub netlist: Option<NetlistRecord>,
     /// Seed of the vectors.
     pub seed: u64,
     /// Sequences of frames, each after a reset.

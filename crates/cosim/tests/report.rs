@@ -14,6 +14,7 @@ fn report(mismatch: Option<Mismatch>) -> CosimReport {
         simulator: Simulator::Verilator,
         simulator_version: "Verilator 5.006".to_owned(),
         rtl_sha256: "00".to_owned(),
+        netlist: None,
         seed: 7,
         sequences: 16,
         frames: 69,

@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One RPU of each of several designs, row by row, beside the paper's.
+//! Several designs in one table, row by row, beside the paper's.
 
 use serde::Serialize;
 
-use crate::render::heading;
-use crate::report::{PAPER_RPU, PaperRow, Report};
+use crate::render::{heading, ramb36};
+use crate::report::{Device, PAPER_RCM, PAPER_RPU, Report, Share};
 use crate::table::{Table, grouped, wrap};
+
+/// Clocks per frame of the paper's array.
+const PAPER_CYCLES: u64 = 64;
+
+/// Designs side by side.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    pub format_version: u32,
+    /// The clock of the frame rates. It is assumed and not what the designs reach.
+    pub clock_mhz: u32,
+    /// The designs.
+    pub candidates: Vec<Candidate>,
+    /// Designs that are not there, and why.
+    pub skipped: Vec<Skipped>,
+}
 
 /// A design in a comparison.
 #[derive(Clone, Debug, Serialize)]
@@ -13,62 +29,196 @@ pub struct Candidate {
     /// What tells it from the others.
     pub name: String,
     /// Clocks from one frame to the next.
-    pub cycles_per_frame: u32,
-    /// Its area.
+    pub cycles_per_frame: u64,
+    /// Frames per second at the clock of the comparison.
+    pub frames_per_second: u64,
+    /// Its area and paths.
     pub report: Report,
 }
 
-/// The comparison for a terminal of `width` columns; 80 is enough.
-#[must_use]
-pub fn compare_text(candidates: &[Candidate], width: usize) -> String {
-    let headings = candidates.first().map(|first| wrap(&heading(&first.report), width));
-    headings.unwrap_or_default() + "\n" + &table(candidates).text(width)
+/// A design that is not in the comparison.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Skipped {
+    /// What tells it from the others.
+    pub name: String,
+    /// Why it is not there.
+    pub reason: String,
 }
 
-/// The comparison as Markdown.
-#[must_use]
-pub fn compare_markdown(candidates: &[Candidate]) -> String {
-    let headings = candidates.first().map(|first| heading(&first.report) + "\n");
-    headings.unwrap_or_default() + "\n" + &table(candidates).markdown()
-}
+impl Comparison {
+    /// A comparison without designs yet.
+    #[must_use]
+    pub fn new(clock_mhz: u32) -> Self {
+        Self { format_version: 2, clock_mhz, candidates: Vec::new(), skipped: Vec::new() }
+    }
 
-fn table(candidates: &[Candidate]) -> Table {
-    let columns = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "cycles"];
-    let mut rows: Vec<_> = candidates.iter().map(row).collect();
-    rows.push(paper_row());
-    Table {
-        title: "Area of one RPU".to_owned(),
-        header: std::iter::once("design").chain(columns).map(str::to_owned).collect(),
-        rows,
-        note: Some(
-            "low, high: logic LUTs with and without small ones sharing a LUT. memory: two SRL16 are \
-             one LUT, as Vivado packs them. LUT = high + memory. cycles: clocks from frame to frame."
-                .to_owned(),
-        ),
+    /// Adds a design.
+    pub fn push(&mut self, name: String, cycles_per_frame: u64, report: Report) {
+        let frames_per_second = self.rate(cycles_per_frame);
+        self.candidates.push(Candidate { name, cycles_per_frame, frames_per_second, report });
+    }
+
+    /// Frames per second at the clock of the comparison, rounded down.
+    #[must_use]
+    pub fn rate(&self, cycles_per_frame: u64) -> u64 {
+        u64::from(self.clock_mhz) * 1_000_000 / cycles_per_frame.max(1)
+    }
+
+    /// The comparison for a terminal of `width` columns: one below the other what does not fit side
+    /// by side.
+    #[must_use]
+    pub fn text(&self, width: usize) -> String {
+        let headings = self.heading().map(|heading| wrap(&heading, width) + "\n");
+        let skipped: String = self.skipped().map(|line| wrap(&line, width)).collect();
+        headings.unwrap_or_default() + &self.table().stacked_text(width) + &skipped
+    }
+
+    /// The comparison as Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        let headings = self.heading().map(|heading| heading + "\n\n");
+        let skipped: String = self.skipped().map(|line| format!("\n{line}\n")).collect();
+        headings.unwrap_or_default() + &self.table().markdown() + &skipped
+    }
+
+    fn heading(&self) -> Option<String> {
+        self.candidates.first().map(|first| heading(&first.report))
+    }
+
+    fn skipped(&self) -> impl Iterator<Item = String> {
+        self.skipped.iter().map(|Skipped { name, reason }| format!("Without {name}: {reason}."))
+    }
+
+    fn table(&self) -> Table {
+        let has = |count: fn(&Report) -> u64| self.candidates.iter().any(|c| count(&c.report) > 0);
+        let dsp = has(|report| report.rcm.dsp);
+        let bram = has(|report| report.rcm.bram18);
+        let mut header: Vec<String> = HEADER.map(str::to_owned).to_vec();
+        header.extend(dsp.then(|| "DSP".to_owned()));
+        header.extend(bram.then(|| "BRAM".to_owned()));
+        header.push("device".to_owned());
+        let extras = |dsps: String, brams: String| {
+            dsp.then_some(dsps).into_iter().chain(bram.then_some(brams))
+        };
+        let mut rows = Vec::new();
+        for candidate in &self.candidates {
+            let rcm = &candidate.report.rcm;
+            let mut row = figures(candidate);
+            row.extend(extras(grouped(rcm.dsp), ramb36(rcm.bram18)));
+            row.push(largest(&candidate.report.share));
+            rows.push(row);
+        }
+        let mut paper = self.paper();
+        paper.extend(extras(String::new(), String::new()));
+        let lut = PAPER_RCM.lut * 10_000 / Device::xcvu9p().lut;
+        paper.push(format!("LUT {}.{:02}%", lut / 100, lut % 100));
+        rows.push(paper);
+        Table {
+            title: "Area, speed and logic levels".to_owned(),
+            header,
+            rows,
+            note: Some(format!(
+                "low, high: logic LUTs of one RPU or lane, with and without small ones sharing a LUT. \
+                 mem: LUTs as memory, two SRL16 in one, as Vivado packs them. LUT = high + mem. levels: \
+                 of the longest path, from and to registers, memories and ports. cycles: clocks from \
+                 frame to frame; frames/s at {} MHz, which is an assumption. RCM, and what stands right \
+                 of it: all regions and what they share. device: the largest share of an {}.",
+                self.clock_mhz,
+                Device::xcvu9p().name,
+            )),
+        }
+    }
+
+    fn paper(&self) -> Vec<String> {
+        let texts = ["paper (Vivado)", ""].map(str::to_owned);
+        let unit =
+            [PAPER_RPU.lut - PAPER_RPU.lutram, PAPER_RPU.lutram, PAPER_RPU.lut, PAPER_RPU.ff];
+        let speed = [PAPER_CYCLES, self.rate(PAPER_CYCLES)];
+        let array = [PAPER_RCM.lut, PAPER_RCM.lutram, PAPER_RCM.ff];
+        texts
+            .into_iter()
+            .chain(unit.map(grouped))
+            .chain([String::new()])
+            .chain(speed.map(grouped))
+            .chain(array.map(grouped))
+            .collect()
     }
 }
 
-fn row(candidate: &Candidate) -> Vec<String> {
-    let area = &candidate.report.rpu;
+const HEADER: [&str; 12] = [
+    "design", "low", "high", "mem", "LUT", "FF", "levels", "cycles", "frames/s", "RCM LUT",
+    "RCM mem", "RCM FF",
+];
+
+fn figures(candidate: &Candidate) -> Vec<String> {
+    let Report { rpu, rcm, paths, .. } = &candidate.report;
     let figures = [
-        area.lut_logic_low,
-        area.lut_logic_high,
-        area.lut_memory_packed,
-        area.lut_total_packed,
-        area.ff,
-        area.carry,
-        area.dsp,
-        candidate.cycles_per_frame.into(),
+        rpu.lut_logic_low,
+        rpu.lut_logic_high,
+        rpu.lut_memory_packed,
+        rpu.lut_total_packed,
+        rpu.ff,
+        paths.rcm.levels.max(paths.rpu.levels).into(),
+        candidate.cycles_per_frame,
+        candidate.frames_per_second,
+        rcm.lut_total_packed,
+        rcm.lut_memory_packed,
+        rcm.ff,
     ];
     std::iter::once(candidate.name.clone()).chain(figures.map(grouped)).collect()
 }
 
-fn paper_row() -> Vec<String> {
-    let PaperRow { lut, ff, lutram } = PAPER_RPU;
-    let logic = grouped(lut - lutram);
-    let cells = [String::new(), logic, grouped(lutram), grouped(lut), grouped(ff)];
-    std::iter::once("paper (Vivado)".to_owned())
-        .chain(cells)
-        .chain([String::new(), String::new(), "64".to_owned()])
-        .collect()
+/// The largest share with its name.
+fn largest(share: &Share) -> String {
+    let shares = [
+        ("LUT", share.lut),
+        ("mem", share.lut_memory),
+        ("FF", share.ff),
+        ("DSP", share.dsp),
+        ("BRAM", share.bram),
+    ];
+    let largest = shares.into_iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
+    largest.map_or_else(String::new, |(name, share)| format!("{name} {share:.2}%"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::tests::example;
+
+    fn comparison() -> Comparison {
+        let mut comparison = Comparison::new(250);
+        comparison.push("pipelined edge".to_owned(), 64, example(784));
+        comparison
+            .skipped
+            .push(Skipped { name: "serial".into(), reason: "it is not there".into() });
+        comparison
+    }
+
+    #[test]
+    fn one_table_fits_any_terminal() {
+        for width in [60, 80, 200] {
+            let text = comparison().text(width);
+            let widest = text.lines().map(|line| line.chars().count()).max();
+            assert!(widest <= Some(width), "{text}");
+            for part in [
+                "3,906,250",
+                "143,472",
+                "119,171",
+                "LUT 12.13%",
+                "Without serial: it is not there.",
+            ] {
+                assert!(text.contains(part), "{part} in\n{text}");
+            }
+            let tables = text.matches("paper (Vivado)").count();
+            assert_eq!(tables == 1, width == 200, "{text}");
+        }
+    }
+
+    #[test]
+    fn block_ram_has_a_column_where_there_is_some() {
+        let with = comparison().markdown();
+        assert!(with.contains("| BRAM | device |") && with.contains("| 392 |"), "{with}");
+        assert!(!with.contains("DSP |"), "{with}");
+    }
 }

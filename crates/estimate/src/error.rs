@@ -29,7 +29,7 @@ pub enum EstimateError {
     /// A module that was asked for is not in the netlist.
     #[error(
         "the synthesized netlist has no module `{module}`, only: {present}; \
-         the top modules must exist and take no parameters"
+         give the modules of the design"
     )]
     MissingModule {
         /// The module.
@@ -38,14 +38,14 @@ pub enum EstimateError {
         present: String,
     },
 
-    /// The array does not have as many RPUs as the design has regions.
-    #[error("`{rcm}` has {found} instances of `{rpu}`, but the design has {expected} regions")]
-    RegionCount {
+    /// The array does not have as many units as it should.
+    #[error("`{array}` has {found} instances of `{unit}`, but the design has {expected}")]
+    UnitCount {
         /// The array.
-        rcm: String,
-        /// The RPU.
-        rpu: String,
-        /// The number of regions.
+        array: String,
+        /// The RPU or lane.
+        unit: String,
+        /// The number that there should be.
         expected: u64,
         /// The number of instances.
         found: u64,
@@ -56,6 +56,15 @@ pub enum EstimateError {
     Recursive {
         /// The module.
         module: String,
+    },
+
+    /// Logic without a register runs in a circle.
+    #[error(
+        "logic runs in a circle without a register, so that it has no levels: {nets}; break it by a register"
+    )]
+    Loop {
+        /// The nets of the circle, in the direction of the signals.
+        nets: String,
     },
 
     /// Yosys wrote something that is not understood.

@@ -1,80 +1,168 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Drives Yosys: one run for RPU and RCM, one for the leaves, side by side.
+//! Drives Yosys: one run for unit and array, one for the leaves, side by side.
 
+use std::collections::BTreeSet;
 use std::thread;
 
 use foveate_toolchain::yosys::{self, YosysJob, YosysRun};
-use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, sha256_hex};
+use foveate_toolchain::{Cache, Source, Tool, Toolchain, sources_sha256};
 
 use crate::error::EstimateError;
 use crate::leaves::leaf_areas;
+use crate::levels::longest_paths;
 use crate::netlist::Netlist;
-use crate::report::{Report, ToolRecord};
+use crate::report::{Areas, Paths, Report, Rtl, ToolRecord};
 
-const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -noiopad -noclkbuf";
+const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
+/// Shift registers, which `synth_xilinx` would make in the middle. Yosys up to 0.67 loses their enable
+/// (<https://github.com/YosysHQ/yosys/issues/6058>): it notes that there is none, next to its net. What
+/// was a chain of FDRE has an enable, active high.
+const SHIFT_REGISTERS: &str = "xilinx_srl -fixed -minlen 3\n\
+    setparam -set ENPOL 1 t:$__XILINX_SHREG_\n\
+    techmap -map +/xilinx/cells_map.v\n\
+    clean\n";
 const NETLIST: &str = "netlist.json";
+const VERILOG: &str = "netlist.v";
 
 /// A design to estimate.
 #[derive(Debug, Clone)]
 pub struct EstimateJob {
     /// The Verilog files; headers for `` `include `` may be among them if they end in `.vh`.
     pub sources: Vec<Source>,
-    /// The module of one RPU, without parameters.
-    pub rpu_top: String,
-    /// The module of the array, without parameters.
-    pub rcm_top: String,
-    /// The number of regions, each with one RPU.
+    /// The module of which the array has many, an RPU or a lane. Its leaves are flattened into it. If
+    /// it has parameters, its Verilog must have the attribute `keep_hierarchy`.
+    pub unit: String,
+    /// How many of it the array has.
+    pub units: u64,
+    /// The module of the array.
+    pub array: String,
+    /// Its parameters and their values.
+    pub parameters: Vec<(String, u32)>,
+    /// The number of regions.
     pub regions: u64,
+    /// The hash of the RTL of one RPU, as a co-simulation of it says it; see [`sources_sha256`].
+    pub rpu_sha256: String,
+    /// The module whose leaves are listed, if any.
+    pub leaves_of: Option<String>,
 }
 
-/// Synthesizes the design and reports its area.
+/// The netlist of an array, as it is counted and as Verilog.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Synthesis {
+    /// What made it.
+    pub tool: ToolRecord,
+    /// The netlist as JSON.
+    pub json: Vec<u8>,
+    /// The same netlist as Verilog: a module for the array, and one for the unit.
+    pub verilog: String,
+}
+
+impl Synthesis {
+    /// The types of all primitive cells.
+    ///
+    /// # Errors
+    /// When the netlist is not understood.
+    pub fn cells(&self) -> Result<BTreeSet<String>, EstimateError> {
+        Ok(Netlist::parse(NETLIST, &self.json)?.cell_types())
+    }
+}
+
+/// Synthesizes the design and reports its area and its longest paths.
 ///
 /// # Errors
-/// When Yosys is missing or refuses the design, when a cell is not known, or when the array has not
-/// as many RPUs as there are regions.
+/// When Yosys is missing or refuses the design, when a cell is not known, when logic runs in a circle,
+/// or when the array has not as many units as it should.
 pub fn estimate(
     toolchain: &Toolchain,
     cache: &Cache,
     job: &EstimateJob,
 ) -> Result<Report, EstimateError> {
-    let version = toolchain.find(Tool::Yosys)?.banner;
-    let (array, leaves) = thread::scope(|scope| {
-        let leaves = scope.spawn(|| yosys::run(toolchain, cache, &job.leaves()));
-        let array = yosys::run(toolchain, cache, &job.array());
+    let (synthesis, leaves) = thread::scope(|scope| {
+        let leaves = scope.spawn(|| {
+            let run = |top: &String| yosys::run(toolchain, cache, &job.leaves(top));
+            job.leaves_of.as_ref().map(run).transpose()
+        });
+        let synthesis = job.synthesize(toolchain, cache);
         let leaves = leaves.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok::<_, ToolError>((array?, leaves?))
+        Ok::<_, EstimateError>((synthesis?, leaves?))
     })?;
-    let array = netlist(&array)?;
-    job.check_regions(&array)?;
+    let netlist = Netlist::parse(NETLIST, &synthesis.json)?;
+    let units = job.units(&netlist)?;
+    let without: Vec<&str> = units.iter().map(String::as_str).collect();
+    let paths = longest_paths(NETLIST, &synthesis.json, &[without[0], &job.array])?;
+    let [unit, array] = paths.try_into().unwrap_or_default();
     Ok(Report::new(
-        ToolRecord {
-            name: "Yosys".into(),
-            version,
-            flags: format!("{SYNTHESIS} -flatten; RPU kept as a module"),
-        },
-        job.rtl_sha256(),
+        synthesis.tool,
+        Rtl { sha256: sources_sha256(&job.sources), rpu_sha256: job.rpu_sha256.clone() },
         job.regions,
-        array.whole_area(&job.rpu_top, None)?,
-        array.whole_area(&job.rcm_top, Some(&job.rpu_top))?,
-        leaf_areas(&job.rpu_top, &netlist(&leaves)?)?,
+        Areas {
+            unit: netlist.whole_area(without[0], &[])?,
+            glue: netlist.whole_area(&job.array, &without)?,
+            array: netlist.whole_area(&job.array, &[])?,
+        },
+        Paths { rpu: unit, rcm: array },
+        match (&job.leaves_of, leaves) {
+            (Some(top), Some(run)) => {
+                leaf_areas(top, &Netlist::parse(NETLIST, file(&run, NETLIST))?)?
+            }
+            _ => Vec::new(),
+        },
     ))
 }
 
 impl EstimateJob {
-    /// The array, with the leaves flattened into the RPU but not the RPU into the array.
-    fn array(&self) -> YosysJob {
-        let Self { rpu_top, rcm_top, .. } = self;
-        self.script(&format!(
-            "hierarchy -check -top {rcm_top}\n\
-             setattr -mod -set keep_hierarchy 1 {rpu_top}\n\
-             {SYNTHESIS} -flatten -top {rcm_top}\n"
-        ))
+    /// Synthesizes the array with the unit kept as a module: the leaves are flattened into the unit
+    /// but not the unit into the array. This is the netlist that [`estimate`] counts.
+    ///
+    /// # Errors
+    /// When Yosys is missing or refuses the design.
+    pub fn synthesize(
+        &self,
+        toolchain: &Toolchain,
+        cache: &Cache,
+    ) -> Result<Synthesis, EstimateError> {
+        let version = toolchain.find(Tool::Yosys)?.banner;
+        let mut run = yosys::run(toolchain, cache, &self.whole())?;
+        let verilog = run.files.remove(VERILOG).unwrap_or_default();
+        Ok(Synthesis {
+            tool: ToolRecord {
+                name: "Yosys".into(),
+                version,
+                flags: format!(
+                    "{SYNTHESIS} -flatten, then xilinx_srl; {} kept as a module",
+                    self.unit
+                ),
+            },
+            json: run.files.remove(NETLIST).unwrap_or_default(),
+            verilog: String::from_utf8_lossy(&verilog).into_owned(),
+        })
     }
 
-    /// The RPU with its leaves apart.
-    fn leaves(&self) -> YosysJob {
-        let top = &self.rpu_top;
-        self.script(&format!("hierarchy -check -top {top}\n{SYNTHESIS} -top {top}\n"))
+    fn whole(&self) -> YosysJob {
+        let Self { unit, array, .. } = self;
+        let set = |(name, value): &(String, u32)| format!(" -set {name} {value}");
+        let parameters: String = self.parameters.iter().map(set).collect();
+        let parameters = match parameters.as_str() {
+            "" => String::new(),
+            set => format!("chparam{set} {array}\n"),
+        };
+        // A unit with parameters has another name by now, and its attribute from its Verilog.
+        let mut job = self.script(&format!(
+            "{parameters}hierarchy -check -top {array}\n\
+             setattr -mod -set keep_hierarchy 1 {unit}\n\
+             {SYNTHESIS} -flatten -top {array}\n\
+             {SHIFT_REGISTERS}"
+        ));
+        job.script += &format!("write_verilog -noattr {VERILOG}\n");
+        job.outputs.push(VERILOG.to_owned());
+        job
+    }
+
+    /// A module with its leaves apart.
+    fn leaves(&self, top: &str) -> YosysJob {
+        self.script(&format!(
+            "hierarchy -check -top {top}\n{SYNTHESIS} -top {top}\n{SHIFT_REGISTERS}"
+        ))
     }
 
     /// Reads the sources, synthesizes, and writes the netlist without the library of cells.
@@ -91,33 +179,31 @@ impl EstimateJob {
         names.map(|name| format!("read_verilog -I. {name}\n")).collect()
     }
 
-    fn check_regions(&self, netlist: &Netlist) -> Result<(), EstimateError> {
-        netlist.module(&self.rpu_top)?;
-        let instances = netlist.instances(&self.rcm_top, Some(&self.rpu_top))?;
-        let found = instances.get(&self.rpu_top).copied().unwrap_or_default();
-        if found == self.regions {
-            return Ok(());
+    /// The modules that are the unit, the most frequent first: one for each set of parameters.
+    fn units(&self, netlist: &Netlist) -> Result<Vec<String>, EstimateError> {
+        let mut found = Vec::new();
+        for (name, count) in netlist.instances(&self.array, &[])? {
+            if netlist.module(&name)?.source_name == self.unit {
+                found.push((count, name));
+            }
         }
-        Err(EstimateError::RegionCount {
-            rcm: self.rcm_top.clone(),
-            rpu: self.rpu_top.clone(),
-            expected: self.regions,
-            found,
+        found.sort_by(|a, b| b.cmp(a));
+        let total = found.iter().map(|(count, _)| count).sum::<u64>();
+        if total == 0 {
+            netlist.module(&self.unit)?;
+        }
+        if total == self.units && total > 0 {
+            return Ok(found.into_iter().map(|(_, name)| name).collect());
+        }
+        Err(EstimateError::UnitCount {
+            array: self.array.clone(),
+            unit: self.unit.clone(),
+            expected: self.units,
+            found: total,
         })
-    }
-
-    /// The hash of what `sha256sum` prints for all files in the order of their names.
-    fn rtl_sha256(&self) -> String {
-        let mut lines: Vec<(&str, String)> = self
-            .sources
-            .iter()
-            .map(|(name, text)| (name.as_str(), format!("{}  {name}\n", sha256_hex(text))))
-            .collect();
-        lines.sort();
-        sha256_hex(lines.into_iter().map(|(_, line)| line).collect::<String>())
     }
 }
 
-fn netlist(run: &YosysRun) -> Result<Netlist, EstimateError> {
-    Netlist::parse(NETLIST, run.files.get(NETLIST).map(Vec::as_slice).unwrap_or_default())
+fn file<'a>(run: &'a YosysRun, name: &str) -> &'a [u8] {
+    run.files.get(name).map(Vec::as_slice).unwrap_or_default()
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Lists the leaf modules of an RPU under the names and parameters that the source gives them.
+//! Lists the leaf modules of a module under the names and parameters that the source gives them.
 
 use std::collections::BTreeMap;
 
@@ -7,11 +7,11 @@ use crate::error::EstimateError;
 use crate::netlist::Netlist;
 use crate::report::LeafArea;
 
-/// The areas of all modules of an RPU, the RPU's own cells first. Copies of one module with the same
+/// The areas of all modules inside `top`, its own cells first. Copies of one module with the same
 /// parameters and area are one row.
 pub(crate) fn leaf_areas(top: &str, netlist: &Netlist) -> Result<Vec<LeafArea>, EstimateError> {
     let mut rows = BTreeMap::new();
-    for (name, count) in netlist.instances(top, None)? {
+    for (name, count) in netlist.instances(top, &[])? {
         let module = netlist.module(&name)?;
         let row = (&module.source_name, &module.parameters, netlist.own_area(&name)?);
         *rows.entry(row).or_insert(0) += count;

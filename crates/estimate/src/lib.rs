@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Area of a Foveate design from Yosys, beside the paper's table.
+//! Area and logic levels of a Foveate design from Yosys, beside the paper's table.
 //!
 //! [`estimate`] synthesizes the array with the RPU kept as one module: its leaves are flattened into
 //! it, so that logic is shared across them, but the array is not flattened, so that 784 RPUs cost the
@@ -14,6 +14,7 @@ mod comparison;
 mod error;
 mod job;
 mod leaves;
+mod levels;
 mod netlist;
 mod render;
 mod report;
@@ -21,11 +22,12 @@ mod table;
 
 pub use area::Area;
 pub use cells::CellKind;
-pub use comparison::{Candidate, compare_markdown, compare_text};
+pub use comparison::{Candidate, Comparison, Skipped};
 pub use error::EstimateError;
-pub use job::{EstimateJob, estimate};
+pub use job::{EstimateJob, Synthesis, estimate};
+pub use levels::LogicPath;
 pub use render::{render_markdown, render_text};
 pub use report::{
-    Comparison, Device, FORMAT_VERSION, LeafArea, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper,
-    PaperRow, Ratios, Report, Share, ToolRecord, XCVU9P,
+    BesidePaper, Device, FORMAT_VERSION, LeafArea, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper,
+    PaperRow, Paths, Ratios, Report, Share, ToolRecord, XCVU9P,
 };

@@ -5,7 +5,7 @@
 //! writes text between the modules of a nested design, which is no JSON, and 0.70 adds submodules to
 //! some figures. The netlist itself has been the same for years.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
@@ -63,40 +63,41 @@ impl Netlist {
         })
     }
 
+    /// The types of the primitive cells of all modules.
+    pub(crate) fn cell_types(&self) -> BTreeSet<String> {
+        self.0.values().flat_map(|module| module.cells.keys().cloned()).collect()
+    }
+
     /// The area of a module's own cells, without submodules.
     pub(crate) fn own_area(&self, name: &str) -> Result<Area, EstimateError> {
         let module = self.module(name)?;
         Area::of_cells(&module.source_name, &module.cells)
     }
 
-    /// The area of a module and all that is inside it, except for the module `without`.
-    pub(crate) fn whole_area(
-        &self,
-        top: &str,
-        without: Option<&str>,
-    ) -> Result<Area, EstimateError> {
+    /// The area of a module and all that is inside it, except for the modules `without`.
+    pub(crate) fn whole_area(&self, top: &str, without: &[&str]) -> Result<Area, EstimateError> {
         let counts = self.instances(top, without)?;
-        let mut inside = counts.iter().filter(|(name, _)| Some(name.as_str()) != without);
+        let mut inside = counts.iter().filter(|(name, _)| !without.contains(&name.as_str()));
         inside.try_fold(self.own_area(top)?, |sum, (name, &count)| {
             Ok(sum.plus(self.own_area(name)?.times(count)))
         })
     }
 
-    /// How often each module stands below `top`, at any depth; modules `leaf` are not entered.
+    /// How often each module stands below `top`, at any depth; `leaves` are not entered.
     pub(crate) fn instances(
         &self,
         top: &str,
-        leaf: Option<&str>,
+        leaves: &[&str],
     ) -> Result<BTreeMap<String, u64>, EstimateError> {
         let mut counts = BTreeMap::new();
-        self.count_below(top, leaf, 1, &mut Vec::new(), &mut counts)?;
+        self.count_below(top, leaves, 1, &mut Vec::new(), &mut counts)?;
         Ok(counts)
     }
 
     fn count_below(
         &self,
         name: &str,
-        leaf: Option<&str>,
+        leaves: &[&str],
         times: u64,
         above: &mut Vec<String>,
         counts: &mut BTreeMap<String, u64>,
@@ -107,8 +108,8 @@ impl Netlist {
         above.push(name.to_owned());
         for (submodule, count) in &self.module(name)?.submodules {
             *counts.entry(submodule.clone()).or_default() += times * count;
-            if Some(submodule.as_str()) != leaf {
-                self.count_below(submodule, leaf, times * count, above, counts)?;
+            if !leaves.contains(&submodule.as_str()) {
+                self.count_below(submodule, leaves, times * count, above, counts)?;
             }
         }
         above.pop();
@@ -156,7 +157,7 @@ mod tests {
             let rcm = netlist.module("rcm").unwrap();
             assert_eq!(rcm.submodules, BTreeMap::from([("rpu".to_owned(), 4)]));
             assert_eq!(rcm.cells, BTreeMap::from([("LUT4".to_owned(), 1)]));
-            let rpu = netlist.whole_area("rpu", None).unwrap();
+            let rpu = netlist.whole_area("rpu", &[]).unwrap();
             assert_eq!((rpu.lut_logic_low, rpu.lut_logic_high), (10, 16));
             assert_eq!((rpu.lut_memory, rpu.ff, rpu.carry), (8, 7, 6));
         }
@@ -179,16 +180,16 @@ mod tests {
     fn whole_area_has_what_is_inside() {
         let json = include_bytes!("../tests/fixtures/leaves_yosys_0.23.json");
         let netlist = Netlist::parse("netlist", json).unwrap();
-        let whole = netlist.whole_area("rpu", None).unwrap();
+        let whole = netlist.whole_area("rpu", &[]).unwrap();
         assert_eq!((whole.lut_logic_high, whole.lut_memory, whole.carry), (40, 8, 12));
-        let without = netlist.whole_area("rpu", Some("pair")).unwrap();
+        let without = netlist.whole_area("rpu", &["pair"]).unwrap();
         assert_eq!((without.lut_logic_high, without.lut_memory, without.carry), (7, 8, 3));
     }
 
     #[test]
     fn a_module_in_itself_is_an_error() {
         let json = br#"{"modules": {"a": {"cells": {"u": {"type": "a"}}}}}"#;
-        let error = Netlist::parse("netlist", json).unwrap().instances("a", None).unwrap_err();
+        let error = Netlist::parse("netlist", json).unwrap().instances("a", &[]).unwrap_err();
         assert!(matches!(error, EstimateError::Recursive { .. }));
     }
 

@@ -2,7 +2,8 @@
 //! The report for people: text for a terminal, Markdown for a document.
 
 use crate::area::Area;
-use crate::report::{Comparison, LeafArea, Report, ToolRecord};
+use crate::levels::LogicPath;
+use crate::report::{BesidePaper, LeafArea, Paths, Report, ToolRecord};
 use crate::table::{Table, grouped, wrap};
 
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "BRAM"];
@@ -36,7 +37,11 @@ pub(crate) fn heading(report: &Report) -> String {
 }
 
 fn tables(report: &Report) -> Vec<Table> {
-    vec![leaf_table(report), area_table(report), paper_table(report)]
+    let mut tables = vec![area_table(report), path_table(report), paper_table(report)];
+    if !report.leaves.is_empty() {
+        tables.insert(0, leaf_table(report));
+    }
+    tables
 }
 
 fn area_table(report: &Report) -> Table {
@@ -54,6 +59,37 @@ fn area_table(report: &Report) -> Table {
                 .to_owned(),
         ),
     }
+}
+
+fn path_table(report: &Report) -> Table {
+    let Paths { rpu, rcm } = &report.paths;
+    let row = |name: &str, path: &LogicPath| {
+        vec![name.to_owned(), path.levels.to_string(), path.carry4.to_string()]
+    };
+    let way = |path: &LogicPath| format!("from {} by {} to {}", path.from, cells(path), path.to);
+    let mut note = format!("RPU: {}. ", way(rpu));
+    if rcm != rpu {
+        note += &format!("RCM: {}. ", way(rcm));
+    }
+    note += "A LUT, a read of distributed RAM and a whole carry chain are a level each; CARRY4: blocks \
+             of four bits in chains.";
+    Table {
+        title: "Longest path in logic levels, from and to registers, memories and ports".to_owned(),
+        header: header("module", &["levels", "CARRY4"]),
+        rows: vec![row("RPU", rpu), row("RCM", rcm)],
+        note: Some(note),
+    }
+}
+
+/// The cells of a path, runs of one type as one word.
+fn cells(path: &LogicPath) -> String {
+    let runs = path.through.chunk_by(|a, b| a == b && a.starts_with("CARRY"));
+    let names = runs.map(|run| match run {
+        [one] => one.clone(),
+        run => format!("{}x{}", run[0], run.len()),
+    });
+    let text = names.collect::<Vec<_>>().join(" ");
+    if text.is_empty() { "a wire".to_owned() } else { text }
 }
 
 /// A row, and a second one if shift registers can be packed.
@@ -113,8 +149,8 @@ fn paper_table(report: &Report) -> Table {
     }
 }
 
-fn paper_rows(name: &str, area: &Area, comparison: &Comparison) -> Vec<Vec<String>> {
-    let Comparison { paper, ratio } = comparison;
+fn paper_rows(name: &str, area: &Area, comparison: &BesidePaper) -> Vec<Vec<String>> {
+    let BesidePaper { paper, ratio } = comparison;
     let row = |name: String, cells: [(u64, Option<f64>); 3]| {
         let pairs = cells.into_iter().flat_map(|(value, ratio)| {
             [grouped(value), ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}x"))]
@@ -172,7 +208,7 @@ fn header(first: &str, columns: &[&str]) -> Vec<String> {
     std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
 }
 
-fn ramb36(bram18: u64) -> String {
+pub(crate) fn ramb36(bram18: u64) -> String {
     let half = if bram18 & 1 == 1 { ".5" } else { "" };
     grouped(bram18 / 2) + half
 }
@@ -187,9 +223,16 @@ mod tests {
         let text = render_text(&example(784), 80);
         let widest = text.lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(80), "{text}");
-        for part in
-            ["Yosys 0.23", "0.87x", "0.83x", "143,472", "125,443", "10.61%", "SRL16 in pairs"]
-        {
+        for part in [
+            "Yosys 0.23",
+            "0.87x",
+            "0.83x",
+            "143,472",
+            "125,443",
+            "10.61%",
+            "SRL16 in pairs",
+            "LUT6 CARRY4x2",
+        ] {
             assert!(text.contains(part), "{part} in\n{text}");
         }
     }
@@ -200,9 +243,9 @@ mod tests {
     }
 
     #[test]
-    fn markdown_has_three_tables() {
+    fn markdown_has_four_tables() {
         let text = render_markdown(&example(784));
-        assert_eq!(text.matches("| --- |").count(), 3);
+        assert_eq!(text.matches("| --- |").count(), 4);
         assert!(text.contains("| RPU, Yosys estimate | 160 | 0.87x |"), "{text}");
         assert!(text.contains("| median WIDTH=8 SIDE=8 | 2 |"), "{text}");
     }

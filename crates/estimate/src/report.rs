@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::area::Area;
 use crate::error::EstimateError;
+use crate::levels::LogicPath;
 
 /// The version of the JSON report. It grows when a field changes its meaning or goes away.
 pub const FORMAT_VERSION: u32 = 1;
@@ -73,14 +74,14 @@ pub struct Ratios {
 
 /// The paper's row and what the design is of it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Comparison {
+pub struct BesidePaper {
     /// The paper's figures.
     pub paper: PaperRow,
     /// The design's figures divided by them.
     pub ratio: Ratios,
 }
 
-impl Comparison {
+impl BesidePaper {
     fn new(area: &Area, paper: PaperRow) -> Self {
         let ratio = Ratios {
             lut_total: quotient(area.lut_total, paper.lut),
@@ -97,9 +98,9 @@ impl Comparison {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Paper {
     /// The RPU.
-    pub rpu: Comparison,
+    pub rpu: BesidePaper,
     /// The RCM; absent unless the design has as many regions as the paper's.
-    pub rcm: Option<Comparison>,
+    pub rcm: Option<BesidePaper>,
 }
 
 /// The part of the device that the RCM takes, in percent.
@@ -153,6 +154,30 @@ pub struct LeafArea {
     pub area: Area,
 }
 
+/// The longest paths, in logic levels.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Paths {
+    /// That of one RPU or lane alone, from and to its ports too.
+    pub rpu: LogicPath,
+    /// That of the RCM, through RPUs and lanes.
+    pub rcm: LogicPath,
+}
+
+/// Areas as they are measured.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Areas {
+    pub(crate) unit: Area,
+    pub(crate) glue: Area,
+    pub(crate) array: Area,
+}
+
+/// What was synthesized.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rtl {
+    pub(crate) sha256: String,
+    pub(crate) rpu_sha256: String,
+}
+
 /// The area of a design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Report {
@@ -160,54 +185,60 @@ pub struct Report {
     pub format_version: u32,
     /// What made the figures.
     pub tool: ToolRecord,
-    /// The hash of the RTL: that of `sha256sum` over all files in the order of their names.
+    /// The hash of the RTL: that of `sha256sum` over all files in the order of their names. A
+    /// co-simulation of the whole array says the same.
     pub rtl_sha256: String,
+    /// The same of the RTL of one RPU. A co-simulation of it says the same.
+    pub rpu_sha256: String,
     /// The device of the shares.
     pub device: Device,
-    /// The number of regions, and of RPUs.
+    /// The number of regions.
     pub regions: u64,
-    /// One RPU, its leaves flattened.
+    /// One RPU, or one lane, its leaves flattened.
     pub rpu: Area,
-    /// What the RCM has beside its RPUs.
+    /// What the RCM has beside its RPUs or lanes.
     pub rcm_glue: Area,
-    /// The RCM: glue and all RPUs.
+    /// The RCM: glue and all RPUs or lanes.
     pub rcm: Area,
+    /// The longest paths.
+    pub paths: Paths,
     /// The share of the device that the RCM takes.
     pub share: Share,
     /// The paper's table.
     pub paper: Paper,
-    /// The leaves of an RPU and its own glue. They do not add up to the RPU, where logic is
-    /// optimized across leaves.
+    /// The leaves of an RPU, or of the array, and its own glue; empty if not asked for. They do not add
+    /// up to it, because logic is optimized across leaves.
     pub leaves: Vec<LeafArea>,
 }
 
 impl Report {
     /// Puts the measured areas beside device and paper.
-    #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         tool: ToolRecord,
-        rtl_sha256: String,
+        rtl: Rtl,
         regions: u64,
-        rpu: Area,
-        rcm_glue: Area,
+        areas: Areas,
+        paths: Paths,
         leaves: Vec<LeafArea>,
     ) -> Self {
         let device = Device::xcvu9p();
-        let rcm = rpu.times(regions).plus(rcm_glue);
-        let share = Share::new(&rcm, &device);
+        let Areas { unit, glue, array } = areas;
+        let share = Share::new(&array, &device);
         let paper = Paper {
-            rpu: Comparison::new(&rpu, PAPER_RPU),
-            rcm: (regions == PAPER_REGIONS).then(|| Comparison::new(&rcm, PAPER_RCM)),
+            rpu: BesidePaper::new(&unit, PAPER_RPU),
+            rcm: (regions == PAPER_REGIONS).then(|| BesidePaper::new(&array, PAPER_RCM)),
         };
         Self {
             format_version: FORMAT_VERSION,
             tool,
-            rtl_sha256,
+            rtl_sha256: rtl.sha256,
+            rpu_sha256: rtl.rpu_sha256,
             device,
             regions,
-            rpu,
-            rcm_glue,
-            rcm,
+            rpu: unit,
+            rcm_glue: glue,
+            rcm: array,
+            paths,
             share,
             paper,
             leaves,
@@ -267,7 +298,17 @@ pub(crate) mod tests {
             area: rpu,
         };
         let leaves = vec![leaf("rpu", &[], 1), leaf("median", &["WIDTH=8", "SIDE=8"], 2)];
-        Report::new(tool, "00".into(), regions, rpu, glue, leaves)
+        let areas = Areas { unit: rpu, glue, array: rpu.times(regions).plus(glue) };
+        let path = LogicPath {
+            levels: 3,
+            carry4: 2,
+            from: "slot_q[1]".into(),
+            to: "count_q[0] (FDRE.D)".into(),
+            through: ["LUT6", "CARRY4", "CARRY4", "LUT2"].map(str::to_owned).to_vec(),
+        };
+        let paths = Paths { rpu: path.clone(), rcm: path };
+        let rtl = Rtl { sha256: "00".into(), rpu_sha256: "01".into() };
+        Report::new(tool, rtl, regions, areas, paths, leaves)
     }
 
     #[test]

@@ -34,6 +34,37 @@ impl Table {
         text
     }
 
+    /// The same, but with columns that do not fit one below the other, under the first one again.
+    pub(crate) fn stacked_text(&self, width: usize) -> String {
+        let widths = self.widths();
+        let first = widths.first().copied().unwrap_or_default();
+        let (mut parts, mut used) = (vec![Vec::new()], first);
+        for (column, column_width) in widths.iter().enumerate().skip(1) {
+            let needed = column_width + GAP;
+            if used + needed > width && used > first {
+                parts.push(Vec::new());
+                used = first;
+            }
+            used += needed;
+            parts.last_mut().into_iter().for_each(|part| part.push(column));
+        }
+        let last = parts.len() - 1;
+        let part = |(number, columns): (usize, &Vec<usize>)| {
+            let pick = |row: &Vec<String>| {
+                let cells = std::iter::once(&0).chain(columns).filter_map(|&c| row.get(c).cloned());
+                cells.collect::<Vec<_>>()
+            };
+            let table = Self {
+                title: if number == 0 { self.title.clone() } else { String::new() },
+                header: pick(&self.header),
+                rows: self.rows.iter().map(pick).collect(),
+                note: self.note.clone().filter(|_| number == last),
+            };
+            table.text(width)
+        };
+        parts.iter().enumerate().map(part).collect()
+    }
+
     /// A Markdown table under its title in bold.
     pub(crate) fn markdown(&self) -> String {
         let row = |cells: &[String]| {

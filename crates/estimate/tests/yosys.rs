@@ -16,9 +16,13 @@ fn toy(regions: u64) -> EstimateJob {
     ];
     EstimateJob {
         sources: sources.map(|(name, text)| (name.to_owned(), text)).to_vec(),
-        rpu_top: "rpu".to_owned(),
-        rcm_top: "rcm".to_owned(),
+        unit: "rpu".to_owned(),
+        units: regions,
+        array: "rcm".to_owned(),
+        parameters: Vec::new(),
         regions,
+        rpu_sha256: String::new(),
+        leaves_of: Some("rpu".to_owned()),
     }
 }
 
@@ -34,6 +38,8 @@ fn a_toy_array_is_estimated() {
     assert!(report.rpu.lut_logic_high > 10, "{report:?}");
     assert!(report.rcm_glue.lut_logic_high > 0, "the OR over all regions");
     assert_eq!(report.rcm, report.rpu.times(784).plus(report.rcm_glue));
+    assert!(report.paths.rpu.levels >= 3, "{:?}", report.paths);
+    assert!(report.paths.rpu.to.contains("(FDRE."), "{:?}", report.paths);
     assert!(report.tool.version.starts_with("Yosys "));
     let modules: Vec<&str> = report.leaves.iter().map(|leaf| leaf.module.as_str()).collect();
     assert_eq!(modules, ["rpu", "adder", "adder", "pair", "ram"]);
@@ -62,8 +68,8 @@ fn mistakes_are_named() {
         return;
     }
     let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
-    let error = estimate(&tools, &cache, &EstimateJob { regions: 5, ..toy(4) }).unwrap_err();
-    let expected = "`rcm` has 4 instances of `rpu`, but the design has 5 regions";
+    let error = estimate(&tools, &cache, &EstimateJob { units: 5, ..toy(4) }).unwrap_err();
+    let expected = "`rcm` has 4 instances of `rpu`, but the design has 5";
     assert_eq!(error.to_string(), expected);
 
     let mut job = toy(4);
@@ -72,7 +78,7 @@ fn mistakes_are_named() {
     let EstimateError::UnknownCell { cell, module, .. } = &error else { panic!("{error}") };
     assert_eq!((cell.as_str(), module.as_str()), ("LDCE", "rpu"));
 
-    let error = estimate(&tools, &cache, &EstimateJob { rcm_top: "array".into(), ..toy(4) });
+    let error = estimate(&tools, &cache, &EstimateJob { array: "array".into(), ..toy(4) });
     let Err(EstimateError::Tool(ToolError::Failed { tail, .. })) = error else {
         panic!("{error:?}")
     };

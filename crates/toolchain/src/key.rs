@@ -78,6 +78,16 @@ pub fn sha256_hex(bytes: impl AsRef<[u8]>) -> String {
     hex(&Sha256::digest(bytes.as_ref()))
 }
 
+/// One hash for Verilog: that of what `sha256sum` prints for all files in the order of their names.
+/// Whoever reports on RTL prints it, so that two reports can be seen to be about the same RTL.
+#[must_use]
+pub fn sources_sha256(sources: &[Source]) -> String {
+    let line = |(name, text): &Source| (name.clone(), format!("{}  {name}\n", sha256_hex(text)));
+    let mut lines: Vec<_> = sources.iter().map(line).collect();
+    lines.sort();
+    sha256_hex(lines.into_iter().map(|(_, line)| line).collect::<String>())
+}
+
 fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |mut text, byte| {
         // Writing to a string cannot fail.
@@ -94,6 +104,15 @@ mod tests {
     fn hashes_are_sha256() {
         let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
         assert_eq!(sha256_hex(""), empty);
+    }
+
+    #[test]
+    fn the_order_of_sources_does_not_matter() {
+        let source = |name: &str, text: &str| (name.to_owned(), text.to_owned());
+        let (a, b) = (source("a.v", "1"), source("b.v", "2"));
+        let lines = format!("{}  a.v\n{}  b.v\n", sha256_hex("1"), sha256_hex("2"));
+        assert_eq!(sources_sha256(&[a.clone(), b.clone()]), sha256_hex(lines));
+        assert_eq!(sources_sha256(&[b.clone(), a]), sources_sha256(&[source("a.v", "1"), b]));
     }
 
     #[test]

@@ -27,7 +27,7 @@ pub use error::ToolError;
 pub use files::Source;
 pub use host::{Host, SystemHost};
 pub use invocation::{Input, Invocation, Output};
-pub use key::{Key, KeyBuilder, sha256_hex};
+pub use key::{Key, KeyBuilder, sha256_hex, sources_sha256};
 pub use located::Located;
 pub use ports::PortBits;
 pub use stream::{Feeder, Stream};

@@ -65,6 +65,20 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<Yosys
     Ok(YosysRun { log: String::from_utf8_lossy(&read(LOG)?).into_owned(), files })
 }
 
+/// A file of models from the library of Yosys, such as `xilinx/cells_sim.v`. Yosys says where it lies.
+///
+/// # Errors
+/// When Yosys is missing or has no such file, or one that only it can read.
+pub fn cell_models(toolchain: &Toolchain, cache: &Cache, file: &str) -> Result<String, ToolError> {
+    let script = format!("read_verilog -lib +/{file}\n");
+    let run = run(toolchain, cache, &YosysJob { script, ..YosysJob::default() })?;
+    let path = run.log.lines().find_map(|line| {
+        line.strip_prefix("Parsing Verilog input from `")?.split_once('\'').map(|(path, _)| path)
+    });
+    let path = Path::new(path.unwrap_or(file));
+    fs::read_to_string(path).map_err(ToolError::io("read the cell models of Yosys in", path))
+}
+
 /// Refuses JSON that is none or empty: a Yosys that was killed, or is none, may have written it.
 fn check(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
     if !name.ends_with(".json") {

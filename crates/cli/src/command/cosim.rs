@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use foveate_cosim::{
-    CosimError, CosimReport, Job, Level, Progress, Simulator, Stimulus, junit_error, junit_xml,
+    CosimError, CosimReport, Job, Level, Netlist, Progress, Simulator, Stimulus, junit_error,
+    junit_xml,
 };
 use foveate_emit::SourceFile;
 use foveate_model::Frame;
@@ -40,10 +41,17 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     if let Some(file) = &args.junit {
         check_file(file)?;
     }
+    let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
+    if args.netlist {
+        let spinner = progress::spinner(args.quiet, "synthesizing with Yosys");
+        let netlist = Netlist::of(&job, &toolchain, &cache);
+        spinner.finish_and_clear();
+        job.netlist = Some(netlist?);
+        job.simulator = Simulator::Iverilog;
+    }
 
     let bar = progress::bar(args.quiet, 0, "vectors");
-    let report =
-        job.run(&interrupt::toolchain()?, &Cache::from_env()?, &mut |step| show(&bar, step));
+    let report = job.run(&toolchain, &cache, &mut |step| show(&bar, step));
     bar.finish_and_clear();
     let written = write_junit(args, &job, &report);
     let report = report?;

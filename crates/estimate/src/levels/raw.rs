@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Ports, cells, connections and names as Yosys writes them.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+pub(super) struct RawNetlist {
+    pub(super) modules: BTreeMap<String, RawModule>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawModule {
+    #[serde(default)]
+    pub(super) ports: BTreeMap<String, RawPort>,
+    pub(super) cells: BTreeMap<String, RawCell>,
+    #[serde(default)]
+    netnames: BTreeMap<String, RawName>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawPort {
+    direction: String,
+    pub(super) bits: Vec<Bit>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawCell {
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    #[serde(default)]
+    pub(super) parameters: BTreeMap<String, serde_json::Value>,
+    #[serde(default)]
+    pub(super) connections: BTreeMap<String, Vec<Bit>>,
+}
+
+#[derive(Deserialize)]
+struct RawName {
+    hide_name: u8,
+    bits: Vec<Bit>,
+}
+
+/// A net of a module by its number, or a constant.
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Bit {
+    Net(u32),
+    #[allow(dead_code, reason = "it is read to be skipped")]
+    Constant(String),
+}
+
+impl Bit {
+    pub(super) fn net(&self) -> Option<u32> {
+        match self {
+            Self::Net(net) => Some(*net),
+            Self::Constant(_) => None,
+        }
+    }
+}
+
+impl RawPort {
+    pub(super) fn is_output(&self) -> bool {
+        self.direction == "output"
+    }
+}
+
+impl RawCell {
+    /// A parameter that is a number; Yosys writes it as binary digits.
+    pub(super) fn number(&self, name: &str) -> Option<u64> {
+        let value = self.parameters.get(name)?;
+        value.as_u64().or_else(|| u64::from_str_radix(value.as_str()?, 2).ok())
+    }
+}
+
+impl RawModule {
+    /// The name of a net: one from the source if it has one, else whatever it is called.
+    pub(super) fn net_name(&self, net: u32) -> String {
+        let place = |bits: &[Bit]| bits.iter().position(|bit| bit.net() == Some(net));
+        let named = self.netnames.iter().filter_map(|(name, net)| {
+            Some((net.hide_name, name.len(), name, place(&net.bits)?, net.bits.len()))
+        });
+        match named.min() {
+            None => format!("net {net}"),
+            Some((_, _, name, _, 1)) => name.clone(),
+            Some((_, _, name, index, _)) => format!("{name}[{index}]"),
+        }
+    }
+}
