@@ -210,7 +210,7 @@ fn configs() -> Vec<Config> {
         config.temporal.min_count = 3;
         config.denoise.filter = Filter::ALL[turn / 2 % 2];
         config.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
-        config.temporal.reference = Reference::ALL[(turn + 1) / 2 % 2];
+        config.temporal.reference = Reference::ALL[turn.div_ceil(2) % 2];
         config.render.irrelevant = Irrelevant::ALL[turn / 3 % 2];
         config.render.payload = Payload::ALL[turn % 2];
         configs.push(config);
