@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults. A text that is not found any more, after a change of the RTL, is replaced by what
-//! does the same there.
+//! The faults of the pipelined organization. A text that is not found any more, after a change of the
+//! RTL, is replaced by what does the same there.
 
-use super::Planted::{
+use super::planted::Planted::{
     self, Banked, Constant, Corner, MadSent, Moments, Paper, Sent, Shared, Variance,
 };
 
@@ -19,7 +19,7 @@ pub(crate) struct Fault {
     pub(crate) design: Planted,
 }
 
-const fn fault(
+pub(super) const fn fault(
     what: &'static str,
     design: Planted,
     module: &'static str,

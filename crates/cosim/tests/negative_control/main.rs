@@ -6,75 +6,25 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod faults;
+mod planted;
+mod serial_faults;
 
-use common::{cosimulate, design, directed, in_parallel};
-use faults::{FAULTS, Fault};
+use common::{cosimulate, directed, in_parallel};
+use faults::Fault;
 use foveate_cosim::{CosimReport, Level, Simulator};
-use foveate_spec::{Config, Design};
 use foveate_toolchain::testing::require_tools;
+use planted::Planted;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
-
-/// Designs that between them use every module.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Planted {
-    /// Median, edges, previous frame.
-    Paper,
-    /// Edges and corners, no filter, so that the counter of positions is the window's.
-    Corner,
-    /// Mean absolute deviation and variance, nothing with a window.
-    Moments,
-    /// Variance alone, whose result register is a port.
-    Variance,
-    /// Regions that do not fit into one bank of the frame store, nor fill two.
-    Banked,
-    /// Mean absolute deviation against the pixels last sent: two candidates for the count.
-    MadSent,
-    /// Edges against the pixels last sent, raw pixels forwarded.
-    Sent,
-    /// Median and edges that see across the border.
-    Shared,
-    /// The paper's design with its thresholds built in.
-    Constant,
-}
-
-impl Planted {
-    fn design(self) -> Design {
-        let toml = match self {
-            Self::Paper => "",
-            Self::Corner => {
-                "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\
-                 [[spatial]]\nfeature = \"corner\"\n[decision]\ncombine = \"all\"\n"
-            }
-            Self::Moments => {
-                "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
-                 mean_fraction_bits = 2\n[[spatial]]\nfeature = \"variance\"\n"
-            }
-            Self::Variance => "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"variance\"\n",
-            Self::MadSent => {
-                "[region]\nsize = 5\n[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 1\n\
-                 [temporal]\nreference = \"last-sent\"\n"
-            }
-            Self::Sent => "[temporal]\nreference = \"last-sent\"\n[render]\npayload = \"raw\"\n",
-            Self::Banked => "[region]\nsize = 17\n",
-            Self::Shared => "[region]\nneighborhood = \"shared\"\n",
-            Self::Constant => "[region]\nsize = 5\n[hardware]\nthresholds = \"constant\"\n",
-        };
-        design(&Config::from_toml(toml).unwrap(), (1, 1))
-    }
-}
 
 fn plant(fault: &Fault, output: &Path) -> Result<CosimReport, String> {
     let design = fault.design.design();
     let Fault { what, module, from, to, .. } = fault;
     let path = format!("rtl/{module}.v");
-    let level = match *module {
-        "rcm" => Level::Rcm { columns: 3, rows: 2 },
-        _ => Level::Rpu,
-    };
+    let (level, simulator) = (fault.design.level(module), fault.design.simulator());
     let mut problem = None;
-    let report = cosimulate(&design, Simulator::Iverilog, directed(level, 1), output, |job| {
+    let report = cosimulate(&design, simulator, directed(level, 1), output, |job| {
         match job.sources.iter_mut().find(|file| file.path == path) {
             None => problem = Some(format!("{module}: not in this design")),
             Some(file) if file.contents.matches(from).count() != 1 => {
@@ -91,13 +41,12 @@ fn plant(fault: &Fault, output: &Path) -> Result<CosimReport, String> {
     }
 }
 
-#[test]
-fn every_planted_fault_is_caught() {
-    if !require_tools(Simulator::Iverilog.tools()) {
+fn all_are_caught(faults: &[Fault]) {
+    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let numbered: Vec<(usize, &Fault)> = FAULTS.iter().enumerate().collect();
+    let numbered: Vec<(usize, &Fault)> = faults.iter().enumerate().collect();
     let failures = in_parallel(&numbered, |(number, fault)| {
         let folder = output.path().join(number.to_string());
         let Fault { what, module, from, to, .. } = fault;
@@ -112,19 +61,55 @@ fn every_planted_fault_is_caught() {
         failures.is_empty(),
         "{} of {}:\n{}",
         failures.len(),
-        FAULTS.len(),
+        faults.len(),
         failures.join("\n")
     );
+}
+
+#[test]
+fn every_planted_fault_is_caught() {
+    all_are_caught(faults::FAULTS);
+}
+
+#[test]
+fn every_planted_fault_of_the_serial_organization_is_caught() {
+    all_are_caught(serial_faults::FAULTS);
+}
+
+/// Else a fault would be caught that is none.
+#[test]
+fn every_design_passes_without_a_fault() {
+    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let mut designs = Vec::new();
+    for fault in faults::FAULTS.iter().chain(serial_faults::FAULTS) {
+        if !designs.contains(&fault.design) {
+            designs.push(fault.design);
+        }
+    }
+    let failures = in_parallel(&designs, |planted| {
+        let folder = output.path().join(format!("{planted:?}"));
+        let stimulus = directed(planted.level(""), 1);
+        match cosimulate(&planted.design(), planted.simulator(), stimulus, &folder, |_| {}) {
+            Ok(report) if report.passed() => Ok(()),
+            Ok(report) => Err(format!("{planted:?}: {report}")),
+            Err(error) => Err(format!("{planted:?}: {error}")),
+        }
+    });
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
 /// A module that nobody has thought of needs faults of its own.
 #[test]
 fn every_module_has_a_fault() {
-    let covered: BTreeSet<&str> = FAULTS.iter().map(|fault| fault.module).collect();
+    let all = || faults::FAULTS.iter().chain(serial_faults::FAULTS);
+    let covered: BTreeSet<&str> = all().map(|fault| fault.module).collect();
     let modules = foveate_emit::LEAVES.iter().map(|leaf| leaf.name).chain(["rpu", "rcm"]);
     let missing: Vec<&str> = modules.filter(|module| !covered.contains(module)).collect();
     assert!(missing.is_empty(), "no fault is planted in {missing:?}");
-    let kinds: BTreeSet<&str> = FAULTS.iter().map(|fault| fault.what).collect();
+    let kinds: BTreeSet<&str> = all().map(|fault| fault.what).collect();
     assert_eq!(kinds, BTreeSet::from(["constant", "index", "operator", "reset", "width"]));
 }
 

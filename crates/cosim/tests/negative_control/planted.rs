@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The designs in which faults are planted; between them they use every module.
+
+use crate::common::design;
+use foveate_cosim::{Level, Simulator};
+use foveate_spec::{Config, Design};
+
+/// A design to plant faults in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Planted {
+    /// Median, edges, previous frame.
+    Paper,
+    /// Edges and corners, no filter, so that the counter of positions is the window's.
+    Corner,
+    /// Mean absolute deviation and variance, nothing with a window.
+    Moments,
+    /// Variance alone, whose result register is a port.
+    Variance,
+    /// Regions that do not fit into one bank of the frame store, nor fill two.
+    Banked,
+    /// Mean absolute deviation against the pixels last sent: two candidates for the count.
+    MadSent,
+    /// Edges against the pixels last sent, raw pixels forwarded.
+    Sent,
+    /// Median and edges that see across the border.
+    Shared,
+    /// The paper's design with its thresholds built in.
+    Constant,
+    /// Serial: the paper's scores in small regions.
+    SerialPaper,
+    /// Serial: edges alone, no filter.
+    SerialEdge,
+    /// Serial: edges and corners, both of which must vote.
+    SerialCorner,
+    /// Serial: mean absolute deviation alone.
+    SerialMad,
+    /// Serial: mean absolute deviation and variance.
+    SerialVariance,
+    /// Serial: everything that a raster across borders, folds and the pixels last sent need.
+    SerialSent,
+    /// Serial: a raster into isolated regions.
+    SerialRaster,
+    /// Serial: two slots, one of which is empty in the last lane.
+    SerialFold,
+    /// Serial: block memory.
+    SerialBlock,
+    /// Serial: more than one group of lanes.
+    SerialMany,
+    /// Serial: median, edges and corners, thresholds built in.
+    SerialConstant,
+}
+
+impl Planted {
+    fn toml(self) -> &'static str {
+        match self {
+            Self::Paper => "",
+            Self::Corner => {
+                "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\
+                 [[spatial]]\nfeature = \"corner\"\n[decision]\ncombine = \"all\"\n"
+            }
+            Self::Moments => {
+                "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                 mean_fraction_bits = 2\n[[spatial]]\nfeature = \"variance\"\n"
+            }
+            Self::Variance => "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"variance\"\n",
+            Self::MadSent => {
+                "[region]\nsize = 5\n[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 1\n\
+                 [temporal]\nreference = \"last-sent\"\n"
+            }
+            Self::Sent => "[temporal]\nreference = \"last-sent\"\n[render]\npayload = \"raw\"\n",
+            Self::Banked => "[region]\nsize = 17\n",
+            Self::Shared => "[region]\nneighborhood = \"shared\"\n",
+            Self::Constant => "[region]\nsize = 5\n[hardware]\nthresholds = \"constant\"\n",
+            Self::SerialPaper => "[region]\nsize = 4\n[hardware]\norganization = \"serial\"\n",
+            Self::SerialEdge => {
+                "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
+                 organization = \"serial\"\n"
+            }
+            Self::SerialCorner => {
+                "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\
+                 [[spatial]]\nfeature = \"corner\"\n[decision]\ncombine = \"all\"\n[hardware]\n\
+                 organization = \"serial\"\n"
+            }
+            Self::SerialMad => {
+                "[region]\nsize = 5\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                 mean_fraction_bits = 2\n[hardware]\norganization = \"serial\"\n"
+            }
+            Self::SerialVariance => {
+                "[region]\nsize = 5\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                 [[spatial]]\nfeature = \"variance\"\n[hardware]\norganization = \"serial\"\n"
+            }
+            Self::SerialSent => {
+                "[region]\nsize = 4\nneighborhood = \"shared\"\n[temporal]\n\
+                 reference = \"last-sent\"\n[hardware]\norganization = \"serial\"\n\
+                 feed = \"raster\"\nfold = 3\n"
+            }
+            Self::SerialRaster => {
+                "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
+                 organization = \"serial\"\nfeed = \"raster\"\n"
+            }
+            Self::SerialFold => {
+                "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
+                 organization = \"serial\"\nfold = 2\n"
+            }
+            Self::SerialBlock => {
+                "[frame]\npixel_bits = 16\n[denoise]\nfilter = \"none\"\n[hardware]\n\
+                 organization = \"serial\"\nfold = 5\n"
+            }
+            Self::SerialMany => {
+                "[frame]\npixel_bits = 1\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+                 [[spatial]]\nfeature = \"edge\"\nlevel = 1\n[temporal]\nlevel = 0\n\
+                 [hardware]\norganization = \"serial\"\nfeed = \"raster\"\n"
+            }
+            Self::SerialConstant => {
+                "[region]\nsize = 4\n[[spatial]]\nfeature = \"edge\"\n[[spatial]]\n\
+                 feature = \"corner\"\n[hardware]\norganization = \"serial\"\n\
+                 thresholds = \"constant\"\n"
+            }
+        }
+    }
+
+    /// Regions of a frame, side by side and one below the other.
+    fn grid(self) -> (u32, u32) {
+        match self {
+            Self::SerialSent => (4, 2),
+            Self::SerialRaster => (3, 3),
+            Self::SerialFold => (3, 1),
+            Self::SerialBlock => (5, 1),
+            Self::SerialMany => (13, 6),
+            Self::SerialPaper
+            | Self::SerialEdge
+            | Self::SerialCorner
+            | Self::SerialMad
+            | Self::SerialVariance
+            | Self::SerialConstant => (2, 1),
+            _ => (1, 1),
+        }
+    }
+
+    pub(crate) fn design(self) -> Design {
+        design(&Config::from_toml(self.toml()).unwrap(), self.grid())
+    }
+
+    /// Where a fault of a module is looked for.
+    pub(crate) fn level(self, module: &str) -> Level {
+        match (self.grid(), module) {
+            ((1, 1), "rcm") => Level::Rcm { columns: 3, rows: 2 },
+            ((1, 1), _) => Level::Rpu,
+            ((columns, rows), _) => Level::Rcm { columns, rows },
+        }
+    }
+
+    /// Compiled where it is large.
+    pub(crate) fn simulator(self) -> Simulator {
+        match self {
+            Self::SerialMany => Simulator::Verilator,
+            _ => Simulator::Iverilog,
+        }
+    }
+}
