@@ -13,7 +13,7 @@ use foveate_lanes::Lane;
 
 /// Bytes of frames that go through the engine together: what is compared first should still be in the
 /// last-level cache when it is computed.
-const TOGETHER: usize = 8 << 20;
+const TOGETHER: usize = 16 << 20;
 
 impl Engine {
     /// Takes the next frames of a design with up to 8 bits per pixel, the first one first; each is rows

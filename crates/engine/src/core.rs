@@ -20,7 +20,7 @@ use foveate_lanes::Aligned;
 use foveate_lanes::Lane;
 
 /// Rows of the smallest strip.
-const SMALLEST_HEIGHT: usize = 48;
+const SMALLEST_HEIGHT: usize = 96;
 
 /// The state between frames.
 #[derive(Debug)]

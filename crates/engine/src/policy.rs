@@ -36,11 +36,12 @@ impl Step {
 pub(crate) const SAMPLE: usize = 8;
 /// Frames to rest after the first judgement that found little; doubled up to the second.
 const RESTS: (u32, u32) = (4, 32);
-/// A comparison pays when it saves more than one in this many blocks.
-const PAYS: usize = 3;
-/// A sample is promising when more than one in this many of its blocks could be saved; a comparison
-/// that saves as much makes the next rest short again.
-const PROMISES: usize = 2;
+/// A comparison pays when it saves more than this share of the blocks: it costs about half of what
+/// computing a frame of small regions costs.
+const PAYS: (usize, usize) = (11, 20);
+/// A sample is promising when more than this share of its blocks could be saved; a comparison that
+/// saves as much makes the next rest short again.
+const PROMISES: (usize, usize) = (13, 20);
 
 #[derive(Clone, Copy, Debug)]
 enum Phase {
@@ -83,7 +84,7 @@ impl Policy {
 
     /// Learns how many blocks of the sample could be saved; says whether to keep these frames.
     pub(crate) fn judge(&mut self, saved: usize, blocks: usize) -> bool {
-        let promising = saved * PROMISES > blocks;
+        let promising = exceeds(saved, blocks, PROMISES);
         if promising {
             self.phase = Phase::Kept;
         } else {
@@ -94,9 +95,9 @@ impl Policy {
 
     /// Learns how many blocks a comparison has saved.
     pub(crate) fn saved(&mut self, saved: usize, blocks: usize) {
-        if saved * PROMISES > blocks {
+        if exceeds(saved, blocks, PROMISES) {
             self.rest = RESTS.0;
-        } else if saved * PAYS <= blocks {
+        } else if !exceeds(saved, blocks, PAYS) {
             self.give_up();
         }
     }
@@ -105,6 +106,11 @@ impl Policy {
         self.phase = Phase::Resting(self.rest);
         self.rest = (2 * self.rest).min(RESTS.1);
     }
+}
+
+/// Whether so many of the blocks are more than a share of them.
+fn exceeds(saved: usize, blocks: usize, (part, whole): (usize, usize)) -> bool {
+    saved * whole > blocks * part
 }
 
 #[cfg(test)]
@@ -132,8 +138,8 @@ mod tests {
         };
         assert_eq!(film(0, 0, 18), "sj....sj........sj");
         assert_eq!(film(0, 0, 16), "................");
-        assert_eq!(film(60, 60, 5), "sKccc");
-        assert_eq!(film(60, 10, 9), "c....sKc.");
+        assert_eq!(film(70, 70, 5), "sKccc");
+        assert_eq!(film(70, 10, 9), "c....sKc.");
         assert_eq!(Policy::new(false).next(1), Step::Rest);
     }
 
@@ -147,7 +153,7 @@ mod tests {
             [Step::Rest, Step::Rest, Step::Sample]
         );
         assert_eq!(policy.next(3), Step::Judge(0));
-        assert!(policy.judge(60, 100));
+        assert!(policy.judge(70, 100));
         assert_eq!(policy.next(3), Step::Compare);
     }
 }

@@ -7,8 +7,8 @@ use std::sync::{Mutex, PoisonError};
 
 use foveate_lanes::{Level, Task};
 
-/// Strips per thread: enough that a thread that is interrupted does not hold up the others.
-const STRIPS_PER_THREAD: usize = 4;
+/// Strips per thread: a thread that is interrupted holds up the others by half of its work at most.
+const STRIPS_PER_THREAD: usize = 2;
 /// Pixels of the smallest strip that is worth handing to another thread.
 const SMALLEST_STRIP: usize = 1 << 15;
 
@@ -108,7 +108,7 @@ mod tests {
     fn small_frames_are_not_divided() {
         let workers = Workers::new(Level::PORTABLE, 2).unwrap();
         assert_eq!(workers.strips(28, 224 * 224), 1);
-        assert_eq!(workers.strips(34, 1920 * 1088), 8);
+        assert_eq!(workers.strips(34, 1920 * 1088), 4);
         assert_eq!(workers.strips(3, 1920 * 1088), 3);
         assert_eq!(Workers::alone(Level::PORTABLE).strips(34, 1920 * 1088), 1);
     }
