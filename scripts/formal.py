@@ -158,18 +158,19 @@ def run(proof, task, fault, index):
     folder = prepare(proof, task, fault, index)
     began = time.monotonic()
     command = SBY + ["-d", "work", f"{proof.name}.sby"] + ([] if task == "-" else [task])
-    # A session of its own, so that solvers do not outlive a run that takes too long.
-    child = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT,
-                             start_new_session=True)
+    child = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
+    late = False
     try:
         child.wait(LIMIT)
     except subprocess.TimeoutExpired:
-        os.killpg(child.pid, 9)
+        # SymbiYosys ends its solvers, each of which is in a process group of its own.
+        late = True
+        child.terminate()
         child.wait()
     seconds = time.monotonic() - began
     status = os.path.join(folder, "work", "status")
     verdict = open(status).read().split()[0] if os.path.exists(status) else "ERROR"
-    if child.returncode < 0:
+    if late:
         verdict = "TIMEOUT"
     return folder, verdict, seconds
 
