@@ -8,7 +8,7 @@ use crate::recording::Recording;
 use crate::replay::{self, About};
 use crate::report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
-use crate::stimulus::Stimulus;
+use crate::stimulus::{Stimulus, pipelined};
 use foveate_emit::{SourceFile, verilog};
 use foveate_spec::{Design, SpecError};
 use foveate_toolchain::{Cache, Source, Toolchain, sha256_hex};
@@ -59,9 +59,10 @@ impl Job {
     /// A job with the Verilog that the emitter makes for the level of the stimulus.
     ///
     /// # Errors
-    /// When the level's grid makes a frame that no design can have.
+    /// When the level's grid makes a frame that no design can have, or the design is serial.
     pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, SpecError> {
         let simulated = stimulus.level.design(design)?;
+        pipelined(&simulated)?;
         Ok(Self {
             sources: verilog(&simulated, stimulus.level.top()),
             design: design.clone(),

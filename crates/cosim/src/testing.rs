@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A small hand-made module and a matching closure, to test the machinery without model and RTL.
 
-use foveate_spec::{Direction, Port, PortRole};
+use foveate_spec::{Direction, Port, PortRole, Qualifier};
 
 /// A port of any name and shape; the role is the clock's for `clk_i` and of no meaning otherwise.
 pub(crate) fn port(name: &str, direction: Direction, width: u32, lanes: u32) -> Port {
@@ -10,6 +10,6 @@ pub(crate) fn port(name: &str, direction: Direction, width: u32, lanes: u32) -> 
         (_, Direction::Input) => PortRole::Pixel,
         (_, Direction::Output) => PortRole::TemporalCount,
     };
-    let (name, doc, per_region) = (name.to_owned(), String::new(), lanes > 1);
-    Port { name, direction, role, width, lanes, per_region, doc }
+    let (name, doc, per_lane) = (name.to_owned(), String::new(), lanes > 1);
+    Port { name, direction, role, width, lanes, per_lane, qualifier: Qualifier::Always, doc }
 }

@@ -7,7 +7,7 @@ use foveate_cosim::{
     CosimError, Dut, Outcome, Recorder, Recording, Run, Simulator, bench_name, replay_bench,
     vectors_hex,
 };
-use foveate_spec::{Direction, Port, PortRole};
+use foveate_spec::{Direction, Port, PortRole, Qualifier};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Invocation, Tool, Toolchain};
 use std::time::Duration;
@@ -22,7 +22,8 @@ fn ports() -> Vec<Port> {
         role: if name == "clk_i" { PortRole::Clock } else { PortRole::Valid },
         width,
         lanes,
-        per_region: lanes > 1,
+        per_lane: lanes > 1,
+        qualifier: Qualifier::Always,
         doc: String::new(),
     };
     vec![

@@ -4,7 +4,10 @@
 use crate::verilog::text_of;
 use crate::{SourceFile, Top, banner, latency, verilog};
 use askama::Template;
-use foveate_spec::{Design, Direction, Port, PortRole, Thresholds};
+use foveate_spec::{
+    Design, Direction, Feed, MemoryKind, Organization, PipelinedTiming, Port, PortRole,
+    SerialTiming, Thresholds, Timing,
+};
 
 #[derive(Template)]
 #[template(path = "fusesoc.core")]
@@ -15,6 +18,8 @@ struct FuseSoc<'a> {
     rows: u32,
     n: u32,
     files: Vec<&'a str>,
+    /// Whether the core comes with a replay bench.
+    bench: bool,
 }
 
 #[derive(Template)]
@@ -44,6 +49,39 @@ struct Readme {
     thresholds: Vec<ThresholdRow>,
 }
 
+#[derive(Template)]
+#[template(path = "serial_README.md")]
+struct SerialReadme {
+    banner: String,
+    width: u32,
+    height: u32,
+    p: u32,
+    n: u32,
+    columns: u32,
+    rows: u32,
+    regions: u32,
+    lanes: u32,
+    fold: u32,
+    scores: String,
+    combine: &'static str,
+    reference: &'static str,
+    neighborhood: &'static str,
+    filter: &'static str,
+    feed: &'static str,
+    raster: bool,
+    halo: u32,
+    stream_side: u32,
+    depth: u64,
+    memory: &'static str,
+    load_pixels: u64,
+    load_clocks: u64,
+    steps: u64,
+    clocks: u64,
+    runtime: bool,
+    rcm_ports: Vec<PortRow>,
+    thresholds: Vec<ThresholdRow>,
+}
+
 struct PortRow {
     name: String,
     direction: &'static str,
@@ -60,15 +98,20 @@ struct ThresholdRow {
 #[must_use]
 pub fn core(design: &Design) -> Vec<SourceFile> {
     let mut files = verilog(design, Top::Rcm);
+    let rcm_list = file_list(&files);
+    let unit = verilog(design, Top::Rpu);
+    let unit_list = file_list(&unit);
+    // A serial array has no RPU inside.
+    files.extend(unit.into_iter().filter(|file| !rcm_list.contains(&file.path)));
     let paths: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
     let beside = [
-        ("rpu.f", file_list(&verilog(design, Top::Rpu))),
-        ("rcm.f", file_list(&files)),
+        ("rpu.f", unit_list),
+        ("rcm.f", rcm_list),
         ("foveate_rcm.core", text_of(&fusesoc(design, paths))),
         ("constraints/ooc.xdc", include_str!("../../../constraints/ooc.xdc").to_owned()),
         ("vivado_ooc.tcl", include_str!("../../../scripts/vivado_ooc.tcl").to_owned()),
         ("design.toml", design_toml(design)),
-        ("README.md", text_of(&readme(design))),
+        ("README.md", readme_text(design)),
     ];
     files.extend(beside.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }));
     files
@@ -90,12 +133,63 @@ fn fusesoc<'a>(design: &Design, files: Vec<&'a str>) -> FuseSoc<'a> {
         rows: design.rows(),
         n: design.region_size(),
         files,
+        bench: match design.organization() {
+            Organization::Pipelined => true,
+            Organization::Serial => false,
+        },
     }
 }
 
-fn readme(design: &Design) -> Readme {
-    let timing = design.timing();
+fn readme_text(design: &Design) -> String {
+    match design.timing() {
+        Timing::Pipelined(timing) => text_of(&readme(design, timing)),
+        Timing::Serial(timing) => text_of(&serial_readme(design, &timing)),
+    }
+}
+
+fn score_names(design: &Design) -> String {
     let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
+    names.join(", ")
+}
+
+fn serial_readme(design: &Design, timing: &SerialTiming) -> SerialReadme {
+    let memory = design.lane_memory();
+    SerialReadme {
+        banner: banner(design),
+        width: design.width(),
+        height: design.height(),
+        p: design.pixel_bits(),
+        n: design.region_size(),
+        columns: design.columns(),
+        rows: design.rows(),
+        regions: design.regions(),
+        lanes: design.lanes(),
+        fold: design.fold(),
+        scores: score_names(design),
+        combine: design.combine().name(),
+        reference: design.temporal().reference.name(),
+        neighborhood: design.neighborhood().name(),
+        filter: design.filter().name(),
+        feed: design.feed().name(),
+        raster: design.feed() == Feed::Raster,
+        halo: design.halo(),
+        stream_side: design.stream_side(),
+        depth: memory.depth,
+        memory: match memory.kind {
+            MemoryKind::Distributed => "distributed RAM",
+            MemoryKind::Block => "block RAM",
+        },
+        load_pixels: timing.load_pixels(),
+        load_clocks: timing.load_clocks(),
+        steps: timing.steps(),
+        clocks: timing.clocks_per_frame(),
+        runtime: design.thresholds() == Thresholds::Runtime,
+        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
+    }
+}
+
+fn readme(design: &Design, timing: PipelinedTiming) -> Readme {
     Readme {
         banner: banner(design),
         width: design.width(),
@@ -105,7 +199,7 @@ fn readme(design: &Design) -> Readme {
         columns: design.columns(),
         rows: design.rows(),
         regions: design.regions(),
-        scores: names.join(", "),
+        scores: score_names(design),
         combine: design.combine().name(),
         reference: design.temporal().reference.name(),
         neighborhood: design.neighborhood().name(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
-use foveate_spec::{Design, FeatureKind, Filter, Neighborhood, Reference};
+use foveate_spec::{Design, FeatureKind, Filter, Neighborhood, Organization, Reference};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct Leaf {
 }
 
 macro_rules! leaves {
-    ($($name:literal => [$($uses:literal),*]),+ $(,)?) => {
+    ($($name:literal => [$($uses:literal),* $(,)?]),+ $(,)?) => {
         /// Every leaf, each after those that it instantiates.
         pub const LEAVES: &[Leaf] = &[$(Leaf {
             name: $name,
@@ -50,19 +50,42 @@ leaves! {
     "vote" => [],
     "decision" => [],
     "forward_gate" => [],
+    "carry_adder" => [],
+    "serial_memory" => ["frame_store"],
+    "serial_lane" => ["serial_memory", "carry_adder"],
+    "serial_registers" => [],
+    "serial_group" => ["serial_registers"],
+    "serial_sequencer" => [],
+    "serial_parallel_feed" => [],
+    "serial_places" => [],
+    "serial_neighbor" => [],
+    "serial_raster_feed" => ["serial_places", "serial_neighbor"],
+    "serial_shown" => [],
+    "serial_sides" => [],
+    "serial_valid" => [],
+    "serial_decision" => ["serial_valid"],
+    "serial_array" => [
+        "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
+        "serial_group", "serial_sides", "serial_lane", "serial_decision"
+    ],
 }
 
-/// The leaves that the RPU of `design` is made of, in compile order.
+/// The leaves that `design` is made of, in compile order.
 pub(crate) fn of(design: &Design) -> impl Iterator<Item = &'static Leaf> {
-    let direct = instantiated(design);
-    LEAVES.iter().filter(move |leaf| {
-        let inside =
-            LEAVES.iter().filter(|l| direct.contains(&l.name)).any(|l| l.uses.contains(&leaf.name));
-        inside || direct.contains(&leaf.name)
-    })
+    let mut names = match design.organization() {
+        Organization::Pipelined => instantiated(design),
+        Organization::Serial => vec!["serial_array"],
+    };
+    // Every leaf stands after those that it instantiates.
+    for leaf in LEAVES.iter().rev() {
+        if names.contains(&leaf.name) {
+            names.extend(leaf.uses);
+        }
+    }
+    LEAVES.iter().filter(move |leaf| names.contains(&leaf.name))
 }
 
-/// The leaves that `rpu.v` instantiates itself.
+/// The leaves that a pipelined `rpu.v` instantiates itself.
 fn instantiated(design: &Design) -> Vec<&'static str> {
     let mut names = vec![
         "frame_progress",

@@ -9,13 +9,15 @@ mod core;
 mod leaf;
 mod rcm;
 mod rpu;
+mod serial;
+mod thresholds;
 mod verilog;
 
 pub use crate::core::core;
 pub use leaf::{LEAVES, Leaf};
 pub use verilog::{Parameter, Top, verilog};
 
-use foveate_spec::Design;
+use foveate_spec::{Design, PipelinedTiming};
 
 /// One file of generated text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,9 +28,17 @@ pub struct SourceFile {
     pub contents: String,
 }
 
+/// The timing of a pipelined design; only its modules ask.
+///
+/// # Panics
+/// When the design is serial.
+fn pipelined(design: &Design) -> PipelinedTiming {
+    design.pipelined_timing("the emitter").unwrap_or_else(|refusal| panic!("{refusal}"))
+}
+
 /// The latency of a decision, in words.
 fn latency(design: &Design) -> String {
-    let timing = design.timing();
+    let timing = pipelined(design);
     let last = if timing.decision_frames == 0 { "" } else { " of the following frame" };
     format!(
         "a decision is valid {} clocks after the edge that takes the last pixel{last}",

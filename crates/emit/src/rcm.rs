@@ -29,7 +29,7 @@ pub(crate) fn render(design: &Design) -> String {
         banner: banner(design),
         columns: design.columns(),
         rows: design.rows(),
-        ports: PortLine::all(&ports),
+        ports: PortLine::all(&ports, design),
         pins,
     };
     text_of(&view)
@@ -37,13 +37,13 @@ pub(crate) fn render(design: &Design) -> String {
 
 fn pin(port: &Port, rcm_ports: &[Port]) -> Pin {
     let name = port.name.clone();
-    let per_region = rcm_ports.iter().any(|outer| outer.name == name && outer.per_region);
+    let per_lane = rcm_ports.iter().any(|outer| outer.name == name && outer.per_lane);
     let connection = match port.role {
         PortRole::DecisionValid => "decision_valid[REGION]".to_owned(),
         PortRole::Border => {
             "{row == ROWS - 1, row == 0, column == COLUMNS - 1, column == 0}".to_owned()
         }
-        _ if !per_region => name.clone(),
+        _ if !per_lane => name.clone(),
         _ if port.width == 1 => format!("{name}[REGION]"),
         _ => format!("{name}[REGION*{0}+:{0}]", port.width),
     };

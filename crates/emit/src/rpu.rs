@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `rpu.v`: every number and name of the template is worked out here, from the design.
 
-use crate::verilog::PortLine;
-use crate::verilog::text_of;
-use crate::{banner, latency};
+use crate::thresholds::{Constant, constants, signal, summary};
+use crate::verilog::{PortLine, text_of};
+use crate::{banner, latency, pipelined};
 use askama::Template;
 use foveate_spec::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PortRole, Reference,
-    SpatialFeature, Thresholds, bits_for, index_bits,
+    SpatialFeature, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -55,13 +55,6 @@ struct Rpu {
     decided_pixel: &'static str,
     forward_pixel: &'static str,
     unused: Vec<&'static str>,
-}
-
-/// A threshold that is built in.
-struct Constant {
-    name: String,
-    width: u32,
-    value: u64,
 }
 
 /// A feature that counts hits of a window.
@@ -120,7 +113,7 @@ fn view(design: &Design) -> Rpu {
         banner: banner(design),
         summary: summary(design),
         latency: latency(design),
-        ports: PortLine::all(&design.rpu_ports()),
+        ports: PortLine::all(&design.rpu_ports(), design),
         constants: constants(design),
         n: design.region_size(),
         p: design.pixel_bits(),
@@ -139,7 +132,7 @@ fn view(design: &Design) -> Rpu {
         window: design.has_feature_window(),
         keeps_raw,
         keeps_second: second_pass && (last_sent || !keeps_raw),
-        tail_delay: design.timing().tail_delay > 0,
+        tail_delay: pipelined(design).tail_delay > 0,
         second_pass,
         last_sent,
         blanks: u32::from(design.irrelevant() == Irrelevant::Zero),
@@ -162,61 +155,6 @@ fn view(design: &Design) -> Rpu {
         },
         unused: unused(last_sent, second_pass),
     }
-}
-
-fn summary(design: &Design) -> String {
-    let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
-    format!(
-        "{} ({}), temporal against {}; {} neighborhood, filter {}",
-        names.join(", "),
-        design.combine(),
-        design.temporal().reference,
-        design.neighborhood(),
-        design.filter()
-    )
-}
-
-/// The input port of a threshold, or the constant that takes its place.
-fn signal(design: &Design, role: PortRole) -> String {
-    match design.thresholds() {
-        Thresholds::Runtime => design
-            .rpu_ports()
-            .into_iter()
-            .find(|port| port.role == role)
-            .map_or_else(String::new, |port| port.name),
-        Thresholds::Constant => constant_name(role),
-    }
-}
-
-fn constant_name(role: PortRole) -> String {
-    let upper = |kind: FeatureKind| kind.name().to_uppercase();
-    match role {
-        PortRole::Level(kind) => format!("{}_LEVEL", upper(kind)),
-        PortRole::MinScore(kind) => format!("{}_MIN", upper(kind)),
-        PortRole::TemporalLevel => "TEMPORAL_LEVEL".to_owned(),
-        PortRole::TemporalMinCount => "TEMPORAL_MIN".to_owned(),
-        _ => String::new(),
-    }
-}
-
-fn constants(design: &Design) -> Vec<Constant> {
-    if design.thresholds() == Thresholds::Runtime {
-        return Vec::new();
-    }
-    let mut list = Vec::new();
-    let mut add = |role, width, value| {
-        list.push(Constant { name: constant_name(role), width, value });
-    };
-    for feature in design.features() {
-        if let Some(level) = feature.level() {
-            add(PortRole::Level(feature.kind()), feature.level_bits(), level.into());
-        }
-        add(PortRole::MinScore(feature.kind()), feature.score_bits(), feature.min_score());
-    }
-    let temporal = design.temporal();
-    add(PortRole::TemporalLevel, design.pixel_bits(), temporal.level.into());
-    add(PortRole::TemporalMinCount, design.count_bits(), temporal.min_count.into());
-    list
 }
 
 fn windowed(design: &Design, feature: &SpatialFeature) -> Option<Windowed> {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The Verilog of a design, in compile order.
 
-use crate::{SourceFile, leaf, rcm, rpu};
+use crate::{SourceFile, leaf, rcm, rpu, serial};
 use askama::Template;
-use foveate_spec::{Design, Direction, Port};
+use foveate_spec::{Design, Direction, Organization, Port};
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
@@ -48,16 +48,20 @@ impl Top {
 }
 
 /// The modules that `top` is made of, each after those it instantiates.
+/// A pipelined array is made of RPUs; a serial one is a module beside that of its lone lane.
 #[must_use]
 pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
     let file =
         |name: &str, contents: String| SourceFile { path: format!("rtl/{name}.v"), contents };
     let mut files: Vec<_> =
         leaf::of(design).map(|leaf| file(leaf.name, leaf.contents.to_owned())).collect();
-    files.push(file("rpu", rpu::render(design)));
-    match top {
-        Top::Rpu => {}
-        Top::Rcm => files.push(file("rcm", rcm::render(design))),
+    match (design.organization(), top) {
+        (Organization::Pipelined, Top::Rpu) => files.push(file("rpu", rpu::render(design))),
+        (Organization::Pipelined, Top::Rcm) => {
+            files.push(file("rpu", rpu::render(design)));
+            files.push(file("rcm", rcm::render(design)));
+        }
+        (Organization::Serial, _) => files.push(file(top.module(), serial::render(design, top))),
     }
     files
 }
@@ -76,9 +80,9 @@ pub(crate) struct PortLine {
 
 impl PortLine {
     /// The lines for `ports`, aligned; every one but the last ends in a comma.
-    pub(crate) fn all(ports: &[Port]) -> Vec<Self> {
+    pub(crate) fn all(ports: &[Port], design: &Design) -> Vec<Self> {
         let widest = |texts: &[String]| texts.iter().map(String::len).max().unwrap_or(0);
-        let ranges: Vec<_> = ports.iter().map(range).collect();
+        let ranges: Vec<_> = ports.iter().map(|port| range(port, design)).collect();
         let mut names: Vec<_> = ports.iter().map(|port| format!("{},", port.name)).collect();
         if let Some(last) = names.last_mut() {
             last.pop();
@@ -103,11 +107,17 @@ fn direction(port: &Port) -> &'static str {
 }
 
 /// `[7:0]`, nothing for a single bit; in the array with its parameters.
-fn range(port: &Port) -> String {
-    match (port.per_region, port.width) {
-        (true, 1) => "[COLUMNS*ROWS-1:0]".to_owned(),
-        (true, width) => format!("[COLUMNS*ROWS*{width}-1:0]"),
-        (false, 1) => String::new(),
-        (false, width) => format!("[{}:0]", width - 1),
-    }
+fn range(port: &Port, design: &Design) -> String {
+    let by_grid = match design.organization() {
+        Organization::Serial => serial::range(port, design),
+        Organization::Pipelined => match (port.per_lane, port.width) {
+            (true, 1) => Some("[COLUMNS*ROWS-1:0]".to_owned()),
+            (true, width) => Some(format!("[COLUMNS*ROWS*{width}-1:0]")),
+            (false, _) => None,
+        },
+    };
+    by_grid.unwrap_or_else(|| match port.width {
+        1 => String::new(),
+        width => format!("[{}:0]", width - 1),
+    })
 }

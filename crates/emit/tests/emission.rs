@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use common::{design, matrix};
+use common::{design, matrix, serial_matrix};
 use foveate_emit::{LEAVES, SourceFile, Top, core, verilog};
 use foveate_spec::Direction;
 
@@ -52,14 +52,14 @@ fn every_leaf_says_what_it_uses_and_stands_after_it() {
 
 #[test]
 fn emission_is_deterministic() {
-    for toml in matrix() {
+    for toml in [matrix(), serial_matrix()].concat() {
         assert_eq!(core(&design(&toml)), core(&design(&toml)), "{toml}");
     }
 }
 
 #[test]
 fn exactly_the_modules_that_are_used_are_emitted() {
-    for toml in matrix() {
+    for toml in [matrix(), serial_matrix()].concat() {
         let files = verilog(&design(&toml), Top::Rcm);
         let emitted: BTreeSet<&str> = files
             .iter()
@@ -89,15 +89,49 @@ fn module_headers_are_the_port_lists() {
                     .find(|line| line.contains(&format!(" {}", port.name)))
                     .unwrap_or_else(|| panic!("{} is missing: {toml}", port.name));
                 assert!(line.trim_start().starts_with(direction), "{line}");
-                let range = match (port.per_region, port.width) {
+                let range = match (port.per_lane, port.width) {
                     (true, 1) => "[COLUMNS*ROWS-1:0]".to_owned(),
                     (true, width) => format!("[COLUMNS*ROWS*{width}-1:0]"),
                     (false, width) => format!("[{}:0]", width - 1),
                 };
-                assert_eq!(line.contains(&range), port.per_region || port.width > 1, "{line}");
+                assert_eq!(line.contains(&range), port.per_lane || port.width > 1, "{line}");
             }
         }
     }
+}
+
+#[test]
+fn serial_headers_are_the_port_lists() {
+    for toml in serial_matrix() {
+        let design = design(&toml);
+        for top in [Top::Rpu, Top::Rcm] {
+            let files = verilog(&design, top);
+            let text = contents(&files, &format!("rtl/{}.v", top.module()));
+            let header = text.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
+            let names: Vec<&str> = header
+                .lines()
+                .filter(|line| line.contains(" wire "))
+                .map(|line| line.split("//").next().unwrap().trim().trim_end_matches(','))
+                .map(|line| line.rsplit(' ').next().unwrap())
+                .collect();
+            let ports = top.ports(&design);
+            let expected: Vec<&str> = ports.iter().map(|port| port.name.as_str()).collect();
+            assert_eq!(names, expected, "{toml}");
+        }
+    }
+}
+
+#[test]
+fn a_serial_core_has_its_array_and_its_lone_lane() {
+    let design = design("[hardware]\norganization = 'serial'\nfold = 4\n");
+    let files = core(&design);
+    let rpu = contents(&files, "rtl/rpu.v");
+    assert!(rpu.contains("parameter COLUMNS = 4,") && rpu.contains("parameter ROWS = 1 "), "{rpu}");
+    let listed = |list: &str, path: &str| contents(&files, list).lines().any(|line| line == path);
+    assert!(listed("rpu.f", "rtl/rpu.v") && !listed("rpu.f", "rtl/rcm.v"));
+    assert!(listed("rcm.f", "rtl/rcm.v") && !listed("rcm.f", "rtl/rpu.v"));
+    assert!(contents(&files, "README.md").contains("196 serial lanes"));
+    assert!(!contents(&files, "foveate_rcm.core").contains("tb/"));
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{design, matrix};
+use common::{design, matrix, serial_matrix};
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
 use foveate_toolchain::testing::require_tools;
@@ -12,9 +12,10 @@ use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
 
-/// Runs `check` on the Verilog of every design of the matrix and reports every failure.
+/// Runs `check` on the Verilog of every design of the matrices and reports every failure.
 fn each_design(check: impl Fn(&[Source]) -> Result<(), ToolError> + Sync) {
-    let failures: Vec<String> = matrix()
+    let designs = [matrix(), serial_matrix()].concat();
+    let failures: Vec<String> = designs
         .par_iter()
         .filter_map(|toml| {
             let files = verilog(&design(toml), Top::Rcm);

@@ -24,6 +24,7 @@ const KEYS: &[(&str, &str)] = &[
     ("render.payload", "\"denoised\" or \"raw\""),
     ("hardware.organization", "\"pipelined\" or \"serial\""),
     ("hardware.fold", "a whole number >= 1"),
+    ("hardware.feed", "\"parallel\" or \"raster\""),
     ("hardware.thresholds", "\"runtime\" or \"constant\""),
 ];
 

@@ -6,31 +6,40 @@
 //! fingerprint. Nothing downstream validates again or derives a width again. This crate does no
 //! I/O.
 
+mod choice;
 mod config;
 mod decimal;
+mod derived;
 mod design;
 mod error;
 mod feature;
 mod fingerprint;
 mod keys;
 mod parse;
+mod pipelined_ports;
 mod port;
 mod preset;
 mod reciprocal;
+mod serial;
 mod timing;
+mod validate;
 mod width;
 
+pub use choice::{
+    Combine, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
+    Thresholds,
+};
 pub use config::{
-    Combine, Config, DecisionConfig, DenoiseConfig, FeatureKind, Filter, FrameConfig,
-    HardwareConfig, Irrelevant, Neighborhood, Organization, Payload, Reference, RegionConfig,
-    RenderConfig, SpatialConfig, TemporalConfig, Thresholds,
+    Config, DecisionConfig, DenoiseConfig, FrameConfig, HardwareConfig, RegionConfig, RenderConfig,
+    SpatialConfig, TemporalConfig,
 };
 pub use decimal::Decimal;
 pub use design::{Design, Temporal};
 pub use error::SpecError;
 pub use feature::{Mean, SpatialFeature, Variance};
-pub use port::{Direction, Port, PortRole};
+pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
 pub use reciprocal::Reciprocal;
-pub use timing::Timing;
+pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryKind, Phase, SerialTiming};
+pub use timing::{PipelinedTiming, Timing};
 pub use width::{bits_for, index_bits, mad_score_max};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of an RPU and of an RCM. Module headers, harnesses, vectors and benches all follow
-//! from these lists.
+//! from these lists. Those of `pipelined` are in [`crate::pipelined_ports`], those of `serial` in
+//! [`crate::serial`].
 
-use crate::{Design, FeatureKind, Thresholds};
+use crate::{Design, FeatureKind, Organization, Thresholds, pipelined_ports, serial};
 
 /// Direction of a port, seen from the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +23,7 @@ pub enum PortRole {
     Reset,
     /// A pixel is on the pixel port.
     Valid,
-    /// One pixel per region.
+    /// One pixel per lane; of a serial array with raster feed one.
     Pixel,
     /// Which sides of the region are the frame's border: `{bottom, top, right, left}`.
     Border,
@@ -34,7 +35,17 @@ pub enum PortRole {
     TemporalLevel,
     /// Per-region threshold of the temporal score.
     TemporalMinCount,
-    /// The outputs below are those of a whole frame.
+    /// A pixel would be taken (`serial`).
+    Ready,
+    /// A score stands at the score port (`serial`).
+    ScoreValid,
+    /// Which score: 0 the temporal count, 1.. the features in the order of the design (`serial`).
+    ScoreIndex,
+    /// The region that score and decision belong to (`serial`).
+    Region,
+    /// That score (`serial`).
+    AnyScore,
+    /// A decision is valid, with the outputs below: of all regions (`pipelined`), of one (`serial`).
     DecisionValid,
     /// Spatial relevance.
     Srs,
@@ -42,14 +53,30 @@ pub enum PortRole {
     Trs,
     /// Both: the region's pixels will leave.
     Active,
-    /// Score of a feature.
+    /// Score of a feature (`pipelined`).
     Score(FeatureKind),
-    /// Temporal score.
+    /// Temporal score (`pipelined`).
     TemporalCount,
     /// A pixel of an active region leaves.
     ForwardValid,
     /// That pixel.
     ForwardPixel,
+    /// Number of that pixel in its region, in raster order (`serial`).
+    ForwardPosition,
+    /// Slot of that region in its lane (`serial`, parallel feed, fold > 1).
+    ForwardSlot,
+    /// Number of that region (`serial`, raster feed).
+    ForwardRegion,
+}
+
+/// When the value of an output means something. Otherwise it may be anything, and is not compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Qualifier {
+    /// At every clock.
+    Always,
+    /// While the port of that role is 1: where both have a value per lane, in the same lane; where only
+    /// that port has, in any lane.
+    With(PortRole),
 }
 
 /// One port: `lanes` values of `width` bits, lane 0 in the lowest bits.
@@ -63,10 +90,12 @@ pub struct Port {
     pub role: PortRole,
     /// Bits of one lane.
     pub width: u32,
-    /// One, or one per region of the RCM.
+    /// One, or one per region of the pipelined RCM or per lane of the serial one.
     pub lanes: u32,
-    /// Whether there is a lane per region: in the RCM, even if it has but one.
-    pub per_region: bool,
+    /// Whether there is a value per lane: in the array, even if that has but one lane.
+    pub per_lane: bool,
+    /// When the value of an output means something; [`Qualifier::Always`] for an input.
+    pub qualifier: Qualifier,
     /// One line of documentation.
     pub doc: String,
 }
@@ -77,131 +106,62 @@ impl Port {
     pub fn bits(&self) -> u32 {
         self.width * self.lanes
     }
-}
 
-/// Whether a port of the RCM is one per region or one for all.
-#[derive(Clone, Copy, PartialEq)]
-enum Spread {
-    PerRegion,
-    Common,
-    /// Constant per region inside the RCM, so no port of it.
-    Inside,
+    /// A port with one value, which always means something.
+    pub(crate) fn single(direction: Direction, role: PortRole, width: u32, doc: &str) -> Self {
+        Self {
+            name: port_name(role),
+            direction,
+            role,
+            width,
+            lanes: 1,
+            per_lane: false,
+            qualifier: Qualifier::Always,
+            doc: doc.to_owned(),
+        }
+    }
 }
 
 impl Design {
-    /// The ports of one RPU, inputs first.
+    /// The ports of one RPU, inputs first. The RPU of a serial design is the array of
+    /// [`Design::one_lane`].
     #[must_use]
     pub fn rpu_ports(&self) -> Vec<Port> {
-        ports(self).into_iter().map(|(_, port)| port).collect()
+        match self.organization() {
+            Organization::Pipelined => pipelined_ports::rpu(self),
+            Organization::Serial => serial::ports(&self.one_lane()),
+        }
     }
 
-    /// The ports of the RCM: those of the RPU, per region where they differ by region.
+    /// The ports of the RCM, inputs first.
     #[must_use]
     pub fn rcm_ports(&self) -> Vec<Port> {
-        let in_rcm = |(spread, mut port): (Spread, Port)| match spread {
-            Spread::Inside => None,
-            Spread::Common => Some(port),
-            Spread::PerRegion => {
-                port.lanes = self.regions();
-                port.per_region = true;
-                port.doc.push_str("; region i in lane i");
-                Some(port)
-            }
-        };
-        ports(self).into_iter().filter_map(in_rcm).collect()
+        match self.organization() {
+            Organization::Pipelined => pipelined_ports::rcm(self),
+            Organization::Serial => serial::ports(self),
+        }
     }
 }
 
-fn ports(design: &Design) -> Vec<(Spread, Port)> {
-    use Direction::{Input, Output};
-    use Spread::{Common, Inside, PerRegion};
+/// The threshold inputs, the same for every organization: none where thresholds are constants.
+pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
     let mut list = Vec::new();
-    let mut add = |spread, direction, role: PortRole, width, doc: &str| {
-        let (name, doc) = (port_name(role), doc.to_owned());
-        list.push((
-            spread,
-            Port { name, direction, role, width, lanes: 1, per_region: false, doc },
-        ));
-    };
-    let pixel = design.pixel_bits();
-
-    add(Common, Input, PortRole::Clock, 1, "clock, rising edge");
-    add(Common, Input, PortRole::Reset, 1, "synchronous reset, active high");
-    add(Common, Input, PortRole::Valid, 1, "a pixel is taken at this edge");
-    add(PerRegion, Input, PortRole::Pixel, pixel, "pixel, row by row");
-    if design.needs_border() {
-        add(
-            Inside,
-            Input,
-            PortRole::Border,
-            4,
-            "sides on the frame's border: {bottom, top, right, left}",
-        );
+    match design.thresholds() {
+        Thresholds::Constant => return list,
+        Thresholds::Runtime => {}
     }
-    if design.thresholds() == Thresholds::Runtime {
-        for feature in design.features() {
-            let kind = feature.kind();
-            if feature.level().is_some() {
-                add(
-                    Common,
-                    Input,
-                    PortRole::Level(kind),
-                    feature.level_bits(),
-                    "a pixel is a hit above this",
-                );
-            }
-            add(
-                Common,
-                Input,
-                PortRole::MinScore(kind),
-                feature.score_bits(),
-                "the feature votes from this score on",
-            );
-        }
-        add(
-            Common,
-            Input,
-            PortRole::TemporalLevel,
-            pixel,
-            "a pixel has changed above this difference",
-        );
-        add(
-            Common,
-            Input,
-            PortRole::TemporalMinCount,
-            design.count_bits(),
-            "TRS from this count on",
-        );
-    }
-
-    add(
-        Common,
-        Output,
-        PortRole::DecisionValid,
-        1,
-        "decision and scores are those of a whole frame",
-    );
-    add(PerRegion, Output, PortRole::Srs, 1, "spatial relevance; 0 unless decision_valid_o");
-    add(PerRegion, Output, PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o");
-    add(PerRegion, Output, PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o");
+    let mut add = |role, width, doc| list.push(Port::single(Direction::Input, role, width, doc));
     for feature in design.features() {
-        add(
-            PerRegion,
-            Output,
-            PortRole::Score(feature.kind()),
-            feature.score_bits(),
-            "score; final with decision_valid_o",
-        );
+        let kind = feature.kind();
+        if feature.level().is_some() {
+            add(PortRole::Level(kind), feature.level_bits(), "a pixel is a hit above this");
+        }
+        let doc = "the feature votes from this score on";
+        add(PortRole::MinScore(kind), feature.score_bits(), doc);
     }
-    add(
-        PerRegion,
-        Output,
-        PortRole::TemporalCount,
-        design.count_bits(),
-        "changed pixels; final with decision_valid_o",
-    );
-    add(PerRegion, Output, PortRole::ForwardValid, 1, "a pixel of an active region leaves");
-    add(PerRegion, Output, PortRole::ForwardPixel, pixel, "that pixel; 0 unless forward_valid_o");
+    let doc = "a pixel has changed above this difference";
+    add(PortRole::TemporalLevel, design.pixel_bits(), doc);
+    add(PortRole::TemporalMinCount, design.count_bits(), "TRS from this count on");
     list
 }
 
@@ -216,6 +176,11 @@ fn port_name(role: PortRole) -> String {
         PortRole::MinScore(kind) => format!("{kind}_min_i"),
         PortRole::TemporalLevel => "temporal_level_i".to_owned(),
         PortRole::TemporalMinCount => "temporal_min_i".to_owned(),
+        PortRole::Ready => "ready_o".to_owned(),
+        PortRole::ScoreValid => "score_valid_o".to_owned(),
+        PortRole::ScoreIndex => "score_index_o".to_owned(),
+        PortRole::Region => "region_o".to_owned(),
+        PortRole::AnyScore => "score_o".to_owned(),
         PortRole::DecisionValid => "decision_valid_o".to_owned(),
         PortRole::Srs => "srs_o".to_owned(),
         PortRole::Trs => "trs_o".to_owned(),
@@ -224,5 +189,8 @@ fn port_name(role: PortRole) -> String {
         PortRole::TemporalCount => "temporal_count_o".to_owned(),
         PortRole::ForwardValid => "forward_valid_o".to_owned(),
         PortRole::ForwardPixel => "forward_pixel_o".to_owned(),
+        PortRole::ForwardPosition => "forward_position_o".to_owned(),
+        PortRole::ForwardSlot => "forward_slot_o".to_owned(),
+        PortRole::ForwardRegion => "forward_region_o".to_owned(),
     }
 }

@@ -46,6 +46,11 @@ pub const PRESETS: &[Preset] = &[
         summary: "windows that see across region borders: equal to whole-frame processing",
         toml: "[region]\nneighborhood = \"shared\"\n",
     },
+    Preset {
+        name: "serial",
+        summary: "the paper's scores from small lanes under one sequencer, one region per lane",
+        toml: "[hardware]\norganization = \"serial\"\n",
+    },
 ];
 
 impl Preset {

@@ -1,14 +1,62 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When a pipelined RPU says what: the numbers behind `docs/timing.md`.
+//! When a design says what, and of `pipelined` the numbers behind `docs/timing.md`; those of `serial`
+//! are in [`crate::serial`].
 
-use crate::{Design, Filter, Neighborhood};
+use crate::{Design, Filter, Neighborhood, Organization, SerialTiming, SpecError};
 
 /// Registers between a median window and the stream that follows it: window, result.
 const MEDIAN_REGISTERS: u32 = 2;
 
+/// When a design says what, by its organization.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Timing {
+    /// One RPU per region.
+    Pipelined(PipelinedTiming),
+    /// Lanes under one sequencer.
+    Serial(SerialTiming),
+}
+
+impl Timing {
+    /// Clocks from one frame to the next, where frames follow each other at once.
+    #[must_use]
+    pub fn clocks_per_frame(&self) -> u64 {
+        match self {
+            Self::Pipelined(timing) => timing.cycles_per_frame.into(),
+            Self::Serial(timing) => timing.clocks_per_frame(),
+        }
+    }
+}
+
+impl Design {
+    /// When the design says what.
+    #[must_use]
+    pub fn timing(&self) -> Timing {
+        match self.organization() {
+            Organization::Pipelined => Timing::Pipelined(PipelinedTiming::of(self)),
+            Organization::Serial => Timing::Serial(SerialTiming::of(self)),
+        }
+    }
+
+    /// The latencies of a pipelined design, for `user`, such as "the emitter", which knows no other.
+    ///
+    /// # Errors
+    /// When the design is serial; the message names `user`.
+    pub fn pipelined_timing(&self, user: &str) -> Result<PipelinedTiming, SpecError> {
+        match self.organization() {
+            Organization::Pipelined => Ok(PipelinedTiming::of(self)),
+            Organization::Serial => Err(SpecError::Combination {
+                key: "hardware.organization".to_owned(),
+                value: format!("\"{}\"", Organization::Serial),
+                with: format!("{user} of this version"),
+                remedy: format!("use \"{}\"", Organization::Pipelined),
+            }),
+        }
+    }
+}
+
 /// Latencies of a pipelined RPU, in clocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Timing {
+pub struct PipelinedTiming {
     /// Pixels of a region's stream, halo included; with one pixel per clock also the clocks from
     /// one frame to the next (the initiation interval).
     pub cycles_per_frame: u32,
@@ -25,8 +73,8 @@ pub struct Timing {
     pub tail_delay: u32,
 }
 
-impl Timing {
-    pub(crate) fn of(design: &Design) -> Self {
+impl PipelinedTiming {
+    fn of(design: &Design) -> Self {
         let flush = match design.neighborhood() {
             Neighborhood::Isolated => design.region_size() + 1,
             Neighborhood::Shared => 0,

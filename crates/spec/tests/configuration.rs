@@ -18,8 +18,8 @@ fn the_default_is_the_paper() {
     assert_eq!((paper.columns(), paper.rows(), paper.regions()), (28, 28, 784));
     assert_eq!((paper.region_pixels(), paper.stream_pixels(), paper.pixel_max()), (64, 64, 255));
     assert_eq!((paper.count_bits(), paper.slot_bits()), (7, 6));
-    assert_eq!(paper.timing().cycles_per_frame, 64);
-    assert_eq!(paper.timing().decision_latency, 20);
+    assert_eq!(paper.timing().clocks_per_frame(), 64);
+    assert_eq!(paper.pipelined_timing("a test").unwrap().decision_latency, 20);
 }
 
 #[test]
@@ -40,6 +40,24 @@ fn fingerprints_tell_designs_apart() {
     assert_eq!(paper, design("[frame]\nwidth = 224\n").fingerprint());
     assert_ne!(paper, design("[temporal]\nlevel = 9\n").fingerprint());
     assert_eq!(paper.len(), 16);
+    // A name that has been written somewhere must go on meaning the same design.
+    assert_eq!(paper, "255bc91bb78cefb8");
+    assert_eq!(paper, design("[hardware]\nfeed = \"parallel\"\n").fingerprint());
+    let serial = |keys: &str| design(&format!("[hardware]\norganization = \"serial\"\n{keys}"));
+    assert_eq!(serial("").fingerprint(), serial("feed = \"parallel\"\n").fingerprint());
+    let names = ["", "fold = 2\n", "feed = \"raster\"\n"].map(|keys| serial(keys).fingerprint());
+    assert!(names[0] != paper && names[0] != names[1] && names[0] != names[2]);
+}
+
+#[test]
+fn who_knows_only_pipelined_says_so() {
+    let serial = design("[hardware]\norganization = \"serial\"\n");
+    let refusal = serial.pipelined_timing("the test").unwrap_err().to_string();
+    assert_eq!(
+        refusal,
+        "`hardware.organization` = \"serial\" cannot be combined with the test of this version; \
+         use \"pipelined\""
+    );
 }
 
 #[test]
@@ -78,6 +96,7 @@ fn unknown_keys_name_the_nearest() {
         ("[temporal]\nmin_conut = 8\n", "temporal.min_conut", "temporal.min_count"),
         ("[[spatial]]\nfeature = \"edge\"\nlevle = 1\n", "spatial[0].levle", "spatial.level"),
         ("[frames]\nwidth = 8\n", "frames", "frame"),
+        ("[hardware]\nfede = \"raster\"\n", "hardware.fede", "hardware.feed"),
         ("[frame]\npayload = \"raw\"\n", "frame.payload", "render.payload"),
     ] {
         let expected = format!("unknown key `{key}`; did you mean `{nearest}`?");
@@ -117,6 +136,10 @@ fn ranges_name_key_value_and_range() {
         ("[frame]\npixel_bits = 17\n", "`frame.pixel_bits` = 17 is out of range; valid is 1..=16"),
         ("[frame]\nwidth = 0\n", "`frame.width` = 0 is out of range; valid is 1..=16384"),
         (
+            "[hardware]\norganization = \"serial\"\nfold = 785\n",
+            "`hardware.fold` = 785 is out of range; valid is 1..=784, the regions of the frame; fold = 784 makes one lane",
+        ),
+        (
             "[temporal]\nmin_count = 65\n",
             "`temporal.min_count` = 65 is out of range; valid is 0..=64 for regions of 64 pixels",
         ),
@@ -142,7 +165,11 @@ fn impossible_combinations_say_what_to_do() {
             "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"edge\"\n",
             "list each feature once",
         ),
-        ("[hardware]\norganization = \"serial\"\n", "not there yet"),
+        ("[hardware]\nfeed = \"raster\"\n", "leave the key out"),
+        (
+            "[hardware]\norganization = \"serial\"\n[region]\nsize = 3\n",
+            "`region.size` = 3 cannot be combined with organization = \"serial\"; use 4..=64",
+        ),
         ("[hardware]\nfold = 2\n", "use 1"),
         ("spatial = []\n", "one to four features"),
         ("[frame]\nwidth = 16384\nheight = 16384\n[region]\nsize = 2\n", "67108864 regions"),

@@ -55,6 +55,7 @@ const VALUES: &[&str] = &[
     "\"shared\"",
     "\"last-sent\"",
     "\"serial\"",
+    "\"raster\"",
     "true",
     "[]",
     "{}",
@@ -86,6 +87,8 @@ const KEYS: &[&str] = &[
     "temporal.reference",
     "render.payload",
     "hardware.fold",
+    "hardware.feed",
+    "hardware.organization",
     "hardware.thresholds",
     "hardware",
     "frame",
@@ -130,6 +133,7 @@ fn attempt(text: &str, overrides: &[String]) -> bool {
         Ok(design) => {
             assert_eq!(Config::from_toml(&design.config().to_toml()).unwrap(), *design.config());
             assert!(!design.rcm_ports().is_empty() && design.fingerprint().len() == 16);
+            assert!(design.timing().clocks_per_frame() > 0);
             true
         }
         Err(error) => {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_spec::{Config, Design, Direction, Neighborhood, Port};
+use foveate_spec::{Config, Design, Direction, Neighborhood, Port, Timing};
 use serde::Serialize;
 
 use crate::args::{CheckArgs, DesignArgs};
@@ -22,7 +22,7 @@ struct Card<'a> {
     stream: Stream,
     features: Vec<Feature>,
     count_bits: u32,
-    timing: Timing,
+    timing: Clocks,
     rpu_ports: Vec<PortRow>,
     rcm_ports: Vec<PortRow>,
 }
@@ -52,7 +52,14 @@ struct Feature {
 }
 
 #[derive(Serialize)]
-struct Timing {
+#[serde(untagged)]
+enum Clocks {
+    Pipelined(Latencies),
+    Serial { cycles_per_frame: u64 },
+}
+
+#[derive(Serialize)]
+struct Latencies {
     cycles_per_frame: u32,
     decision_latency: u32,
     decision_frames: u32,
@@ -81,7 +88,6 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
 
 impl<'a> Card<'a> {
     fn of(design: &'a Design) -> Self {
-        let timing = design.timing();
         Self {
             format_version: 1,
             fingerprint: design.fingerprint(),
@@ -100,11 +106,16 @@ impl<'a> Card<'a> {
             },
             features: design.features().iter().map(Feature::of).collect(),
             count_bits: design.count_bits(),
-            timing: Timing {
-                cycles_per_frame: timing.cycles_per_frame,
-                decision_latency: timing.decision_latency,
-                decision_frames: timing.decision_frames,
-                forward_frames: timing.forward_frames,
+            timing: match design.timing() {
+                Timing::Pipelined(timing) => Clocks::Pipelined(Latencies {
+                    cycles_per_frame: timing.cycles_per_frame,
+                    decision_latency: timing.decision_latency,
+                    decision_frames: timing.decision_frames,
+                    forward_frames: timing.forward_frames,
+                }),
+                Timing::Serial(timing) => {
+                    Clocks::Serial { cycles_per_frame: timing.clocks_per_frame() }
+                }
             },
             rpu_ports: design.rpu_ports().iter().map(PortRow::of).collect(),
             rcm_ports: design.rcm_ports().iter().map(PortRow::of).collect(),
@@ -171,9 +182,16 @@ fn text(design: &Design, card: &Card<'_>) -> String {
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
     lines.push(("stream", stream_line(design, card)));
-    lines.push(("cycles per frame", card.timing.cycles_per_frame.to_string()));
-    lines.push(("decision", decision_line(&card.timing)));
-    lines.push(("pixels leave", forward_line(&card.timing)));
+    match &card.timing {
+        Clocks::Pipelined(timing) => {
+            lines.push(("cycles per frame", timing.cycles_per_frame.to_string()));
+            lines.push(("decision", decision_line(timing)));
+            lines.push(("pixels leave", forward_line(timing)));
+        }
+        Clocks::Serial { cycles_per_frame } => {
+            lines.push(("cycles per frame", cycles_per_frame.to_string()));
+        }
+    }
     let mut text = String::new();
     for (name, value) in lines {
         let start = format!("{name:<17} ");
@@ -212,12 +230,12 @@ fn stream_line(design: &Design, card: &Card<'_>) -> String {
     format!("{0} x {0} = {1} pixels per region{halo}", card.stream.side, card.stream.pixels)
 }
 
-fn decision_line(timing: &Timing) -> String {
+fn decision_line(timing: &Latencies) -> String {
     let of = if timing.decision_frames == 0 { "" } else { " of the next frame" };
     format!("valid {} clocks after the last pixel{of}", timing.decision_latency)
 }
 
-fn forward_line(timing: &Timing) -> String {
+fn forward_line(timing: &Latencies) -> String {
     let which = if timing.forward_frames == 1 { "next frame" } else { "next frame but one" };
     format!("while the {which} enters")
 }

@@ -33,6 +33,7 @@ struct Flow {
 
 impl Flow {
     fn estimate(&self, design: &Design) -> Result<Report, CliError> {
+        super::pipelined(design)?;
         let sources = foveate_emit::verilog(design, Top::Rcm);
         let job = EstimateJob {
             sources: sources.into_iter().map(|file| (file.path, file.contents)).collect(),
@@ -60,13 +61,14 @@ fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
 }
 
 fn compare(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
+    super::pipelined(&args.design.design()?)?;
     let designs = variants(&args.design.read()?)?;
     let bar = progress::bar(args.quiet, designs.len() as u64, "synthesizing with Yosys");
     let mut candidates = Vec::new();
     for (name, design) in designs {
         candidates.push(Candidate {
             name,
-            cycles_per_frame: design.timing().cycles_per_frame,
+            cycles_per_frame: super::pipelined(&design)?.cycles_per_frame,
             report: flow.estimate(&design)?,
         });
         bar.inc(1);

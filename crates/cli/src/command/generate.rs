@@ -3,7 +3,7 @@
 
 use foveate_cosim::{Stimulus, replay_bench, vectors_hex};
 use foveate_emit::{SourceFile, Top};
-use foveate_spec::Design;
+use foveate_spec::{Design, Organization};
 use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
 
@@ -54,9 +54,14 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     ))
 }
 
-/// The core and its replay bench, with vectors from the model.
+/// The core and, where there is a model to compare with at every clock, its replay bench with vectors
+/// from that.
 fn files(design: &Design) -> Result<Vec<SourceFile>, CliError> {
     let mut files = foveate_emit::core(design);
+    match design.organization() {
+        Organization::Pipelined => {}
+        Organization::Serial => return Ok(files),
+    }
     let stimulus = Stimulus { rounds: 1, ..Stimulus::default() };
     let cancel = interrupt::flag()?;
     let recording = stimulus.record_until(design, &cancel, &mut |_, _| {})?;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One module per sub-command.
 
+use foveate_spec::{Design, PipelinedTiming, SpecError};
+
 pub(crate) mod analyze;
 pub(crate) mod check;
 pub(crate) mod completions;
@@ -11,3 +13,8 @@ pub(crate) mod explain;
 pub(crate) mod generate;
 pub(crate) mod presets;
 pub(crate) mod simulate;
+
+/// The timing of the only organization that there is Verilog for.
+fn pipelined(design: &Design) -> Result<PipelinedTiming, SpecError> {
+    design.pipelined_timing("the Verilog")
+}

@@ -86,7 +86,15 @@ impl Codec {
                 | PortRole::Score(_)
                 | PortRole::TemporalCount
                 | PortRole::ForwardValid
-                | PortRole::ForwardPixel => continue,
+                | PortRole::ForwardPixel
+                | PortRole::Ready
+                | PortRole::ScoreValid
+                | PortRole::ScoreIndex
+                | PortRole::Region
+                | PortRole::AnyScore
+                | PortRole::ForwardPosition
+                | PortRole::ForwardSlot
+                | PortRole::ForwardRegion => continue,
             };
             field.set(record, 0, value);
         }
@@ -112,7 +120,15 @@ impl Codec {
                     | PortRole::Level(_)
                     | PortRole::MinScore(_)
                     | PortRole::TemporalLevel
-                    | PortRole::TemporalMinCount => continue,
+                    | PortRole::TemporalMinCount
+                    | PortRole::Ready
+                    | PortRole::ScoreValid
+                    | PortRole::ScoreIndex
+                    | PortRole::Region
+                    | PortRole::AnyScore
+                    | PortRole::ForwardPosition
+                    | PortRole::ForwardSlot
+                    | PortRole::ForwardRegion => continue,
                 };
                 field.set(record, lane, value);
             }

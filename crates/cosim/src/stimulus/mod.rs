@@ -21,7 +21,7 @@ use crate::level::Level;
 use crate::recording::{Recorder, Recording};
 use driver::Driver;
 use foveate_model::{Frame, PipelinedRcm, PipelinedRpu};
-use foveate_spec::Design;
+use foveate_spec::{Design, PipelinedTiming, SpecError};
 use machine::Machine;
 use random::Random;
 use session::Session;
@@ -53,11 +53,17 @@ impl Default for Stimulus {
     }
 }
 
+/// The timing of the only organization that can be co-simulated.
+pub(crate) fn pipelined(design: &Design) -> Result<PipelinedTiming, SpecError> {
+    design.pipelined_timing("co-simulation")
+}
+
 impl Stimulus {
     /// Runs the model and records. `progress` hears how many sequences of how many are done.
     ///
     /// # Errors
-    /// When a frame is not of the design's kind, or there is no place for the files.
+    /// When a frame is not of the design's kind, the design is serial, or there is no place for the
+    /// files.
     pub fn record(
         &self,
         design: &Design,
@@ -78,6 +84,7 @@ impl Stimulus {
     ) -> Result<Recording, CosimError> {
         self.check(design)?;
         let design = self.level.design(design)?;
+        let timing = pipelined(&design)?;
         self.check_size(&design)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&design))?;
         let mut random = Random::new(self.seed);
@@ -89,7 +96,7 @@ impl Stimulus {
         };
         let lanes = lanes as usize;
         let driver = Driver::new(&design, machine, lanes, &mut recorder, random.fork(), cancel);
-        let mut session = Session::new(&design, self.level, driver, random);
+        let mut session = Session::new(&design, timing, self.level, driver, random);
         session.run(self.rounds, &self.frames, progress)?;
         recorder.finish()
     }

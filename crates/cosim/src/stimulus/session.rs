@@ -8,11 +8,12 @@ use super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
 use foveate_model::{Frame, region_border, region_stream};
-use foveate_spec::Design;
+use foveate_spec::{Design, PipelinedTiming};
 
 /// A recording under way.
 pub(super) struct Session<'a> {
     design: &'a Design,
+    timing: PipelinedTiming,
     level: Level,
     driver: Driver<'a>,
     random: Random,
@@ -24,6 +25,7 @@ pub(super) struct Session<'a> {
 impl<'a> Session<'a> {
     pub(super) fn new(
         design: &'a Design,
+        timing: PipelinedTiming,
         level: Level,
         driver: Driver<'a>,
         mut random: Random,
@@ -34,8 +36,8 @@ impl<'a> Session<'a> {
             Level::Rcm { .. } | Level::Full => (design.regions(), design.region_size()),
         };
         let artists = (0..squares).map(|_| Artist::new(design, side, random.fork())).collect();
-        let drain = u64::from(design.timing().decision_latency) + 4;
-        Self { design, level, driver, random, artists, drain }
+        let drain = u64::from(timing.decision_latency) + 4;
+        Self { design, timing, level, driver, random, artists, drain }
     }
 
     pub(super) fn run(
@@ -147,7 +149,7 @@ impl<'a> Session<'a> {
 
     /// Lets everything leave: silence, then the last frame again, as often as forwarding needs it.
     fn drain(&mut self, streams: &[u16], gaps: Gaps) -> Result<(), CosimError> {
-        for _ in 0..self.design.timing().forward_frames {
+        for _ in 0..self.timing.forward_frames {
             let pause = self.random.up_to(self.drain);
             self.driver.idle(pause)?;
             self.driver.stream(streams, usize::MAX, gaps)?;

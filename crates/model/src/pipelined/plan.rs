@@ -2,7 +2,8 @@
 //! The parameters of the blocks, taken from the design once.
 
 use foveate_spec::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
+    Reference,
 };
 
 use super::Thresholds;
@@ -41,7 +42,13 @@ pub(super) struct Plan {
 }
 
 impl Plan {
+    /// # Panics
+    /// When the design is not pipelined: no number below would mean anything.
     pub(super) fn of(design: &Design) -> Self {
+        match design.organization() {
+            Organization::Pipelined => {}
+            Organization::Serial => panic!("a pipelined model is made of a pipelined design"),
+        }
         let mut features = [None; FEATURES];
         for (place, feature) in features.iter_mut().zip(design.features()) {
             *place = Some(feature.kind());

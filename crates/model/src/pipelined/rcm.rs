@@ -22,6 +22,9 @@ struct Lane {
 
 impl PipelinedRcm {
     /// The RCM of the design.
+    ///
+    /// # Panics
+    /// When the design is not pipelined.
     #[must_use]
     pub fn new(design: &Design) -> Self {
         let rpu = PipelinedRpu::new(design);

@@ -59,6 +59,9 @@ pub struct PipelinedRpu {
 
 impl PipelinedRpu {
     /// An RPU of the design.
+    ///
+    /// # Panics
+    /// When the design is not pipelined.
     #[must_use]
     pub fn new(design: &Design) -> Self {
         let plan = Plan::of(design);

@@ -118,7 +118,7 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
     let edges = stream_edges(recipe, gaps, film.len());
     let steps = tail_steps(recipe, &edges);
     let last = edges.iter().flatten().max().unwrap();
-    let clocks = last + design.timing().decision_latency as usize + 5;
+    let clocks = last + design.pipelined_timing("this test").unwrap().decision_latency as usize + 5;
     let shown = run(recipe, rcm, film, &edges, clocks);
     let history = watch(recipe, film);
     for region in 0..design.regions() as usize {
@@ -135,7 +135,7 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
 /// Decisions in order are those of the functional model, and so are the pixels that leave.
 fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     let design = recipe.design();
-    let timing = design.timing();
+    let timing = design.pipelined_timing("this test").unwrap();
     for region in 0..design.regions() {
         let at = region as usize;
         let ports = || shown.iter().map(|outputs| outputs[at]);
@@ -163,12 +163,12 @@ fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>
     }
 }
 
-/// Without gaps a decision is valid exactly when `Design::timing` says so.
+/// Without gaps a decision is valid exactly when `Design::pipelined_timing` says so.
 fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     if gaps.inside != 0 || gaps.between != 0 {
         return;
     }
-    let timing = recipe.design().timing();
+    let timing = recipe.design().pipelined_timing("this test").unwrap();
     let valid: Vec<usize> =
         (0..shown.len()).filter(|&edge| shown[edge][0].decision_valid).collect();
     let due = |frame: usize| {

@@ -113,7 +113,10 @@ fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError
         }
         stream.push(edges);
     }
-    inputs.extend(vec![None; design.timing().decision_latency as usize + 3]);
+    inputs.extend(vec![
+        None;
+        design.pipelined_timing("this test").unwrap().decision_latency as usize + 3
+    ]);
     let frames = Frames {
         recipe,
         denoised: film.iter().map(|f| denoise(&design, &pad(&design, f).unwrap())).collect(),

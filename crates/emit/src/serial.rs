@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
+
+use crate::banner;
+use crate::thresholds::{Constant, constants, signal, summary};
+use crate::verilog::{PortLine, Top, text_of};
+use askama::Template;
+use foveate_spec::{
+    AreaKind, Combine, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
+    Port, PortRole, Reference, SpatialFeature, Thresholds, Timing,
+};
+
+#[derive(Template)]
+#[template(path = "serial.v")]
+struct Serial {
+    banner: String,
+    what: String,
+    summary: String,
+    memory: &'static str,
+    clocks: String,
+    module: &'static str,
+    columns: u32,
+    rows: u32,
+    ports: Vec<PortLine>,
+    constants: Vec<Constant>,
+    parameters: Vec<(&'static str, String)>,
+    fold: u32,
+    fold_bits: u32,
+    center_bits: u32,
+    position_bits: u32,
+    raster: bool,
+    /// Regions and numbers of regions in terms of the grid.
+    lanes: String,
+    slots: String,
+    slot_range: &'static str,
+    region_range: &'static str,
+    // Thresholds.
+    half_level: bool,
+    temporal_level: String,
+    edge_half: String,
+    corner_level: String,
+    /// The last feature first.
+    minima: Vec<String>,
+}
+
+/// The highest bit of the number of a region, in terms of the grid.
+const REGION_RANGE: &str = "(COLUMNS*ROWS > 1 ? $clog2(COLUMNS*ROWS) : 1)-1";
+
+pub(crate) fn render(design: &Design, top: Top) -> String {
+    match top {
+        Top::Rpu => text_of(&view(&design.one_lane(), design, top)),
+        Top::Rcm => text_of(&view(design, design, top)),
+    }
+}
+
+/// The range of a port whose width depends on the grid.
+pub(crate) fn range(port: &Port, design: &Design) -> Option<String> {
+    match (port.role, port.per_lane, port.width) {
+        (PortRole::Region | PortRole::ForwardRegion, _, _) => Some(format!("[{REGION_RANGE}:0]")),
+        (_, true, 1) => Some(format!("[{}-1:0]", lanes(design))),
+        (_, true, width) => Some(format!("[{}*{width}-1:0]", lanes(design))),
+        (_, false, _) => None,
+    }
+}
+
+/// Lanes in terms of the grid.
+fn lanes(design: &Design) -> String {
+    match design.fold() {
+        1 => "COLUMNS*ROWS".to_owned(),
+        fold => format!("((COLUMNS*ROWS+{})/{fold})", fold - 1),
+    }
+}
+
+fn view(design: &Design, named: &Design, top: Top) -> Serial {
+    let memory = design.lane_memory();
+    let edge = design.feature(FeatureKind::Edge);
+    let runtime = design.thresholds() == Thresholds::Runtime;
+    Serial {
+        banner: banner(named),
+        what: what(design, top),
+        summary: summary(design),
+        memory: match memory.kind {
+            MemoryKind::Distributed => "distributed RAM",
+            MemoryKind::Block => "block RAM",
+        },
+        clocks: clocks(design),
+        module: top.module(),
+        columns: design.columns(),
+        rows: design.rows(),
+        ports: PortLine::all(&top.ports(named), named),
+        constants: constants(design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
+        parameters: parameters(design),
+        fold: design.fold(),
+        fold_bits: design.fold_bits(),
+        center_bits: design.lane_widths().center,
+        position_bits: design.slot_bits(),
+        raster: design.feed() == Feed::Raster,
+        lanes: lanes(design),
+        slots: format!("LANES*{}", design.fold()),
+        slot_range: "(SLOTS > 1 ? $clog2(SLOTS) : 1)-1",
+        region_range: REGION_RANGE,
+        half_level: edge.is_some() && runtime,
+        temporal_level: signal(design, PortRole::TemporalLevel),
+        edge_half: edge_half(design),
+        corner_level: match design.feature(FeatureKind::Corner) {
+            Some(_) => signal(design, PortRole::Level(FeatureKind::Corner)),
+            None => format!("{}'d0", design.pixel_bits()),
+        },
+        minima: minima(design),
+    }
+}
+
+fn what(design: &Design, top: Top) -> String {
+    let size = design.region_size();
+    let p = design.pixel_bits();
+    match top {
+        Top::Rpu => format!(
+            "One lane of the serial array by itself: {} regions of {size}x{size} {p}-bit pixels side by side.",
+            design.fold()
+        ),
+        Top::Rcm => format!(
+            "Relevance computation module: COLUMNS x ROWS regions of {size}x{size} {p}-bit pixels."
+        ),
+    }
+}
+
+fn clocks(design: &Design) -> String {
+    match design.timing() {
+        Timing::Pipelined(_) => String::new(),
+        Timing::Serial(timing) => format!(
+            "{} clocks to take it and {} steps, with the grid above",
+            timing.load_clocks(),
+            timing.steps()
+        ),
+    }
+}
+
+fn parameters(design: &Design) -> Vec<(&'static str, String)> {
+    let memory = design.lane_memory();
+    let widths = design.lane_widths();
+    let median = design.filter() == Filter::Median3x3;
+    let region = design.region_size();
+    let base = |kind| memory.area(kind).map_or(0, |area| area.base);
+    let fraction = design.feature(FeatureKind::Mad).and_then(SpatialFeature::mean);
+    let kinds: Vec<u32> = design.features().iter().map(|f| kind(f.kind())).collect();
+    let kinds = kinds.iter().rev().fold(0, |sum, kind| sum << 2 | kind);
+    let flag = |condition: bool| u32::from(condition);
+    let numbers = [
+        ("WIDTH", design.pixel_bits()),
+        ("SIDE", region),
+        ("RAW_SIDE", design.stream_side()),
+        ("CLEAN_SIDE", if median { design.denoised_side() } else { region }),
+        ("MEDIAN", flag(median)),
+        ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
+        ("LAST_SENT", flag(design.temporal().reference == Reference::LastSent)),
+        ("BLANKS", flag(design.irrelevant() == Irrelevant::Zero)),
+        ("RAW_PAYLOAD", flag(design.keeps_raw())),
+        ("RASTER", flag(design.feed() == Feed::Raster)),
+        ("BLOCK", flag(memory.kind == MemoryKind::Block)),
+        ("FEATURES", design.score_count() - 1),
+        ("ALL", flag(design.combine() == Combine::All)),
+        ("FRACTION", fraction.map_or(0, |mean| mean.fraction_bits)),
+        ("CLEAN_BASE", base(AreaKind::Denoised)),
+        ("KEPT_BASE", base(AreaKind::Reference)),
+        ("WORD_BITS", memory.slot_words.trailing_zeros()),
+        ("SLOT_BITS", design.fold_bits()),
+        ("ADDRESS_BITS", memory.address_bits),
+        ("POSITION_BITS", widths.center),
+        ("INDEX_BITS", design.score_index_bits()),
+        ("COUNT_BITS", design.count_bits()),
+        ("SCORE_BITS", design.any_score_bits()),
+        ("SUM_BITS", design.pixel_sum_bits()),
+        ("SCALE_BITS", widths.scale),
+        ("ACC_BITS", widths.accumulator),
+        ("AUX_BITS", widths.second),
+        ("CHAIN_BITS", widths.chain),
+    ];
+    let mut list: Vec<_> = numbers.iter().map(|(name, value)| (*name, value.to_string())).collect();
+    list.push(("KINDS", format!("8'd{kinds}")));
+    list
+}
+
+/// How the Verilog numbers the features.
+fn kind(kind: FeatureKind) -> u32 {
+    match kind {
+        FeatureKind::Edge => 0,
+        FeatureKind::Corner => 1,
+        FeatureKind::Mad => 2,
+        FeatureKind::Variance => 3,
+    }
+}
+
+/// floor(level / 2) of `edge`, in two bits more than a pixel.
+fn edge_half(design: &Design) -> String {
+    let width = design.pixel_bits() + 2;
+    let Some(edge) = design.feature(FeatureKind::Edge) else { return format!("{width}'d0") };
+    match design.thresholds() {
+        Thresholds::Constant => format!("{width}'d{}", edge.level().unwrap_or(0) / 2),
+        Thresholds::Runtime => {
+            let half = format!("edge_level_i[{}:1]", edge.level_bits() - 1);
+            padded(&half, edge.level_bits() - 1, width)
+        }
+    }
+}
+
+fn minima(design: &Design) -> Vec<String> {
+    let width = design.any_score_bits();
+    let minimum = |feature: &SpatialFeature| {
+        let name = signal(design, PortRole::MinScore(feature.kind()));
+        padded(&name, feature.score_bits(), width)
+    };
+    let mut list: Vec<_> = design.features().iter().rev().map(minimum).collect();
+    list.push(padded(&signal(design, PortRole::TemporalMinCount), design.count_bits(), width));
+    list
+}
+
+/// A value of `bits` bits, extended to `width`.
+fn padded(value: &str, bits: u32, width: u32) -> String {
+    match width - bits {
+        0 => value.to_owned(),
+        zeros => format!("{{{zeros}'d0, {value}}}"),
+    }
+}

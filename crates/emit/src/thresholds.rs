@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds as inputs or constants, and scores in words: the same for every organization.
+
+use foveate_spec::{Design, FeatureKind, PortRole, Thresholds};
+
+/// A threshold that is built in.
+pub(crate) struct Constant {
+    pub(crate) name: String,
+    pub(crate) width: u32,
+    pub(crate) value: u64,
+}
+
+/// Scores and how they are formed, in words.
+pub(crate) fn summary(design: &Design) -> String {
+    let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
+    format!(
+        "{} ({}), temporal against {}; {} neighborhood, filter {}",
+        names.join(", "),
+        design.combine(),
+        design.temporal().reference,
+        design.neighborhood(),
+        design.filter()
+    )
+}
+
+/// The input port of a threshold, or the constant that takes its place.
+pub(crate) fn signal(design: &Design, role: PortRole) -> String {
+    match design.thresholds() {
+        Thresholds::Runtime => design
+            .rpu_ports()
+            .into_iter()
+            .find(|port| port.role == role)
+            .map_or_else(String::new, |port| port.name),
+        Thresholds::Constant => constant_name(role),
+    }
+}
+
+fn constant_name(role: PortRole) -> String {
+    let upper = |kind: FeatureKind| kind.name().to_uppercase();
+    match role {
+        PortRole::Level(kind) => format!("{}_LEVEL", upper(kind)),
+        PortRole::MinScore(kind) => format!("{}_MIN", upper(kind)),
+        PortRole::TemporalLevel => "TEMPORAL_LEVEL".to_owned(),
+        PortRole::TemporalMinCount => "TEMPORAL_MIN".to_owned(),
+        _ => String::new(),
+    }
+}
+
+/// The constants, where thresholds are none of the inputs.
+pub(crate) fn constants(design: &Design) -> Vec<Constant> {
+    if design.thresholds() == Thresholds::Runtime {
+        return Vec::new();
+    }
+    let mut list = Vec::new();
+    let mut add = |role, width, value| {
+        list.push(Constant { name: constant_name(role), width, value });
+    };
+    for feature in design.features() {
+        if let Some(level) = feature.level() {
+            add(PortRole::Level(feature.kind()), feature.level_bits(), level.into());
+        }
+        add(PortRole::MinScore(feature.kind()), feature.score_bits(), feature.min_score());
+    }
+    let temporal = design.temporal();
+    add(PortRole::TemporalLevel, design.pixel_bits(), temporal.level.into());
+    add(PortRole::TemporalMinCount, design.count_bits(), temporal.min_count.into());
+    list
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The memory of a lane: which areas a slot has, where, and of what it is built.
+
+use crate::{Design, Filter, Reference, index_bits};
+
+/// Memory LUTs up to which a lane's memory is distributed.
+const MAX_MEMORY_LUTS: u64 = 128;
+/// Words of one bit that a memory LUT holds.
+const LUT_WORDS: u64 = 64;
+
+/// What an area of a slot holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AreaKind {
+    /// Raw pixels with their halo, (N+2r)^2.
+    Raw,
+    /// Denoised pixels, S^2.
+    Denoised,
+    /// The region of the frame it is compared with, n.
+    Reference,
+}
+
+/// A square of pixels in a slot, row by row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Area {
+    /// What it holds.
+    pub kind: AreaKind,
+    /// Address of its first word in the slot.
+    pub base: u32,
+    /// Side of the square in pixels; a pixel is a word.
+    pub side: u32,
+}
+
+impl Area {
+    /// Words of the area.
+    #[must_use]
+    pub fn words(&self) -> u32 {
+        self.side * self.side
+    }
+}
+
+/// Of what a lane's memory is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MemoryKind {
+    /// Distributed memory: data in the clock of its address.
+    Distributed,
+    /// Block memory: data a clock after its address.
+    Block,
+}
+
+impl MemoryKind {
+    /// Q: clocks from address to data.
+    #[must_use]
+    pub fn read_latency(self) -> u32 {
+        match self {
+            Self::Distributed => 0,
+            Self::Block => 1,
+        }
+    }
+}
+
+/// The memory of one lane; words are pixels of P bits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LaneMemory {
+    /// The areas of a slot, one behind the other from address 0.
+    pub areas: Vec<Area>,
+    /// Words of a slot: a power of two that holds the areas. Slot k starts at k times this.
+    pub slot_words: u32,
+    /// Words of the lane's memory, K times those of a slot.
+    pub depth: u64,
+    /// Bits of an address in it.
+    pub address_bits: u32,
+    /// Memory LUTs that it takes as distributed memory.
+    pub luts: u64,
+    /// Of what it is built.
+    pub kind: MemoryKind,
+}
+
+impl LaneMemory {
+    fn of(design: &Design) -> Self {
+        let denoises = match design.filter() {
+            Filter::None => false,
+            Filter::Median3x3 => true,
+        };
+        let keeps_reference = match design.temporal().reference {
+            Reference::Previous => !denoises,
+            Reference::LastSent => true,
+        };
+        let candidates = [
+            (true, AreaKind::Raw, design.stream_side()),
+            (denoises, AreaKind::Denoised, design.denoised_side()),
+            (keeps_reference, AreaKind::Reference, design.region_size()),
+        ];
+        let mut areas = Vec::new();
+        let mut words = 0;
+        for (_, kind, side) in candidates.into_iter().filter(|(there, _, _)| *there) {
+            areas.push(Area { kind, base: words, side });
+            words += side * side;
+        }
+        let slot_words = words.next_power_of_two();
+        let depth = u64::from(design.fold()) * u64::from(slot_words);
+        let luts = u64::from(design.pixel_bits()) * depth.div_ceil(LUT_WORDS);
+        let kind =
+            if luts <= MAX_MEMORY_LUTS { MemoryKind::Distributed } else { MemoryKind::Block };
+        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, kind }
+    }
+
+    /// The area of that kind, if a slot has it.
+    #[must_use]
+    pub fn area(&self, kind: AreaKind) -> Option<&Area> {
+        self.areas.iter().find(|area| area.kind == kind)
+    }
+
+    /// Q: clocks from address to data.
+    #[must_use]
+    pub fn read_latency(&self) -> u32 {
+        self.kind.read_latency()
+    }
+}
+
+impl Design {
+    /// The memory of one lane.
+    #[must_use]
+    pub fn lane_memory(&self) -> LaneMemory {
+        LaneMemory::of(self)
+    }
+}

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Numbers of `docs/serial.md`, worked out by hand, and what must hold for every design.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use super::*;
+use crate::{Config, FeatureKind, Feed, Neighborhood, Qualifier, Timing};
+use Phase::{
+    Border, Copy, DenoiseTemporal, Pass, RotateCount, RotateScore, Temporal as Compare, Unload,
+};
+
+fn design(overrides: &[&str]) -> Design {
+    let serial = "[hardware]\norganization = \"serial\"\n";
+    Config::from_toml_with(serial, overrides).unwrap().validate().unwrap()
+}
+
+fn timing(design: &Design) -> SerialTiming {
+    match design.timing() {
+        Timing::Serial(timing) => timing,
+        Timing::Pipelined(_) => panic!("the design is serial"),
+    }
+}
+
+#[test]
+fn the_papers_frame_takes_7905_clocks() {
+    let design = design(&[]);
+    let timing = timing(&design);
+    assert_eq!((design.lanes(), design.fold(), design.feed()), (784, 1, Feed::Parallel));
+    let edge = FeatureKind::Edge;
+    let phases = [
+        (DenoiseTemporal, 64 * 83),
+        (RotateCount, 784),
+        (Pass(edge), 14 * 64),
+        (RotateScore(edge), 784),
+        (Unload, 64),
+    ];
+    assert_eq!(timing.phases(), phases);
+    assert_eq!((timing.slot_steps(), timing.steps()), (7_840, 7_840));
+    assert_eq!((timing.load_pixels(), timing.load_clocks()), (64, 64));
+    assert_eq!((timing.edges_to_step(0), timing.edges_to_ready()), (1, 7_841));
+    assert_eq!(timing.clocks_per_frame(), 7_905);
+    assert_eq!(design.timing().clocks_per_frame(), 7_905);
+}
+
+/// 24x16 pixels: 3x2 regions of 8x8, two lanes of three slots; the halo is 2, the stream 12x12, the
+/// denoised square 10x10; 144 + 100 + 64 words of 8 bits, 512 a slot: 8 * 24 = 192 LUTs, so block.
+#[test]
+fn every_phase_of_a_raster_fold_with_all_features() {
+    let design = design(&[
+        "frame.width=24",
+        "frame.height=16",
+        "hardware.fold=3",
+        "hardware.feed=raster",
+        "region.neighborhood=shared",
+        "temporal.reference=last-sent",
+        "spatial=[{feature=\"variance\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=6}]",
+    ]);
+    let timing = timing(&design);
+    let (variance, corner, mad) = (FeatureKind::Variance, FeatureKind::Corner, FeatureKind::Mad);
+    let phases = [
+        (DenoiseTemporal, 100 * 85),
+        (Border, 4 * 10 * 3),
+        (RotateCount, 2),
+        // n = 64 has one one; 64 * 255 = 16,320 has 14 bits; 64 has 7.
+        (Pass(variance), 64 + 8 * 64 + 28 + 8 + 7 + 2),
+        (RotateScore(variance), 2),
+        (Pass(corner), 36 * 64),
+        (RotateScore(corner), 2),
+        (Pass(mad), 128 + 8 + 12 + 3),
+        (RotateScore(mad), 2),
+        (Copy, 64 * 3),
+        (Unload, 64 * 3),
+    ];
+    assert_eq!(timing.phases(), phases);
+    assert_eq!((timing.slot_steps(), timing.steps()), (12_088, 36_264));
+    assert_eq!((timing.load_pixels(), timing.load_clocks()), (384, 6 * 144));
+    assert_eq!((timing.read_latency(), timing.edges_to_step(5)), (1, 7));
+    assert_eq!(timing.clocks_per_frame(), 864 + 36_264 + 1);
+    let memory = design.lane_memory();
+    let area = |kind| memory.area(kind).map(|area| (area.base, area.side));
+    assert_eq!(area(AreaKind::Raw), Some((0, 12)));
+    assert_eq!(area(AreaKind::Denoised), Some((144, 10)));
+    assert_eq!(area(AreaKind::Reference), Some((244, 8)));
+    assert_eq!((memory.slot_words, memory.depth, memory.address_bits), (512, 1536, 11));
+    assert_eq!((memory.luts, memory.kind), (192, MemoryKind::Block));
+}
+
+#[test]
+fn without_denoising_the_reference_is_compared_by_itself() {
+    let steps = |reference: &str, fold: &str| {
+        let design =
+            design(&["denoise.filter=none", reference, fold, "frame.width=8", "frame.height=80"]);
+        (timing(&design).phases().to_vec(), design.lane_memory())
+    };
+    let edge = (Pass(FeatureKind::Edge), 14 * 64);
+    let rotation = (RotateScore(FeatureKind::Edge), 10);
+    let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=1");
+    assert_eq!(phases, [(Compare, 192), (RotateCount, 10), edge, rotation, (Unload, 64)]);
+    assert_eq!((memory.slot_words, memory.luts, memory.kind), (128, 16, MemoryKind::Distributed));
+    let (phases, _) = steps("temporal.reference=last-sent", "hardware.fold=1");
+    assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 128)));
+    // Eight slots of 128 words take 128 LUTs, nine take 144.
+    let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=8");
+    assert_eq!(
+        (phases[0], memory.luts, memory.kind),
+        ((Compare, 192), 128, MemoryKind::Distributed)
+    );
+    let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=9");
+    assert_eq!((phases[0], memory.luts, memory.kind), ((Compare, 256), 144, MemoryKind::Block));
+    let (phases, _) = steps("temporal.reference=last-sent", "hardware.fold=9");
+    assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 192)));
+}
+
+#[test]
+fn the_widths_of_the_ports_hold_their_numbers() {
+    let wide = design(&["hardware.fold=3", "spatial=[{feature=\"edge\"},{feature=\"variance\"}]"]);
+    assert_eq!(
+        (wide.lanes(), wide.region_bits(), wide.lane_bits(), wide.fold_bits()),
+        (262, 10, 9, 2)
+    );
+    assert_eq!((wide.score_count(), wide.score_index_bits()), (3, 2));
+    assert_eq!(wide.any_score_bits(), wide.features()[1].score_bits());
+    assert_eq!((wide.region_of(261, 0), wide.region_of(261, 1)), (Some(783), None));
+    let one = design(&["frame.width=8", "frame.height=8"]);
+    assert_eq!((one.region_bits(), one.lane_bits(), one.fold_bits()), (1, 1, 1));
+    assert_eq!((one.score_index_bits(), one.any_score_bits()), (1, 7));
+}
+
+/// Name, width, lanes, and whether there is a value per lane.
+fn outputs(ports: &[crate::Port]) -> Vec<(&str, u32, u32, bool)> {
+    let outputs = ports.iter().filter(|port| port.direction == crate::Direction::Output);
+    outputs.map(|port| (port.name.as_str(), port.width, port.lanes, port.per_lane)).collect()
+}
+
+const RESULTS: [(&str, u32, u32, bool); 9] = [
+    ("ready_o", 1, 1, false),
+    ("score_valid_o", 1, 1, false),
+    ("score_index_o", 1, 1, false),
+    ("region_o", 10, 1, false),
+    ("score_o", 7, 1, false),
+    ("decision_valid_o", 1, 1, false),
+    ("srs_o", 1, 1, false),
+    ("trs_o", 1, 1, false),
+    ("active_o", 1, 1, false),
+];
+
+#[test]
+fn ports_follow_feed_and_fold() {
+    let parallel = design(&["hardware.fold=4"]).rcm_ports();
+    let forward = [
+        ("forward_valid_o", 1, 196, true),
+        ("forward_pixel_o", 8, 196, true),
+        ("forward_position_o", 6, 1, false),
+        ("forward_slot_o", 2, 1, false),
+    ];
+    assert_eq!(outputs(&parallel), [&RESULTS[..], &forward].concat());
+    let pixel = parallel.iter().find(|port| port.name == "pixel_i").unwrap();
+    assert_eq!((pixel.lanes, pixel.per_lane, pixel.bits()), (196, true, 1568));
+    let unfolded = design(&[]).rcm_ports();
+    assert!(unfolded.iter().all(|port| port.name != "forward_slot_o"));
+
+    let raster = design(&["hardware.fold=4", "hardware.feed=raster"]).rcm_ports();
+    let forward = [
+        ("forward_valid_o", 1, 1, false),
+        ("forward_pixel_o", 8, 1, false),
+        ("forward_position_o", 6, 1, false),
+        ("forward_region_o", 10, 1, false),
+    ];
+    assert_eq!(outputs(&raster), [&RESULTS[..], &forward].concat());
+    for port in parallel.iter().chain(&raster) {
+        let qualifier = match port.name.as_str() {
+            "score_index_o" | "region_o" | "score_o" => {
+                Qualifier::With(crate::PortRole::ScoreValid)
+            }
+            "forward_pixel_o" | "forward_position_o" | "forward_slot_o" | "forward_region_o" => {
+                Qualifier::With(crate::PortRole::ForwardValid)
+            }
+            _ => Qualifier::Always,
+        };
+        assert_eq!(port.qualifier, qualifier, "{}", port.name);
+    }
+    let thresholds = |ports: Vec<crate::Port>| -> Vec<_> {
+        let own =
+            ports.into_iter().filter(|p| p.name.ends_with("level_i") || p.name.ends_with("min_i"));
+        own.collect()
+    };
+    let pipelined = Config::default().validate().unwrap();
+    assert_eq!(thresholds(raster), thresholds(pipelined.rcm_ports()));
+}
+
+#[test]
+fn one_rpu_is_the_array_of_one_lane() {
+    let design = design(&["hardware.fold=3", "region.neighborhood=shared"]);
+    let one = design.one_lane();
+    assert_eq!((one.width(), one.height(), one.regions(), one.lanes()), (24, 8, 3, 1));
+    assert_eq!(one.config().validate().unwrap(), one);
+    assert_eq!(design.rpu_ports(), one.rcm_ports());
+    assert_eq!(one.rpu_ports(), one.rcm_ports());
+    assert_eq!(outputs(&design.rpu_ports())[3], ("region_o", 2, 1, false));
+}
+
+/// c(x) as docs/serial.md defines it: pairs of region column and position in its window.
+fn counted(design: &Design, at: u32, regions: u32) -> u32 {
+    let (side, halo) = (i64::from(design.region_size()), i64::from(design.halo()));
+    let end = i64::from(regions) * side - 1;
+    let windows = (0..i64::from(regions)).flat_map(|r| r * side - halo..(r + 1) * side + halo);
+    windows.map(|x| u32::from(x.clamp(0, end) == i64::from(at))).sum()
+}
+
+#[test]
+fn every_window_is_filled_once() {
+    for neighborhood in Neighborhood::ALL {
+        for (filter, feature) in
+            [("median3x3", "edge"), ("median3x3", "mad"), ("none", "corner"), ("none", "variance")]
+        {
+            for side in [4u32, 5, 8, 13] {
+                for (columns, rows) in [(1, 1), (2, 1), (1, 3), (4, 3)] {
+                    let design = design(&[
+                        &format!("region.neighborhood={neighborhood}"),
+                        &format!("denoise.filter={filter}"),
+                        &format!("spatial=[{{feature=\"{feature}\"}}]"),
+                        &format!("region.size={side}"),
+                        &format!("frame.width={}", columns * side),
+                        // A ragged frame counts like the padded one.
+                        &format!("frame.height={}", rows * side - 1),
+                        "hardware.feed=raster",
+                    ]);
+                    let mut places = 0;
+                    for y in 0..rows * side {
+                        assert_eq!(design.row_places(y), counted(&design, y, rows));
+                        for x in 0..columns * side {
+                            assert_eq!(design.column_places(x), counted(&design, x, columns));
+                            places += u64::from(design.column_places(x) * design.row_places(y));
+                        }
+                    }
+                    let windows = u64::from(design.regions() * design.stream_pixels());
+                    assert_eq!(places, windows, "{neighborhood} {filter} {feature} {side}");
+                    assert_eq!(timing(&design).load_clocks(), windows);
+                }
+            }
+        }
+    }
+}

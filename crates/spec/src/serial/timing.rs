@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The steps of a serial array: what it does with a frame, in which order and for how long.
+
+use crate::{Design, FeatureKind, Feed, Filter, Reference, SpatialFeature};
+
+/// What the lanes do for one slot, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Medians, each compared with its reference as it is written.
+    DenoiseTemporal,
+    /// The denoised pixels beyond the frame's border become repetitions of those at it.
+    Border,
+    /// Comparison of raw pixels with their reference.
+    Temporal,
+    /// The temporal counts of the lanes pass the ports.
+    RotateCount,
+    /// The score of a feature is computed.
+    Pass(FeatureKind),
+    /// The scores of a feature pass the ports.
+    RotateScore(FeatureKind),
+    /// What is sent becomes the reference.
+    Copy,
+    /// The pixels of active regions leave.
+    Unload,
+}
+
+/// When a serial array says what; all of `docs/serial.md` in numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SerialTiming {
+    phases: Vec<(Phase, u64)>,
+    slots: u32,
+    read_latency: u32,
+    load_pixels: u64,
+    load_clocks: u64,
+}
+
+impl SerialTiming {
+    /// The timing of the design, as if it were serial.
+    pub(crate) fn of(design: &Design) -> Self {
+        let stream = u64::from(design.stream_pixels());
+        let (load_pixels, load_clocks) = match design.feed() {
+            Feed::Parallel => {
+                let pixels = u64::from(design.fold()) * stream;
+                (pixels, pixels)
+            }
+            Feed::Raster => {
+                let regions = u64::from(design.regions());
+                (regions * u64::from(design.region_pixels()), regions * stream)
+            }
+        };
+        Self {
+            phases: phases(design),
+            slots: design.fold(),
+            read_latency: design.lane_memory().read_latency(),
+            load_pixels,
+            load_clocks,
+        }
+    }
+
+    /// The phases of one slot, those that the design has, in order, with their steps. Every slot
+    /// goes through the same.
+    #[must_use]
+    pub fn phases(&self) -> &[(Phase, u64)] {
+        &self.phases
+    }
+
+    /// Slots K.
+    #[must_use]
+    pub fn slots(&self) -> u32 {
+        self.slots
+    }
+
+    /// Q: clocks from address to data of the lane memory.
+    #[must_use]
+    pub fn read_latency(&self) -> u32 {
+        self.read_latency
+    }
+
+    /// Steps for one slot.
+    #[must_use]
+    pub fn slot_steps(&self) -> u64 {
+        self.phases.iter().map(|(_, steps)| steps).sum()
+    }
+
+    /// Steps for a frame, J.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        u64::from(self.slots) * self.slot_steps()
+    }
+
+    /// Pixels that are taken for a frame, U: per lane with parallel feed, in all with raster feed.
+    #[must_use]
+    pub fn load_pixels(&self) -> u64 {
+        self.load_pixels
+    }
+
+    /// Clocks that taking a frame needs without gaps, U': more than U for raster feed with a halo.
+    #[must_use]
+    pub fn load_clocks(&self) -> u64 {
+        self.load_clocks
+    }
+
+    /// Edges from T0 to the one after which the clock of step `j` (0..J) comes, 1 + Q + j.
+    #[must_use]
+    pub fn edges_to_step(&self, j: u64) -> u64 {
+        1 + u64::from(self.read_latency) + j
+    }
+
+    /// Edges from T0 to the one after which the array is ready again, 1 + J.
+    #[must_use]
+    pub fn edges_to_ready(&self) -> u64 {
+        1 + self.steps()
+    }
+
+    /// Clocks from one frame to the next that follows at once, U' + J + 1.
+    #[must_use]
+    pub fn clocks_per_frame(&self) -> u64 {
+        self.load_clocks + self.steps() + 1
+    }
+}
+
+fn phases(design: &Design) -> Vec<(Phase, u64)> {
+    let n = u64::from(design.region_pixels());
+    let lanes = u64::from(design.lanes());
+    let read = u64::from(design.lane_memory().read_latency());
+    let last_sent = match design.temporal().reference {
+        Reference::Previous => false,
+        Reference::LastSent => true,
+    };
+    let mut list = Vec::new();
+    match design.filter() {
+        Filter::Median3x3 => {
+            let pixels = u64::from(design.denoised_side()).pow(2);
+            let median = 10 * u64::from(design.pixel_bits()) + 3 + read + u64::from(last_sent);
+            list.push((Phase::DenoiseTemporal, pixels * median));
+            if design.needs_border() {
+                let side = u64::from(design.denoised_side());
+                list.push((Phase::Border, 4 * side * (2 + read)));
+            }
+        }
+        Filter::None if last_sent => list.push((Phase::Temporal, 3 * n)),
+        Filter::None => list.push((Phase::Temporal, n * (3 + read))),
+    }
+    list.push((Phase::RotateCount, lanes));
+    for feature in design.features() {
+        list.push((Phase::Pass(feature.kind()), pass(design, feature)));
+        list.push((Phase::RotateScore(feature.kind()), lanes));
+    }
+    if last_sent {
+        list.push((Phase::Copy, n * (2 + read)));
+    }
+    let unload = match design.feed() {
+        Feed::Parallel => n,
+        Feed::Raster => n * (1 + lanes),
+    };
+    list.push((Phase::Unload, unload));
+    list
+}
+
+/// Steps of the pass of a feature.
+fn pass(design: &Design, feature: &SpatialFeature) -> u64 {
+    let n = u64::from(design.region_pixels());
+    let pixel_bits = u64::from(design.pixel_bits());
+    match feature.kind() {
+        FeatureKind::Edge => 14 * n,
+        FeatureKind::Corner => 36 * n,
+        FeatureKind::Mad => {
+            let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
+            2 * n + pixel_bits + 2 * u64::from(fraction_bits) + 3
+        }
+        FeatureKind::Variance => {
+            let ones = u64::from(n.count_ones());
+            let (sum, count) = (u64::from(design.pixel_sum_bits()), u64::from(design.count_bits()));
+            n + pixel_bits * n * ones + 2 * sum + pixel_bits + count + 2
+        }
+    }
+}

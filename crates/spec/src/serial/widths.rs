@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bits of the registers of a serial lane and of the sequencer.
+
+use crate::{Design, FeatureKind, Feed, Filter, index_bits};
+
+/// Bits of the registers of a serial array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LaneWidths {
+    /// The accumulator, which is signed.
+    pub accumulator: u32,
+    /// The word beside it that holds a mean or a sum; at least two.
+    pub second: u32,
+    /// The word that travels around the ring of lanes: a score or, with raster feed, a pixel.
+    pub chain: u32,
+    /// The constant that the sequencer shifts from step to step.
+    pub scale: u32,
+    /// The number of a center in the larger square of centers.
+    pub center: u32,
+}
+
+impl LaneWidths {
+    fn of(design: &Design) -> Self {
+        let pixel = design.pixel_bits();
+        let raster = match design.feed() {
+            Feed::Parallel => 0,
+            Feed::Raster => pixel,
+        };
+        let chain = design.any_score_bits().max(raster);
+        // The difference of two pixels; the power of two that the median search starts from.
+        let mut widths = Self {
+            accumulator: pixel + 1,
+            second: 2,
+            chain,
+            scale: pixel,
+            center: index_bits(match design.filter() {
+                Filter::None => design.region_pixels().into(),
+                Filter::Median3x3 => u64::from(design.denoised_side()).pow(2),
+            }),
+        };
+        for feature in design.features() {
+            match feature.kind() {
+                // Three pixels less three others.
+                FeatureKind::Edge => widths.at_least(pixel + 3, 0, 0),
+                FeatureKind::Corner => {}
+                FeatureKind::Mad => {
+                    let mean = feature.mean();
+                    let dividend = mean.map_or(0, |mean| mean.dividend_bits);
+                    let mean_bits = pixel + mean.map_or(0, |mean| mean.fraction_bits);
+                    let divisor = design.count_bits() + mean_bits - 1;
+                    widths.at_least((dividend + 1).max(chain), mean_bits, divisor);
+                }
+                FeatureKind::Variance => {
+                    let sum = design.pixel_sum_bits();
+                    let scale = pixel + design.count_bits();
+                    widths.at_least((sum + 1).max(chain), sum, scale);
+                }
+            }
+        }
+        widths
+    }
+
+    fn at_least(&mut self, accumulator: u32, second: u32, scale: u32) {
+        self.accumulator = self.accumulator.max(accumulator);
+        self.second = self.second.max(second);
+        self.scale = self.scale.max(scale);
+    }
+}
+
+impl Design {
+    /// Bits of the registers of a serial array.
+    #[must_use]
+    pub fn lane_widths(&self) -> LaneWidths {
+        LaneWidths::of(self)
+    }
+}

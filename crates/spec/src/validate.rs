@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Checks every range and combination of a configuration, and makes it a design.
+
+use std::ops::RangeInclusive;
+
+use crate::{
+    Config, Design, Feed, HardwareConfig, Organization, SpatialConfig, SpatialFeature, SpecError,
+    Temporal,
+};
+
+/// Frame size where the configuration leaves it out.
+const DEFAULT_SIDE: u32 = 224;
+/// Largest frame side; keeps every count of regions and pixels far inside 32 bits.
+const MAX_SIDE: u32 = 16_384;
+/// Most regions of a frame: those of the largest frame at 8x8 pixels. What a model keeps per region
+/// then stays within memory.
+const MAX_REGIONS: u32 = 1 << 22;
+/// Smallest side of a region in the serial organization.
+const MIN_SERIAL_SIDE: u32 = 4;
+
+impl Config {
+    /// Checks every range and combination.
+    ///
+    /// # Errors
+    /// Names the key, its value and what would be valid.
+    pub fn validate(&self) -> Result<Design, SpecError> {
+        let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
+        let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
+        in_range("frame.width", width, 1..=MAX_SIDE, "")?;
+        in_range("frame.height", height, 1..=MAX_SIDE, "")?;
+        in_range("frame.pixel_bits", self.frame.pixel_bits, 1..=16, "")?;
+        in_range("region.size", self.region.size, 2..=64, "")?;
+        let regions = self.check_regions(width, height)?;
+        self.check_hardware(regions)?;
+        let n = self.region.size * self.region.size;
+        let pixel_max = (1 << self.frame.pixel_bits) - 1;
+        let pixels = format!(" for pixels of {} bits", self.frame.pixel_bits);
+        in_range("temporal.level", self.temporal.level, 0..=pixel_max, &pixels)?;
+        let region = format!(" for regions of {n} pixels");
+        in_range("temporal.min_count", self.temporal.min_count, 0..=n, &region)?;
+        self.check_features()?;
+        let mut config = self.clone();
+        config.spatial = self.spatial.iter().map(SpatialConfig::with_defaults).collect();
+        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), pixel_max);
+        let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
+        config.hardware.feed = match config.hardware.organization {
+            Organization::Pipelined => None,
+            Organization::Serial => Some(config.hardware.feed.unwrap_or_default()),
+        };
+        (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        let temporal = Temporal {
+            level: self.temporal.level,
+            min_count: self.temporal.min_count,
+            reference: self.temporal.reference,
+        };
+        Ok(Design::new(config, (width, height), features, temporal))
+    }
+
+    /// Takes the frame size from an input of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// When the configuration names another size.
+    pub fn fit_frame(&mut self, width: u32, height: u32) -> Result<(), SpecError> {
+        let frame = &mut self.frame;
+        for (key, own, given) in
+            [("width", &mut frame.width, width), ("height", &mut frame.height, height)]
+        {
+            if let Some(own) = *own
+                && own != given
+            {
+                return Err(SpecError::Combination {
+                    key: format!("frame.{key}"),
+                    value: own.to_string(),
+                    with: format!("an input of {width}x{height} pixels"),
+                    remedy: "leave the key out to take the size from the input".to_owned(),
+                });
+            }
+            *own = Some(given);
+        }
+        Ok(())
+    }
+
+    /// The regions of the frame.
+    fn check_regions(&self, width: u32, height: u32) -> Result<u32, SpecError> {
+        let size = self.region.size;
+        let regions = width.div_ceil(size) * height.div_ceil(size);
+        if regions <= MAX_REGIONS {
+            return Ok(regions);
+        }
+        Err(SpecError::Combination {
+            key: "region.size".to_owned(),
+            value: size.to_string(),
+            with: format!("a frame of {width}x{height} pixels, which has {regions} regions"),
+            remedy: format!("{MAX_REGIONS} regions are the most; enlarge regions or cut the frame"),
+        })
+    }
+
+    fn check_features(&self) -> Result<(), SpecError> {
+        if self.spatial.is_empty() {
+            return Err(SpecError::Range {
+                key: "spatial".to_owned(),
+                value: "[]".to_owned(),
+                valid: "one to four features".to_owned(),
+            });
+        }
+        for (index, entry) in self.spatial.iter().enumerate() {
+            if self.spatial.iter().take(index).any(|earlier| earlier.feature == entry.feature) {
+                return Err(SpecError::Combination {
+                    key: format!("spatial[{index}].feature"),
+                    value: format!("\"{}\"", entry.feature),
+                    with: "another entry for the same feature".to_owned(),
+                    remedy: "list each feature once".to_owned(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_hardware(&self, regions: u32) -> Result<(), SpecError> {
+        let clash = |key: &str, value: String, remedy: &str| SpecError::Combination {
+            key: key.to_owned(),
+            value,
+            with: format!("organization = \"{}\"", self.hardware.organization),
+            remedy: remedy.to_owned(),
+        };
+        let HardwareConfig { organization, fold, feed, thresholds: _ } = self.hardware;
+        match organization {
+            Organization::Pipelined => {
+                if fold != 1 {
+                    let remedy = "only the serial organization folds; use 1";
+                    return Err(clash("hardware.fold", fold.to_string(), remedy));
+                }
+                match feed {
+                    None | Some(Feed::Parallel) => Ok(()),
+                    Some(Feed::Raster) => {
+                        let remedy = "only the serial organization takes the frame row by row; \
+                                      leave the key out";
+                        Err(clash("hardware.feed", format!("\"{}\"", Feed::Raster), remedy))
+                    }
+                }
+            }
+            Organization::Serial => {
+                let size = self.region.size;
+                if size < MIN_SERIAL_SIDE {
+                    let remedy = format!("use {MIN_SERIAL_SIDE}..=64, or \"pipelined\"");
+                    return Err(clash("region.size", size.to_string(), &remedy));
+                }
+                let why = format!(", the regions of the frame; fold = {regions} makes one lane");
+                in_range("hardware.fold", fold, 1..=regions, &why)
+            }
+        }
+    }
+}
+
+/// `why` follows the range in the message.
+fn in_range(key: &str, value: u32, range: RangeInclusive<u32>, why: &str) -> Result<(), SpecError> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    Err(SpecError::Range {
+        key: key.to_owned(),
+        value: value.to_string(),
+        valid: format!("{}..={}{why}", range.start(), range.end()),
+    })
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What the ports say beside scores and pixels, as late as the lanes are.
+`default_nettype none
+
+module serial_shown #(
+    parameter WIDTH = 12,
+    parameter REGION_BITS = 10,  // of the region, which is lowest
+    parameter BLOCK = 0          // 1: a word comes a clock after its address
+) (
+    input  wire                   clk_i,
+    input  wire                   rst_i,
+    input  wire [      WIDTH-1:0] bits_i,
+    output wire [      WIDTH-1:0] bits_o,
+    output wire [REGION_BITS-1:0] next_region_o
+);
+
+    reg [WIDTH-1:0] bits_q;
+
+    always @(posedge clk_i) begin
+        if (rst_i) bits_q <= {WIDTH{1'b0}};
+        else bits_q <= bits_i;
+    end
+
+    generate
+        if (BLOCK != 0) begin : g_late
+            reg [WIDTH-1:0] late_q;
+            always @(posedge clk_i) begin
+                if (rst_i) late_q <= {WIDTH{1'b0}};
+                else late_q <= bits_q;
+            end
+            assign bits_o = late_q;
+            assign next_region_o = bits_q[REGION_BITS-1:0];
+        end else begin : g_at_once
+            assign bits_o = bits_q;
+            assign next_region_o = bits_i[REGION_BITS-1:0];
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

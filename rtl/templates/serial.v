@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// {= banner =}
+//
+// {= what =}
+//   scores   {= summary =}
+//   lanes    {= fold =} regions each, {= memory =}
+//   frame    {= clocks =}
+//
+// Outputs show registers, memories and, for the decision, threshold inputs. Keep thresholds still from the
+// first pixel of a frame until ready_o is 1 again.
+`default_nettype none
+
+module {= module =} #(
+    parameter COLUMNS = {= columns =},  // regions side by side
+    parameter ROWS = {= rows =}      // regions one below the other
+) (
+{%- for port in ports %}
+    {= port.declaration =}  // {= port.doc =}
+{%- endfor %}
+);
+{%- for constant in constants %}
+    localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
+{%- endfor %}
+
+    localparam LANES = {= lanes =};
+    localparam SLOTS = {= slots =};  // empty ones, too
+
+    wire [{= slot_range =}:0] region;
+    wire [{= center_bits - 1 =}:0] position;
+    wire [{= fold_bits - 1 =}:0] slot;
+    wire unused_beside = |region || |position || |slot{% if half_level %} || edge_level_i[0]{% endif %};
+
+    serial_array #(
+        .COLUMNS(COLUMNS), .ROWS(ROWS), .LANES(LANES), .FOLD({= fold =}),
+        .LANE_BITS(LANES > 1 ? $clog2(LANES) : 1), .REGION_BITS(SLOTS > 1 ? $clog2(SLOTS) : 1),
+{%- for parameter in parameters %}
+        .{= parameter.0 =}({= parameter.1 =}){% if !loop.last %},{% endif %}
+{%- endfor %}
+    ) u_array (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .ready_o(ready_o), .pixel_i(pixel_i),
+        .temporal_level_i({= temporal_level =}),
+        .edge_half_i({= edge_half =}),
+        .corner_level_i({= corner_level =}),
+        .minima_i({ {%- for minimum in minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
+        .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),
+        .decision_valid_o(decision_valid_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .forward_valid_o(forward_valid_o), .forward_pixel_o(forward_pixel_o),
+        .forward_slot_o(slot), .forward_position_o(position)
+    );
+
+    assign region_o = region[{= region_range =}:0];
+    assign forward_position_o = position[{= position_bits - 1 =}:0];
+{%- if raster %}
+    assign forward_region_o = region[{= region_range =}:0];
+{%- else if fold > 1 %}
+    assign forward_slot_o = slot;
+{%- endif %}
+
+endmodule
+
+`default_nettype wire
