@@ -151,7 +151,7 @@ def search_counterexample(path):
     text = re.sub(r"\bmode \w+", "mode bmc", text)
     text = re.sub(r"\bdepth \d+", f"depth {CONTROL_DEPTH}", text)
     with open(path, "w") as file:
-        file.write(text.replace("abc pdr", "smtbmc yices"))
+        file.write(re.sub(r"^abc \w+$", "smtbmc yices", text, flags=re.M))
 
 
 def run(proof, task, fault, index):
