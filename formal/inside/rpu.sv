@@ -246,6 +246,14 @@ end
 reg f_second_last;
 always @(posedge clk_i) f_second_last <= !rst_i && tail_step && f_steps == F_PIXELS - 1;
 
+// Pixels leave at every step after an active decision, and at no other.
+reg f_told, f_forwards;
+wire f_told_now = decision_valid_o ? active_o : f_told;
+always @(posedge clk_i) begin
+    f_told     <= !rst_i && f_told_now;
+    f_forwards <= !rst_i && tail_step && f_told_now;
+end
+
 // Properties that are proven without a bound.
 always @* if (started) begin
     assert(f_steps < F_PIXELS);
@@ -256,6 +264,7 @@ always @* if (started) begin
     assert(active_o == (srs_o && trs_o));
     if (!decision_valid_o) assert(!srs_o && !trs_o);
     if (!forward_valid_o) assert(forward_pixel_o == 0);
+    assert(forward_valid_o == f_forwards);
     assert(trs_o == (decision_valid_o && temporal_count_o >= temporal_min_i));
     if (decision_valid_o && f_decided == 0) begin
         assert(temporal_count_o == F_PIXELS);     // the first frame since reset has no reference
