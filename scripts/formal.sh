@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Proves the properties in formal/ of the Verilog, with SymbiYosys, and that faults planted in the Verilog make the same
+# proofs fail. Installs what is missing.
+#
+#   scripts/formal.sh             everything
+#   scripts/formal.sh --quick     a small set, for every change
+#   scripts/formal.sh NAME...     some of formal/NAME.sby
+#   scripts/formal.sh --list      what there is
+#
+# JOBS   how many at a time (default: number of processors)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+for option in "$@"; do
+    case $option in
+    -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
+    --list) exec python3 scripts/formal.py "$@" ;;
+    esac
+done
+scripts/install_tools.sh
+tools=$(scripts/python_tools.sh)
+cargo build --release --locked --quiet --package foveate
+exec env PATH="$tools:$PATH" python3 scripts/formal.py "$@"

