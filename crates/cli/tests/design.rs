@@ -102,7 +102,6 @@ fn wrong_configurations_end_with_2_and_one_line() {
     fail(&["check", "--preset", "papre"], &["`papre`", "paper"]);
     fail(&["check", "--set", "region.size"], &["--set region.size", "KEY=VALUE"]);
     fail(&["check", "--set", "hardware.fold=2"], &["`hardware.fold` = 2", "use 1"]);
-    fail(&["generate", "--preset", "serial", "-o", "core"], &["\"serial\"", "use \"pipelined\""]);
     fail(&["generate", "--set", "region.size=1", "-o", "core"], &["2..=64"]);
     assert!(!dir.path().join("core").exists());
 }

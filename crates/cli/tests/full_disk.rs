@@ -93,7 +93,7 @@ fn a_video_for_which_there_is_no_room_is_left_out_by_name() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let args = "scene:noise --frames 300 --rendered mkv --events csv";
+    let args = "scene:random --frames 300 --rendered mkv --events csv";
     let Some((ran, copy)) = run_within(6144, dir.path(), args) else { return };
     assert_eq!(ran.status.code(), Some(1), "{}", String::from_utf8_lossy(&ran.stderr));
     let summary = fs::read(copy.join("out/summary.json")).unwrap();

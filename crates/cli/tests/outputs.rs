@@ -120,7 +120,7 @@ fn a_failing_ffmpeg_is_quoted() {
     for then in ["exit 1", "cat > /dev/null; exit 1"] {
         let script = format!(
             "#!/bin/sh\n[ \"$1\" = -version ] && echo 'ffmpeg version 6.0' && exit 0\n\
-             echo 'No space left on device' >&2\n{then}\n"
+             echo 'Unknown encoder' >&2\n{then}\n"
         );
         fs::write(&ffmpeg, script).unwrap();
         fs::set_permissions(&ffmpeg, fs::Permissions::from_mode(0o755)).unwrap();
@@ -131,7 +131,7 @@ fn a_failing_ffmpeg_is_quoted() {
             .unwrap();
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(3), "{stderr}");
-        assert!(stderr.contains("No space left") && stderr.contains("rendered.mkv"), "{stderr}");
+        assert!(stderr.contains("Unknown encoder") && stderr.contains("rendered.mkv"), "{stderr}");
         assert!(fs::read_dir(dir.path()).unwrap().next().is_none(), "nothing is left");
     }
 }

@@ -4,7 +4,7 @@
 
 use foveate_cosim::{Job, Level, Simulator, Stimulus};
 use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::{Config, Design, Organization, PRESETS};
+use foveate_spec::{Config, Design, PRESETS};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Toolchain};
 
@@ -32,15 +32,6 @@ fn agrees(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str)
 fn every_preset_agrees_at_rpu_level_in_both_simulators() {
     for preset in PRESETS {
         let design = small(&preset.config().unwrap(), (3, 2));
-        match design.organization() {
-            Organization::Pipelined => {}
-            Organization::Serial => {
-                let refusal =
-                    Job::new(&design, Stimulus::default(), "replay".as_ref()).unwrap_err();
-                assert!(refusal.to_string().contains("use \"pipelined\""), "{refusal}");
-                continue;
-            }
-        }
         for simulator in Simulator::ALL {
             let scene = Scene::find("street").unwrap();
             let size = SceneSize { width: 24, height: 16, bits: 8, region_size: 8, frames: 4 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Replays recorded vectors through `rpu` and compares every output at every clock, bit by bit
-// and four-state: an X is a mismatch.
+// and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
+// where that bit is expected.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex. A line is one clock: the inputs, then the
 //                  outputs that are expected after its rising edge with these inputs still applied,
 //                  hexadecimal, in the order in which they are declared below
+//   +stop          ends at the first mismatch
 //   +waves=FILE    writes waves of everything: VCD, or FST with `vvp SIMULATION -fst`
 //
 // Prints the first mismatch of each output. The last line starts with PASS or FAIL.
@@ -180,7 +182,7 @@ module rpu_replay;
     failures = 0;
     columns = 0;
     if (file != 0) read_line;
-    while (columns == 15) begin
+    while (columns == 15 && !(failures != 0 && $test$plusargs("stop"))) begin
       apply;
       #5 clk_i = 1'b1;
       #4 compare;
@@ -189,9 +191,9 @@ module rpu_replay;
       read_line;
     end
     if (file == 0) $display("FAIL cannot read the vectors from %0s", path);
+    else if (failures != 0) $display("FAIL %0d of 8 outputs in %0d clocks", failures, clocks);
     else if (columns > 0) $display("FAIL line %0d of the vectors is incomplete", clocks + 1);
     else if (clocks == 0) $display("FAIL there are no vectors in %0s", path);
-    else if (failures != 0) $display("FAIL %0d of 8 outputs in %0d clocks", failures, clocks);
     else $display("PASS %0d clocks", clocks);
     $finish;
   end

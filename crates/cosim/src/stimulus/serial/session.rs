@@ -12,7 +12,7 @@ use super::sequence::{End, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
 use foveate_model::Frame;
-use foveate_spec::{Design, SerialTiming};
+use foveate_spec::{Design, Phase, SerialTiming};
 
 /// Clocks that are simulated after the last frame of a sequence has left.
 const SILENCE: u64 = 5;
@@ -31,6 +31,8 @@ pub(crate) struct Session<'a> {
     clocks_per_frame: u64,
     /// Clocks in which the pixels of the last slot leave.
     unload: u64,
+    /// Clocks until ready when the first score is at the ports.
+    first_score: u64,
 }
 
 impl<'a> Session<'a> {
@@ -44,6 +46,8 @@ impl<'a> Session<'a> {
     ) -> Self {
         let artist = |_| Artist::new(design, design.region_size(), random.fork());
         let artists = (0..design.regions()).map(artist).collect();
+        let before = |&&(phase, _): &&(Phase, u64)| phase != Phase::RotateCount;
+        let steps: u64 = timing.phases().iter().take_while(before).map(|&(_, steps)| steps).sum();
         Self {
             whole,
             design,
@@ -52,6 +56,7 @@ impl<'a> Session<'a> {
             random,
             artists,
             clocks_per_frame: timing.clocks_per_frame(),
+            first_score: timing.edges_to_ready() - timing.edges_to_step(steps),
             unload: timing.phases().last().map_or(0, |&(_, steps)| steps),
         }
     }
@@ -142,6 +147,8 @@ impl<'a> Session<'a> {
                 let clocks = self.random.up_to(left);
                 self.driver.work_until(clocks)
             }
+            // What is on its way to the ports must not come out.
+            End::Rotating if self.random.one_in(2) => self.driver.work_until(self.first_score + 1),
             End::Rotating => {
                 let clocks = self.random.up_to(u64::from(self.design.lanes()));
                 self.driver.work_until_score()?;
