@@ -188,11 +188,10 @@ module serial_array #(
     wire [SHOWN_BITS-1:0] shown;
     wire shown_rotate, shown_unload;
     wire [SLOT_BITS-1:0] shown_slot;
-    wire [REGION_BITS-1:0] next_region;
 
-    serial_shown #(.WIDTH(SHOWN_BITS), .REGION_BITS(REGION_BITS), .BLOCK(BLOCK)) u_shown (
+    serial_shown #(.WIDTH(SHOWN_BITS), .BLOCK(BLOCK)) u_shown (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i({rotate, unload, slot, position, index, region}),
-        .bits_o(shown), .next_region_o(next_region)
+        .bits_o(shown)
     );
     assign {shown_rotate, shown_unload, shown_slot, forward_position_o, score_index_o, region_o} = shown;
     assign forward_slot_o = shown_slot;
@@ -313,7 +312,7 @@ module serial_array #(
         .SLOTS(LANES * FOLD), .REGION_BITS(REGION_BITS), .INDEX_BITS(INDEX_BITS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(reopen), .rotate_i(shown_rotate),
-        .index_i(score_index_o), .region_i(region_o), .next_i(next_region),
+        .index_i(score_index_o), .region_i(region_o),
         .word_i(ring[CHAIN_BITS-1:0]), .flags_i(flags[FLAGS-1:0]), .minima_i(minima_i),
         .flags_o(flags[LANES*FLAGS+:FLAGS]), .region_valid_o(region_valid),
         .score_valid_o(score_valid_o), .score_o(score_o), .decision_valid_o(decision_valid_o),

@@ -23,7 +23,6 @@ module serial_decision #(
     input  wire                               rotate_i,   // a score passes
     input  wire [             INDEX_BITS-1:0] index_i,    // which: 0 is the temporal count
     input  wire [            REGION_BITS-1:0] region_i,   // whose
-    input  wire [            REGION_BITS-1:0] next_i,     // whose in the next clock
     input  wire [             CHAIN_BITS-1:0] word_i,
     input  wire [                  FLAGS-1:0] flags_i,
     input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,   // by index
@@ -84,14 +83,16 @@ module serial_decision #(
             assign srs = vote;
         end
         if (LAST_SENT != 0) begin : g_last_sent
+            // One bit per region: it has a reference.
             wire kept;
-            serial_valid #(.REGIONS(SLOTS), .REGION_BITS(REGION_BITS)) u_valid (
-                .clk_i(clk_i), .next_i(next_i), .valid_o(kept), .write_i(rotate_i && last),
-                .region_i(region_i), .valid_i(active || (reference && (srs || BLANKS == 0)))
+            frame_store #(
+                .WIDTH(1), .PIXELS(SLOTS > 1 ? SLOTS : 2), .SLOT_BITS(REGION_BITS)
+            ) u_valid (
+                .clk_i(clk_i), .write_i(rotate_i && last), .slot_i(region_i),
+                .data_i(active || (reference && (srs || BLANKS == 0))), .data_o(kept)
             );
             assign reference = kept && !first_q;
         end else begin : g_previous
-            wire unused_next = |next_i;
             assign reference = !first_q;
         end
         if (SLOTS == REGIONS && LAST_SENT == 0) begin : g_no_region

@@ -4,14 +4,12 @@
 
 module serial_shown #(
     parameter WIDTH = 12,
-    parameter REGION_BITS = 10,  // of the region, which is lowest
-    parameter BLOCK = 0          // 1: a word comes a clock after its address
+    parameter BLOCK = 0  // 1: a word comes a clock after its address
 ) (
     input  wire                   clk_i,
     input  wire                   rst_i,
     input  wire [      WIDTH-1:0] bits_i,
-    output wire [      WIDTH-1:0] bits_o,
-    output wire [REGION_BITS-1:0] next_region_o
+    output wire [      WIDTH-1:0] bits_o
 );
 
     // The initial values keep synthesis from moving these registers into a memory's address port.
@@ -30,10 +28,8 @@ module serial_shown #(
                 else late_q <= bits_q;
             end
             assign bits_o = late_q;
-            assign next_region_o = bits_q[REGION_BITS-1:0];
         end else begin : g_at_once
             assign bits_o = bits_q;
-            assign next_region_o = bits_i[REGION_BITS-1:0];
         end
     endgenerate
 

@@ -62,8 +62,7 @@ leaves! {
     "serial_raster_feed" => ["serial_places", "serial_neighbor"],
     "serial_shown" => [],
     "serial_sides" => [],
-    "serial_valid" => ["frame_store"],
-    "serial_decision" => ["serial_valid"],
+    "serial_decision" => ["frame_store"],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
         "serial_group", "serial_sides", "serial_lane", "serial_decision"

@@ -93,10 +93,9 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Corner, "serial_registers", "assign bits_o[i] = bit_q;", "assign bits_o[i] = i == 17 ? 1'b0 : bit_q;"),
     fault("reset", Paper, "serial_shown", "if (rst_i) bits_q <= {WIDTH{1'b0}};\n        else bits_q", "bits_q"),
     fault("reset", Block, "serial_shown", "if (rst_i) late_q <= {WIDTH{1'b0}};\n                else late_q", "late_q"),
-    fault("index", Sent, "serial_shown", "assign next_region_o = bits_i[REGION_BITS-1:0];", "assign next_region_o = bits_q[REGION_BITS-1:0];"),
-    fault("index", Sent, "serial_valid", "read_q <= valid_q[next_i]", "read_q <= valid_q[region_i]"),
-    fault("operator", Sent, "serial_valid", "<= valid_i;", "<= !valid_i;"),
 
+    fault("constant", Sent, "serial_decision", ".write_i(rotate_i && last)", ".write_i(rotate_i)"),
+    fault("operator", Sent, "serial_decision", ".data_i(active ||", ".data_i(!active ||"),
     fault("reset", Paper, "serial_decision", "if (rst_i) first_q <= 1'b1;\n        else if", "if"),
     fault("constant", Paper, "serial_decision", "else if (frame_i) first_q <= 1'b0;", "else if (rotate_i) first_q <= 1'b0;"),
     fault("operator", Paper, "serial_decision", "score_o >= minimum;", "score_o > minimum;"),
