@@ -6,6 +6,7 @@ mod bench;
 mod check;
 mod dataset;
 mod explain;
+mod frames;
 mod input;
 mod outputs;
 mod stress;
@@ -16,8 +17,6 @@ use std::path::PathBuf;
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
-use foveate_model::Frame;
-use foveate_simulator::{InputOptions, Simulation, SimulatorError, open};
 use foveate_spec::{Config, Design, Preset, SpecError};
 
 use self::input::InputArgs;
@@ -83,28 +82,6 @@ impl DesignArgs {
     pub(crate) fn design(&self) -> Result<Design, CliError> {
         let config = self.read()?;
         config.validate().or_else(|error| Err(self.blame(&self.text()?, error)))
-    }
-
-    /// The frames of the inputs, at most so many, and the design with their size; without inputs the
-    /// design alone.
-    pub(crate) fn with_frames(
-        &self,
-        inputs: &[String],
-        at_most: u32,
-    ) -> Result<(Design, Vec<Frame>), CliError> {
-        if inputs.is_empty() {
-            return Ok((self.design()?, Vec::new()));
-        }
-        let config = self.read()?;
-        let options = InputOptions { frames: Some(at_most), ..InputOptions::default() };
-        let simulation = Simulation::new(&config, open(inputs, &config, &options)?)?;
-        let design = simulation.design().clone();
-        let mut source = open(inputs, &config, &options)?;
-        let mut frames = Vec::new();
-        while let Some(next) = source.next_frame()? {
-            frames.push(next.frame.to_frame().map_err(SimulatorError::from)?);
-        }
-        Ok((design, frames))
     }
 
     fn text(&self) -> Result<String, CliError> {

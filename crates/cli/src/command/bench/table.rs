@@ -3,8 +3,9 @@
 
 use foveate_bench::{Level, Measured, Report, Row};
 
-const HEADINGS: [&str; 7] =
-    ["frames/s", "clocks/s", "pixels/s", "x RTL", "memory", "build", "differ"];
+const HEADINGS: [&str; 7] = ["frames", "clocks", "pixels", "x RTL", "memory", "build", "differ"];
+/// What the first three count per second.
+const PER_SECOND: usize = 3;
 /// Columns of the first cell, and of the others.
 const FIRST: usize = 23;
 const OTHER: usize = 8;
@@ -12,16 +13,21 @@ const TABLE: usize = FIRST + HEADINGS.len() * OTHER;
 
 /// A table where it fits; otherwise a paragraph per level.
 pub(super) fn text(report: &Report, width: usize) -> String {
-    let mut text =
-        if width < TABLE { String::new() } else { line("", &HEADINGS.map(String::from)) };
+    let mut text = if width < TABLE {
+        String::new()
+    } else {
+        line("per second:", &HEADINGS.map(String::from))
+    };
     for row in &report.rows {
         let title = title(row);
         text += &match (&row.measured, &row.missing) {
             (Some(measured), _) if width >= TABLE => line(&title, &cells(measured)),
             (Some(measured), _) => {
                 let pairs = HEADINGS.iter().zip(cells(measured));
-                let pairs: Vec<_> = pairs.map(|(name, cell)| format!("{cell} {name}")).collect();
-                fill(&format!("{title}: {}", pairs.join(", ")), width)
+                let pairs: Vec<_> = pairs.map(|(name, cell)| format!("{name} {cell}")).collect();
+                let (rates, rest) = pairs.split_at(PER_SECOND);
+                let (rates, rest) = (rates.join(", "), rest.join(", "));
+                fill(&format!("{title}: per second {rates}; {rest}"), width)
             }
             (None, why) => fill(&format!("{title}: {}", why.as_deref().unwrap_or("")), width),
         };
@@ -34,7 +40,7 @@ pub(super) fn text(report: &Report, width: usize) -> String {
 }
 
 pub(super) fn markdown(report: &Report) -> String {
-    let mut text = format!("| level | {} |\n|{}\n", HEADINGS.join(" | "), " --- |".repeat(8));
+    let mut text = format!("| per second: | {} |\n|{}\n", HEADINGS.join(" | "), " --- |".repeat(8));
     for row in &report.rows {
         let cells = row.measured.as_ref().map_or_else(
             || vec![row.missing.clone().unwrap_or_default(); 1],
@@ -93,6 +99,11 @@ fn notes(report: &Report) -> Vec<String> {
     };
     let compared: Vec<_> = report.rows.iter().filter_map(compared).collect();
     notes.push(format!("compared: {}", compared.join(", ")));
+    notes.push(
+        "memory: what the process of a simulator takes at most; of a level in this process what Linux says \
+         it took beyond memory that was free already, a lower bound"
+            .to_owned(),
+    );
     let rtl = report.rows.iter().find(|row| row.level == Level::Rtl);
     if let Some(Measured { files_clocks_per_second: Some(files), unpacking, .. }) =
         rtl.and_then(|row| row.measured.as_ref())
