@@ -4,6 +4,9 @@
 //
 //   argument 1   seed of the values that registers have before reset
 //   argument 2   file for waves, in a build with tracing
+//   argument 3   seconds: when the records are done, they are clocked again from memory, all of them
+//                and for so long, and what it took is the last line of the standard error; the
+//                standard input must be a file
 //
 // Outputs are those after the rising edge, with the inputs of that edge still applied.
 
@@ -13,9 +16,11 @@
 #include "verilated_fst_c.h"
 #endif
 
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <type_traits>
 #include <unistd.h>
@@ -84,6 +89,51 @@ void collect(const Top& top, unsigned char* record) {
     {%- endfor %}
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Kilobytes that the process has taken at most; 0 where the system does not tell.
+long peak_kilobytes() {
+    long peak = 0;
+    if (std::FILE* const status = std::fopen("/proc/self/status", "r")) {
+        char line[256];
+        while (std::fgets(line, sizeof line, status) != nullptr) {
+            if (std::strncmp(line, "VmHWM:", 6) == 0) peak = std::atol(line + 6);
+        }
+        std::fclose(status);
+    }
+    return peak;
+}
+
+// Clocks the records again and again, without files and without a look at the outputs. The inputs are
+// unpacked anew at every clock; how long that takes is measured alone, afterwards.
+bool time_from_memory(Top& top, std::size_t count, double at_least) {
+    const long peak = peak_kilobytes();
+    std::vector<unsigned char> records(count * kInputBytes);
+    std::rewind(stdin);
+    if (std::fread(records.data(), kInputBytes, count, stdin) != count) return false;
+    std::size_t passes = 0;
+    const auto start = std::chrono::steady_clock::now();
+    do {
+        for (std::size_t i = 0; i < count; ++i) {
+            apply(top, records.data() + i * kInputBytes);
+            top.{= clock =} = 0;
+            top.eval();
+            top.{= clock =} = 1;
+            top.eval();
+        }
+        ++passes;
+    } while (seconds_since(start) < at_least);
+    const double seconds = seconds_since(start);
+    const auto applying = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < count; ++i) apply(top, records.data() + i * kInputBytes);
+    const double applied = seconds_since(applying) * static_cast<double>(passes);
+    std::fprintf(stderr, "\nTIMED passes %zu seconds %.9f applying %.9f kilobytes %ld\n", passes,
+                 seconds, applied, peak);
+    return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -104,6 +154,8 @@ int main(int argc, char** argv) {
     waves.open(argc > 2 ? argv[2] : "waves.fst");
 #endif
 
+    const double timed = argc > 3 ? std::atof(argv[3]) : 0;
+    std::size_t clocks = 0;
     std::vector<unsigned char> inputs(kBatch * kInputBytes);
     std::vector<unsigned char> outputs(kBatch * kOutputBytes);
     for (;;) {
@@ -114,6 +166,7 @@ int main(int argc, char** argv) {
             return 2;
         }
         const std::size_t records = bytes / kInputBytes;
+        clocks += records;
         for (std::size_t i = 0; i < records; ++i) {
             apply(*top, inputs.data() + i * kInputBytes);
             top->{= clock =} = 0;
@@ -134,6 +187,10 @@ int main(int argc, char** argv) {
             std::fprintf(stderr, "cannot write the outputs\n");
             return 2;
         }
+    }
+    if (timed > 0 && !time_from_memory(*top, clocks, timed)) {
+        std::fprintf(stderr, "the input cannot be read twice\n");
+        return 2;
     }
 #if VM_TRACE
     waves.close();

@@ -2,9 +2,11 @@
 //! The command line as clap sees it, and the design that its options describe.
 
 mod analyze;
+mod bench;
 mod check;
 mod dataset;
 mod explain;
+mod frames;
 mod input;
 mod outputs;
 mod stress;
@@ -20,6 +22,7 @@ use foveate_spec::{Config, Design, Preset, SpecError};
 use self::input::InputArgs;
 use crate::error::CliError;
 pub(crate) use analyze::AnalyzeArgs;
+pub(crate) use bench::BenchArgs;
 pub(crate) use check::{CheckArgs, Clock, Rate};
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
@@ -49,6 +52,7 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
     Stress(StressArgs),
+    Bench(BenchArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),
 }

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use foveate_bench::BenchError;
 use foveate_cosim::CosimError;
 use foveate_estimate::EstimateError;
 use foveate_simulator::SimulatorError;
@@ -111,6 +112,17 @@ impl From<SimulatorError> for CliError {
 impl From<StudyError> for CliError {
     fn from(error: StudyError) -> Self {
         Self::Study(Box::new(error))
+    }
+}
+
+impl From<BenchError> for CliError {
+    fn from(error: BenchError) -> Self {
+        match error {
+            BenchError::Cosim(error) => error.into(),
+            BenchError::Spec(error) => error.into(),
+            error if error.is_interrupted() => Self::Cosim(ToolError::Interrupted.into()),
+            error => Self::Usage(error.to_string()),
+        }
     }
 }
 

@@ -38,6 +38,7 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Explain(args) => command::explain::run(args),
         Command::Analyze(args) => command::analyze::run(args),
         Command::Stress(args) => command::stress::run(args),
+        Command::Bench(args) => command::bench::run(args),
         Command::Presets(args) => command::presets::run(args),
         Command::Completions(args) => command::completions::run(args),
     }

@@ -13,6 +13,7 @@ use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
 use foveate_emit::{SourceFile, verilog};
 use foveate_spec::{Design, Organization, SpecError};
+use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -112,6 +113,7 @@ impl Job {
             toolchain,
             cache,
             limit: self.limit,
+            optimize: Optimize::Build,
         };
         let outcome = run.run(&dut, &recording)?;
         let mut report = self.report(&design, &recording, &outcome)?;
@@ -139,7 +141,9 @@ impl Job {
         self.sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect()
     }
 
-    fn dut(&self, design: &Design) -> Dut {
+    /// The module that is simulated; `design` is that of the level.
+    #[must_use]
+    pub fn dut(&self, design: &Design) -> Dut {
         let top = self.stimulus.level.top();
         let array = self.stimulus.level != Level::Rpu && design.regions() > INLINED_REGIONS;
         let repeated = match design.organization() {

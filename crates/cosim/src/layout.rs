@@ -77,6 +77,17 @@ impl Layout {
         self.fields.iter().map(|field| self.compared_lanes(field, expected).count() as u64).sum()
     }
 
+    /// Values that are compared and differ.
+    #[must_use]
+    pub fn differing(&self, expected: &[u8], got: &[u8]) -> u64 {
+        let differs = |field: &&Field| field.slice(expected) != field.slice(got);
+        let lanes = |field: &Field| {
+            let unequal = |lane: &u32| field.get(expected, *lane) != field.get(got, *lane);
+            self.compared_lanes(field, expected).filter(unequal).count() as u64
+        };
+        self.fields.iter().filter(differs).map(lanes).sum()
+    }
+
     /// The lanes of a port that are compared, by the valid bits of the expected record.
     pub(crate) fn compared_lanes<'a>(
         &'a self,

@@ -25,6 +25,7 @@ mod simulate;
 mod stimulus;
 #[cfg(test)]
 mod testing;
+mod timed;
 
 pub use compare::Difference;
 pub use error::CosimError;
@@ -39,4 +40,5 @@ pub use netlist::{Netlist, NetlistRecord, synthesis};
 pub use recording::{Recorder, Recording, Span, vectors_hex};
 pub use report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
 pub use simulate::{Dut, Outcome, Run, Simulator};
-pub use stimulus::Stimulus;
+pub use stimulus::{PipelinedCodec, SerialCodec, Stimulus};
+pub use timed::{Agreement, Timed};

@@ -7,7 +7,7 @@ use crate::harness::{bench_file, bench_name, cpp_harness, replay_bench};
 use crate::recording::Recording;
 use foveate_emit::Parameter;
 use foveate_spec::Port;
-use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
+use foveate_toolchain::verilator::{self, Lint, Optimize, VerilatorJob};
 use foveate_toolchain::{Cache, Invocation, Output, Source, Tool, Toolchain, iverilog};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -92,6 +92,8 @@ pub struct Run<'a> {
     pub cache: &'a Cache,
     /// The longest that the simulation itself may take.
     pub limit: Duration,
+    /// How much Verilator's C++ is optimized.
+    pub optimize: Optimize,
 }
 
 /// What a simulation came to.
@@ -181,7 +183,7 @@ impl Run<'_> {
         Ok(Outcome { difference, waves, version, build, run })
     }
 
-    fn job(&self, dut: &Dut) -> VerilatorJob {
+    pub(crate) fn job(&self, dut: &Dut) -> VerilatorJob {
         let configure = |module| format!("no_inline -module \"{module}\"\n");
         let vlt = dut.no_inline.iter().map(configure).collect::<String>();
         let parameters = dut.parameters.iter().map(|(name, value)| format!("-G{name}={value}"));
@@ -192,10 +194,10 @@ impl Run<'_> {
             cpp_main: cpp_harness(&dut.top, &dut.ports),
             vlt: (!vlt.is_empty()).then(|| format!("`verilator_config\n{vlt}")),
             trace: self.trace,
+            optimize: self.optimize,
             lint: Lint::Lenient,
             port_bits: dut.ports.iter().map(|port| (port.name.clone(), port.bits())).collect(),
             extra_args: unknown_start.into_iter().chain(parameters).collect(),
-            ..VerilatorJob::default()
         }
     }
 
@@ -205,14 +207,7 @@ impl Run<'_> {
         recording: &Recording,
     ) -> Result<Option<Difference>, CosimError> {
         let actual = recording.folder().join("actual.bin");
-        let invocation = Invocation::new(program)
-            .arg((self.seed % 0x7fff_fffe + 1).to_string())
-            .arg(recording.folder().join(WAVES_FILE))
-            .dir(recording.folder())
-            .stdin_file(recording.inputs_path())
-            .stdout_file(&actual)
-            .timeout(self.limit);
-        let output = self.toolchain.run(&invocation)?;
+        let output = self.toolchain.run(&self.harness(program, recording, &actual))?;
         if output.log().contains("cannot write the outputs") {
             let full = std::io::ErrorKind::StorageFull.into();
             return Err(CosimError::temporary("write", &actual)(full));
@@ -223,6 +218,22 @@ impl Run<'_> {
             return Err(self.short(recording, compared.records, &output));
         }
         Ok(compared.difference)
+    }
+
+    /// The harness on the inputs of a recording; what comes out goes into `actual`.
+    pub(crate) fn harness(
+        &self,
+        program: &Path,
+        recording: &Recording,
+        actual: &Path,
+    ) -> Invocation {
+        Invocation::new(program)
+            .arg((self.seed % 0x7fff_fffe + 1).to_string())
+            .arg(recording.folder().join(WAVES_FILE))
+            .dir(recording.folder())
+            .stdin_file(recording.inputs_path())
+            .stdout_file(actual)
+            .timeout(self.limit)
     }
 
     fn iverilog(
@@ -249,7 +260,7 @@ impl Run<'_> {
         Ok(difference)
     }
 
-    fn short(&self, recording: &Recording, got: u64, output: &Output) -> CosimError {
+    pub(crate) fn short(&self, recording: &Recording, got: u64, output: &Output) -> CosimError {
         let log = output.log();
         let tail = log.lines().rev().find(|line| !line.trim().is_empty());
         CosimError::Short {

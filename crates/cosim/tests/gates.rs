@@ -6,6 +6,7 @@
 use foveate_cosim::{Difference, Dut, Recorder, Recording, Run, Simulator};
 use foveate_spec::{Direction, Port, PortRole, Qualifier};
 use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Toolchain};
 use std::time::Duration;
 
@@ -71,7 +72,15 @@ fn recording(clocks: u64) -> Recording {
 fn run(simulator: Simulator, verilog: String, recording: &Recording) -> Option<Difference> {
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let (toolchain, cache, limit) = (&toolchain, &cache, Duration::from_secs(60));
-    let run = Run { simulator, seed: 3, trace: false, toolchain, cache, limit };
+    let run = Run {
+        simulator,
+        seed: 3,
+        trace: false,
+        toolchain,
+        cache,
+        limit,
+        optimize: Optimize::Build,
+    };
     let dut = Dut {
         top: "gated".to_owned(),
         ports: ports(),

@@ -9,6 +9,7 @@ use foveate_cosim::{
 };
 use foveate_spec::{Direction, Port, PortRole, Qualifier};
 use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Invocation, Tool, Toolchain};
 use std::time::Duration;
 
@@ -92,7 +93,7 @@ fn run(
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let limit = Duration::from_secs(60);
     let (toolchain, cache) = (&toolchain, &cache);
-    let run = Run { simulator, seed: 3, trace, toolchain, cache, limit };
+    let run = Run { simulator, seed: 3, trace, toolchain, cache, limit, optimize: Optimize::Build };
     run.run(&dut(verilog), recording)
 }
 

@@ -81,6 +81,12 @@ impl Cache {
         &self.root
     }
 
+    /// Whether `artifact` is in the entry of `key`.
+    #[must_use]
+    pub fn holds(&self, key: &Key, artifact: &str) -> bool {
+        self.root.join(key.as_str()).join(artifact).exists()
+    }
+
     /// The path of `artifact` in the entry of `key`, after building it if need be. `build` fills an
     /// empty folder; what it leaves there becomes the entry. If it fails, nothing remains but the log
     /// of the failure, in a cache that lasts.

@@ -9,9 +9,6 @@ use foveate_cosim::{
     junit_xml,
 };
 use foveate_emit::SourceFile;
-use foveate_model::Frame;
-use foveate_simulator::{InputOptions, Simulation, SimulatorError, open};
-use foveate_spec::Design;
 use foveate_staging::{check_file, write_file};
 use foveate_toolchain::Cache;
 use indicatif::ProgressBar;
@@ -21,7 +18,7 @@ use crate::error::CliError;
 use crate::{interrupt, output, progress};
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
-    let (design, frames) = design_and_frames(args)?;
+    let (design, frames) = args.design.with_frames(&args.inputs, args.frames)?;
     let level = level(args)?;
     let rounds = args.rounds.unwrap_or(match level {
         Level::Rpu => 3,
@@ -103,22 +100,6 @@ fn text(report: &CosimReport) -> String {
         text += &format!("waves in {}\n", waves.display());
     }
     text
-}
-
-/// The frames of the inputs, and the design with their size.
-fn design_and_frames(args: &CosimArgs) -> Result<(Design, Vec<Frame>), CliError> {
-    if args.inputs.is_empty() {
-        return Ok((args.design.design()?, Vec::new()));
-    }
-    let config = args.design.read()?;
-    let options = InputOptions { frames: Some(args.frames), ..InputOptions::default() };
-    let design = Simulation::new(&config, open(&args.inputs, &config, &options)?)?.design().clone();
-    let mut source = open(&args.inputs, &config, &options)?;
-    let mut frames = Vec::new();
-    while let Some(next) = source.next_frame()? {
-        frames.push(next.frame.to_frame().map_err(SimulatorError::from)?);
-    }
-    Ok((design, frames))
 }
 
 fn level(args: &CosimArgs) -> Result<Level, CliError> {

@@ -2,6 +2,7 @@
 //! One module per sub-command.
 
 pub(crate) mod analyze;
+pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod cosim;

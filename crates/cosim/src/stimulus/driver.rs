@@ -2,7 +2,7 @@
 //! Streams frames into the model, clock by clock, and records what goes in and what comes out.
 
 use super::aim::Ranges;
-use super::machine::{Codec, Inputs, Machine};
+use super::machine::{Inputs, Machine, PipelinedCodec};
 use super::random::Random;
 use super::sequence::{Aim, Gaps};
 use crate::error::CosimError;
@@ -19,7 +19,7 @@ pub(crate) struct Driver<'a> {
     scout: PipelinedRpu,
     cancel: &'a AtomicBool,
     recorder: &'a mut Recorder,
-    codec: Codec,
+    codec: PipelinedCodec,
     pub(crate) ranges: Ranges,
     pub(crate) random: Random,
     /// Thresholds as they are now.
@@ -52,7 +52,7 @@ impl<'a> Driver<'a> {
             input: recorder.inputs().record(),
             expected: recorder.outputs().record(),
             recorder,
-            codec: Codec::new(design),
+            codec: PipelinedCodec::new(design),
             ranges: Ranges::of(design),
             random,
             thresholds: configured,

@@ -46,14 +46,16 @@ impl Machine {
     }
 }
 
-/// Puts values of the model into records.
+/// Puts values of pipelined models into records.
 #[derive(Clone, Debug)]
-pub(crate) struct Codec {
+pub struct PipelinedCodec {
     kinds: Vec<FeatureKind>,
 }
 
-impl Codec {
-    pub(crate) fn new(design: &Design) -> Self {
+impl PipelinedCodec {
+    /// The codec of a design.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
         Self { kinds: design.features().iter().map(|feature| feature.kind()).collect() }
     }
 
@@ -100,7 +102,8 @@ impl Codec {
         }
     }
 
-    pub(crate) fn outputs(&self, layout: &Layout, outputs: &[RpuOutput], record: &mut [u8]) {
+    /// The outputs of all RPUs after an edge.
+    pub fn outputs(&self, layout: &Layout, outputs: &[RpuOutput], record: &mut [u8]) {
         for field in layout.fields() {
             for (lane, output) in (0..field.port.lanes).zip(outputs) {
                 let value = match field.port.role {

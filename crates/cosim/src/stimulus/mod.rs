@@ -24,7 +24,9 @@ use driver::Driver;
 use foveate_model::{Frame, PipelinedRcm, PipelinedRpu};
 use foveate_spec::{Design, Organization, PipelinedTiming, Timing};
 use machine::Machine;
+pub use machine::PipelinedCodec;
 use random::Random;
+pub use serial::SerialCodec;
 use session::Session;
 use std::sync::atomic::AtomicBool;
 

@@ -107,6 +107,18 @@ pub fn build(
     })
 }
 
+/// Whether the simulator is in the cache, so that [`build`] would take no time.
+///
+/// # Errors
+/// When a tool is missing.
+pub fn is_built(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    job: &VerilatorJob,
+) -> Result<bool, ToolError> {
+    Ok(cache.holds(&job.key(toolchain)?, EXECUTABLE))
+}
+
 /// Runs Verilator's lint over the sources.
 ///
 /// # Errors

@@ -5,13 +5,16 @@ use crate::layout::Layout;
 use foveate_model::{SerialInput, SerialOutput};
 use foveate_spec::{Design, FeatureKind, PortRole};
 
-/// Puts values of the model into records.
-pub(super) struct Codec {
+/// Puts values of serial models into records.
+#[derive(Clone, Debug)]
+pub struct SerialCodec {
     kinds: Vec<FeatureKind>,
 }
 
-impl Codec {
-    pub(super) fn new(design: &Design) -> Self {
+impl SerialCodec {
+    /// The codec of a design.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
         Self { kinds: design.features().iter().map(|feature| feature.kind()).collect() }
     }
 
@@ -40,7 +43,8 @@ impl Codec {
         }
     }
 
-    pub(super) fn outputs(&self, layout: &Layout, output: &SerialOutput, record: &mut [u8]) {
+    /// The outputs of the array after an edge.
+    pub fn outputs(&self, layout: &Layout, output: &SerialOutput, record: &mut [u8]) {
         for field in layout.fields() {
             let value = match field.port.role {
                 PortRole::Ready => output.ready.into(),

@@ -4,7 +4,7 @@
 use super::super::random::Random;
 use super::super::sequence::Gaps;
 use super::aim::{Aim, Aimer};
-use super::codec::Codec;
+use super::codec::SerialCodec;
 use super::feed::Feed;
 use crate::error::CosimError;
 use crate::recording::Recorder;
@@ -19,7 +19,7 @@ pub(crate) struct Driver<'a> {
     aimer: Aimer,
     cancel: &'a AtomicBool,
     recorder: &'a mut Recorder,
-    codec: Codec,
+    codec: SerialCodec,
     random: Random,
     configured: Thresholds,
     /// Thresholds as they are now.
@@ -60,7 +60,7 @@ impl<'a> Driver<'a> {
             input: recorder.inputs().record(),
             expected: recorder.outputs().record(),
             recorder,
-            codec: Codec::new(design),
+            codec: SerialCodec::new(design),
             random,
             configured,
             thresholds: configured,

@@ -15,5 +15,6 @@ mod parts;
 mod sequence;
 mod session;
 
+pub use codec::SerialCodec;
 pub(super) use driver::Driver;
 pub(super) use session::Session;

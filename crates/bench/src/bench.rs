@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One level after the other.
+
+use std::time::Duration;
+
+use foveate_cosim::{CosimError, Level as Simulated, Recording, Stimulus};
+use foveate_model::Frame;
+use foveate_spec::{Design, Organization};
+use foveate_toolchain::{Cache, Tool, Toolchain};
+
+use crate::error::BenchError;
+use crate::report::{FORMAT_VERSION, Level, Report, Row};
+use crate::timer::Timer;
+use crate::vectors::Vectors;
+use crate::{array, clear, functional, netlist, rtl};
+
+/// What to run.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    /// The design.
+    pub design: Design,
+    /// The frames, of its size and depth.
+    pub frames: Vec<Frame>,
+    /// Seed of what is on the ports while no pixel is.
+    pub seed: u64,
+    /// How long each level is timed; at least one pass.
+    pub at_least: Duration,
+    /// Whether the netlist is run, too.
+    pub netlist: bool,
+}
+
+/// The tools of the machine, and what they have built.
+#[derive(Clone, Copy, Debug)]
+pub struct Tools<'a> {
+    /// Found and run by it; its flag stops the bench.
+    pub toolchain: &'a Toolchain,
+    /// Finished builds.
+    pub cache: &'a Cache,
+}
+
+impl Bench {
+    /// Runs every level; `progress` hears what comes next.
+    ///
+    /// # Errors
+    /// When there is no result. A tool that is missing is a row that says so; differences are a result.
+    pub fn run(
+        &self,
+        tools: Tools<'_>,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<Report, BenchError> {
+        if self.frames.is_empty() {
+            return Err(BenchError::NoFrames);
+        }
+        let Self { design, frames, .. } = self;
+        let timer = Timer { at_least: self.at_least, cancel: tools.toolchain.cancel_flag() };
+        progress("functional levels");
+        let mut rows = vec![
+            functional::clear(design, frames, timer)?,
+            functional::fast(design, frames, timer)?,
+        ];
+        progress("vectors");
+        let recording = self.record(timer)?;
+        let vectors = Vectors::read(design, &recording)?;
+        progress("cycle-level models");
+        rows.push(clear::clear(design, frames, &recording, &vectors, timer)?);
+        if design.organization() == Organization::Pipelined {
+            rows.push(array::fast(design, &recording, &vectors, timer)?);
+        }
+        progress("RTL: building and running Verilator's model");
+        rows.push(match missing(tools.toolchain, &[Tool::Verilator, Tool::Cxx])? {
+            Some(why) => Row::missing(Level::Rtl, "Verilator", why),
+            None => rtl::rtl(design, &recording, &vectors, tools, timer)?,
+        });
+        if self.netlist {
+            progress("netlist: Yosys and Icarus");
+            let needed = [Tool::Yosys, Tool::Iverilog, Tool::Vvp];
+            rows.push(match missing(tools.toolchain, &needed)? {
+                Some(why) => Row::missing(Level::Netlist, netlist::NAME, why),
+                None => netlist::netlist(design, frames, self.seed, tools)?,
+            });
+        }
+        let mut report = self.report(&vectors, rows);
+        report.relate();
+        Ok(report)
+    }
+
+    /// The vectors that every level with clocks sees: the frames back to back, a pixel at every clock.
+    fn record(&self, timer: Timer<'_>) -> Result<Recording, BenchError> {
+        let frames = self.frames.clone();
+        let stimulus = Stimulus { level: Simulated::Full, seed: self.seed, rounds: 0, frames };
+        Ok(stimulus.record_until(&self.design, timer.cancel, &mut |_, _| {})?)
+    }
+
+    fn report(&self, vectors: &Vectors, rows: Vec<Row>) -> Report {
+        let design = &self.design;
+        Report {
+            format_version: FORMAT_VERSION,
+            design: design.fingerprint(),
+            organization: match design.organization() {
+                Organization::Pipelined => "pipelined",
+                Organization::Serial => "serial",
+            },
+            regions: design.regions(),
+            size: (design.width(), design.height()),
+            frames: self.frames.len() as u64,
+            streamed: vectors.streamed,
+            clocks: vectors.clocks(),
+            instructions: foveate_engine::Level::detect().name().to_owned(),
+            rows,
+        }
+    }
+}
+
+/// Why a level cannot run, if a tool that it needs is not there or too old.
+fn missing(toolchain: &Toolchain, needed: &[Tool]) -> Result<Option<String>, BenchError> {
+    for &tool in needed {
+        match toolchain.find(tool) {
+            Ok(_) => {}
+            Err(error) if error.is_interrupted() => return Err(CosimError::from(error).into()),
+            Err(error) => return Ok(Some(error.to_string())),
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The clear cycle-level models: [`PipelinedRcm`] and [`SerialRcm`]. The recording was made by them.
+
+use std::hint::black_box;
+
+use foveate_cosim::{Agreement, PipelinedCodec, Recording, SerialCodec};
+use foveate_model::{Frame, PipelinedRcm, SerialInput, SerialRcm};
+use foveate_spec::{Design, Organization};
+
+use crate::error::BenchError;
+use crate::memory::Before;
+use crate::outcomes;
+use crate::report::{Level, Measured, Row};
+use crate::timer::{Time, Timer};
+use crate::vectors::{Control, Vectors, compare};
+
+/// Compares what they decide with the functional model, and what they show when the vectors come again
+/// with the recording; then times them.
+pub(crate) fn clear(
+    design: &Design,
+    frames: &[Frame],
+    recording: &Recording,
+    vectors: &Vectors,
+    timer: Timer<'_>,
+) -> Result<Row, BenchError> {
+    let decided = outcomes::agreement(design, recording, frames, vectors.streamed)?;
+    let (name, again, peak_bytes, time) = match design.organization() {
+        Organization::Pipelined => {
+            let again = pipelined_agreement(design, recording, vectors)?;
+            let before = Before::now();
+            let mut rcm = PipelinedRcm::new(design);
+            let time = timer.time(|| {
+                for (control, pixels) in vectors.words() {
+                    let Control { reset, valid, thresholds } = control;
+                    black_box(rcm.step(*reset, *valid, pixels, thresholds));
+                }
+                Ok(())
+            })?;
+            ("PipelinedRcm", again, before.peak_bytes(), time)
+        }
+        Organization::Serial => {
+            let again = serial_agreement(design, recording, vectors)?;
+            let before = Before::now();
+            let mut rcm = SerialRcm::new(design);
+            let time = timer.time(|| {
+                for (control, pixels) in vectors.words() {
+                    black_box(rcm.step(&input(control, pixels)));
+                }
+                Ok(())
+            })?;
+            ("SerialRcm", again, before.peak_bytes(), time)
+        }
+    };
+    let agreement = Agreement {
+        compared: decided.compared + again.compared,
+        differing: decided.differing + again.differing,
+    };
+    let measured = Measured { peak_bytes, ..per_clock(design, vectors, time) };
+    Ok(Row::of(Level::CycleClear, name, measured.agrees(Level::FunctionalClear, agreement)))
+}
+
+fn pipelined_agreement(
+    design: &Design,
+    recording: &Recording,
+    vectors: &Vectors,
+) -> Result<Agreement, BenchError> {
+    let (mut rcm, codec) = (PipelinedRcm::new(design), PipelinedCodec::new(design));
+    let mut inputs = vectors.words();
+    compare(recording, |record| {
+        if let Some((control, pixels)) = inputs.next() {
+            let outputs = rcm.step(control.reset, control.valid, pixels, &control.thresholds);
+            codec.outputs(recording.outputs(), outputs, record);
+        }
+    })
+}
+
+fn serial_agreement(
+    design: &Design,
+    recording: &Recording,
+    vectors: &Vectors,
+) -> Result<Agreement, BenchError> {
+    let (mut rcm, codec) = (SerialRcm::new(design), SerialCodec::new(design));
+    let mut inputs = vectors.words();
+    compare(recording, |record| {
+        if let Some((control, pixels)) = inputs.next() {
+            codec.outputs(recording.outputs(), rcm.step(&input(control, pixels)), record);
+        }
+    })
+}
+
+fn input<'a>(control: &'a Control, pixels: &'a [u16]) -> SerialInput<'a> {
+    let Control { reset, valid, thresholds } = control;
+    SerialInput { reset: *reset, valid: *valid, pixels, thresholds }
+}
+
+/// Rates of a level with clocks.
+#[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
+pub(crate) fn per_clock(design: &Design, vectors: &Vectors, time: Time) -> Measured {
+    let passes_per_second = time.passes as f64 / time.seconds;
+    let frames_per_second = vectors.streamed as f64 * passes_per_second;
+    let pixels = f64::from(design.width()) * f64::from(design.height());
+    Measured {
+        frames_per_second,
+        clocks_per_second: Some(vectors.clocks() as f64 * passes_per_second),
+        pixels_per_second: frames_per_second * pixels,
+        passes: time.passes,
+        seconds: time.seconds,
+        ..Measured::default()
+    }
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Negative control: one false bit, in what the levels with clocks are compared with or in the frames,
+//! must be noticed by each of them.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use foveate_cosim::{Level as Simulated, Recording, Stimulus};
+use foveate_model::Frame;
+use foveate_spec::{Config, Design, Preset};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Tool, Toolchain};
+
+use crate::bench::Tools;
+use crate::report::Row;
+use crate::timer::Timer;
+use crate::vectors::Vectors;
+use crate::{array, clear, random_frames, rtl};
+
+struct Case {
+    design: Design,
+    frames: Vec<Frame>,
+    recording: Recording,
+    vectors: Vectors,
+}
+
+impl Case {
+    fn new(preset: &str) -> Self {
+        let text = Preset::find(preset).unwrap().toml;
+        let size = ["frame={width=16,height=16}".to_owned()];
+        let design = Config::from_toml_with(text, &size).unwrap().validate().unwrap();
+        let frames = random_frames(&design, 1, 3).unwrap();
+        let stimulus =
+            Stimulus { level: Simulated::Full, seed: 1, rounds: 0, frames: frames.clone() };
+        let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+        let vectors = Vectors::read(&design, &recording).unwrap();
+        Self { design, frames, recording, vectors }
+    }
+
+    /// Turns the first bit of an output that is compared at every clock, in the middle of the run.
+    fn falsify(&self) {
+        let path = self.recording.expected_path();
+        let mut bytes = std::fs::read(&path).unwrap();
+        let layout = self.recording.outputs();
+        let always = |at: &usize| {
+            let record = bytes[at * layout.record_bytes()..][..layout.record_bytes()].to_vec();
+            let mut other = record.clone();
+            other[0] ^= 1;
+            layout.differing(&record, &other) == 1
+        };
+        let middle = usize::try_from(self.recording.clocks()).unwrap() / 2;
+        let at = (middle..).find(always).unwrap();
+        bytes[at * layout.record_bytes()] ^= 1;
+        std::fs::write(path, bytes).unwrap();
+    }
+
+    fn clear(&self, frames: &[Frame], timer: Timer<'_>) -> u64 {
+        let row = clear::clear(&self.design, frames, &self.recording, &self.vectors, timer);
+        differing(&row.unwrap())
+    }
+
+    fn array(&self, timer: Timer<'_>) -> u64 {
+        differing(&array::fast(&self.design, &self.recording, &self.vectors, timer).unwrap())
+    }
+
+    fn rtl(&self, timer: Timer<'_>) -> Option<u64> {
+        let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
+        let tools = Tools { toolchain: &toolchain, cache: &cache };
+        require_tools(&[Tool::Verilator, Tool::Cxx]).then(|| {
+            let row = rtl::rtl(&self.design, &self.recording, &self.vectors, tools, timer);
+            differing(&row.unwrap())
+        })
+    }
+}
+
+fn differing(row: &Row) -> u64 {
+    row.measured.as_ref().unwrap().differing
+}
+
+#[test]
+fn one_false_bit_is_noticed_at_every_level_with_clocks() {
+    let cancel = AtomicBool::new(false);
+    let timer = Timer { at_least: Duration::ZERO, cancel: &cancel };
+    for preset in ["paper", "serial"] {
+        let case = Case::new(preset);
+        assert_eq!(case.clear(&case.frames, timer), 0, "{preset}");
+        let mut other = case.frames.clone();
+        other.swap(0, 1);
+        assert!(case.clear(&other, timer) > 0, "{preset}: other frames");
+        case.falsify();
+        assert!(case.clear(&case.frames, timer) > 0, "{preset}");
+        assert_eq!(case.rtl(timer).unwrap_or(1), 1, "{preset}");
+        if preset == "paper" {
+            assert_eq!(case.array(timer), 1);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The same frames through every level of a design: what each level costs, and whether they agree.
+//!
+//! A [`Bench`] goes from the whole frame down to the gates, each level on one thread, one after the
+//! other, and compares each with one above it:
+//!
+//! ```text
+//! functional, clear   Camera            frames          the reference
+//! functional, fast    Engine            frames          every result of every region = Camera
+//! cycle, clear        Pipelined-/SerialRcm   clocks     every score and decision = Camera
+//! cycle, fast         PipelinedArray    clocks          every port at every clock = clear
+//! RTL                 Verilator         clocks          every port at every clock = clear
+//! netlist             Icarus            one RPU         every port at every clock = clear
+//! ```
+//!
+//! The levels with clocks see the same [`Recording`](foveate_cosim::Recording). Each is compared first, in
+//! a pass of its own, and then timed from memory: no files, no comparison, no look at the outputs.
+
+mod array;
+mod bench;
+mod clear;
+mod error;
+#[cfg(test)]
+mod falsified;
+mod frames;
+mod functional;
+mod memory;
+mod netlist;
+mod outcomes;
+mod report;
+mod rtl;
+mod timer;
+mod vectors;
+
+pub use bench::{Bench, Tools};
+pub use error::BenchError;
+pub use frames::random_frames;
+pub use report::{FORMAT_VERSION, Level, Measured, Report, Row};

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How much memory a level takes that runs in this process, as far as Linux tells.
+//!
+//! The kernel keeps the largest resident size of a process and forgets it on demand; what it is above the
+//! size before the level is made is the level's. Memory that was freed before and is used again does not
+//! show, so that the figure is a lower bound.
+
+use std::fs;
+
+/// The size of this process before something is made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before(Option<u64>);
+
+impl Before {
+    pub(crate) fn now() -> Self {
+        // Where the system cannot forget the peak, there is no figure.
+        let is_forgotten = fs::write("/proc/self/clear_refs", "5").is_ok();
+        Self(if is_forgotten { kilobytes("VmRSS:") } else { None })
+    }
+
+    /// Bytes that have been taken at most since then.
+    pub(crate) fn peak_bytes(self) -> Option<u64> {
+        let before = self.0?;
+        Some(kilobytes("VmHWM:")?.saturating_sub(before).saturating_mul(1024))
+    }
+}
+
+fn kilobytes(name: &str) -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix(name))?;
+    line.split_whitespace().next()?.parse().ok()
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_touched_is_seen() {
+        let before = Before::now();
+        let touched = vec![1u8; 64 << 20];
+        assert_eq!(touched.iter().map(|&byte| usize::from(byte)).sum::<usize>(), 64 << 20);
+        let Some(peak) = before.peak_bytes() else { return };
+        assert!(peak >= 60 << 20, "{peak}");
+    }
+}

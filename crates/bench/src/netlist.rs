@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What Yosys makes of one RPU, or of one serial lane, in Icarus: the first regions of the same frames.
+
+use std::time::Instant;
+
+use foveate_cosim::{Agreement, Job, Level as Simulated, Netlist, Simulator, Stimulus};
+use foveate_model::Frame;
+use foveate_spec::{Design, Organization};
+
+use crate::bench::Tools;
+use crate::error::BenchError;
+use crate::report::{Level, Measured, Row};
+use crate::rtl::LIMIT;
+
+pub(crate) const NAME: &str = "1 RPU in Icarus";
+
+/// Synthesizes and simulates it, every port compared at every clock up to the first that differs.
+#[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
+pub(crate) fn netlist(
+    design: &Design,
+    frames: &[Frame],
+    seed: u64,
+    tools: Tools<'_>,
+) -> Result<Row, BenchError> {
+    let part = part(design)?;
+    let cut = |frame: &Frame| {
+        let pixel = |x: u32, y: u32| frame.clamped(x.into(), y.into());
+        Frame::from_fn(part.width(), part.height(), part.pixel_bits(), pixel)
+    };
+    let frames = frames.iter().map(cut).collect::<Result<Vec<_>, _>>()?;
+    let count = frames.len() as u64;
+    let folder = tempfile::tempdir().map_err(|source| BenchError::Vectors {
+        path: std::env::temp_dir().display().to_string(),
+        source,
+    })?;
+    let stimulus = Stimulus { level: Simulated::Rpu, seed, rounds: 0, frames };
+    let mut job = Job::new(&part, stimulus, &folder.path().join("replay"))?;
+    job.limit = LIMIT;
+    let start = Instant::now();
+    job.netlist = Some(Netlist::of(&job, tools.toolchain, tools.cache)?);
+    let synthesis = start.elapsed().as_secs_f64();
+    job.simulator = Simulator::Iverilog;
+    let report = job.run(tools.toolchain, tools.cache, &mut |_| {})?;
+    let frames_per_second = count as f64 / report.seconds.run;
+    let pixels = f64::from(part.width()) * f64::from(part.height());
+    let measured = Measured {
+        frames_per_second,
+        clocks_per_second: Some(report.clocks as f64 / report.seconds.run),
+        pixels_per_second: frames_per_second * pixels,
+        build_seconds: Some(synthesis + report.seconds.build),
+        passes: 1,
+        seconds: report.seconds.run,
+        ..Measured::default()
+    };
+    let differing = u64::from(!report.passed());
+    let agreement = Agreement { compared: report.comparisons, differing };
+    Ok(Row::of(Level::Netlist, NAME, measured.agrees(Level::CycleClear, agreement)))
+}
+
+/// The design for a frame of one region, or of those that share a serial lane.
+fn part(design: &Design) -> Result<Design, BenchError> {
+    let (side, mut config) = (design.region_size(), design.config().clone());
+    let columns = match design.organization() {
+        Organization::Pipelined => 1,
+        Organization::Serial => design.fold(),
+    };
+    config.frame.width = Some(columns * side);
+    config.frame.height = Some(side);
+    Ok(config.validate()?)
+}

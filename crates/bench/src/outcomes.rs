@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether the clocks of a recording decide what the functional model decides: scores, counts and
+//! decisions of every region of every frame, whenever they come.
+
+use foveate_cosim::{Agreement, Layout, Recording};
+use foveate_model::{Camera, Frame, Outcome};
+use foveate_spec::{Design, Organization, PortRole};
+
+use crate::error::BenchError;
+use crate::vectors::{each_clock, field};
+
+/// Compares a recording of `streamed` frames; after the last of `frames` it comes again.
+pub(crate) fn agreement(
+    design: &Design,
+    recording: &Recording,
+    frames: &[Frame],
+    streamed: u64,
+) -> Result<Agreement, BenchError> {
+    let last = frames.len().saturating_sub(1);
+    let mut camera = Camera::new(design);
+    let mut outcomes = Vec::new();
+    for number in 0..usize::try_from(streamed).unwrap_or(usize::MAX) {
+        let frame = frames.get(number.min(last)).ok_or(BenchError::NoFrames)?;
+        outcomes.push(camera.step(frame)?.clone());
+    }
+    let mut judge = Judge::new(design, recording.outputs(), outcomes);
+    each_clock(recording, |_, expected| judge.look(expected))?;
+    Ok(judge.finish())
+}
+
+/// Looks at the outputs of one clock after the other.
+struct Judge<'a> {
+    design: &'a Design,
+    layout: &'a Layout,
+    outcomes: Vec<Outcome>,
+    /// Decisions that have been seen, by region.
+    decided: Vec<usize>,
+    agreement: Agreement,
+}
+
+impl<'a> Judge<'a> {
+    fn new(design: &'a Design, layout: &'a Layout, outcomes: Vec<Outcome>) -> Self {
+        let decided = vec![0; design.regions() as usize];
+        Self { design, layout, outcomes, decided, agreement: Agreement::default() }
+    }
+
+    fn look(&mut self, record: &[u8]) {
+        match self.design.organization() {
+            Organization::Pipelined => self.look_at_all(record),
+            Organization::Serial => self.look_at_one(record),
+        }
+    }
+
+    /// A decision of all regions at once.
+    fn look_at_all(&mut self, record: &[u8]) {
+        if self.value(record, PortRole::DecisionValid, 0) != Some(1) {
+            return;
+        }
+        for lane in 0..self.design.regions() {
+            let region = lane as usize;
+            let count = self.value(record, PortRole::TemporalCount, lane);
+            self.check(region, count, |outcome| outcome.temporal_count[region].into());
+            for (place, feature) in self.design.features().iter().enumerate() {
+                let score = self.value(record, PortRole::Score(feature.kind()), lane);
+                self.check(region, score, |outcome| outcome.scores[place][region]);
+            }
+            self.decide(record, region, lane);
+        }
+    }
+
+    /// A score of one region, and perhaps its decision.
+    fn look_at_one(&mut self, record: &[u8]) {
+        if self.value(record, PortRole::ScoreValid, 0) != Some(1) {
+            return;
+        }
+        let number = |role| self.value(record, role, 0).unwrap_or(0);
+        let region = usize::try_from(number(PortRole::Region)).unwrap_or(usize::MAX);
+        let place = usize::try_from(number(PortRole::ScoreIndex)).unwrap_or(usize::MAX);
+        let score = self.value(record, PortRole::AnyScore, 0);
+        self.check(region, score, |outcome| match place.checked_sub(1) {
+            None => outcome.temporal_count[region].into(),
+            Some(place) => outcome.scores[place][region],
+        });
+        if self.value(record, PortRole::DecisionValid, 0) == Some(1) {
+            self.decide(record, region, 0);
+        }
+    }
+
+    fn decide(&mut self, record: &[u8], region: usize, lane: u32) {
+        for (role, bit) in [
+            (PortRole::Srs, (|outcome| &outcome.srs) as fn(&Outcome) -> &Vec<bool>),
+            (PortRole::Trs, |outcome| &outcome.trs),
+            (PortRole::Active, |outcome| &outcome.active),
+        ] {
+            let got = self.value(record, role, lane);
+            self.check(region, got, |outcome| bit(outcome)[region].into());
+        }
+        if let Some(decided) = self.decided.get_mut(region) {
+            *decided += 1;
+        }
+    }
+
+    /// One value of the frame that the region is at; nothing where the port is not there.
+    fn check(&mut self, region: usize, got: Option<u64>, wanted: impl Fn(&Outcome) -> u64) {
+        let Some(got) = got else { return };
+        let outcome = self.decided.get(region).and_then(|&frame| self.outcomes.get(frame));
+        self.agreement.compared += 1;
+        self.agreement.differing += u64::from(outcome.map(wanted) != Some(got));
+    }
+
+    fn value(&self, record: &[u8], role: PortRole, lane: u32) -> Option<u64> {
+        field(self.layout, role).map(|field| field.get(record, lane))
+    }
+
+    /// A decision that never came is a difference.
+    fn finish(mut self) -> Agreement {
+        let missing = |&decided: &usize| self.outcomes.len().saturating_sub(decided) as u64;
+        let missing = self.decided.iter().map(missing).sum::<u64>();
+        self.agreement.compared += missing;
+        self.agreement.differing += missing;
+        self.agreement
+    }
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The inputs of a recording, unpacked into memory: what the models take at every clock.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+use foveate_cosim::{Agreement, Field, Layout, Recording};
+use foveate_model::Thresholds;
+use foveate_spec::{Design, PortRole, Timing};
+
+use crate::error::BenchError;
+
+/// The inputs of every clock.
+#[derive(Debug)]
+pub(crate) struct Vectors {
+    controls: Vec<Control>,
+    pixels: Vec<u16>,
+    /// The same in bytes, where they fit.
+    narrow: Vec<u8>,
+    /// Pixels at the port per clock.
+    width: usize,
+    /// Frames that are taken in.
+    pub(crate) streamed: u64,
+}
+
+/// The inputs of one clock but for its pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Control {
+    pub(crate) reset: bool,
+    pub(crate) valid: bool,
+    pub(crate) thresholds: Thresholds,
+}
+
+impl Vectors {
+    pub(crate) fn read(design: &Design, recording: &Recording) -> Result<Self, BenchError> {
+        let layout = recording.inputs();
+        let pixel = field(layout, PortRole::Pixel);
+        let ready = field(recording.outputs(), PortRole::Ready);
+        let (mut controls, mut pixels) = (Vec::new(), Vec::new());
+        let (mut is_ready, mut taken) = (true, 0);
+        each_clock(recording, |input, expected| {
+            let control = Control::of(design, layout, input);
+            taken += u64::from(control.valid && is_ready && !control.reset);
+            is_ready = ready.is_none_or(|field| field.get(expected, 0) == 1);
+            controls.push(control);
+            let lanes = pixel.map_or(0, |field| field.port.lanes);
+            let value = |lane| pixel.map_or(0, |field| field.get(input, lane));
+            pixels.extend((0..lanes).map(|lane| u16::try_from(value(lane)).unwrap_or(u16::MAX)));
+        })?;
+        let bytes = pixels.iter().map(|&pixel| u8::try_from(pixel).unwrap_or(u8::MAX));
+        Ok(Self {
+            width: pixels.len() / controls.len().max(1),
+            narrow: if design.pixel_bits() <= 8 { bytes.collect() } else { Vec::new() },
+            streamed: taken / beats_per_frame(design).max(1),
+            controls,
+            pixels,
+        })
+    }
+
+    pub(crate) fn clocks(&self) -> u64 {
+        self.controls.len() as u64
+    }
+
+    /// Every clock with its pixels.
+    pub(crate) fn words(&self) -> impl Iterator<Item = (&Control, &[u16])> {
+        self.controls.iter().zip(self.pixels.chunks_exact(self.width.max(1)))
+    }
+
+    /// As [`Vectors::words`], where pixels fit into bytes.
+    pub(crate) fn bytes(&self) -> Option<impl Iterator<Item = (&Control, &[u8])>> {
+        let has_bytes = !self.narrow.is_empty();
+        has_bytes.then(|| self.controls.iter().zip(self.narrow.chunks_exact(self.width.max(1))))
+    }
+}
+
+impl Control {
+    fn of(design: &Design, layout: &Layout, input: &[u8]) -> Self {
+        let mut thresholds = Thresholds::of(design);
+        let (mut reset, mut valid) = (false, false);
+        let place = |kind| design.features().iter().position(|feature| feature.kind() == kind);
+        let word = |value: u64| u32::try_from(value).unwrap_or(u32::MAX);
+        for field in layout.fields() {
+            let value = || field.get(input, 0);
+            match field.port.role {
+                PortRole::Reset => reset = value() == 1,
+                PortRole::Valid => valid = value() == 1,
+                PortRole::Level(kind) => {
+                    if let Some(place) = place(kind) {
+                        thresholds.level[place] = word(value());
+                    }
+                }
+                PortRole::MinScore(kind) => {
+                    if let Some(place) = place(kind) {
+                        thresholds.min_score[place] = value();
+                    }
+                }
+                PortRole::TemporalLevel => thresholds.temporal_level = word(value()),
+                PortRole::TemporalMinCount => thresholds.temporal_min_count = word(value()),
+                // Pixels, outputs, and the borders of a lone RPU.
+                _ => {}
+            }
+        }
+        Self { reset, valid, thresholds }
+    }
+}
+
+/// How often the pixel port takes something for a frame.
+fn beats_per_frame(design: &Design) -> u64 {
+    match design.timing() {
+        Timing::Pipelined(_) => design.stream_pixels().into(),
+        Timing::Serial(timing) => timing.load_pixels(),
+    }
+}
+
+/// The port of a role.
+pub(crate) fn field(layout: &Layout, role: PortRole) -> Option<&Field> {
+    layout.fields().iter().find(|field| field.port.role == role)
+}
+
+/// Inputs and expected outputs, clock by clock.
+pub(crate) fn each_clock(
+    recording: &Recording,
+    mut look: impl FnMut(&[u8], &[u8]),
+) -> Result<(), BenchError> {
+    let paths = [recording.inputs_path(), recording.expected_path()];
+    let (mut inputs, mut outputs) = (open(&paths[0])?, open(&paths[1])?);
+    let (mut input, mut output) = (recording.inputs().record(), recording.outputs().record());
+    for _ in 0..recording.clocks() {
+        inputs.read_exact(&mut input).map_err(unreadable(&paths[0]))?;
+        outputs.read_exact(&mut output).map_err(unreadable(&paths[1]))?;
+        look(&input, &output);
+    }
+    Ok(())
+}
+
+/// Compares the outputs of a model with the recording; `step` puts those of the next clock into a record.
+pub(crate) fn compare(
+    recording: &Recording,
+    mut step: impl FnMut(&mut [u8]),
+) -> Result<Agreement, BenchError> {
+    let (mut got, mut agreement) = (recording.outputs().record(), Agreement::default());
+    each_clock(recording, |_, expected| {
+        step(&mut got);
+        agreement.add(recording.outputs(), expected, &got);
+    })?;
+    Ok(agreement)
+}
+
+fn open(path: &Path) -> Result<BufReader<File>, BenchError> {
+    let file = File::open(path).map_err(unreadable(path))?;
+    Ok(BufReader::with_capacity(1 << 18, file))
+}
+
+fn unreadable(path: &Path) -> impl FnOnce(std::io::Error) -> BenchError {
+    let path = path.display().to_string();
+    move |source| BenchError::Vectors { path, source }
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate bench`: every level of a design over the same frames, what it costs, and whether they agree.
+
+mod table;
+
+use std::time::Duration;
+
+use foveate_bench::{Bench, Report, Tools, random_frames};
+use foveate_model::Frame;
+use foveate_simulator::SimulatorError;
+use foveate_spec::Design;
+use foveate_toolchain::Cache;
+
+use crate::args::BenchArgs;
+use crate::error::CliError;
+use crate::{interrupt, output, progress};
+
+pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
+    let (design, frames) = design_and_frames(args)?;
+    let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
+    let bench = Bench {
+        design,
+        frames,
+        seed: args.seed,
+        at_least: Duration::from_secs_f64(args.seconds),
+        netlist: args.netlist,
+    };
+    let spinner = progress::spinner(args.quiet, "");
+    let tools = Tools { toolchain: &toolchain, cache: &cache };
+    let report = bench.run(tools, &mut |level| spinner.set_message(level.to_owned()));
+    spinner.finish_and_clear();
+    let report = report?;
+    tell(args, &report)?;
+    match report.differing() {
+        0 => Ok(()),
+        differing => Err(CliError::Failed(format!("levels differ in {differing} values"))),
+    }
+}
+
+fn design_and_frames(args: &BenchArgs) -> Result<(Design, Vec<Frame>), CliError> {
+    let (design, frames) = args.design.with_frames(&args.inputs, args.frames)?;
+    if !args.inputs.is_empty() {
+        return Ok((design, frames));
+    }
+    let frames = random_frames(&design, args.seed, args.frames).map_err(SimulatorError::from)?;
+    Ok((design, frames))
+}
+
+fn tell(args: &BenchArgs, report: &Report) -> Result<(), CliError> {
+    if args.json {
+        output::json(report)
+    } else if args.markdown {
+        output::text(&table::markdown(report))
+    } else {
+        output::text(&table::text(report, output::width()))
+    }
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A bench as a table: in lines as wide as the terminal, or in Markdown.
+
+use foveate_bench::{Level, Measured, Report, Row};
+
+const HEADINGS: [&str; 7] = ["frames", "clocks", "pixels", "x RTL", "memory", "build", "differ"];
+/// What the first three count per second.
+const PER_SECOND: usize = 3;
+/// Columns of the first cell, and of the others.
+const FIRST: usize = 23;
+const OTHER: usize = 8;
+const TABLE: usize = FIRST + HEADINGS.len() * OTHER;
+
+/// A table where it fits; otherwise a paragraph per level.
+pub(super) fn text(report: &Report, width: usize) -> String {
+    let mut text = if width < TABLE {
+        String::new()
+    } else {
+        line("per second:", &HEADINGS.map(String::from))
+    };
+    for row in &report.rows {
+        let title = title(row);
+        text += &match (&row.measured, &row.missing) {
+            (Some(measured), _) if width >= TABLE => line(&title, &cells(measured)),
+            (Some(measured), _) => {
+                let pairs = HEADINGS.iter().zip(cells(measured));
+                let pairs: Vec<_> = pairs.map(|(name, cell)| format!("{name} {cell}")).collect();
+                let (rates, rest) = pairs.split_at(PER_SECOND);
+                let (rates, rest) = (rates.join(", "), rest.join(", "));
+                fill(&format!("{title}: per second {rates}; {rest}"), width)
+            }
+            (None, why) => fill(&format!("{title}: {}", why.as_deref().unwrap_or("")), width),
+        };
+    }
+    text.push('\n');
+    for note in notes(report) {
+        text += &fill(&note, width);
+    }
+    text
+}
+
+pub(super) fn markdown(report: &Report) -> String {
+    let mut text = format!("| per second: | {} |\n|{}\n", HEADINGS.join(" | "), " --- |".repeat(8));
+    for row in &report.rows {
+        let cells = row.measured.as_ref().map_or_else(
+            || vec![row.missing.clone().unwrap_or_default(); 1],
+            |measured| cells(measured).to_vec(),
+        );
+        text += &format!("| {} | {} |\n", title(row), cells.join(" | "));
+    }
+    text.push('\n');
+    for note in notes(report) {
+        text += &format!("{note}\n");
+    }
+    text
+}
+
+fn title(row: &Row) -> String {
+    format!("{} {}", name(row.level), row.name)
+}
+
+fn name(level: Level) -> &'static str {
+    match level {
+        Level::FunctionalClear | Level::FunctionalFast => "functional",
+        Level::CycleClear | Level::CycleFast => "cycle",
+        Level::Rtl => "RTL",
+        Level::Netlist => "netlist",
+    }
+}
+
+fn cells(row: &Measured) -> [String; 7] {
+    let or_nothing = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
+    [
+        short(row.frames_per_second),
+        or_nothing(row.clocks_per_second.map(short)),
+        short(row.pixels_per_second),
+        or_nothing(row.times_rtl.map(|times| format!("{times:.*}", usize::from(times < 9.95)))),
+        or_nothing(row.peak_bytes.map(memory)),
+        or_nothing(row.build_seconds.map(|seconds| match row.is_cached {
+            true => "cached".to_owned(),
+            false => format!("{seconds:.0} s"),
+        })),
+        or_nothing(row.same_as.map(|_| row.differing.to_string())),
+    ]
+}
+
+/// What is compared, and what the figures include.
+fn notes(report: &Report) -> Vec<String> {
+    let Report { design, organization, regions, size, frames, streamed, clocks, .. } = report;
+    let mut notes = vec![format!(
+        "design {design}, {organization}, {regions} regions, {} x {} pixels, {frames} frames; with clocks \
+         {streamed} frames in {clocks} clocks; one thread, {}",
+        size.0, size.1, report.instructions
+    )];
+    let compared = |row: &Row| {
+        let measured = row.measured.as_ref()?;
+        let with = report.rows.iter().find(|other| Some(other.level) == measured.same_as)?;
+        Some(format!("{} with {} in {} values", row.name, with.name, measured.compared))
+    };
+    let compared: Vec<_> = report.rows.iter().filter_map(compared).collect();
+    notes.push(format!("compared: {}", compared.join(", ")));
+    notes.push(
+        "memory: what the process of a simulator takes at most; of a level in this process what Linux says \
+         it took beyond memory that was free already, a lower bound"
+            .to_owned(),
+    );
+    let rtl = report.rows.iter().find(|row| row.level == Level::Rtl);
+    if let Some(Measured { files_clocks_per_second: Some(files), unpacking, .. }) =
+        rtl.and_then(|row| row.measured.as_ref())
+    {
+        notes.push(format!(
+            "times are from memory, without files and without a look at the outputs; RTL from file to file: \
+             {} clocks/s; unpacking its inputs is {:.1} % of its time",
+            short(*files),
+            unpacking.unwrap_or(0.0) * 100.0
+        ));
+    }
+    notes
+}
+
+fn line(first: &str, cells: &[String; 7]) -> String {
+    let mut line = format!("{first:<FIRST$}");
+    for cell in cells {
+        line += &format!("{cell:>OTHER$}");
+    }
+    line + "\n"
+}
+
+fn fill(text: &str, width: usize) -> String {
+    textwrap::fill(text, textwrap::Options::new(width).subsequent_indent("  ")) + "\n"
+}
+
+/// Three digits and a unit.
+fn short(value: f64) -> String {
+    let units = [(1e9, " G"), (1e6, " M"), (1e3, " k")];
+    let (scale, unit) = units.into_iter().find(|(scale, _)| value >= *scale).unwrap_or((1.0, ""));
+    let scaled = value / scale;
+    let digits = if scaled < 9.995 { 2 } else { usize::from(scaled < 99.95) };
+    format!("{scaled:.digits$}{unit}")
+}
+
+/// Megabytes, as memory is sold: 10^6 bytes.
+#[allow(clippy::cast_precision_loss, reason = "three digits are shown")]
+fn memory(bytes: u64) -> String {
+    let megabytes = bytes as f64 / 1e6;
+    format!("{megabytes:.*} MB", usize::from(megabytes < 9.95))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let shown = [0.5, 12.34, 999.0, 4_830_000.0, 56_700.0, 2.5e9].map(short);
+        assert_eq!(shown, ["0.50", "12.3", "999", "4.83 M", "56.7 k", "2.50 G"]);
+        assert_eq!([memory(1_240_000), memory(123_000_000)], ["1.2 MB", "123 MB"]);
+    }
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How fast Verilator's model is: once through files, every output compared, then from memory.
+//!
+//! A co-simulation spends much of its time on files. To say how fast the model itself is, the harness
+//! keeps the inputs and clocks them again without files and without a look at the outputs. A recording
+//! begins with a reset, so that every pass does the same.
+
+use crate::error::CosimError;
+use crate::layout::Layout;
+use crate::recording::{Recording, open};
+use crate::simulate::{Dut, Run};
+use foveate_toolchain::{Tool, verilator};
+use std::io::Read as _;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// How far outputs agree with those of a recording.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Agreement {
+    /// Values that were compared.
+    pub compared: u64,
+    /// Those that differ.
+    pub differing: u64,
+}
+
+impl Agreement {
+    /// Compares one more record.
+    pub fn add(&mut self, layout: &Layout, expected: &[u8], got: &[u8]) {
+        self.compared += layout.values(expected);
+        self.differing += layout.differing(expected, got);
+    }
+}
+
+/// What it took.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// What Verilator says about its version.
+    pub version: String,
+    /// Time to build.
+    pub build: Duration,
+    /// Whether it was built before.
+    pub is_cached: bool,
+    /// How far the outputs agree, over all clocks.
+    pub agreement: Agreement,
+    /// Time for the recording once, from file to file.
+    pub files: Duration,
+    /// How often it went through from memory.
+    pub passes: u64,
+    /// Time for all of that.
+    pub seconds: f64,
+    /// The part of [`Timed::seconds`] that goes into unpacking the inputs.
+    pub applying: f64,
+    /// Most memory of the process in bytes before it kept the inputs; `None` where the system
+    /// does not tell.
+    pub peak_bytes: Option<u64>,
+}
+
+impl Run<'_> {
+    /// Builds Verilator's model, compares it with the recording, and times it from memory for so long.
+    ///
+    /// # Errors
+    /// When there is no result; differences are one.
+    pub fn timed(
+        &self,
+        dut: &Dut,
+        recording: &Recording,
+        at_least: Duration,
+    ) -> Result<Timed, CosimError> {
+        let version = self.toolchain.find(Tool::Verilator)?.banner;
+        let is_cached = verilator::is_built(self.toolchain, self.cache, &self.job(dut))?;
+        let start = Instant::now();
+        let program = self.build(dut)?;
+        let build = start.elapsed();
+
+        let actual = recording.folder().join("actual.bin");
+        let harness = self.harness(&program, recording, &actual);
+        let start = Instant::now();
+        let output = self.toolchain.run(&harness)?;
+        let files = start.elapsed();
+        if !output.is_success() {
+            return Err(self.short(recording, 0, &output));
+        }
+        let agreement = agreement(recording, &actual)?;
+
+        let harness = harness.arg(at_least.as_secs_f64().max(1e-6).to_string());
+        let output = self.toolchain.run(&harness)?;
+        let log = output.log();
+        let Some(line) = log.lines().rev().find_map(parse_timed) else {
+            return Err(self.short(recording, 0, &output));
+        };
+        let peak_bytes = line.kilobytes.checked_mul(1024).filter(|&bytes| bytes > 0);
+        let TimedLine { passes, seconds, applying, .. } = line;
+        Ok(Timed {
+            version,
+            build,
+            is_cached,
+            agreement,
+            files,
+            passes,
+            seconds,
+            applying,
+            peak_bytes,
+        })
+    }
+}
+
+/// Compares all that a simulator wrote; a record that is missing differs in every value.
+fn agreement(recording: &Recording, actual: &Path) -> Result<Agreement, CosimError> {
+    let layout = recording.outputs();
+    let expected_path = recording.expected_path();
+    let (mut expected, mut actual_file) = (open(&expected_path)?, open(actual)?);
+    let (mut wanted, mut got) = (layout.record(), layout.record());
+    let mut agreement = Agreement::default();
+    for _ in 0..recording.clocks() {
+        expected.read_exact(&mut wanted).map_err(CosimError::io("read", &expected_path))?;
+        match actual_file.read_exact(&mut got) {
+            Ok(()) => agreement.add(layout, &wanted, &got),
+            Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+                agreement.compared += layout.values(&wanted);
+                agreement.differing += layout.values(&wanted);
+            }
+            Err(error) => return Err(CosimError::io("read", actual)(error)),
+        }
+    }
+    Ok(agreement)
+}
+
+/// What the harness says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct TimedLine {
+    passes: u64,
+    seconds: f64,
+    applying: f64,
+    kilobytes: u64,
+}
+
+fn parse_timed(line: &str) -> Option<TimedLine> {
+    let mut words = line.strip_prefix("TIMED ")?.split_whitespace();
+    let mut value = |name| if words.next()? == name { words.next() } else { None };
+    Some(TimedLine {
+        passes: value("passes")?.parse().ok()?,
+        seconds: value("seconds")?.parse().ok()?,
+        applying: value("applying")?.parse().ok()?,
+        kilobytes: value("kilobytes")?.parse().ok()?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::Recorder;
+    use crate::testing::port;
+    use foveate_spec::Direction;
+
+    #[test]
+    fn the_line_of_the_harness_is_read() {
+        let line = "TIMED passes 3 seconds 1.5 applying 0.25 kilobytes 4096";
+        let wanted = TimedLine { passes: 3, seconds: 1.5, applying: 0.25, kilobytes: 4096 };
+        assert_eq!(parse_timed(line), Some(wanted));
+        for line in ["TIMED passes 3", "TIMED seconds 3 passes 1", "done"] {
+            assert_eq!(parse_timed(line), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn every_difference_counts_and_so_does_what_is_missing() {
+        let ports = [port("a_i", Direction::Input, 1, 1), port("b_o", Direction::Output, 4, 2)];
+        let mut recorder = Recorder::new(&ports).unwrap();
+        (0..100).for_each(|clock| recorder.push(&[0], &[clock]).unwrap());
+        let recording = recorder.finish().unwrap();
+        let actual = recording.folder().join("actual");
+        let mut bytes: Vec<u8> = (0..100).collect();
+        let counted = |bytes: &[u8]| {
+            std::fs::write(&actual, bytes).unwrap();
+            let Agreement { compared, differing } = agreement(&recording, &actual).unwrap();
+            (compared, differing)
+        };
+        assert_eq!(counted(&bytes), (200, 0));
+        (bytes[0x13], bytes[0x20]) = (0x14, 0x31);
+        assert_eq!(counted(&bytes), (200, 3));
+        assert_eq!(counted(&bytes[..90]), (200, 3 + 20));
+    }
+}
