@@ -43,7 +43,7 @@ class Design:
         # A late design is only there for what has survived the others.
         self.organization, self.late, self.name, self.options = organization, name.endswith("+"), name.rstrip("+"), options
         self.folder = os.path.join(WORK, "designs", organization, self.name)
-        self.lock = threading.Lock()
+        self.lock, self.modules = threading.Lock(), None
         self.vectors, self.seconds = {}, {}
 
     def record(self, stage):
@@ -57,8 +57,10 @@ class Design:
             os.makedirs(keep)
             env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(WRAPPERS_AT, "iverilog"),
                        FOVEATE_VVP=os.path.join(WRAPPERS_AT, "vvp"))
-            command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--rounds", str(rounds),
-                       "--seed", str(seed), "--replay", os.path.join(keep, "replay"), *self.options]
+            command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
+                       "--replay", os.path.join(keep, "replay"), *self.options]
+            if "--rounds" not in self.options:
+                command += ["--rounds", str(rounds)]
             began = time.monotonic()
             done = subprocess.run(command, env=env, capture_output=True, text=True)
             if done.returncode != 0:
@@ -89,7 +91,7 @@ class Design:
         limit = limit or max(10, SLOWER * self.seconds[stage])
         try:
             built = subprocess.run(["iverilog", "-g2005", "-s", f"{self.top}_replay", "-o", program, *files],
-                                   capture_output=True, timeout=max(limit, 60))
+                                   capture_output=True, timeout=60)
         except subprocess.TimeoutExpired:
             return "refused"
         if built.returncode != 0:
@@ -106,24 +108,41 @@ class Design:
             return "fail"
         raise RuntimeError(f"{self.name}: the replay says neither PASS nor FAIL: {(done.stdout + done.stderr)[-300:]}")
 
-    def equal(self, module, text):
-        """Whether Yosys proves that the design with another text of a module is the design."""
+    def chparam(self):
+        """The parameters that the bench gives to the top module, for Yosys."""
+        parameters = re.search(rf"^\s*{self.top} #\((.*)\) dut \($", self.texts[self.bench], re.M)
+        values = re.findall(r"\.(\w+)\((\d+)\)", parameters.group(1) if parameters else "")
+        return "".join(f" -chparam {name} {value}" for name, value in values)
+
+    def variants(self, module):
+        """What Yosys calls the module with the parameters that it has in this design."""
+        with self.lock:
+            if self.modules is None:
+                paths = " ".join(os.path.join(self.sources, name) for name in self.files if name != self.bench)
+                done = subprocess.run([YOSYS, "-p", f"read_verilog {paths}; hierarchy -top {self.top}{self.chparam()}; tee -o /dev/stderr ls"],
+                                      capture_output=True, text=True)
+                if done.returncode != 0:
+                    sys.exit(f"mutation: Yosys does not read {self.name}: {done.stdout[-300:]}")
+                self.modules = [line.strip() for line in done.stderr.splitlines()]
+        return [name for name in self.modules if re.fullmatch(rf"(\$paramod(\$\w+)?\\)?{module}(\\.*)?", name)]
+
+    def equal(self, module, text, inside=None):
+        """Whether Yosys proves that the design with another text of a module is the design; or the module of that name alone."""
         folder = os.path.join(WORK, "equal", str(threading.get_ident()))
         os.makedirs(folder, exist_ok=True)
         mutant = os.path.join(folder, f"{module}.v")
         with open(mutant, "w") as out:
             out.write(text)
-        parameters = re.search(rf"^\s*{self.top} #\((.*)\) dut \($", self.texts[self.bench], re.M)
-        values = re.findall(r"\.(\w+)\((\d+)\)", parameters.group(1) if parameters else "")
-        chparam = "".join(f" -chparam {name} {value}" for name, value in values)
         script = []
         for side in ("gold", "gate"):
             names = [name for name in self.files if name != self.bench]
             paths = [os.path.join(self.sources, name) for name in names]
             if side == "gate":
                 paths[names.index(f"rtl/{module}.v")] = mutant
-            script += [f"read_verilog {' '.join(paths)}", f"hierarchy -top {self.top}{chparam}", "proc", "flatten",
-                       "memory -nomap", "memory_map", "opt -full", "clean", f"rename -top {side}", f"design -stash {side}"]
+            script += [f"read_verilog {' '.join(paths)}", f"hierarchy -top {self.top}{self.chparam()}",
+                       f"hierarchy -top {inside or self.top}", "proc",
+                       "setattr -mod -unset keep_hierarchy *", "flatten",
+                       "memory -nomap", "memory_map", "opt -full", "splitnets -ports", "opt_clean -purge", "rename -top " + side, f"design -stash {side}"]
         script += ["design -copy-from gold -as gold gold", "design -copy-from gate -as gate gate", "equiv_make gold gate equal",
                    "hierarchy -top equal", "opt -full", "equiv_struct", "equiv_simple -undef", "equiv_induct -undef",
                    "equiv_status -assert"]
@@ -461,7 +480,7 @@ def reasons():
     return found
 
 
-def judge(mutant, all_of, stages):
+def judge(mutant, all_of, stages, verbose=False):
     """Sets the verdict of the vectors: `refused`, `killed` or `survived`."""
     contain = [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
     for stage in stages:
@@ -476,11 +495,29 @@ def judge(mutant, all_of, stages):
                 mutant.verdict, mutant.by = "killed", (stage, design.name, outcome)
                 return
     mutant.verdict = "survived"
+    if verbose:
+        print(f"the vectors do not kill {mutant}", flush=True)
+
+
+def proven_in(mutant, all_of):
+    """Whether Yosys proves the module equal for the parameters of every design, or else the design around it."""
+    if mutant.design:
+        return mutant.design.equal(mutant.module, mutant.text)
+    known = {}
+    for design in all_of:
+        if not design.has(mutant.module):
+            continue
+        variants = design.variants(mutant.module)
+        for name in variants:
+            if name not in known:
+                known[name] = design.equal(mutant.module, mutant.text, name)
+        if not all(known[name] for name in variants) and not design.equal(mutant.module, mutant.text):
+            return False
+    return True
 
 
 def prove(mutant, all_of):
-    contain = [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
-    if all(design.equal(mutant.module, mutant.text) for design in contain):
+    if proven_in(mutant, all_of):
         mutant.verdict = "equivalent"
 
 
@@ -520,11 +557,17 @@ def examine(organization, options, excuses, used):
                 chosen[mutant.place()].append(mutant)
             found = {place: chosen[place] + [m for m in found[place] if m not in chosen[place]] for place in chosen}
             takes = {place: len(chosen[place]) for place in chosen}
-        mutants = drawn(found, takes, pool, lambda mutant: judge(mutant, all_of, stages))
+        mutants = drawn(found, takes, pool, lambda mutant: judge(mutant, all_of, stages, options.verbose))
         survivors = [mutant for mutant in mutants if mutant.verdict == "survived"]
         unknown = [mutant for mutant in survivors if mutant.key() not in excuses]
         if options.prove:
             list(pool.map(lambda mutant: prove(mutant, all_of), survivors if not options.sample else unknown))
+            # The proofs must tell: what was killed in the same module is not equal.
+            proven = {mutant.place() for mutant in survivors if mutant.verdict == "equivalent"}
+            controls = {mutant.place(): mutant for mutant in mutants if mutant.verdict == "killed" and mutant.place() in proven}
+            for place, wrong in zip(controls, pool.map(lambda mutant: proven_in(mutant, all_of), controls.values())):
+                if wrong:
+                    sys.exit(f"mutation: Yosys proves equal what the vectors tell apart: {controls[place]}")
     open_ones = 0
     for mutant in survivors:
         if mutant.verdict == "survived" and mutant.key() in excuses:
