@@ -306,7 +306,7 @@ def edits(text, is_top, pick):
             semicolons = [i for i in range(index + 1, other[index + 1]) if stream[i].text == ";"]
             alone.update(range(index, semicolons[0] + 1))
             alone.update(range(semicolons[1], other[index + 1] + 1))
-        elif token.text == "@":
+        elif token.text == "@" and stream[index + 1].text == "(":
             alone.update(range(index, other[index + 1] + 1))
     assigned_at, ranges = {}, {}
     for index, token in enumerate(stream):
@@ -409,6 +409,11 @@ class Mutant:
         self.now = flat(text[low:start] + replacement + text[end:high])
         self.verdict = self.by = None
 
+    def pointless(self):
+        """Whether it only touches a wire that tells lint what is not used, or gives a wire to itself."""
+        own = re.match(r"(?:wire|assign)\b.*?(\w+)(?:\[[^=]*\])? = (.*)", self.now)
+        return "unused_" in self.was or bool(self.operator == "name" and own and re.search(rf"\b{own[1]}\b", own[2]))
+
     def key(self):
         return self.place(), self.was, self.now
 
@@ -482,6 +487,9 @@ def reasons():
 
 def judge(mutant, all_of, stages, verbose=False):
     """Sets the verdict of the vectors: `refused`, `killed` or `survived`."""
+    if mutant.pointless():
+        mutant.verdict = "refused"
+        return
     contain = [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
     for stage in stages:
         for design in contain:
@@ -522,7 +530,7 @@ def prove(mutant, all_of):
 
 
 def drawn(pools, takes, pool, check):
-    """The mutants that elaborate, as many of each module as wanted."""
+    """The mutants that elaborate and have a point, as many of each module as wanted."""
     at, kept = collections.Counter(), collections.defaultdict(list)
     while True:
         batch = []
@@ -561,7 +569,7 @@ def examine(organization, options, excuses, used):
         survivors = [mutant for mutant in mutants if mutant.verdict == "survived"]
         unknown = [mutant for mutant in survivors if mutant.key() not in excuses]
         if options.prove:
-            list(pool.map(lambda mutant: prove(mutant, all_of), survivors if not options.sample else unknown))
+            list(pool.map(lambda mutant: prove(mutant, all_of), unknown))
             # The proofs must tell: what was killed in the same module is not equal.
             proven = {mutant.place() for mutant in survivors if mutant.verdict == "equivalent"}
             controls = {mutant.place(): mutant for mutant in mutants if mutant.verdict == "killed" and mutant.place() in proven}
