@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs every check: format, clippy, documentation, unit, property, golden, command line, RTL lint, co-simulation. Installs
-# what is missing.
+# Runs every check: format, clippy, documentation, unit, property, golden, command line, RTL lint, co-simulation, a sample of
+# mutants. Installs what is missing.
 #
 # A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used where FOVEATE_DATA names their folder.
 set -euo pipefail
@@ -24,3 +24,5 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 cargo test --workspace --locked --lib --bins --tests | tee "$log"
 awk '/^test result:/ { passed += $4; failed += $6 } END { print passed " passed, " failed " failed" }' "$log"
+step "a sample of mutants (scripts/mutation.sh is the whole)"
+scripts/mutation.sh --sample 20

@@ -1,0 +1,628 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Called by mutation.sh: mutants of the Verilog, the co-simulation vectors that must kill them, and what to do with survivors.
+
+1. Records the vectors of every design below once, as co-simulation gives them to Icarus.
+2. Makes the mutants: one edit each, from a seed, spread over all leaves and rendered modules of an organization. The edits are
+   those of `edits`; parameter defaults, clocks and loop steps are left alone, declared ranges only become narrower.
+3. Replays the vectors of the designs that contain the module, smallest first, until a mismatch; a run of 30 times the time of
+   the unmutated one is a mismatch, too. What survives sees longer vectors.
+4. What still survives: Yosys tries to prove the whole designs equal by induction; else mutation/survivors.txt must say why.
+"""
+import argparse
+import collections
+import concurrent.futures
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import time
+
+TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
+WORK = os.path.join(TARGET, "mutation")
+FOVEATE = os.path.join(TARGET, "release", "foveate")
+YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
+REASONS = "mutation/survivors.txt"
+DESIGNS = "mutation/designs.txt"
+LEAVES = "crates/emit/src/leaf.rs"
+# Rounds and seed of the vectors of each stage.
+STAGES = ((1, 1), (3, 2))
+LATER = 1
+SLOWER = 30
+WRAPPERS_AT = os.path.join(WORK, "wrappers")
+
+# ---------------------------------------------------------------------------------------------------------------- designs
+
+
+class Design:
+    """A design with its sources and its vectors."""
+
+    def __init__(self, organization, name, options):
+        # A late design is only there for what has survived the others.
+        self.organization, self.late, self.name, self.options = organization, name.endswith("+"), name.rstrip("+"), options
+        self.folder = os.path.join(WORK, "designs", organization, self.name)
+        self.lock, self.modules = threading.Lock(), None
+        self.vectors, self.seconds = {}, {}
+
+    def record(self, stage):
+        """Keeps the sources and the vectors of a stage, and how long they take; once."""
+        with self.lock:
+            if stage in self.seconds:
+                return
+            # The long vectors of a late design are those that are short elsewhere.
+            rounds, seed = STAGES[0 if self.late else stage]
+            keep = os.path.join(self.folder, f"stage{stage}")
+            os.makedirs(keep)
+            env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(WRAPPERS_AT, "iverilog"),
+                       FOVEATE_VVP=os.path.join(WRAPPERS_AT, "vvp"))
+            command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
+                       "--replay", os.path.join(keep, "replay"), *self.options]
+            if "--rounds" not in self.options:
+                command += ["--rounds", str(rounds)]
+            began = time.monotonic()
+            done = subprocess.run(command, env=env, capture_output=True, text=True)
+            if done.returncode != 0:
+                sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant: {done.stdout}{done.stderr}")
+            self.vectors[stage] = os.path.join(keep, "vectors.hex")
+            self.sources = keep
+            self.files = open(os.path.join(keep, "files")).read().split()
+            self.bench = next(name for name in self.files if name.endswith("_replay.v"))
+            self.top = self.bench[: -len("_replay.v")]
+            self.texts = {name: open(os.path.join(keep, name)).read() for name in self.files}
+            self.seconds[stage] = time.monotonic() - began
+
+    def has(self, module):
+        return f"rtl/{module}.v" in self.files
+
+    def run(self, stage, module, text, limit=None):
+        """`pass`, `fail`, `hang`, or `refused` if it does not elaborate, of a module with another text."""
+        self.record(stage)
+        folder = os.path.join(WORK, "run", str(threading.get_ident()))
+        os.makedirs(folder, exist_ok=True)
+        files = [os.path.join(self.sources, name) for name in self.files]
+        if module:
+            mutant = os.path.join(folder, f"{module}.v")
+            with open(mutant, "w") as out:
+                out.write(text)
+            files[self.files.index(f"rtl/{module}.v")] = mutant
+        program = os.path.join(folder, "program.vvp")
+        limit = limit or max(10, SLOWER * self.seconds[stage])
+        try:
+            built = subprocess.run(["iverilog", "-g2005", "-s", f"{self.top}_replay", "-o", program, *files],
+                                   capture_output=True, timeout=60)
+        except subprocess.TimeoutExpired:
+            return "refused"
+        if built.returncode != 0:
+            return "refused"
+        try:
+            done = subprocess.run(["vvp", "-n", program, f"+vectors={self.vectors[stage]}", "+stop"], cwd=folder,
+                                  capture_output=True, text=True, errors="replace", timeout=limit)
+        except subprocess.TimeoutExpired:
+            return "hang"
+        last = (done.stdout.strip().splitlines() or [""])[-1]
+        if last.startswith("PASS"):
+            return "pass"
+        if last.startswith("FAIL"):
+            return "fail"
+        raise RuntimeError(f"{self.name}: the replay says neither PASS nor FAIL: {(done.stdout + done.stderr)[-300:]}")
+
+    def chparam(self):
+        """The parameters that the bench gives to the top module, for Yosys."""
+        parameters = re.search(rf"^\s*{self.top} #\((.*)\) dut \($", self.texts[self.bench], re.M)
+        values = re.findall(r"\.(\w+)\((\d+)\)", parameters.group(1) if parameters else "")
+        return "".join(f" -chparam {name} {value}" for name, value in values)
+
+    def variants(self, module):
+        """What Yosys calls the module with the parameters that it has in this design."""
+        with self.lock:
+            if self.modules is None:
+                paths = " ".join(os.path.join(self.sources, name) for name in self.files if name != self.bench)
+                done = subprocess.run([YOSYS, "-p", f"read_verilog {paths}; hierarchy -top {self.top}{self.chparam()}; tee -o /dev/stderr ls"],
+                                      capture_output=True, text=True)
+                if done.returncode != 0:
+                    sys.exit(f"mutation: Yosys does not read {self.name}: {done.stdout[-300:]}")
+                self.modules = [line.strip() for line in done.stderr.splitlines()]
+        return [name for name in self.modules if re.fullmatch(rf"(\$paramod(\$\w+)?\\)?{module}(\\.*)?", name)]
+
+    def equal(self, module, text, inside=None):
+        """Whether Yosys proves that the design with another text of a module is the design; or the module of that name alone."""
+        folder = os.path.join(WORK, "equal", str(threading.get_ident()))
+        os.makedirs(folder, exist_ok=True)
+        mutant = os.path.join(folder, f"{module}.v")
+        with open(mutant, "w") as out:
+            out.write(text)
+        script = []
+        for side in ("gold", "gate"):
+            names = [name for name in self.files if name != self.bench]
+            paths = [os.path.join(self.sources, name) for name in names]
+            if side == "gate":
+                paths[names.index(f"rtl/{module}.v")] = mutant
+            script += [f"read_verilog {' '.join(paths)}", f"hierarchy -top {self.top}{self.chparam()}",
+                       f"hierarchy -top {inside or self.top}", "proc",
+                       "setattr -mod -unset keep_hierarchy *", "flatten",
+                       "memory -nomap", "memory_map", "opt -full", "splitnets -ports", "opt_clean -purge", "rename -top " + side, f"design -stash {side}"]
+        script += ["design -copy-from gold -as gold gold", "design -copy-from gate -as gate gate", "equiv_make gold gate equal",
+                   "hierarchy -top equal", "opt -full", "equiv_struct", "equiv_simple -undef", "equiv_induct -undef",
+                   "equiv_status -assert"]
+        try:
+            done = subprocess.run([YOSYS, "-q", "-p", "; ".join(script)], capture_output=True, text=True, timeout=150)
+        except subprocess.TimeoutExpired:
+            return False
+        return done.returncode == 0
+
+
+def designs(organization):
+    """Those of mutation/designs.txt, `organization name options`."""
+    for number, line in enumerate(open(DESIGNS), 1):
+        words = line.split()
+        if not words or line.startswith("#"):
+            continue
+        if len(words) < 3 or words[0] not in ("pipelined", "serial"):
+            sys.exit(f"mutation: {DESIGNS}:{number}: wants `pipelined|serial NAME OPTIONS`")
+        if words[0] == organization:
+            options = words[2:]
+            if organization == "serial":
+                options += ["--set", "hardware.organization='serial'"]
+            yield Design(organization, words[1], options)
+
+
+WRAPPERS = {
+    "iverilog": 'for word in "$@"; do\n    [[ $word != *.v ]] || { cp --parents "$word" "$KEEP"; echo "$word" >>"$KEEP/files"; }\n'
+                'done\nexec iverilog "$@"\n',
+    "vvp": 'for word in "$@"; do\n    [[ $word != +vectors=* ]] || cp "${word#+vectors=}" "$KEEP/vectors.hex"\ndone\nexec vvp "$@"\n',
+}
+
+
+def recorded(organization, jobs):
+    """The designs of an organization with their vectors, the quickest first."""
+    os.makedirs(WRAPPERS_AT, exist_ok=True)
+    for name, body in WRAPPERS.items():
+        path = os.path.join(WRAPPERS_AT, name)
+        with open(path, "w") as out:
+            out.write("#!/usr/bin/env bash\n" + body)
+        os.chmod(path, 0o755)
+    found = list(designs(organization))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(lambda design: design.record(LATER if design.late else 0), found))
+    return sorted(found, key=lambda design: min(design.seconds.values()))
+
+
+# ---------------------------------------------------------------------------------------------------------------- mutants
+
+TOKEN = re.compile(r"""
+    (?P<skip>\s+|//[^\n]*|/\*.*?\*/|`\w+[^\n]*|\(\*(?!\)).*?\*\))
+  | (?P<string>"[^"]*")
+  | (?P<based>\d*'[sS]?[bBdDoOhH][0-9a-fA-F_]+)
+  | (?P<number>\d+)
+  | (?P<word>\$?[A-Za-z_]\w*)
+  | (?P<op><<<|>>>|===|!==|<<|>>|<=|>=|==|!=|&&|\|\||\+:|-:|\*\*|.)
+""", re.X | re.S)
+OTHER = {"+": ["-"], "-": ["+"], "*": ["+"], "&&": ["||"], "||": ["&&"], "==": ["!="], "!=": ["=="], "<": ["<=", ">="], ">": [">=", "<="],
+         "<=": ["<", ">"], ">=": [">", "<"], "&": ["|"], "|": ["&"], "^": ["|"], "<<": [">>"], ">>": ["<<"]}
+DECLARES = {"input", "output", "wire", "reg", "localparam", "parameter", "integer", "genvar"}
+KEYWORDS = DECLARES | {"module", "endmodule", "always", "posedge", "assign", "if", "else", "begin", "end", "case", "endcase", "default",
+                       "generate", "endgenerate", "for", "function", "endfunction", "or", "initial", "automatic", "signed"}
+OPENS, CLOSES = "([{", ")]}"
+
+
+class Token:
+    def __init__(self, match):
+        self.kind, self.text, self.start, self.end = match.lastgroup, match.group(), match.start(), match.end()
+
+
+def tokens(text):
+    found = [Token(match) for match in TOKEN.finditer(text)]
+    return [token for token in found if token.kind != "skip"]
+
+
+def partners(stream):
+    """Index of the other bracket of each bracket."""
+    stack, other = [], {}
+    for index, token in enumerate(stream):
+        if token.text in OPENS and token.kind == "op":
+            stack.append(index)
+        elif token.text in CLOSES and token.kind == "op":
+            other[index] = stack.pop()
+            other[other[index]] = index
+    return other
+
+
+def statements(stream, other):
+    """For each token the index of the first token of its statement, and its depth in brackets."""
+    first, start, depth, depths = [], 0, 0, []
+    for index, token in enumerate(stream):
+        closes = token.kind == "op" and token.text in CLOSES
+        depth -= closes
+        before = stream[index - 1] if index else None
+        if before is not None and depth == 0 and (
+            before.text in (";", "begin", "else", "end", "generate", "endgenerate", "endcase")
+            or before.text == ")" and stream[other[index - 1] - 1].text in ("if", "for", "case")
+            or before.text == ")" and stream[other[index - 1] - 1].text == "@"
+            or before.kind == "word" and index > 2 and stream[index - 2].text == ":" and stream[index - 3].text == "begin"
+            or before.text == ":" and stream[index - 2].text != "begin" and "?" not in (t.text for t in stream[start:index])
+        ):
+            start = index
+        first.append(start)
+        depths.append(depth)
+        depth += token.kind == "op" and token.text in OPENS
+    return first, depths
+
+
+def literals(token):
+    """Other values of a literal: one more, one less."""
+    if token.kind == "number":
+        value = int(token.text)
+        return [str(other) for other in (value + 1, value - 1) if other >= 0]
+    width, rest = token.text.split("'")
+    base, digits = rest[0], rest[1:].replace("_", "")
+    if base in "sS":
+        return []
+    radix = {"b": 2, "o": 8, "d": 10, "h": 16}[base.lower()]
+    value, bits = int(digits, radix), int(width) if width else 32
+    show = {2: f"{{:0{len(digits)}b}}", 8: "{:o}", 10: "{}", 16: "{:x}"}[radix]
+    values = {(value + 1) % (1 << bits), (value - 1) % (1 << bits)} - {value}
+    return [f"{width}'{base}{show.format(other)}" for other in sorted(values)]
+
+
+def declared(stream, other):
+    """Names and the text of their range, by which they can stand for each other."""
+    found, index = {}, 0
+    while index < len(stream):
+        token = stream[index]
+        if token.kind == "word" and token.text in DECLARES - {"genvar", "integer"}:
+            at, size = index + 1, ""
+            while stream[at].text in ("wire", "reg", "signed"):
+                at += 1
+            if stream[at].text == "[":
+                size = "".join(t.text for t in stream[at:other[at] + 1])
+                at = other[at] + 1
+            kind = "constant" if token.text in ("localparam", "parameter") else "signal"
+            while at < len(stream) and stream[at].kind == "word" and stream[at].text not in KEYWORDS:
+                memory = stream[at + 1].text == "["
+                found[stream[at].text] = ("memory" if memory else kind, size)
+                # Further names of a list without initial values.
+                at += 1
+                if stream[at].text == "," and stream[at + 1].text not in DECLARES:
+                    at += 1
+                else:
+                    break
+        index += 1
+    return found
+
+
+def edits(text, is_top, pick):
+    """(operator, start, end, replacement) of every mutation of a module."""
+    stream = tokens(text)
+    other = partners(stream)
+    first, depths = statements(stream, other)
+    names = declared(stream, other)
+    header = next((i for i, token in enumerate(stream) if token.text == ";"), 0)
+    # What is left alone: the steps of loops, and defaults of parameters.
+    alone = set()
+    for index, token in enumerate(stream):
+        if token.text == "for":
+            semicolons = [i for i in range(index + 1, other[index + 1]) if stream[i].text == ";"]
+            alone.update(range(index, semicolons[0] + 1))
+            alone.update(range(semicolons[1], other[index + 1] + 1))
+        elif token.text == "@" and stream[index + 1].text == "(":
+            alone.update(range(index, other[index + 1] + 1))
+    assigned_at, ranges = {}, {}
+    for index, token in enumerate(stream):
+        if depths[index] == 0 and token.text in ("=", "<=") and first[index] not in assigned_at:
+            head = stream[first[index]].text
+            if token.text == "=" or head not in DECLARES | {"assign"}:
+                assigned_at[first[index]] = index
+        if token.text == "[":
+            head = stream[first[index]].text
+            inside = stream[index + 1:other[index]]
+            before_value = first[index] not in assigned_at
+            before = stream[index - 1].text
+            if index < header:
+                before_value = before in DECLARES | {"signed"}
+            if (head in DECLARES or index < header) and before_value and any(t.text == ":" for t in inside):
+                for i in range(index, other[index] + 1):
+                    ranges[i] = index
+    found = []
+
+    def edit(operator, start, end, replacement):
+        found.append((operator, start, end, replacement))
+
+    for index, token in enumerate(stream):
+        start, end = token.start, token.end
+        if index in ranges:
+            # Narrower: one bit, or one word, less.
+            if ranges[index] == index and not (is_top and index < header):
+                colon = next(i for i in range(index, other[index]) if stream[i].text == ":")
+                upwards = stream[index + 1].text == "0" and colon == index + 2
+                at = stream[other[index]].start if upwards else stream[colon].start
+                if stream[first[index]].text not in ("parameter",):
+                    edit("range", at, at, "-1")
+            continue
+        if index < header or index in alone:
+            continue
+        statement, assigned = first[index], assigned_at.get(first[index])
+        before = stream[index - 1]
+        operand = before.kind in ("word", "number", "based") and before.text not in KEYWORDS or before.text in CLOSES
+        if token.kind == "op" and token.text in OTHER:
+            if token.text == "<=" and index == assigned:
+                # A dropped assignment keeps the value.
+                close = next(i for i in range(index, len(stream)) if stream[i].text == ";" and depths[i] == 0)
+                target = text[stream[statement].start:start].strip()
+                edit("drop", stream[index + 1].start, stream[close].start, target)
+            elif operand:
+                for replacement in OTHER[token.text]:
+                    edit("operator", start, end, replacement)
+            elif token.text in "&|":
+                edit("operator", start, end, OTHER[token.text][0])
+        elif token.kind == "op" and token.text in "!~" and not operand:
+            edit("negation", start, end, "")
+        elif token.text == "?":
+            at, depth = index, 0
+            while True:
+                at -= 1
+                if stream[at].text in CLOSES and stream[at].kind == "op":
+                    at = other[at]
+                elif stream[at].text in ("=", "(", "[", "{", ",", ":", "?") or at == assigned:
+                    break
+            edit("selection", stream[at + 1].start, start, f"!({text[stream[at + 1].start:start].strip()}) ")
+        elif token.text == "if" and stream[index + 1].text == "(":
+            inner = stream[index + 1].end, stream[other[index + 1]].start
+            edit("condition", *inner, f"!({text[inner[0]:inner[1]]})")
+            edit("condition", *inner, "1'b0")
+            edit("condition", *inner, "1'b1")
+        elif token.kind in ("number", "based"):
+            if before.text == "'" or stream[index - 1].text == "#":
+                continue
+            for replacement in literals(token):
+                edit("constant", start, end, replacement)
+        elif token.text == "[" and before.kind == "word" and before.text in names:
+            # An index one further, if it is no constant.
+            inner = stream[index + 1:other[index]]
+            if any(t.kind == "word" for t in inner) and not any(t.text == ":" for t in inner):
+                at = next((i for i in range(index, other[index]) if stream[i].text in ("+:", "-:")), other[index])
+                edit("index", stream[at].start, stream[at].start, " + 1")
+        elif token.kind == "word" and token.text in names and token.text != "clk_i":
+            declares = stream[statement].text in DECLARES and (assigned is None or index < assigned)
+            written = assigned is not None and index < assigned and depths[index] == 0
+            connected = before.text == "."
+            if declares or written or connected:
+                continue
+            same = sorted(name for name, what in names.items()
+                          if what == names[token.text] and name not in (token.text, "clk_i") and what[0] != "memory")
+            if same:
+                edit("name", start, end, pick(f"{start}").choice(same))
+    return found
+
+
+class Mutant:
+    """One edit of one module; `design` where the module is rendered for that design."""
+
+    def __init__(self, module, design, text, operator, start, end, replacement):
+        self.module, self.design, self.operator = module, design, operator
+        self.text = text[:start] + replacement + text[end:]
+        self.line = text.count("\n", 0, start) + 1
+        low, high = text.rfind("\n", 0, start) + 1, text.find("\n", end)
+        flat = lambda piece: " ".join(piece.split())
+        self.was = flat(text[low:high])
+        self.now = flat(text[low:start] + replacement + text[end:high])
+        self.verdict = self.by = None
+
+    def pointless(self):
+        """Whether it only touches a wire that tells lint what is not used, or gives a wire to itself."""
+        own = re.match(r"(?:wire|assign)\b.*?(\w+)(?:\[[^=]*\])? = (.*)", self.now)
+        return "unused_" in self.was or bool(self.operator == "name" and own and re.search(rf"\b{own[1]}\b", own[2]))
+
+    def key(self):
+        return self.place(), self.was, self.now
+
+    def place(self):
+        return f"{self.module}@{self.design.name}" if self.design else self.module
+
+    def __str__(self):
+        return f"{self.place()}:{self.line} {self.operator}\n    - {self.was}\n    + {self.now}"
+
+
+def pools(all_of, seed):
+    """All mutants of each module, in the order in which they are drawn: the operators take turns."""
+    leaves = re.findall(r'^    "(\w+)" => \[', open(LEAVES).read(), re.M)
+    texts, pools = {}, {}
+    for design in all_of:
+        for name, text in design.texts.items():
+            module = re.fullmatch(r"rtl/(\w+)\.v", name)
+            if not module:
+                continue
+            module = module.group(1)
+            # A leaf is the same text everywhere; a rendered module is the design's own.
+            if module in leaves:
+                texts[module] = (module, None, text)
+            else:
+                texts[f"{module}@{design.name}"] = (module, design, text)
+    for place, (module, design, text) in sorted(texts.items()):
+        def pick(where, place=place):
+            return random.Random(f"{seed}:{place}:{where}")
+
+        groups, seen = collections.defaultdict(list), {text}
+        for operator, start, end, replacement in edits(text, design is not None, pick):
+            mutant = Mutant(module, design, text, operator, start, end, replacement)
+            if mutant.text not in seen:
+                seen.add(mutant.text)
+                groups[operator].append(mutant)
+        turns = []
+        for operator in sorted(groups):
+            pick(operator).shuffle(groups[operator])
+            size = len(groups[operator])
+            turns += [((rank + pick(f"{operator}{rank}").random()) / size, operator, rank) for rank in range(size)]
+        pools[place] = [groups[operator][rank] for _, operator, rank in sorted(turns)]
+    return pools
+
+
+def wanted(pools, count):
+    """How many mutants of each module: as the root of how many there are, and at least four."""
+    takes = {place: min(4, len(pool)) for place, pool in pools.items()}
+    while sum(takes.values()) < count:
+        open_places = [place for place in pools if takes[place] < len(pools[place])]
+        if not open_places:
+            break
+        takes[max(open_places, key=lambda place: len(pools[place]) ** 0.5 / (takes[place] + 1))] += 1
+    return takes
+
+
+# ---------------------------------------------------------------------------------------------------------------- verdicts
+
+
+def reasons():
+    """The reviewed survivors: a paragraph each, `place`, `- line`, `+ line`, `reason`."""
+    found = {}
+    for paragraph in re.split(r"\n\s*\n", open(REASONS).read()):
+        lines = [line.strip() for line in paragraph.splitlines() if line.strip() and not line.startswith("#")]
+        if not lines:
+            continue
+        if len(lines) < 4 or not lines[1].startswith("- ") or not lines[2].startswith("+ "):
+            sys.exit(f"mutation: {REASONS}: wants a place, `- line`, `+ line` and a reason: {lines[0]}")
+        found[lines[0], lines[1][2:], lines[2][2:]] = " ".join(lines[3:])
+    return found
+
+
+def judge(mutant, all_of, stages, verbose=False):
+    """Sets the verdict of the vectors: `refused`, `killed` or `survived`."""
+    if mutant.pointless():
+        mutant.verdict = "refused"
+        return
+    contain = [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
+    for stage in stages:
+        for design in contain:
+            if design.late and stage < LATER:
+                continue
+            outcome = design.run(stage, mutant.module, mutant.text)
+            if outcome == "refused":
+                mutant.verdict = "refused"
+                return
+            if outcome != "pass":
+                mutant.verdict, mutant.by = "killed", (stage, design.name, outcome)
+                return
+    mutant.verdict = "survived"
+    if verbose:
+        print(f"the vectors do not kill {mutant}", flush=True)
+
+
+def proven_in(mutant, all_of):
+    """Whether Yosys proves the module equal for the parameters of every design, or else the design around it."""
+    if mutant.design:
+        return mutant.design.equal(mutant.module, mutant.text)
+    known = {}
+    for design in all_of:
+        if not design.has(mutant.module):
+            continue
+        variants = design.variants(mutant.module)
+        for name in variants:
+            if name not in known:
+                known[name] = design.equal(mutant.module, mutant.text, name)
+        if not all(known[name] for name in variants) and not design.equal(mutant.module, mutant.text):
+            return False
+    return True
+
+
+def prove(mutant, all_of):
+    if proven_in(mutant, all_of):
+        mutant.verdict = "equivalent"
+
+
+def drawn(pools, takes, pool, check):
+    """The mutants that elaborate and have a point, as many of each module as wanted."""
+    at, kept = collections.Counter(), collections.defaultdict(list)
+    while True:
+        batch = []
+        for place, mutants in pools.items():
+            missing = takes[place] - len(kept[place])
+            batch += mutants[at[place]:at[place] + missing]
+            at[place] += missing
+        if not batch:
+            return [mutant for place in pools for mutant in kept[place]]
+        list(pool.map(check, batch))
+        for mutant in batch:
+            if mutant.verdict != "refused":
+                kept[mutant.place()].append(mutant)
+
+
+def examine(organization, options, excuses, used):
+    began = time.monotonic()
+    all_of = recorded(organization, options.jobs)
+    found = pools(all_of, options.seed)
+    takes = wanted(found, options.count)
+    print(f"{organization}: {len(all_of)} designs recorded in {time.monotonic() - began:.0f} s, {len(found)} modules with"
+          f" {sum(map(len, found.values()))} possible mutants", flush=True)
+    stages = range(1 if options.sample else len(STAGES))
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        if options.sample:
+            # Every so many of the mutants of a whole run.
+            whole = [mutant for place in found for mutant in found[place][:takes[place]]]
+            step = len(whole) / options.sample
+            chosen = collections.defaultdict(list)
+            for index in range(options.sample):
+                mutant = whole[int((index + 0.5) * step)]
+                chosen[mutant.place()].append(mutant)
+            found = {place: chosen[place] + [m for m in found[place] if m not in chosen[place]] for place in chosen}
+            takes = {place: len(chosen[place]) for place in chosen}
+        mutants = drawn(found, takes, pool, lambda mutant: judge(mutant, all_of, stages, options.verbose))
+        survivors = [mutant for mutant in mutants if mutant.verdict == "survived"]
+        unknown = [mutant for mutant in survivors if mutant.key() not in excuses]
+        if options.prove:
+            list(pool.map(lambda mutant: prove(mutant, all_of), unknown))
+            # The proofs must tell: what was killed in the same module is not equal.
+            proven = {mutant.place() for mutant in survivors if mutant.verdict == "equivalent"}
+            controls = {mutant.place(): mutant for mutant in mutants if mutant.verdict == "killed" and mutant.place() in proven}
+            for place, wrong in zip(controls, pool.map(lambda mutant: proven_in(mutant, all_of), controls.values())):
+                if wrong:
+                    sys.exit(f"mutation: Yosys proves equal what the vectors tell apart: {controls[place]}")
+    open_ones = 0
+    for mutant in survivors:
+        if mutant.verdict == "survived" and mutant.key() in excuses:
+            mutant.verdict = "excused"
+            used.add(mutant.key())
+        if mutant.verdict == "survived":
+            open_ones += 1
+            print(f"SURVIVES {mutant}")
+        elif options.verbose:
+            print(f"{mutant.verdict} {mutant}")
+    if options.table:
+        print(f"  {'module':28} mutants  killed  equivalent  excused")
+        for place in found:
+            of = [mutant.verdict for mutant in mutants if mutant.place() == place]
+            print(f"  {place:28} {len(of):7} {of.count('killed'):7} {of.count('equivalent'):11} {of.count('excused'):8}")
+    count = collections.Counter(mutant.verdict for mutant in mutants)
+    longer = sum(1 for mutant in mutants if mutant.by and mutant.by[0] > 0)
+    hangs = sum(1 for mutant in mutants if mutant.by and mutant.by[2] == "hang")
+    print(f"{organization}: {len(mutants)} mutants of {len(found)} modules: {count['killed']} killed ({longer} of them by the longer vectors,"
+          f" {hangs} by time), {count['equivalent']} proven equivalent, {count['excused']} excused with a reason, {open_ones} open;"
+          f" {time.monotonic() - began:.0f} s", flush=True)
+    return open_ones
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="mutation.sh", description="Mutants of the Verilog against the co-simulation vectors.")
+    parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help="pipelined, serial; by default both")
+    parser.add_argument("--count", type=int, default=320, help="mutants of an organization (%(default)s)")
+    parser.add_argument("--sample", type=int, metavar="N", help="only N of them, evenly spread, and only the short vectors")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the mutants (%(default)s)")
+    parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", os.cpu_count() or 1)), help="at a time (%(default)s)")
+    parser.add_argument("--table", action="store_true", help="print a table by module")
+    parser.add_argument("--verbose", action="store_true", help="print the survivors that are proven or excused, too")
+    parser.add_argument("--no-proofs", dest="prove", action="store_false", help="do not try to prove survivors equivalent")
+    options = parser.parse_args()
+    organizations = options.organizations or ["pipelined", "serial"]
+    if set(organizations) - {"pipelined", "serial"}:
+        parser.error(f"an organization is pipelined or serial, not {' '.join(organizations)}")
+    shutil.rmtree(WORK, ignore_errors=True)
+    excuses, used = reasons(), set()
+    open_ones = sum(examine(organization, options, excuses, used) for organization in organizations)
+    unused = []
+    if not options.sample and options.prove and len(organizations) == 2 and (options.seed, options.count) == (1, 320):
+        unused = [key for key in excuses if key not in used]
+        for place, was, now in unused:
+            print(f"{REASONS}: no survivor needs this; remove it: {place}\n    - {was}\n    + {now}")
+    sys.exit(1 if open_ones or unused else 0)
+
+
+main()

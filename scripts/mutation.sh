@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Mutants of the Verilog of both organizations: the co-simulation vectors must kill every one that is neither proven equivalent
+# nor excused in mutation/survivors.txt with a reason. Any other survivor is an error, and so is an excuse that nothing needs.
+# Installs what is missing.
+#
+#   scripts/mutation.sh              the whole
+#   scripts/mutation.sh --sample 20  20 mutants of each organization, short vectors
+#   scripts/mutation.sh --help       all options
+#
+# FOVEATE_YOSYS   another executable than the one in PATH
+# JOBS            how many at a time (default: number of processors)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+case ${1:-} in
+-h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exec python3 scripts/mutation.py --help ;;
+esac
+scripts/install_tools.sh
+cargo build --release --locked --quiet --package foveate
+exec python3 scripts/mutation.py "$@"
