@@ -18,6 +18,19 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
         assume(index <= FEATURES);
         assume(word <= PIXELS);  // proven of what a lane counts
     end
+    // Whose the next score is, is said a clock ahead; what a clock decides does not pass again in the next one.
+    // Both are proven of the sequencer (serial_array).
+    reg [2:0] announced;
+    reg reset, decides;
+    always @(posedge clk_i) begin
+        announced <= next;
+        reset <= rst_i;
+        decides <= rotate && index == FEATURES && region == watched;
+    end
+    always @* if (started && !reset) begin
+        assume(region == announced);
+        if (decides) assume(!here);
+    end
     wire here = rotate && region == watched;
     reg [1:0] expected;  // rotation that comes next for the region
     reg [FLAGS-1:0] kept;

@@ -5,6 +5,8 @@ Lines of an .sby file that only this script reads:
 
     # quick: TASK...            tasks that belong to the quick set (- where there are no tasks)
     # inside: LEAF...           formal/inside/LEAF.sv is put into that module, before its endmodule
+    # change: TASK FILE SED     the proof (*: each) is of FILE with that change, for example a smaller limit
+    # control: same             faults are searched for as proofs are, not within so many clocks
     # fault: TASK FILE SED      the proof must fail when FILE of the Verilog is changed so
 """
 import concurrent.futures
@@ -40,8 +42,10 @@ class Proof:
         self.tasks = [line.split()[0] for line in lines if line.strip() and line[0] != "#"] or ["-"]
         self.quick = self.words("quick")
         self.inside = self.words("inside")
+        self.same = self.words("control") == ["same"]
         self.faults = re.findall(r"^# fault: (\S+) (\S+) (.*)$", self.text, re.M)
-        for task in self.quick + [fault[0] for fault in self.faults]:
+        self.changes = re.findall(r"^# change: (\S+) (\S+) (.*)$", self.text, re.M)
+        for task in self.quick + [fault[0] for fault in self.faults + self.changes if fault[0] != "*"]:
             if task not in self.tasks:
                 fail(f"{path} names task `{task}`, which it does not have; it has {', '.join(self.tasks)}")
 
@@ -120,10 +124,15 @@ def prepare(proof, task, fault, index):
         os.makedirs(where)
         source = os.path.join(WORK, "generated", task)
         shutil.copy(os.path.join(source, "instances.vh"), where)
-        shutil.copy(os.path.join(source, "rtl", "rpu.v"), where)
+        for top in ("rpu.v", "rcm.v"):
+            shutil.copy(os.path.join(source, "rtl", top), where)
+    for change in proof.changes:
+        if change[0] in (task, "*"):
+            plant(proof, task, folder, change)
     if fault is not None:
-        plant(proof, folder, fault)
-        search_counterexample(os.path.join(folder, f"{proof.name}.sby"))
+        plant(proof, task, folder, fault)
+        if not proof.same:
+            search_counterexample(os.path.join(folder, f"{proof.name}.sby"))
     for leaf in proof.inside:
         found = [os.path.join(folder, "rtl", f"{leaf}.v"), os.path.join(folder, "generated", task, f"{leaf}.v")]
         path = next(path for path in found if os.path.exists(path))
@@ -134,16 +143,16 @@ def prepare(proof, task, fault, index):
     return folder
 
 
-def plant(proof, folder, fault):
-    task, name, change = fault
+def plant(proof, task, folder, fault):
+    _, name, change = fault
     paths = [os.path.join(folder, "rtl", name), os.path.join(folder, "generated", task, name), os.path.join(folder, name)]
     path = next((path for path in paths if os.path.exists(path)), None)
     if path is None:
-        fail(f"{proof.name}.sby plants a fault in {name}, which is no file of the Verilog")
+        fail(f"{proof.name}.sby changes {name}, which is no file of the Verilog")
     before = open(path).read()
     subprocess.run(["sed", "-i", change, path], check=True)
     if open(path).read() == before:
-        fail(f"{proof.name}.sby: `{change}` changes nothing in {name}; correct the fault")
+        fail(f"{proof.name}.sby: `{change}` changes nothing in {name}; correct it")
 
 
 def search_counterexample(path):
@@ -170,6 +179,10 @@ def run(proof, task, fault, index):
     seconds = time.monotonic() - began
     status = os.path.join(folder, "work", "status")
     verdict = open(status).read().split()[0] if os.path.exists(status) else "ERROR"
+    # The distribution's ABC finds counterexamples that SymbiYosys cannot turn into a trace.
+    log = os.path.join(folder, "work", "logfile.txt")
+    if verdict == "ERROR" and os.path.exists(log) and re.search(r"engine_\d+ \(.*\) returned FAIL", open(log).read()):
+        verdict = "FAIL"
     if late:
         verdict = "TIMEOUT"
     return folder, verdict, seconds

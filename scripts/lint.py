@@ -53,6 +53,35 @@ def matrix():
             ]
 
 
+SERIAL_SIZES = [4, 5, 8, 16, 20, 63, 64]
+FOLDS = [1, 2, 3, 6]
+
+
+def serial_matrix():
+    """The same of the serial organization, of 3x2 regions: folds with empty slots, feeds, distributed and block RAM."""
+    for index, features in enumerate(FEATURES):
+        for choice in range(4):
+            number = 4 * index + choice
+            size = SERIAL_SIZES[(index * 3 + choice) % len(SERIAL_SIZES)]
+            depth = DEPTHS[(index + choice * 3 + choice // 2) % len(DEPTHS)]
+
+            def pick(bit, off, on):
+                return on if number * 5 >> bit & 1 else off
+
+            yield f"s{index}{choice}_{size}x{size}_{depth}bit", [
+                "hardware.organization='serial'",
+                f"hardware.fold={FOLDS[(index + choice) % len(FOLDS)]}",
+                f"hardware.feed='{pick(0, 'parallel', 'raster')}'",
+                f"hardware.thresholds='{pick(4, 'runtime', 'constant')}'",
+                f"spatial=[{features}]",
+                f"frame={{width={3 * size},height={2 * size},pixel_bits={depth}}}",
+                f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",
+                f"denoise.filter='{pick(2, 'median3x3', 'none')}'",
+                f"temporal={{level=0,min_count=1,reference='{pick(3, 'last-sent', 'previous')}'}}",
+                f"render={{payload='{pick(5, 'denoised', 'raw')}',irrelevant='{pick(6, 'zero', 'hold')}'}}",
+            ]
+
+
 def run(command, cwd):
     done = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
@@ -139,7 +168,7 @@ def main():
     began = time.monotonic()
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
-    designs = list(matrix())[:: 7 if quick else 1]
+    designs = [design for some in (matrix(), serial_matrix()) for design in list(some)[:: 7 if quick else 1]]
     excuses = waivers()
     used, bad = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The order of things in a whole serial array: places of pixels and of steps inside their areas, every rotation once
+// and in order, pixels that leave once and in order, and, with STEPS, the steps of a frame by docs/serial.md.
+`include "reset.vh"
+localparam F_N = SIDE * SIDE;
+localparam F_RAW = RAW_SIDE * RAW_SIDE;
+localparam F_CLEAN = CLEAN_SIDE * CLEAN_SIDE;
+localparam F_HAS_KEPT = MEDIAN == 0 || LAST_SENT != 0;
+localparam F_WORDS = F_HAS_KEPT ? KEPT_BASE + F_N : CLEAN_BASE + F_CLEAN;
+
+// The areas of a slot lie one after the other, and a slot holds them.
+always @* begin
+    if (MEDIAN != 0) assert(CLEAN_BASE >= F_RAW);
+    if (F_HAS_KEPT) assert(KEPT_BASE >= (MEDIAN != 0 ? CLEAN_BASE + F_CLEAN : F_RAW));
+    assert(F_WORDS <= (1 << WORD_BITS));
+end
+
+// Places. A frame enters or is worked on, never both.
+wire f_in_kept = F_HAS_KEPT && word >= KEPT_BASE && word < KEPT_BASE + F_N;
+wire f_in_clean = MEDIAN != 0 && word >= CLEAN_BASE && word < CLEAN_BASE + F_CLEAN;
+always @* if (started) begin
+    assert(!(working && ready_o));
+    if (RASTER != 0) assert(!(working && place));
+    if (RASTER == 0 || place) begin
+        assert(place_word < F_RAW);
+        assert(place_slot < FOLD);
+    end
+    if (place) assert(place_lane < LANES);
+    if (working) begin
+        // The reference's address stands behind it while pixels around the region are denoised, which do not count.
+        assert(word < F_WORDS || (BORDERS && LAST_SENT != 0 && word == F_WORDS));
+        assert(slot < FOLD);
+    end
+    if (write || write_active || write_border) assert(working);
+    if (write) assert(MEDIAN != 0 ? f_in_clean : f_in_kept);
+    if (write_border) assert(f_in_clean);
+    if (write_active) assert(f_in_kept);
+end
+
+// Rotations: for each slot, each score, each lane, without a gap from lane to lane. Then the pixels of the slot.
+reg [7:0] f_slot, f_index, f_lane, f_position;
+wire f_scored = f_index > FEATURES;
+wire f_last_lane = f_lane == LANES - 1;
+wire f_leaves = RASTER != 0 ? unload && f_last_lane : unload;
+always @(posedge clk_i) begin
+    if (rst_i || reopen) begin
+        f_slot     <= 0;
+        f_index    <= 0;
+        f_lane     <= 0;
+        f_position <= 0;
+    end else begin
+        if (rotate || (unload && RASTER != 0)) f_lane <= f_last_lane ? 0 : f_lane + 1;
+        if (rotate && f_last_lane) f_index <= f_index + 1;
+        if (f_leaves) begin
+            f_position <= f_position + 1;
+            if (f_position == F_N - 1) begin
+                f_position <= 0;
+                f_index    <= 0;
+                f_slot     <= f_slot + 1;
+            end
+        end
+    end
+end
+always @* if (started) begin
+    if (f_lane != 0) assert(rotate || unload);
+    if (rotate) begin
+        assert(!unload && !f_scored && f_slot < FOLD && slot == f_slot && index == f_index);
+        assert(region == f_lane * FOLD + f_slot);
+    end
+    if (unload) begin
+        assert(f_scored && slot == f_slot && position == f_position);
+        if (RASTER != 0) assert(region == f_lane * FOLD + f_slot);
+    end
+    if (reopen) assert(f_slot == FOLD && f_index == 0 && f_lane == 0);
+    if (ready_o) assert(f_slot == 0 && f_index == 0);
+end
+
+// What serial_valid builds on: whose score passes is said a clock ahead, and what is decided does not pass in the next.
+reg f_reset, f_decided;
+reg [REGION_BITS-1:0] f_announced, f_region;
+always @(posedge clk_i) begin
+    f_reset     <= rst_i;
+    f_announced <= next_region;
+    f_decided   <= shown_rotate && score_index_o == FEATURES;
+    f_region    <= region_o;
+end
+always @* if (started && !f_reset) begin
+    assert(region_o == f_announced);
+    if (f_decided && shown_rotate) assert(region_o != f_region);
+end
+
+`ifdef STEPS
+// One frame, without gaps and resets, which serial_steps.sby ties: ready again when the contract says so.
+function integer f_bits(input integer value);
+    for (f_bits = 0; value > 0; f_bits = f_bits + 1) value = value / 2;
+endfunction
+function integer f_ones(input integer value);
+    for (f_ones = 0; value > 0; value = value / 2) f_ones = f_ones + value % 2;
+endfunction
+function integer f_pass(input integer kind);
+    case (kind)
+        0: f_pass = 14 * F_N;
+        1: f_pass = 36 * F_N;
+        2: f_pass = 2 * F_N + WIDTH + 2 * FRACTION + 3;
+        default: f_pass = F_N + WIDTH * F_N * f_ones(F_N) + 2 * f_bits(F_N * ((1 << WIDTH) - 1)) + WIDTH + f_bits(F_N) + 2;
+    endcase
+endfunction
+localparam F_Q = BLOCK != 0;
+localparam F_SENT = LAST_SENT != 0;
+localparam F_STEPS = FOLD * (
+    (MEDIAN != 0 ? F_CLEAN * (10 * WIDTH + 3 + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
+    + (BORDERS ? 4 * (SIDE + 2) * (2 + F_Q) : 0)
+    + LANES * (FEATURES + 1)
+    + f_pass(KINDS[1:0]) + (FEATURES > 1 ? f_pass(KINDS[3:2]) : 0)
+    + (FEATURES > 2 ? f_pass(KINDS[5:4]) : 0) + (FEATURES > 3 ? f_pass(KINDS[7:6]) : 0)
+    + (F_SENT ? F_N * (2 + F_Q) : 0)
+    + (RASTER != 0 ? F_N * (1 + LANES) : F_N));
+reg [15:0] f_since;
+reg f_waits, f_done;
+always @(posedge clk_i) begin
+    f_since <= start ? 0 : f_since + 1;
+    if (rst_i) f_waits <= 0;
+    else if (start) f_waits <= 1;
+    else if (ready_o) f_waits <= 0;
+end
+always @* if (started && f_waits) begin
+    assert(f_since <= F_STEPS + 1);
+    if (ready_o) assert(f_since == F_STEPS + 1);
+end
+
+// It does come that far: so many clocks take a frame.
+localparam F_TAKE = RASTER != 0 ? COLUMNS * ROWS * F_RAW : FOLD * F_RAW;
+reg [15:0] f_clock;
+always @(posedge clk_i) begin
+    f_clock <= rst_i ? 0 : f_clock + 1;
+    if (rst_i) f_done <= 0;
+    else if (f_waits && ready_o) f_done <= 1;
+end
+always @* if (started) assert(f_done == (f_clock > F_TAKE + F_STEPS + 1));
+`endif
