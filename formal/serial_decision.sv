@@ -3,7 +3,7 @@
 // flags that travel with the ring come back as they left. What is decided must be Table I of its scores.
 module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 1) (
     input wire clk_i, rst_i, frame, rotate,
-    input wire [1:0] index, input wire [2:0] region, next,
+    input wire [1:0] index, input wire [2:0] region,
     input wire [2:0] word, input wire [1:0] some_flags, input wire [3*(FEATURES+1)-1:0] minima
 );
     `include "reset.vh"
@@ -18,19 +18,6 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
         assume(index <= FEATURES);
         assume(word <= PIXELS);  // proven of what a lane counts
     end
-    // Whose the next score is, is said a clock ahead; what a clock decides does not pass again in the next one.
-    // Both are proven of the sequencer (serial_array).
-    reg [2:0] announced;
-    reg reset, decides;
-    always @(posedge clk_i) begin
-        announced <= next;
-        reset <= rst_i;
-        decides <= rotate && index == FEATURES && region == watched;
-    end
-    always @* if (started && !reset) begin
-        assume(region == announced);
-        if (decides) assume(!here);
-    end
     wire here = rotate && region == watched;
     reg [1:0] expected;  // rotation that comes next for the region
     reg [FLAGS-1:0] kept;
@@ -43,7 +30,7 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
         .INDEX_BITS(INDEX_BITS)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(frame), .rotate_i(rotate), .index_i(index[INDEX_BITS-1:0]),
-        .region_i(region), .next_i(next), .word_i(word), .flags_i(here ? kept : some_flags[FLAGS-1:0]),
+        .region_i(region), .word_i(word), .flags_i(here ? kept : some_flags[FLAGS-1:0]),
         .minima_i(minima), .flags_o(flags), .region_valid_o(region_valid), .score_valid_o(score_valid),
         .score_o(score), .decision_valid_o(decision_valid), .srs_o(srs), .trs_o(trs), .active_o(active)
     );

@@ -18,11 +18,11 @@ step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
+step "a sample of mutants (scripts/mutation.sh is the whole)"
+scripts/mutation.sh --sample 20
 step "tests"
 cargo test --workspace --locked --quiet --doc
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 cargo test --workspace --locked --lib --bins --tests | tee "$log"
 awk '/^test result:/ { passed += $4; failed += $6 } END { print passed " passed, " failed " failed" }' "$log"
-step "a sample of mutants (scripts/mutation.sh is the whole)"
-scripts/mutation.sh --sample 20
