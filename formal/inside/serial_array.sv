@@ -75,20 +75,6 @@ always @* if (started) begin
     if (ready_o) assert(f_slot == 0 && f_index == 0);
 end
 
-// What serial_valid builds on: whose score passes is said a clock ahead, and what is decided does not pass in the next.
-reg f_reset, f_decided;
-reg [REGION_BITS-1:0] f_announced, f_region;
-always @(posedge clk_i) begin
-    f_reset     <= rst_i;
-    f_announced <= next_region;
-    f_decided   <= shown_rotate && score_index_o == FEATURES;
-    f_region    <= region_o;
-end
-always @* if (started && !f_reset) begin
-    assert(region_o == f_announced);
-    if (f_decided && shown_rotate) assert(region_o != f_region);
-end
-
 `ifdef STEPS
 // One frame, without gaps and resets, which serial_steps.sby ties: ready again when the contract says so.
 function integer f_bits(input integer value);
