@@ -175,15 +175,15 @@ WRAPPERS = {
 }
 
 
-def recorded(organization, jobs):
-    """The designs of an organization with their vectors, the quickest first."""
+def recorded(organization, jobs, late=True):
+    """The designs of an organization with their vectors, the quickest first; the late ones too, or not."""
     os.makedirs(WRAPPERS_AT, exist_ok=True)
     for name, body in WRAPPERS.items():
         path = os.path.join(WRAPPERS_AT, name)
         with open(path, "w") as out:
             out.write("#!/usr/bin/env bash\n" + body)
         os.chmod(path, 0o755)
-    found = list(designs(organization))
+    found = [design for design in designs(organization) if late or not design.late]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         list(pool.map(lambda design: design.record(LATER if design.late else 0), found))
     return sorted(found, key=lambda design: min(design.seconds.values()))
@@ -548,7 +548,7 @@ def drawn(pools, takes, pool, check):
 
 def examine(organization, options, excuses, used):
     began = time.monotonic()
-    all_of = recorded(organization, options.jobs)
+    all_of = recorded(organization, options.jobs, not options.sample)
     found = pools(all_of, options.seed)
     takes = wanted(found, options.count)
     print(f"{organization}: {len(all_of)} designs recorded in {time.monotonic() - began:.0f} s, {len(found)} modules with"
@@ -556,7 +556,7 @@ def examine(organization, options, excuses, used):
     stages = range(1 if options.sample else len(STAGES))
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         if options.sample:
-            # Every so many of the mutants of a whole run.
+            # Every so many of the mutants of a whole run without late designs.
             whole = [mutant for place in found for mutant in found[place][:takes[place]]]
             step = len(whole) / options.sample
             chosen = collections.defaultdict(list)
@@ -568,6 +568,14 @@ def examine(organization, options, excuses, used):
         mutants = drawn(found, takes, pool, lambda mutant: judge(mutant, all_of, stages, options.verbose))
         survivors = [mutant for mutant in mutants if mutant.verdict == "survived"]
         unknown = [mutant for mutant in survivors if mutant.key() not in excuses]
+        # A sample does without late designs, unless something has survived that they may kill.
+        for design in designs(organization) if options.sample and unknown else ():
+            if design.late:
+                design.record(LATER)
+                for mutant in unknown:
+                    if not mutant.design and mutant.verdict == "survived" and design.has(mutant.module):
+                        judge(mutant, [design], [LATER])
+        unknown = [mutant for mutant in unknown if mutant.verdict == "survived"]
         if options.prove:
             list(pool.map(lambda mutant: prove(mutant, all_of), unknown))
             # The proofs must tell: what was killed in the same module is not equal.
@@ -604,7 +612,7 @@ def main():
     parser = argparse.ArgumentParser(prog="mutation.sh", description="Mutants of the Verilog against the co-simulation vectors.")
     parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help="pipelined, serial; by default both")
     parser.add_argument("--count", type=int, default=320, help="mutants of an organization (%(default)s)")
-    parser.add_argument("--sample", type=int, metavar="N", help="only N of them, evenly spread, and only the short vectors")
+    parser.add_argument("--sample", type=int, metavar="N", help="only N of them, evenly spread, only the short vectors, late designs only for survivors")
     parser.add_argument("--seed", type=int, default=1, help="seed of the mutants (%(default)s)")
     parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", os.cpu_count() or 1)), help="at a time (%(default)s)")
     parser.add_argument("--table", action="store_true", help="print a table by module")
