@@ -25,4 +25,4 @@ trap 'rm -f "$log"' EXIT
 cargo test --workspace --locked --lib --bins --tests | tee "$log"
 awk '/^test result:/ { passed += $4; failed += $6 } END { print passed " passed, " failed " failed" }' "$log"
 step "a sample of mutants (scripts/mutation.sh is the whole)"
-scripts/mutation.sh --sample 20
+scripts/mutation.sh --sample 20 pipelined
