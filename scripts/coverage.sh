@@ -62,16 +62,16 @@ edge="{feature='edge',level=100,min_score=5}"
 corner="{feature='corner',level=20,min_score=3}"
 all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30}]"
 serial="--level rcm --grid 3x2 --set hardware.organization='serial'"
-names=(paper all serial)
-settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all"
-    "paper $serial --set region.size=4 --set temporal.reference='last-sent' --set hardware.fold=2")
+names=(paper all)
+settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
-    names+=(shared raw odd large serial_all serial_none serial_shared serial_raster serial_block)
+    names+=(shared raw odd large serial_sent serial_all serial_none serial_shared serial_raster serial_block)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
         "bare --set region.size=5 --set frame.pixel_bits=10 --set spatial=$all"
         "bare --set region.size=17 --set temporal.reference='last-sent'"
+        "paper $serial --set region.size=4 --set temporal.reference='last-sent' --set hardware.fold=2"
         "paper $serial --set region.size=4 --set spatial=$all"
         "bare $serial --set region.size=5 --set temporal.reference='last-sent' --set spatial=[$corner]"
         "paper $serial --set region.size=4 --set region.neighborhood='shared' --set temporal.reference='last-sent' --set hardware.fold=2"
