@@ -22,7 +22,7 @@ import time
 
 TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
 WORK = os.path.join(TARGET, "mutation")
-FOVEATE = os.path.join(TARGET, "release", "foveate")
+FOVEATE = os.path.join(TARGET, "debug", "foveate")
 YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
 REASONS = "mutation/survivors.txt"
 DESIGNS = "mutation/designs.txt"

@@ -16,5 +16,5 @@ case ${1:-} in
 -h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exec python3 scripts/mutation.py --help ;;
 esac
 scripts/install_tools.sh
-cargo build --release --locked --quiet --package foveate
+cargo build --locked --quiet --package foveate  # what the tests build as well
 exec python3 scripts/mutation.py "$@"
