@@ -143,12 +143,12 @@ impl<'a> Session<'a> {
                 let clocks = self.random.up_to(4);
                 self.driver.work_until(left.saturating_sub(clocks))
             }
+            // What is on its way to the ports must not come out.
+            End::Working if self.random.one_in(2) => self.driver.work_until(self.first_score + 1),
             End::Working => {
                 let clocks = self.random.up_to(left);
                 self.driver.work_until(clocks)
             }
-            // What is on its way to the ports must not come out.
-            End::Rotating if self.random.one_in(2) => self.driver.work_until(self.first_score + 1),
             End::Rotating => {
                 let clocks = self.random.up_to(u64::from(self.design.lanes()));
                 self.driver.work_until_score()?;
