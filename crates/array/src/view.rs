@@ -3,9 +3,8 @@
 
 use foveate_model::RpuOutput;
 
-use crate::tail::{Scores, Tail};
+use crate::tail::Decision;
 use crate::wide::Types;
-use crate::{plan::Plan, tail::Decision};
 
 /// Every output port after an edge; lane i is region i.
 #[derive(Clone, Copy, Debug)]
@@ -84,14 +83,13 @@ impl<'a> Outputs<'a> {
     }
 }
 
-/// A tail with its plan answers for its core.
 impl<Y: Types> Ports for crate::core::Core<Y> {
     fn decision(&self) -> &Decision {
         &self.tail.decision
     }
 
     fn score(&self, place: usize, lane: usize) -> u64 {
-        score(&self.tail, &self.plan, place).get(lane)
+        self.tail.scores(&self.plan, place).get(lane)
     }
 
     fn features(&self) -> usize {
@@ -110,8 +108,4 @@ impl<Y: Types> Ports for crate::core::Core<Y> {
         let pixel: u64 = self.tail.forward.pixels[lane].into();
         u16::try_from(pixel).unwrap_or(u16::MAX)
     }
-}
-
-fn score<'a, Y: Types>(tail: &'a Tail<Y>, plan: &Plan, place: usize) -> Scores<'a, Y> {
-    tail.scores(plan, place)
 }
