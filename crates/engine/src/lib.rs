@@ -17,6 +17,7 @@ mod change;
 mod core;
 mod decide;
 mod denoised;
+mod depth;
 mod engine;
 mod error;
 mod kernel;
@@ -32,6 +33,7 @@ mod screens;
 mod strip;
 mod workers;
 
+pub use depth::convert_depth;
 pub use engine::{Engine, Options};
 pub use error::EngineError;
 pub use foveate_lanes::Level;

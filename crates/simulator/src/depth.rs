@@ -1,66 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Conversion between numbers of bits per pixel.
-//!
-//! To fewer bits: the low bits are dropped. To more bits: the bits are repeated below themselves as
-//! often as needed, so that zero stays zero, full scale becomes full scale, and going back gives the
-//! value again.
-
-/// `value` of `from` bits as a value of `to` bits; both 1..=16.
-#[must_use]
-pub fn convert_depth(value: u16, from: u32, to: u32) -> u16 {
-    if to <= from {
-        return value >> (from - to);
-    }
-    let mut repeated = u32::from(value);
-    let mut bits = from;
-    while bits < to {
-        repeated = repeated << from | u32::from(value);
-        bits += from;
-    }
-    u16::try_from(repeated >> (bits - to)).unwrap_or(u16::MAX)
-}
+//! How many bits per pixel are shown.
 
 /// Bits per pixel of the PNG that shows pixels of `bits` bits: 8 up to 8, else 16.
 #[must_use]
 pub fn display_depth(bits: u32) -> u32 {
     if bits <= 8 { 8 } else { 16 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fewer_bits_drop_the_low_ones() {
-        assert_eq!(convert_depth(0xABCD, 16, 8), 0xAB);
-        assert_eq!(convert_depth(0xABCD, 16, 12), 0xABC);
-        assert_eq!(convert_depth(0xFF, 8, 1), 1);
-        assert_eq!(convert_depth(0x7F, 8, 1), 0);
-    }
-
-    #[test]
-    fn more_bits_repeat_those_there_are() {
-        assert_eq!(convert_depth(0xAB, 8, 16), 0xABAB);
-        assert_eq!(convert_depth(0xAB, 8, 12), 0xABA);
-        assert_eq!(convert_depth(0b101, 3, 8), 0b1011_0110);
-        assert_eq!(convert_depth(1, 1, 16), 0xFFFF);
-    }
-
-    #[test]
-    fn ends_stay_ends_order_stays_and_the_way_back_is_exact() {
-        for from in 1..=16 {
-            let max = u16::MAX >> (16 - from);
-            for to in from..=16 {
-                assert_eq!(convert_depth(0, from, to), 0);
-                assert_eq!(convert_depth(max, from, to), u16::MAX >> (16 - to));
-                let mut last = None;
-                for value in 0..=max {
-                    let wide = convert_depth(value, from, to);
-                    assert_eq!(convert_depth(wide, to, from), value, "{from} -> {to} bits");
-                    assert!(last < Some(wide));
-                    last = Some(wide);
-                }
-            }
-        }
-    }
 }

@@ -25,9 +25,10 @@ mod y4m;
 pub use batch::{
     BatchHooks, BatchProgress, BatchSummary, Clip, ClipSummary, Plan, plan, run_batch,
 };
-pub use depth::{convert_depth, display_depth};
+pub use depth::display_depth;
 pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
+pub use foveate_engine::convert_depth;
 pub use input::{ImagesAs, InputOptions, open};
 pub use natural::natural_order;
 pub use output::{
