@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Where two cameras decide otherwise, as areas in pixels, so that regions of different sizes can be
+//! compared.
+
+use foveate_model::Action;
+use serde::{Deserialize, Serialize};
+
+/// Every combination of two states, `ideal << STATE_BITS | candidate`.
+pub(crate) type Table = [u64; 1 << (2 * STATE_BITS)];
+
+const STATE_BITS: usize = 4;
+const SRS: u8 = 1;
+const TRS: u8 = 2;
+const ACTION: u8 = 12;
+
+/// No area yet.
+pub(crate) const EMPTY: Table = [0; 1 << (2 * STATE_BITS)];
+
+/// All decisions about one region in four bits.
+pub(crate) fn state(srs: bool, trs: bool, action: Action) -> u8 {
+    let action = match action {
+        Action::Forward => 0,
+        Action::Hold => 4,
+        Action::Blank => 8,
+    };
+    (u8::from(srs) * SRS) | (u8::from(trs) * TRS) | action
+}
+
+/// Its place in a [`Table`].
+pub(crate) fn place(ideal: u8, candidate: u8) -> usize {
+    usize::from(ideal) << STATE_BITS | usize::from(candidate)
+}
+
+/// Areas in pixels times frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Areas {
+    /// SRS differs.
+    pub(crate) srs: u64,
+    /// TRS differs.
+    pub(crate) trs: u64,
+    /// The action differs.
+    pub(crate) action: u64,
+    /// Active in the ideal.
+    pub(crate) ideal: u64,
+    /// Active in the candidate.
+    pub(crate) candidate: u64,
+    /// Active in both.
+    pub(crate) both: u64,
+}
+
+impl Areas {
+    /// Adds what a table of areas holds.
+    pub(crate) fn count(&mut self, table: &Table) {
+        for (at, &area) in table.iter().enumerate().filter(|(_, area)| **area > 0) {
+            let bits = |shift: usize| u8::try_from(at >> shift & 15).unwrap_or_default();
+            let (ideal, candidate) = (bits(STATE_BITS), bits(0));
+            let differs = |mask: u8| if (ideal ^ candidate) & mask == 0 { 0 } else { area };
+            let active = |state: u8| state & (SRS | TRS) == SRS | TRS;
+            let when = |yes: bool| if yes { area } else { 0 };
+            self.add(&Self {
+                srs: differs(SRS),
+                trs: differs(TRS),
+                action: differs(ACTION),
+                ideal: when(active(ideal)),
+                candidate: when(active(candidate)),
+                both: when(active(ideal) && active(candidate)),
+            });
+        }
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.srs += other.srs;
+        self.trs += other.trs;
+        self.action += other.action;
+        self.ideal += other.ideal;
+        self.candidate += other.candidate;
+        self.both += other.both;
+    }
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a comparison refuses.
+
+use thiserror::Error;
+
+/// Designs or results that cannot be compared.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FidelityError {
+    /// Two designs for frames of different sizes.
+    #[error(
+        "the ideal design is for frames of {ideal} pixels, the candidate for {candidate}; \
+         give both the same size"
+    )]
+    FrameSize {
+        /// Width and height of the ideal design.
+        ideal: String,
+        /// Width and height of the candidate.
+        candidate: String,
+    },
+    /// An input of another size or depth than the ideal design's.
+    #[error("an input of {given} was given to an ideal design for {expected}; give it what it saw")]
+    FrameKind {
+        /// Size and depth of the input.
+        given: String,
+        /// Size and depth of the ideal design.
+        expected: String,
+    },
+    /// Results of another design.
+    #[error(
+        "{what}: {given} values were given, the design has {expected}; give the results of its own camera"
+    )]
+    Length {
+        /// Of which side, and which results.
+        what: &'static str,
+        /// Values that came.
+        given: usize,
+        /// Values that the design needs.
+        expected: usize,
+    },
+    /// A screen whose pixels are of the wrong type for the candidate's depth.
+    #[error("pixels of {bits} bits are held as {expected}; the candidate's screen is of {given}")]
+    LaneWidth {
+        /// Bits per pixel of the candidate.
+        bits: u32,
+        /// The type they need.
+        expected: &'static str,
+        /// The type that came.
+        given: &'static str,
+    },
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sums that do not depend on the order of what is added: fixed point with 40 fraction bits.
+//!
+//! The quantum is 9.1e-13 and the range 1.5e26, which a day of 16-bit video does not reach; beyond it a
+//! sum stays at its end.
+
+use serde::{Deserialize, Serialize};
+
+const UNIT: f64 = 1_099_511_627_776.0; // 2^40
+
+/// A number in units of 2^-40. Written as decimal text, since few formats have integers that large.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub(crate) struct Exact(i128);
+
+impl Exact {
+    /// The nearest number.
+    #[allow(clippy::cast_possible_truncation, reason = "rounded on purpose; saturates")]
+    pub(crate) fn nearest(value: f64) -> Self {
+        Self((value * UNIT).round() as i128)
+    }
+
+    pub(crate) fn whole(value: u64) -> Self {
+        Self(i128::from(value) << 40)
+    }
+
+    pub(crate) fn add(&mut self, other: Self) {
+        self.0 = self.0.saturating_add(other.0);
+    }
+
+    /// The nearest `f64`.
+    #[allow(clippy::cast_precision_loss, reason = "rounded on purpose, at the very end")]
+    pub(crate) fn value(self) -> f64 {
+        self.0 as f64 / UNIT
+    }
+}
+
+impl From<Exact> for String {
+    fn from(exact: Exact) -> Self {
+        exact.0.to_string()
+    }
+}
+
+impl TryFrom<String> for Exact {
+    type Error = std::num::ParseIntError;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse().map(Self)
+    }
+}
+
+/// `part / whole`, and `empty` where there is no whole.
+pub(crate) fn ratio(part: u64, whole: u64, empty: f64) -> f64 {
+    if whole == 0 { empty } else { real(part) / real(whole) }
+}
+
+/// A count as a number; exact up to 2^53.
+#[allow(clippy::cast_precision_loss, reason = "counts of pixels and scores are below 2^53")]
+pub(crate) fn real(value: u64) -> f64 {
+    value as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_does_not_matter_and_text_keeps_every_bit() {
+        let values = [1e20, 0.1, -3.75, 1.0 / 3.0, 1e-9];
+        let sum = |values: &mut dyn Iterator<Item = f64>| {
+            let mut sum = Exact::default();
+            values.for_each(|value| sum.add(Exact::nearest(value)));
+            sum
+        };
+        let forth = sum(&mut values.into_iter());
+        assert_eq!(forth, sum(&mut values.into_iter().rev()));
+        assert_eq!(Exact::try_from(String::from(forth)), Ok(forth));
+        assert_eq!(Exact::whole(7).value(), 7.0);
+        assert_eq!(Exact::nearest(f64::INFINITY), Exact(i128::MAX));
+    }
+}

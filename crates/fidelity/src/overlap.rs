@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Two grids of regions over one frame: the cells that the lines of both cut it into.
+
+use foveate_spec::Design;
+
+use crate::areas::{Table, place};
+
+/// Pixels along one axis that lie in one region of each grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Strip {
+    pixels: u64,
+    ideal: usize,
+    candidate: usize,
+}
+
+/// The cells of a frame, as strips along both axes. Padding belongs to none.
+#[derive(Clone, Debug)]
+pub(crate) struct Cells {
+    across: Vec<Strip>,
+    down: Vec<Strip>,
+    ideal_columns: usize,
+    candidate_columns: usize,
+}
+
+impl Cells {
+    pub(crate) fn new(ideal: &Design, candidate: &Design) -> Self {
+        let sides = (ideal.region_size(), candidate.region_size());
+        Self {
+            across: strips(ideal.width(), sides),
+            down: strips(ideal.height(), sides),
+            ideal_columns: ideal.columns() as usize,
+            candidate_columns: candidate.columns() as usize,
+        }
+    }
+
+    /// Adds the area of every combination of states; both lists are by region, row by row.
+    pub(crate) fn count(&self, ideal: &[u8], candidate: &[u8], table: &mut Table) {
+        for row in &self.down {
+            let ideal = &ideal[row.ideal * self.ideal_columns..][..self.ideal_columns];
+            let candidate =
+                &candidate[row.candidate * self.candidate_columns..][..self.candidate_columns];
+            for column in &self.across {
+                let at = place(ideal[column.ideal], candidate[column.candidate]);
+                table[at] += row.pixels * column.pixels;
+            }
+        }
+    }
+}
+
+fn strips(size: u32, (ideal, candidate): (u32, u32)) -> Vec<Strip> {
+    let mut strips = Vec::new();
+    let mut at = 0;
+    while at < size {
+        let line = |side: u32| (at / side + 1) * side;
+        let end = line(ideal).min(line(candidate)).min(size);
+        strips.push(Strip {
+            pixels: u64::from(end - at),
+            ideal: (at / ideal) as usize,
+            candidate: (at / candidate) as usize,
+        });
+        at = end;
+    }
+    strips
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_both_grids_cut() {
+        let strip = |pixels, ideal, candidate| Strip { pixels, ideal, candidate };
+        assert_eq!(strips(5, (2, 2)), [strip(2, 0, 0), strip(2, 1, 1), strip(1, 2, 2)]);
+        let expected =
+            [strip(2, 0, 0), strip(1, 1, 0), strip(1, 1, 1), strip(2, 2, 1), strip(1, 3, 2)];
+        assert_eq!(strips(7, (2, 3)), expected);
+    }
+}

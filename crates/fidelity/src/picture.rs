@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Squared errors and SSIM of the candidate's screen, against the ideal's screen and the input at once.
+//!
+//! SSIM is that of ffmpeg's filter `ssim` for one plane: windows of 8x8 pixels every 4, made of the sums
+//! of 4x4 blocks; what is left at the right and bottom belongs to no window. A frame that is less than 8
+//! wide or high, which ffmpeg's has no window for, is one window as a whole.
+
+use serde::{Deserialize, Serialize};
+
+use crate::exact::Exact;
+use crate::planes::Pictures;
+use crate::sample::Sample;
+use crate::ssim::{Ssim, Window};
+
+/// Likeness of pictures over frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct PictureTally {
+    /// Sum of squared differences of all pixels.
+    pub(crate) squares: Exact,
+    /// Sum of the SSIM of frames.
+    pub(crate) ssim: Exact,
+}
+
+impl PictureTally {
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.squares.add(other.squares);
+        self.ssim.add(other.ssim);
+    }
+}
+
+/// Side of a block.
+const BLOCK: usize = 4;
+/// Columns that are summed at a time.
+const TILE: usize = 64;
+
+/// Screen, ideal and input; then their squares; then the products of the screen with the other two.
+const SUMS: usize = 8;
+
+/// Sums of 4 rows, column by column.
+struct Tile<T: Sample> {
+    pixels: [[u32; TILE]; 3],
+    products: [[T::Product; TILE]; 5],
+}
+
+/// Compares frames of one size.
+#[derive(Clone, Debug)]
+pub(crate) struct Comparison<T> {
+    width: usize,
+    height: usize,
+    ssim: Ssim,
+    /// Sums of the blocks of the last row of blocks and of this one, one list per sum.
+    rows: [[Vec<f64>; SUMS]; 2],
+    zero: Vec<T>,
+}
+
+impl<T: Sample> Comparison<T> {
+    /// For frames of `width` x `height` pixels up to `peak`.
+    pub(crate) fn new(width: usize, height: usize, peak: u32) -> Self {
+        let whole = width < 2 * BLOCK || height < 2 * BLOCK;
+        let pixels = if whole { crate::exact::real((width * height) as u64) } else { 64.0 };
+        let list = || std::array::from_fn(|_| vec![0.0; width / BLOCK]);
+        Self {
+            width,
+            height,
+            ssim: Ssim::new(pixels, f64::from(peak)),
+            rows: [list(), list()],
+            zero: vec![T::default(); width.min(TILE)],
+        }
+    }
+
+    /// One frame: likeness to the ideal's screen, and to the input.
+    pub(crate) fn compare(&mut self, pictures: Pictures<'_, T>) -> [PictureTally; 2] {
+        let mut squares = [0_u64; 2];
+        let mut likeness = [0.0; 2];
+        let mut all = [0.0; SUMS];
+        let small = self.width < 2 * BLOCK || self.height < 2 * BLOCK;
+        for top in (0..self.height).step_by(BLOCK) {
+            self.sum(pictures, top, &mut squares, small.then_some(&mut all));
+            if top > 0 && top + BLOCK <= self.height && !small {
+                let row = self.windows();
+                likeness = [likeness[0] + row[0], likeness[1] + row[1]];
+            }
+            self.rows.swap(0, 1);
+        }
+        let windows = if small {
+            likeness = pairs(all).map(|window| self.ssim.of(window));
+            1.0
+        } else {
+            let (across, down) = (self.width / BLOCK - 1, self.height / BLOCK - 1);
+            crate::exact::real((across * down) as u64)
+        };
+        std::array::from_fn(|which| PictureTally {
+            squares: Exact::whole(squares[which]),
+            ssim: Exact::nearest(likeness[which] / windows),
+        })
+    }
+
+    /// Sums up to four rows: squared errors of all columns, blocks of whole ones.
+    fn sum(
+        &mut self,
+        pictures: Pictures<'_, T>,
+        top: usize,
+        squares: &mut [u64; 2],
+        mut all: Option<&mut [f64; SUMS]>,
+    ) {
+        let mut tile = Tile::<T>::new();
+        for left in (0..self.width).step_by(TILE) {
+            let len = TILE.min(self.width - left);
+            let part = |picture| self.part(picture, top, left, len);
+            tile.fill(part(pictures.screen), part(pictures.rendered), part(pictures.input), len);
+            let [rendered, input] = tile.squares(len);
+            *squares = [squares[0] + rendered, squares[1] + input];
+            if let Some(all) = all.as_deref_mut() {
+                tile.add_to(all, len);
+            }
+            let blocks = left / BLOCK..(left + len) / BLOCK;
+            for (at, row) in self.rows[1].iter_mut().enumerate() {
+                tile.blocks(at, &mut row[blocks.clone()]);
+            }
+        }
+    }
+
+    /// Four rows of a picture from column `left` on; black below the last, which adds nothing to a sum.
+    fn part<'p>(
+        &'p self,
+        picture: &'p [T],
+        top: usize,
+        left: usize,
+        len: usize,
+    ) -> [&'p [T]; BLOCK] {
+        std::array::from_fn(|row| match top + row < self.height {
+            true => &picture[(top + row) * self.width + left..][..len],
+            false => &self.zero[..len],
+        })
+    }
+
+    /// Sum of the likeness of all windows of two rows of blocks.
+    fn windows(&self) -> [f64; 2] {
+        let ([above, below], count) = (&self.rows, self.width / BLOCK);
+        let (above, below) = (above.each_ref(), below.each_ref());
+        let (above, below) = (above.map(|list| &list[..count]), below.map(|list| &list[..count]));
+        let mut likeness = [0.0; 2];
+        for at in 0..count - 1 {
+            let sums = std::array::from_fn(|sum| {
+                let (above, below) = (above[sum], below[sum]);
+                above[at] + above[at + 1] + below[at] + below[at + 1]
+            });
+            let [rendered, input] = pairs(sums);
+            likeness[0] += self.ssim.of(rendered);
+            likeness[1] += self.ssim.of(input);
+        }
+        likeness
+    }
+}
+
+/// The screen with the ideal's, and with the input.
+#[inline(always)]
+fn pairs(sums: [f64; SUMS]) -> [Window; 2] {
+    let [screen, ideal, input, screen2, ideal2, input2, with_ideal, with_input] = sums;
+    [
+        Window { a: screen, b: ideal, squares: screen2 + ideal2, product: with_ideal },
+        Window { a: screen, b: input, squares: screen2 + input2, product: with_input },
+    ]
+}
+
+impl<T: Sample> Tile<T> {
+    fn new() -> Self {
+        Self { pixels: [[0; TILE]; 3], products: [[T::Product::default(); TILE]; 5] }
+    }
+
+    #[inline(always)]
+    fn fill(&mut self, a: [&[T]; BLOCK], b: [&[T]; BLOCK], c: [&[T]; BLOCK], len: usize) {
+        let len = len.min(TILE);
+        let (a, b, c) =
+            (a.map(|row| &row[..len]), b.map(|row| &row[..len]), c.map(|row| &row[..len]));
+        let [own, ideal, input] = &mut self.pixels;
+        let [own2, ideal2, input2, with_ideal, with_input] = &mut self.products;
+        for x in 0..len {
+            let mut sums = [0_u32; 3];
+            let mut products = [T::Product::default(); 5];
+            for row in 0..BLOCK {
+                let (a, b, c) = (a[row][x], b[row][x], c[row][x]);
+                for (sum, value) in sums.iter_mut().zip([a, b, c]) {
+                    *sum += value.into();
+                }
+                let pairs = [(a, a), (b, b), (c, c), (a, b), (a, c)];
+                for (sum, (one, other)) in products.iter_mut().zip(pairs) {
+                    *sum += one.times(other);
+                }
+            }
+            [own[x], ideal[x], input[x]] = sums;
+            [own2[x], ideal2[x], input2[x], with_ideal[x], with_input[x]] = products;
+        }
+    }
+
+    /// Sums of squared differences of the screen to the other two: `a^2 + b^2 - 2 a b`.
+    fn squares(&self, len: usize) -> [u64; 2] {
+        let sum = |which: usize| -> u64 {
+            self.products[which][..len].iter().map(|&product| product.into()).sum()
+        };
+        [sum(0) + sum(1) - 2 * sum(3), sum(0) + sum(2) - 2 * sum(4)]
+    }
+
+    /// One of the sums over blocks.
+    fn blocks(&self, which: usize, blocks: &mut [f64]) {
+        match which.checked_sub(3) {
+            None => {
+                let columns = self.pixels[which].chunks_exact(BLOCK);
+                for (block, four) in blocks.iter_mut().zip(columns) {
+                    *block = f64::from(four.iter().sum::<u32>());
+                }
+            }
+            Some(which) => {
+                let columns = self.products[which].chunks_exact(BLOCK);
+                for (block, four) in blocks.iter_mut().zip(columns) {
+                    let mut sum = T::Product::default();
+                    four.iter().for_each(|&product| sum += product);
+                    *block = T::real(sum);
+                }
+            }
+        }
+    }
+
+    /// Adds every column to the sums of a whole frame.
+    fn add_to(&self, all: &mut [f64; SUMS], len: usize) {
+        let (pixels, products) = all.split_at_mut(3);
+        for (sum, columns) in pixels.iter_mut().zip(&self.pixels) {
+            *sum += columns[..len].iter().map(|&pixel| f64::from(pixel)).sum::<f64>();
+        }
+        for (sum, columns) in products.iter_mut().zip(&self.products) {
+            *sum += columns[..len].iter().map(|&product| T::real(product)).sum::<f64>();
+        }
+    }
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The pictures of one frame in one pixel type, at the depth of the ideal.
+
+use foveate_engine::{Plane, convert_depth};
+use foveate_ideal::IdealOutcome;
+use foveate_spec::Design;
+
+use crate::sample::Sample;
+
+/// Memory for the pictures that come in another form.
+#[derive(Clone, Debug)]
+pub(crate) struct Planes<T> {
+    denoised: Vec<T>,
+    rendered: Vec<T>,
+    screen: Vec<T>,
+    /// For every pixel of the candidate that of the ideal; empty where both have the same depth.
+    depths: Vec<T>,
+}
+
+/// Pixels of one frame, row by row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pictures<'p, T> {
+    pub(crate) input: &'p [T],
+    /// The ideal's denoised frame.
+    pub(crate) denoised: &'p [T],
+    /// The ideal's screen.
+    pub(crate) rendered: &'p [T],
+    /// The candidate's screen.
+    pub(crate) screen: &'p [T],
+}
+
+impl<T: Sample> Planes<T> {
+    pub(crate) fn new(ideal: &Design, candidate: &Design) -> Self {
+        let (from, to) = (candidate.pixel_bits(), ideal.pixel_bits());
+        let values = 0..=u16::try_from(candidate.pixel_max()).unwrap_or(u16::MAX);
+        let depths = match from == to {
+            true => Vec::new(),
+            false => values.map(|value| T::of(convert_depth(value, from, to))).collect(),
+        };
+        Self { denoised: Vec::new(), rendered: Vec::new(), screen: Vec::new(), depths }
+    }
+
+    /// The pictures of a frame; `None` where a plane is of the wrong type.
+    pub(crate) fn take<'p>(
+        &'p mut self,
+        input: Plane<'p>,
+        ideal: &IdealOutcome,
+        screen: Plane<'p>,
+    ) -> Option<Pictures<'p, T>> {
+        let input = T::pixels(input)?;
+        grey(&ideal.denoised, &mut self.denoised);
+        grey(&ideal.rendered, &mut self.rendered);
+        let screen = if self.depths.is_empty() {
+            T::pixels(screen)?
+        } else {
+            match screen {
+                Plane::Bytes(pixels) => shown(pixels, &self.depths, &mut self.screen),
+                Plane::Words(pixels) => shown(pixels, &self.depths, &mut self.screen),
+            }
+            &self.screen
+        };
+        Some(Pictures { input, denoised: &self.denoised, rendered: &self.rendered, screen })
+    }
+}
+
+fn grey<T: Sample>(levels: &[f64], pixels: &mut Vec<T>) {
+    pixels.resize(levels.len(), T::default());
+    for (pixel, &level) in pixels.iter_mut().zip(levels) {
+        *pixel = T::grey(level);
+    }
+}
+
+fn shown<T: Sample>(from: &[impl Copy + Into<usize>], depths: &[T], to: &mut Vec<T>) {
+    let last = depths.len() - 1;
+    to.clear();
+    to.extend(from.iter().map(|&pixel| depths[pixel.into().min(last)]));
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Errors of the scores that both designs have, region by region; only where regions are the same.
+
+use foveate_engine::Outcome;
+use foveate_ideal::IdealOutcome;
+use foveate_spec::{Design, FeatureKind};
+use serde::{Deserialize, Serialize};
+
+use crate::exact::{Exact, real};
+
+/// Error of one score over some regions and frames.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct ScoreTally {
+    pub(crate) feature: String,
+    pub(crate) unit: String,
+    /// Regions times frames.
+    pub(crate) count: u64,
+    pub(crate) max: Exact,
+    pub(crate) sum: Exact,
+    pub(crate) squares: Exact,
+}
+
+impl ScoreTally {
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.count += other.count;
+        self.max = self.max.max(other.max);
+        self.sum.add(other.sum);
+        self.squares.add(other.squares);
+    }
+}
+
+/// A score that both designs have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    /// Which feature of the ideal and of the candidate; `None` for the temporal score.
+    places: Option<(usize, usize)>,
+    name: &'static str,
+    unit: &'static str,
+    /// What a score of the candidate is divided by to be in the unit of the ideal, which does the same
+    /// division; then a power of two for pixels of other depth, which is exact.
+    divisor: f64,
+    depth: f64,
+    /// What both are divided by, to be shares of a region.
+    share: f64,
+}
+
+impl Pair {
+    /// Every score that can be compared, the temporal last; none for regions of different sizes.
+    pub(crate) fn all(ideal: &Design, candidate: &Design) -> Vec<Self> {
+        if ideal.region_size() != candidate.region_size() {
+            return Vec::new();
+        }
+        let n = f64::from(ideal.region_pixels());
+        let hits = Self {
+            places: None,
+            name: "temporal",
+            unit: "share of the region's pixels",
+            divisor: 1.0,
+            depth: 1.0,
+            share: n,
+        };
+        let levels =
+            2.0_f64.powf(f64::from(ideal.pixel_bits()) - f64::from(candidate.pixel_bits()));
+        let own = candidate.features().iter().enumerate();
+        let find = |kind| own.clone().find(|(_, feature)| feature.kind() == kind);
+        let mut pairs = Vec::new();
+        for (at, feature) in ideal.features().iter().enumerate() {
+            let kind = feature.kind();
+            let Some((other, feature)) = find(kind) else { continue };
+            let base = Self { places: Some((at, other)), name: kind.name(), ..hits };
+            pairs.push(match kind {
+                FeatureKind::Edge | FeatureKind::Corner => base,
+                FeatureKind::Mad => {
+                    let bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
+                    let divisor = n * f64::from(1_u32 << bits);
+                    Self { unit: "grey levels", divisor, depth: levels, share: 1.0, ..base }
+                }
+                FeatureKind::Variance => {
+                    let (divisor, depth) = (n * n, levels * levels);
+                    Self { unit: "squared grey levels", divisor, depth, share: 1.0, ..base }
+                }
+            });
+        }
+        pairs.push(hits);
+        pairs
+    }
+
+    /// Nothing compared yet.
+    pub(crate) fn tally(&self) -> ScoreTally {
+        let [max, sum, squares] = [Exact::default(); 3];
+        let (feature, unit) = (self.name.to_owned(), self.unit.to_owned());
+        ScoreTally { feature, unit, count: 0, max, sum, squares }
+    }
+
+    /// Adds one frame.
+    pub(crate) fn add(&self, ideal: &IdealOutcome, candidate: &Outcome, tally: &mut ScoreTally) {
+        match self.places {
+            Some((own, other)) => self.compare(
+                &ideal.scores[own],
+                candidate.scores[other].iter().map(|&score| real(score)),
+                tally,
+            ),
+            None => self.compare(
+                &ideal.changed,
+                candidate.temporal_count.iter().map(|&count| f64::from(count)),
+                tally,
+            ),
+        }
+    }
+
+    /// Regions are added in their order, frames in any: a frame's sums become whole numbers.
+    fn compare(&self, ideal: &[f64], candidate: impl Iterator<Item = f64>, tally: &mut ScoreTally) {
+        let (mut max, mut sum, mut squares) = (0.0_f64, 0.0, 0.0);
+        for (ideal, candidate) in ideal.iter().zip(candidate) {
+            let error = (ideal - candidate / self.divisor * self.depth).abs() / self.share;
+            max = max.max(error);
+            sum += error;
+            squares += error * error;
+        }
+        tally.count += u64::try_from(ideal.len()).unwrap_or(u64::MAX);
+        tally.max = tally.max.max(Exact::nearest(max));
+        tally.sum.add(Exact::nearest(sum));
+        tally.squares.add(Exact::nearest(squares));
+    }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! SSIM of two windows from the sums of their pixels, and the constants of ffmpeg's filter `ssim`.
+//!
+//! Z. Wang et al., "Image Quality Assessment: From Error Visibility to Structural Similarity", 2004, with
+//! mean, variance and covariance times the number of pixels or its square, so that only whole numbers
+//! are added.
+
+/// Sums over the pixels of a window, `a` and `b` in two pictures.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Window {
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+    /// Of both pictures.
+    pub(crate) squares: f64,
+    pub(crate) product: f64,
+}
+
+/// SSIM for windows of some pixels of some depth.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ssim {
+    pixels: f64,
+    c1: f64,
+    c2: f64,
+}
+
+impl Ssim {
+    /// `pixels` per window, values up to `peak`. With the 64 pixels of an 8x8 window these are ffmpeg's
+    /// constants, down to their rounding. A window of a single pixel has no variance; it keeps a `c2`.
+    pub(crate) fn new(pixels: f64, peak: f64) -> Self {
+        let rest = (pixels - 1.0).max(1.0);
+        Self {
+            pixels,
+            c1: (0.01 * 0.01 * peak * peak * pixels + 0.5).floor(),
+            c2: (0.03 * 0.03 * peak * peak * pixels * rest + 0.5).floor(),
+        }
+    }
+
+    /// The likeness of two windows, at most 1.
+    #[inline(always)]
+    pub(crate) fn of(self, window: Window) -> f64 {
+        let Window { a, b, squares, product } = window;
+        let both = a * a + b * b;
+        let variances = squares * self.pixels - both;
+        let covariance = product * self.pixels - a * b;
+        let alike = (2.0 * a * b + self.c1) * (2.0 * covariance + self.c2);
+        let all = (both + self.c1) * (variances + self.c2);
+        // Without constants (pixels of 1 to 3 bits in windows of few) two black windows are 0 / 0.
+        if alike == all { 1.0 } else { alike / all }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_those_of_ffmpeg() {
+        let ssim = Ssim::new(64.0, 255.0);
+        assert_eq!((ssim.c1, ssim.c2), (416.0, 235_963.0));
+    }
+
+    #[test]
+    fn equal_windows_are_alike_and_inverse_ones_are_not() {
+        let ssim = Ssim::new(64.0, 255.0);
+        let half = 32.0 * 255.0;
+        let window = |product| Window { a: half, b: half, squares: 2.0 * half * 255.0, product };
+        assert_eq!(ssim.of(window(half * 255.0)), 1.0);
+        assert!(ssim.of(window(0.0)) < -0.99);
+        assert_eq!(Ssim::new(1.0, 1.0).of(Window::default()), 1.0);
+    }
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How old the candidate's screen is, in the regions that the ideal finds relevant.
+
+use foveate_spec::Design;
+use serde::{Deserialize, Serialize};
+
+use crate::sample::Sample;
+
+/// Staleness over frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct StaleTally {
+    /// Largest difference.
+    pub(crate) max: u32,
+    /// Sum of the differences of all pixels of relevant regions.
+    pub(crate) sum: u64,
+    /// Those pixels.
+    pub(crate) pixels: u64,
+    /// Relevant regions.
+    pub(crate) relevant: u64,
+    /// Those of them that are stale.
+    pub(crate) stale: u64,
+    /// Longest run of one region.
+    pub(crate) longest: u64,
+}
+
+impl StaleTally {
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.max = self.max.max(other.max);
+        self.sum += other.sum;
+        self.pixels += other.pixels;
+        self.relevant += other.relevant;
+        self.stale += other.stale;
+        self.longest = self.longest.max(other.longest);
+    }
+}
+
+/// Watches the regions of one clip.
+#[derive(Clone, Debug)]
+pub(crate) struct Watch<T: Sample> {
+    width: usize,
+    height: usize,
+    side: usize,
+    columns: usize,
+    level: T,
+    min_count: u32,
+    /// For how many frames every region has been stale.
+    runs: Vec<u64>,
+    /// By column of one row of regions: sum of differences, largest, and how many are above the level.
+    sums: Vec<T::Sum>,
+    largest: Vec<T>,
+    counts: Vec<u8>,
+}
+
+impl<T: Sample> Watch<T> {
+    pub(crate) fn new(ideal: &Design) -> Self {
+        let width = ideal.width() as usize;
+        Self {
+            width,
+            height: ideal.height() as usize,
+            side: ideal.region_size() as usize,
+            columns: ideal.columns() as usize,
+            level: T::of(u16::try_from(ideal.temporal().level).unwrap_or(u16::MAX)),
+            min_count: ideal.temporal().min_count.max(1),
+            runs: vec![0; ideal.regions() as usize],
+            sums: vec![T::Sum::default(); width],
+            largest: vec![T::default(); width],
+            counts: vec![0; width],
+        }
+    }
+
+    /// Ends every run.
+    pub(crate) fn end(&mut self) {
+        self.runs.fill(0);
+    }
+
+    /// One frame: the ideal's SRS and denoised frame, and the candidate's screen.
+    pub(crate) fn look(
+        &mut self,
+        srs: &[bool],
+        denoised: &[T],
+        screen: &[T],
+        tally: &mut StaleTally,
+    ) {
+        let band = self.width * self.side;
+        let bands = denoised.chunks(band).zip(screen.chunks(band));
+        for ((row, srs), (denoised, screen)) in srs.chunks(self.columns).enumerate().zip(bands) {
+            if srs.contains(&true) {
+                self.sum(denoised, screen);
+            }
+            let rows = self.side.min(self.height - row * self.side);
+            for (column, &srs) in srs.iter().enumerate() {
+                self.region((row * self.columns + column, column), rows, srs, tally);
+            }
+        }
+    }
+
+    /// Differences of a row of regions, column by column; at most 64 rows.
+    fn sum(&mut self, denoised: &[T], screen: &[T]) {
+        self.sums.fill(T::Sum::default());
+        self.largest.fill(T::default());
+        self.counts.fill(0);
+        let rows = denoised.chunks_exact(self.width).zip(screen.chunks_exact(self.width));
+        for (denoised, screen) in rows {
+            let results = self.sums.iter_mut().zip(&mut self.largest).zip(&mut self.counts);
+            for (((sum, largest), count), (&now, &shown)) in
+                results.zip(denoised.iter().zip(screen))
+            {
+                let distance = now.distance(shown);
+                *sum += T::Sum::from(distance);
+                *largest = distance.max(*largest);
+                *count += u8::from(distance > self.level);
+            }
+        }
+    }
+
+    fn region(
+        &mut self,
+        (region, column): (usize, usize),
+        rows: usize,
+        srs: bool,
+        tally: &mut StaleTally,
+    ) {
+        if !srs {
+            self.runs[region] = 0;
+            return;
+        }
+        let columns = column * self.side..((column + 1) * self.side).min(self.width);
+        let pixels = (columns.len() * rows) as u64;
+        let sum = |sum: u32, &value: &T::Sum| sum + value.into();
+        tally.sum += u64::from(self.sums[columns.clone()].iter().fold(0, sum));
+        tally.pixels += pixels;
+        let largest = self.largest[columns.clone()].iter().copied().max().unwrap_or_default();
+        tally.max = tally.max.max(largest.into());
+        let above: u32 = self.counts[columns].iter().map(|&count| u32::from(count)).sum();
+        let stale = u64::from(above) >= u64::from(self.min_count).min(pixels);
+        tally.relevant += 1;
+        tally.stale += u64::from(stale);
+        self.runs[region] = if stale { self.runs[region] + 1 } else { 0 };
+        tally.longest = tally.longest.max(self.runs[region]);
+    }
+}

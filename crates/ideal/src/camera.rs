@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The ideal camera: one whole frame at a time.
+
+use foveate_engine::Raster;
+use foveate_model::Action;
+use foveate_spec::{Design, Filter, Payload};
+
+use crate::feature::{Scratch, score};
+use crate::grid::Grid;
+use crate::median::{Columns, median};
+use crate::memory::Memory;
+use crate::plane::Plane;
+use crate::rules::Rules;
+use crate::{IdealError, IdealOutcome};
+
+/// A camera that computes what the contract says in real numbers.
+///
+/// Of its design it takes frame, regions, filter, features, thresholds, combination, reference, payload
+/// and what is shown where nothing is relevant. It ignores neighborhood (windows always see the whole
+/// frame, `shared`), fraction bits of the mean (it is the real mean) and hardware.
+#[derive(Clone, Debug)]
+pub struct IdealCamera {
+    design: Design,
+    grid: Grid,
+    rules: Rules,
+    memory: Memory,
+    raw: Plane,
+    denoised: Plane,
+    columns: Columns,
+    scratch: Scratch,
+    outcome: IdealOutcome,
+}
+
+impl IdealCamera {
+    /// A camera that has seen nothing yet.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
+        let grid = Grid::of(design);
+        let rules = Rules::of(design);
+        Self {
+            memory: Memory::new(design, &grid),
+            raw: Plane::black(&grid),
+            denoised: Plane::black(&grid),
+            columns: Columns::default(),
+            scratch: Scratch::default(),
+            outcome: IdealOutcome::new(rules.features.len(), &grid),
+            rules,
+            grid,
+            design: design.clone(),
+        }
+    }
+
+    /// The design, as it was given.
+    #[must_use]
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// What the last frame has led to; after none or a reset what is left of it says nothing.
+    #[must_use]
+    pub fn outcome(&self) -> &IdealOutcome {
+        &self.outcome
+    }
+
+    /// Forgets every frame; the screen is black again.
+    pub fn reset(&mut self) {
+        self.memory.forget();
+        self.outcome.rendered.fill(0.0);
+    }
+
+    /// Takes the next frame.
+    ///
+    /// # Errors
+    /// When the frame is not of the design's size and depth; nothing has changed then.
+    pub fn step(&mut self, frame: &Raster) -> Result<&IdealOutcome, IdealError> {
+        self.check_kind((frame.width(), frame.height(), frame.bits()))?;
+        self.raw.pad(frame.plane(), &self.grid);
+        match self.design.filter() {
+            Filter::None => self.denoised.copy(&self.raw),
+            Filter::Median3x3 => median(&self.raw, &mut self.denoised, &mut self.columns),
+        }
+        self.score();
+        for region in 0..self.grid.regions() {
+            self.decide(region);
+            self.show(region);
+            let action = self.outcome.actions[region];
+            self.memory.keep(&self.denoised, &self.grid, region, action);
+        }
+        self.denoised.crop_into(&self.grid, &mut self.outcome.denoised);
+        Ok(&self.outcome)
+    }
+
+    fn check_kind(&self, given: (u32, u32, u32)) -> Result<(), IdealError> {
+        let expected = (self.design.width(), self.design.height(), self.design.pixel_bits());
+        if given == expected {
+            return Ok(());
+        }
+        let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
+        Err(IdealError::FrameKind { given: kind(given), expected: kind(expected) })
+    }
+
+    fn score(&mut self) {
+        let Self { design, grid, rules, memory, denoised, scratch, outcome, .. } = self;
+        for (feature, scores) in rules.features.iter().zip(&mut outcome.scores) {
+            score((feature.kind, feature.level), denoised, grid, scratch, scores);
+        }
+        let all = f64::from(design.region_pixels());
+        memory.compare(denoised, grid, all, &mut outcome.changed);
+    }
+
+    fn decide(&mut self, region: usize) {
+        let Self { rules, outcome, .. } = self;
+        let srs = rules.spatial(&outcome.scores, region);
+        let trs = rules.temporal(outcome.changed[region]);
+        outcome.srs[region] = srs;
+        outcome.trs[region] = trs;
+        outcome.active[region] = srs && trs;
+        outcome.actions[region] = rules.action(srs, trs);
+    }
+
+    /// Renders one region; the rest of the screen stays.
+    fn show(&mut self, region: usize) {
+        let Self { design, grid, raw, denoised, outcome, .. } = self;
+        let payload = match design.payload() {
+            Payload::Denoised => denoised,
+            Payload::Raw => raw,
+        };
+        let (columns, rows) = grid.seen(region);
+        for y in rows {
+            let shown = &mut outcome.rendered[y * grid.width..][columns.clone()];
+            match outcome.actions[region] {
+                Action::Forward => shown.copy_from_slice(&payload.row(y)[columns.clone()]),
+                Action::Hold => {}
+                Action::Blank => shown.fill(0.0),
+            }
+        }
+    }
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the ideal camera refuses.
+
+use thiserror::Error;
+
+/// A frame that does not belong to the design.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum IdealError {
+    /// A frame of another size or depth than the design's.
+    #[error("a frame of {given} was given to a design for {expected}; give it frames of that kind")]
+    FrameKind {
+        /// Size and depth of the frame.
+        given: String,
+        /// Size and depth of the design.
+        expected: String,
+    },
+}

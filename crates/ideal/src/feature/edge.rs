@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `edge`: how many pixels have a 3x3 Sobel magnitude |Gx| + |Gy| above a level.
+//!
+//! ```text
+//!      -1  0 +1          -1 -2 -1
+//! Gx:  -2  0 +2     Gy:   0  0  0
+//!      -1  0 +1          +1 +2 +1
+//! ```
+
+use super::{Scratch, add_up};
+use crate::grid::Grid;
+use crate::plane::Plane;
+
+/// Both filters are a smoothing along one axis and a difference along the other; the vertical part is
+/// done once per column.
+pub(super) fn score(
+    level: f64,
+    plane: &Plane,
+    grid: &Grid,
+    scratch: &mut Scratch,
+    scores: &mut [f64],
+) {
+    let [smooth, slope, hits] = &mut scratch.lines;
+    smooth.resize(plane.width() + 2, 0.0);
+    slope.resize(plane.width() + 2, 0.0);
+    hits.resize(plane.width(), 0.0);
+    scores.fill(0.0);
+    for y in 0..plane.height() {
+        let [above, own, below] = plane.around(y);
+        let out = smooth.iter_mut().zip(slope.iter_mut());
+        for ((smooth, slope), (a, (b, c))) in out.zip(above.iter().zip(own.iter().zip(below))) {
+            *smooth = a + 2.0 * b + c;
+            *slope = c - a;
+        }
+        let (smooth, slope) = (&smooth[..hits.len() + 2], &slope[..hits.len() + 2]);
+        for (x, hit) in hits.iter_mut().enumerate() {
+            let gx = smooth[x + 2] - smooth[x];
+            let gy = slope[x] + 2.0 * slope[x + 1] + slope[x + 2];
+            *hit = if gx.abs() + gy.abs() > level { 1.0 } else { 0.0 };
+        }
+        add_up(hits, grid.side, &mut scores[grid.across(y)]);
+    }
+}

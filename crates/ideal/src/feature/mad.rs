@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `mad`: the mean absolute deviation from the region's real mean, in grey levels.
+//!
+//! With S the sum of the n pixels it is `sum |x - S/n| / n = sum |n x - S| / n^2`. Everything in front of
+//! the division is a whole number below 2^53, so the one rounding is that of the division.
+
+use super::{Scratch, pixel_sums, pixels_of};
+use crate::grid::Grid;
+use crate::plane::Plane;
+
+pub(super) fn score(plane: &Plane, grid: &Grid, scratch: &mut Scratch, scores: &mut [f64]) {
+    let [sums, _] = &mut scratch.regions;
+    pixel_sums(plane, grid, sums);
+    let n = pixels_of(grid);
+    scores.fill(0.0);
+    for y in 0..plane.height() {
+        let regions = scores[grid.across(y)].iter_mut().zip(&sums[grid.across(y)]);
+        for (part, (score, sum)) in plane.row(y).chunks_exact(grid.side).zip(regions) {
+            *score += part.iter().map(|x| (n * x - sum).abs()).sum::<f64>();
+        }
+    }
+    for score in scores {
+        *score /= n * n;
+    }
+}

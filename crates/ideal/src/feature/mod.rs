@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The spatial features: one score per region of a denoised frame, in natural units.
+
+mod corner;
+mod edge;
+mod mad;
+mod variance;
+
+use foveate_spec::FeatureKind;
+
+use crate::grid::Grid;
+use crate::plane::Plane;
+
+/// Lines and regions of numbers that are used again.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scratch {
+    lines: [Vec<f64>; 3],
+    regions: [Vec<f64>; 2],
+}
+
+/// Scores every region: hits for `edge` and `corner`, grey levels for `mad`, their squares for
+/// `variance`. `level` is for those that count hits.
+pub(crate) fn score(
+    (kind, level): (FeatureKind, f64),
+    plane: &Plane,
+    grid: &Grid,
+    scratch: &mut Scratch,
+    scores: &mut [f64],
+) {
+    match kind {
+        FeatureKind::Edge => edge::score(level, plane, grid, scratch, scores),
+        FeatureKind::Corner => corner::score(level, plane, grid, scratch, scores),
+        FeatureKind::Mad => mad::score(plane, grid, scratch, scores),
+        FeatureKind::Variance => variance::score(plane, grid, scratch, scores),
+    }
+}
+
+/// Adds the values of one row to the sums of the regions that it goes through.
+pub(crate) fn add_up(values: &[f64], side: usize, sums: &mut [f64]) {
+    for (part, sum) in values.chunks_exact(side).zip(sums) {
+        *sum += part.iter().sum::<f64>();
+    }
+}
+
+/// Sum of the pixels of every region.
+fn pixel_sums(plane: &Plane, grid: &Grid, sums: &mut Vec<f64>) {
+    sums.clear();
+    sums.resize(grid.regions(), 0.0);
+    for y in 0..plane.height() {
+        add_up(plane.row(y), grid.side, &mut sums[grid.across(y)]);
+    }
+}
+
+/// Pixels of a region, n.
+fn pixels_of(grid: &Grid) -> f64 {
+    let side = f64::from(u32::try_from(grid.side).unwrap_or(u32::MAX));
+    side * side
+}

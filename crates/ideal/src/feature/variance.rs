@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `variance`: sigma^2 of the region, in squared grey levels.
+//!
+//! By shifted data (Chan, Golub, LeVeque, "Algorithms for Computing the Sample Variance", 1983): with
+//! d = x - c for a whole number c near the mean, `n^2 sigma^2 = n sum(d^2) - (sum d)^2`. Both terms are
+//! whole numbers, below 2^53 except for regions of 64x64 pixels of 16 bits that span the whole range; so
+//! but for those the one rounding is that of the division.
+
+use super::{Scratch, pixel_sums, pixels_of};
+use crate::grid::Grid;
+use crate::plane::Plane;
+
+pub(super) fn score(plane: &Plane, grid: &Grid, scratch: &mut Scratch, scores: &mut [f64]) {
+    let [sums, squares] = &mut scratch.regions;
+    pixel_sums(plane, grid, sums);
+    squares.clear();
+    squares.resize(grid.regions(), 0.0);
+    let n = pixels_of(grid);
+    for (center, sum) in scores.iter_mut().zip(sums.iter()) {
+        *center = (sum / n).round();
+    }
+    for y in 0..plane.height() {
+        let regions = squares[grid.across(y)].iter_mut().zip(&scores[grid.across(y)]);
+        for (part, (square, center)) in plane.row(y).chunks_exact(grid.side).zip(regions) {
+            *square += part.iter().map(|x| (x - center) * (x - center)).sum::<f64>();
+        }
+    }
+    for (score, (sum, square)) in scores.iter_mut().zip(sums.iter().zip(squares.iter())) {
+        let rest = sum - n * *score;
+        *score = (n * square - rest * rest) / (n * n);
+    }
+}

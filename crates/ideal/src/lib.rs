@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The camera of `docs/contract.md` in real numbers: the yardstick that designs are measured against.
+//!
+//! [`IdealCamera`] takes from a design what it is to see (regions, filter, features, thresholds,
+//! reference, what is shown) and leaves out what hardware costs: its windows always see their real
+//! neighbors, its mean is the real mean, its thresholds are the decimal ones of the configuration. It is
+//! written from the contract in `f64`, apart from the integers of the other models, and does no I/O.
+#![forbid(unsafe_code)]
+
+mod camera;
+mod error;
+mod feature;
+mod grid;
+mod median;
+mod memory;
+mod outcome;
+mod plane;
+mod rules;
+
+pub use camera::IdealCamera;
+pub use error::IdealError;
+pub use foveate_model::Action;
+pub use outcome::IdealOutcome;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `median3x3`: the fifth of the nine sorted values around every pixel.
+
+use crate::plane::Plane;
+
+/// One line of columns, each of its three values sorted.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Columns {
+    low: Vec<f64>,
+    middle: Vec<f64>,
+    high: Vec<f64>,
+}
+
+/// Filters a plane into another of the same size. Sorted columns are shared by the three windows that
+/// they lie in.
+pub(crate) fn median(from: &Plane, to: &mut Plane, columns: &mut Columns) {
+    for y in 0..from.height() {
+        columns.sort(from.around(y));
+        columns.medians(to.row_mut(y));
+    }
+    to.repeat_border();
+}
+
+impl Columns {
+    fn sort(&mut self, [above, own, below]: [&[f64]; 3]) {
+        for list in [&mut self.low, &mut self.middle, &mut self.high] {
+            list.resize(own.len(), 0.0);
+        }
+        let out = self.low.iter_mut().zip(&mut self.middle).zip(&mut self.high);
+        for ((&a, (&b, &c)), ((low, middle), high)) in
+            above.iter().zip(own.iter().zip(below)).zip(out)
+        {
+            (*low, *middle, *high) = sorted(a, b, c);
+        }
+    }
+
+    /// With every column sorted, four values are known to be no larger than the fifth and four no
+    /// smaller: what is left are the largest low, the middle of the middle ones and the smallest high.
+    fn medians(&self, out: &mut [f64]) {
+        let len = out.len();
+        let three = |list: &[f64], x: usize| (list[x], list[x + 1], list[x + 2]);
+        let (low, middle, high) =
+            (&self.low[..len + 2], &self.middle[..len + 2], &self.high[..len + 2]);
+        for (x, value) in out.iter_mut().enumerate() {
+            let (a, b, c) = three(low, x);
+            let least = larger(larger(a, b), c);
+            let (a, b, c) = three(middle, x);
+            let (_, between, _) = sorted(a, b, c);
+            let (a, b, c) = three(high, x);
+            let most = smaller(smaller(a, b), c);
+            *value = sorted(least, between, most).1;
+        }
+    }
+}
+
+fn sorted(a: f64, b: f64, c: f64) -> (f64, f64, f64) {
+    let (low, high) = (smaller(a, b), larger(a, b));
+    (smaller(low, c), larger(low, smaller(high, c)), larger(high, c))
+}
+
+// `f64::min` and `max` do more, for values that are no numbers; pixels always are.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Minima and maxima commute with thresholds, so zeros and ones are enough.
+    #[test]
+    fn it_is_the_fifth_of_nine() {
+        for bits in 0..512_u16 {
+            let nine: Vec<f64> = (0..9).map(|place| f64::from(bits >> place & 1)).collect();
+            let mut columns = Columns::default();
+            columns.sort([&nine[..3], &nine[3..6], &nine[6..]]);
+            let mut out = [0.0];
+            columns.medians(&mut out);
+            let mut sorted = nine.clone();
+            sorted.sort_by(f64::total_cmp);
+            assert_eq!(out[0], sorted[4], "{nine:?}");
+        }
+    }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds and decisions, as the configuration writes them.
+
+use foveate_model::Action;
+use foveate_spec::{Combine, Decimal, Design, FeatureKind, Irrelevant};
+
+/// One feature.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Feature {
+    pub(crate) kind: FeatureKind,
+    /// Per pixel, in grey levels; 0 where the feature has none.
+    pub(crate) level: f64,
+    /// Per region, in the unit of the score.
+    min_score: f64,
+}
+
+/// When a region is relevant, and what becomes of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Rules {
+    pub(crate) features: Vec<Feature>,
+    combine: Combine,
+    min_count: f64,
+    irrelevant: Irrelevant,
+}
+
+impl Rules {
+    pub(crate) fn of(design: &Design) -> Self {
+        let feature = |entry: &foveate_spec::SpatialConfig| Feature {
+            kind: entry.feature,
+            level: f64::from(entry.level.unwrap_or_default()),
+            min_score: entry.min_score.map_or(0.0, real),
+        };
+        Self {
+            features: design.config().spatial.iter().map(feature).collect(),
+            combine: design.combine(),
+            min_count: f64::from(design.temporal().min_count),
+            irrelevant: design.irrelevant(),
+        }
+    }
+
+    /// SRS of a region from its scores by feature.
+    pub(crate) fn spatial(&self, scores: &[Vec<f64>], region: usize) -> bool {
+        let mut votes =
+            self.features.iter().zip(scores).map(|(rule, all)| all[region] >= rule.min_score);
+        match self.combine {
+            Combine::Any => votes.any(|vote| vote),
+            Combine::All => votes.all(|vote| vote),
+        }
+    }
+
+    /// TRS of a region from its changed pixels.
+    pub(crate) fn temporal(&self, changed: f64) -> bool {
+        changed >= self.min_count
+    }
+
+    /// What becomes of a region on the screen.
+    pub(crate) fn action(&self, srs: bool, trs: bool) -> Action {
+        if srs && trs {
+            Action::Forward
+        } else if srs || self.irrelevant == Irrelevant::Hold {
+            Action::Hold
+        } else {
+            Action::Blank
+        }
+    }
+}
+
+/// The nearest `f64`; a decimal prints as digits that are one.
+fn real(decimal: Decimal) -> f64 {
+    decimal.to_string().parse().unwrap_or_default()
+}
