@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Milliseconds per frame of a comparison: `cargo run --release -p foveate-fidelity --example fidelity_speed`.
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a measurement at a terminal")]
+
+use std::time::Instant;
+
+use foveate_engine::{Engine, Raster};
+use foveate_fidelity::Fidelity;
+use foveate_ideal::IdealCamera;
+use foveate_scenes::{Scene, SceneSize};
+use foveate_spec::Config;
+
+fn main() {
+    for (width, height) in [(1280, 720), (1920, 1080)] {
+        for (side, bits) in [(8, 8), (32, 8), (3, 8), (8, 6), (8, 12)] {
+            let mut config = Config::default();
+            (config.frame.width, config.frame.height) = (Some(width), Some(height));
+            config.frame.pixel_bits = bits.max(8);
+            let ideal = config.validate().unwrap();
+            config.region.size = side;
+            config.frame.pixel_bits = bits;
+            let design = config.validate().unwrap();
+            let size = SceneSize { width, height, bits: bits.max(8), region_size: 8, frames: 2 };
+            let own = Scene::Street.frames(size);
+            let other = Scene::Street.frames(SceneSize { bits, ..size });
+            let mut camera = IdealCamera::new(&ideal);
+            let mut engine = Engine::new(&design);
+            let mut fidelity = Fidelity::new(&ideal, &design).unwrap();
+            let mut best = f64::INFINITY;
+            for (own, other) in own.zip(other) {
+                let input = Raster::from(&own);
+                let seen = camera.step(&input).unwrap();
+                let outcome = engine.step(&other).unwrap().clone();
+                for _ in 0..10 {
+                    let start = Instant::now();
+                    fidelity.add(&input, seen, &outcome, engine.rendered()).unwrap();
+                    best = best.min(start.elapsed().as_secs_f64());
+                }
+            }
+            println!(
+                "{width}x{height}, ideal N 8 of {:>2} bits, candidate N {side:>2} of {bits:>2} bits {:6.2} ms",
+                bits.max(8),
+                best * 1e3
+            );
+        }
+    }
+}

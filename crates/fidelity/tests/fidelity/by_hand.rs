@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Real cameras on scenes, tallies that add up, units of scores, and what is refused.
+
+use foveate_engine::{Plane, Raster};
+use foveate_fidelity::{Fidelity, FidelityError, Tally};
+use foveate_scenes::{Scene, SceneSize};
+use foveate_spec::{Config, Decimal, Design, FeatureKind, Neighborhood, SpatialConfig};
+
+use crate::made::{blank, blank_ideal, config, pixels, raster, run, tally};
+
+fn scene(scene: Scene, design: &Design, frames: u32) -> Vec<Raster> {
+    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
+    let size = SceneSize { width, height, bits, region_size: design.region_size(), frames };
+    scene.frames(size).map(|frame| Raster::from(&frame)).collect()
+}
+
+/// All four features, windows over the whole frame, an exact mean.
+fn exact() -> Config {
+    let mut config = config((90, 45), 8, 8);
+    config.region.neighborhood = Neighborhood::Shared;
+    config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    config.spatial[2].mean_fraction_bits = Some(6);
+    config
+}
+
+#[test]
+fn the_engine_of_the_same_design_is_the_ideal() {
+    let design = exact().validate().unwrap();
+    let figures = tally(&design, &design, &scene(Scene::Street, &design, 12)).figures();
+    assert_eq!(figures.frames, 12);
+    assert_eq!([figures.srs_flips, figures.trs_flips, figures.action_flips], [0.0; 3]);
+    assert_eq!([figures.missed, figures.false_alarms, figures.active_iou], [0.0, 0.0, 1.0]);
+    assert!(figures.active > 0.0 && figures.active == figures.ideal_active);
+    assert_eq!((figures.psnr_ideal, figures.ssim_ideal), (None, 1.0));
+    let names: Vec<&str> = figures.scores.iter().map(|score| score.feature.as_str()).collect();
+    assert_eq!(names, ["edge", "corner", "mad", "variance", "temporal"]);
+    for score in &figures.scores {
+        assert_eq!((score.max, score.mean, score.rms), (0.0, 0.0, 0.0), "{}", score.feature);
+    }
+}
+
+/// What `isolated` and a mean without fraction bits cost is seen where it is lost, and nowhere else.
+#[test]
+fn a_cheaper_candidate_differs_where_it_is_cheaper() {
+    let ideal = exact();
+    let mut candidate = ideal.clone();
+    candidate.spatial[2].mean_fraction_bits = Some(0);
+    let [ideal, rounded] = [ideal, candidate.clone()].map(|config| config.validate().unwrap());
+    candidate.region.neighborhood = Neighborhood::Isolated;
+    let isolated = candidate.validate().unwrap();
+    let frames = scene(Scene::NightRain, &ideal, 4);
+    let errors = |candidate: &Design| -> Vec<f64> {
+        tally(&ideal, candidate, &frames).figures().scores.iter().map(|score| score.max).collect()
+    };
+    let [edge, corner, mad, variance, temporal] = errors(&rounded)[..] else { panic!("five") };
+    assert_eq!([edge, corner, variance, temporal], [0.0; 4]);
+    assert!(mad > 0.0 && mad <= 0.5, "half a quantum of the mean: {mad}");
+    assert!(errors(&isolated)[0] > 0.0);
+}
+
+#[test]
+fn tallies_add_up_in_any_order() {
+    let ideal = exact().validate().unwrap();
+    let candidate = config((90, 45), 5, 6).validate().unwrap();
+    let clips = [Scene::Street, Scene::NightRain, Scene::Shake].map(|clip| {
+        let frames = |design| scene(clip, design, 5);
+        frames(&ideal).into_iter().zip(frames(&candidate)).collect::<Vec<_>>()
+    });
+    let mut whole = Fidelity::new(&ideal, &candidate).unwrap();
+    let mut parts = Vec::new();
+    for clip in &clips {
+        run(&ideal, &candidate, clip, &mut whole);
+        whole.next_clip();
+        let mut own = Fidelity::new(&ideal, &candidate).unwrap();
+        run(&ideal, &candidate, clip, &mut own);
+        parts.push(own.into_tally());
+    }
+    for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0]] {
+        let mut merged = Tally::default();
+        order.iter().for_each(|&at: &usize| merged.merge(&parts[at]));
+        assert_eq!(&merged, whole.tally());
+        assert_eq!(merged.figures(), whole.tally().figures());
+    }
+    assert_eq!(whole.tally().figures().frames, 15);
+    assert!(whole.tally().figures().scores.is_empty(), "regions of other sizes");
+    let stored = serde_json::to_string(whole.tally()).unwrap();
+    assert_eq!(&serde_json::from_str::<Tally>(&stored).unwrap(), whole.tally());
+}
+
+#[test]
+fn nothing_compared_is_nothing_wrong() {
+    let figures = Tally::default().figures();
+    assert_eq!((figures.frames, figures.srs_flips, figures.missed), (0, 0.0, 0.0));
+    assert_eq!((figures.active_iou, figures.ssim_ideal, figures.psnr_ideal), (1.0, 1.0, None));
+}
+
+/// 6 bits instead of 8: a grey level of the candidate is four of the ideal, a squared one sixteen.
+#[test]
+fn scores_of_fewer_bits_are_scaled_up() {
+    let mut own = config((2, 2), 2, 8);
+    own.spatial = [FeatureKind::Variance, FeatureKind::Mad].map(SpatialConfig::new).to_vec();
+    let mut other = config((2, 2), 2, 6);
+    other.spatial = [FeatureKind::Mad, FeatureKind::Edge, FeatureKind::Variance]
+        .map(SpatialConfig::new)
+        .to_vec();
+    other.spatial[0].mean_fraction_bits = Some(1);
+    other.spatial[1].min_score = Some(Decimal::whole(1));
+    let [own, other] = [own, other].map(|config| config.validate().unwrap());
+    let (mut ideal, mut candidate) = (blank_ideal(&own), blank(&other));
+    // 24 / (4 * 2) = 3 grey levels of 6 bits are 12; 80 / 16 = 5 squared ones are 80.
+    (ideal.scores[1][0], candidate.scores[0][0]) = (12.5, 24);
+    (ideal.scores[0][0], candidate.scores[2][0]) = (82.0, 80);
+    let mut fidelity = Fidelity::new(&own, &other).unwrap();
+    let input = raster(&own, vec![0; 4]);
+    fidelity.add(&input, &ideal, &candidate, Plane::Bytes(&[0; 4])).unwrap();
+    let figures = fidelity.tally().figures();
+    let seen = figures.scores.iter().map(|score| (&*score.feature, &*score.unit, score.max));
+    let expected = [
+        ("variance", "squared grey levels", 2.0),
+        ("mad", "grey levels", 0.5),
+        ("temporal", "share of the region's pixels", 0.0),
+    ];
+    assert_eq!(seen.collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn what_does_not_belong_together_is_refused() {
+    let design = config((16, 8), 8, 8).validate().unwrap();
+    let other = config((16, 9), 8, 8).validate().unwrap();
+    let text = Fidelity::new(&design, &other).unwrap_err().to_string();
+    assert!(text.contains("16x8") && text.contains("16x9"), "{text}");
+
+    let mut fidelity = Fidelity::new(&design, &design).unwrap();
+    let (ideal, candidate) = (blank_ideal(&design), blank(&design));
+    let (input, black) = (raster(&design, vec![0; pixels(&design)]), vec![0_u8; 128]);
+    let mut refused = |input: &Raster, screen: Plane<'_>| {
+        fidelity.add(input, &ideal, &candidate, screen).unwrap_err()
+    };
+    let tall = raster(&other, vec![0; 144]);
+    assert!(matches!(refused(&tall, Plane::Bytes(&black)), FidelityError::FrameKind { .. }));
+    assert!(matches!(refused(&input, Plane::Words(&[0; 128])), FidelityError::LaneWidth { .. }));
+    let short = refused(&input, Plane::Bytes(&black[1..]));
+    assert!(matches!(short, FidelityError::Length { given: 127, expected: 128, .. }));
+    let mut less = candidate.clone();
+    less.scores[0].pop();
+    let error = fidelity.add(&input, &ideal, &less, Plane::Bytes(&black)).unwrap_err();
+    assert_eq!(error, FidelityError::Length { what: "candidate, scores", given: 1, expected: 2 });
+    assert_eq!(fidelity.tally().frames(), 0);
+    fidelity.add(&input, &ideal, &candidate, Plane::Bytes(&black)).unwrap();
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Every figure against a count pixel by pixel, for made-up results of any two designs.
+
+use foveate_engine::{Outcome, Raster, convert_depth};
+use foveate_fidelity::{Fidelity, Figures};
+use foveate_ideal::{Action, IdealOutcome};
+use foveate_spec::Design;
+use proptest::prelude::*;
+
+use crate::likeness::{check_pictures, mean};
+use crate::made::{Random, blank, blank_ideal, config, greys, pixels, raster};
+
+/// What is added for one frame.
+pub(crate) struct Frame {
+    pub(crate) input: Vec<u16>,
+    pub(crate) ideal: IdealOutcome,
+    candidate: Outcome,
+    /// At the depth of the candidate.
+    screen: Vec<u16>,
+}
+
+/// Pixels near those of `base` for half of them, so that no figure is at its end.
+fn near(random: &mut Random, base: &[u16], from: u32, to: u32) -> Vec<u16> {
+    let max = (1_u32 << to) - 1;
+    base.iter()
+        .map(|&pixel| match random.yes() {
+            true => convert_depth(pixel, from, to),
+            false => random.pixel(max),
+        })
+        .collect()
+}
+
+fn made_up(random: &mut Random, own: &Design, other: &Design) -> Frame {
+    let (bits, max) = (own.pixel_bits(), own.pixel_max());
+    let input: Vec<u16> = (0..pixels(own)).map(|_| random.pixel(max)).collect();
+    let actions = [Action::Forward, Action::Hold, Action::Blank];
+    let mut ideal = blank_ideal(own);
+    for region in 0..ideal.srs.len() {
+        (ideal.srs[region], ideal.trs[region]) = (random.below(3) > 0, random.yes());
+        ideal.actions[region] = actions[random.below(2) as usize];
+        ideal.scores[0][region] = f64::from(random.below(own.region_pixels()));
+        ideal.changed[region] = f64::from(random.below(own.region_pixels()));
+    }
+    ideal.denoised = greys(&near(random, &input, bits, bits));
+    ideal.rendered = greys(&near(random, &input, bits, bits));
+    let mut candidate = blank(other);
+    for region in 0..candidate.srs.len() {
+        (candidate.srs[region], candidate.trs[region]) = (random.yes(), random.below(3) > 0);
+        candidate.actions[region] = actions[random.below(2) as usize];
+        candidate.scores[0][region] = random.below(other.region_pixels()).into();
+        candidate.temporal_count[region] = random.below(other.region_pixels());
+    }
+    let screen = near(random, &input, bits, other.pixel_bits());
+    Frame { input, ideal, candidate, screen }
+}
+
+/// Number of the region of a pixel.
+fn region(design: &Design, x: u32, y: u32) -> usize {
+    let side = design.region_size();
+    (y / side * design.columns() + x / side) as usize
+}
+
+fn share(part: f64, whole: f64, empty: f64) -> f64 {
+    if whole == 0.0 { empty } else { part / whole }
+}
+
+/// Decisions, pixel by pixel.
+fn check_decisions(figures: &Figures, frames: &[Frame], own: &Design, other: &Design) {
+    let mut counts = [0.0; 8];
+    let [all, srs, trs, action, mine, theirs, both, either] = &mut counts;
+    for Frame { ideal, candidate, .. } in frames {
+        for (x, y) in (0..own.height()).flat_map(|y| (0..own.width()).map(move |x| (x, y))) {
+            let (a, b) = (region(own, x, y), region(other, x, y));
+            let one = |yes: bool| f64::from(u8::from(yes));
+            *all += 1.0;
+            *srs += one(ideal.srs[a] != candidate.srs[b]);
+            *trs += one(ideal.trs[a] != candidate.trs[b]);
+            *action += one(ideal.actions[a] != candidate.actions[b]);
+            let active = (ideal.srs[a] && ideal.trs[a], candidate.srs[b] && candidate.trs[b]);
+            *mine += one(active.0);
+            *theirs += one(active.1);
+            *both += one(active.0 && active.1);
+            *either += one(active.0 || active.1);
+        }
+    }
+    let [all, srs, trs, action, mine, theirs, both, either] = counts;
+    let expected = [
+        (figures.srs_flips, srs / all),
+        (figures.trs_flips, trs / all),
+        (figures.action_flips, action / all),
+        (figures.missed, share(mine - both, mine, 0.0)),
+        (figures.false_alarms, share(theirs - both, theirs, 0.0)),
+        (figures.active_iou, share(both, either, 1.0)),
+        (figures.active, theirs / all),
+        (figures.ideal_active, mine / all),
+    ];
+    for (at, (figure, expected)) in expected.into_iter().enumerate() {
+        assert_eq!(figure, expected, "decision {at}");
+    }
+}
+
+/// Staleness, pixel by pixel; `shown` are the screens at the depth of the ideal.
+fn check_staleness(figures: &Figures, frames: &[Frame], shown: &[Vec<u16>], own: &Design) {
+    let (mut max, mut sum, mut seen) = (0.0_f64, 0.0, 0.0);
+    let (mut relevant, mut stale, mut longest) = (0.0, 0.0, 0);
+    let mut runs = vec![0_u64; own.regions() as usize];
+    for (Frame { ideal, .. }, shown) in frames.iter().zip(shown) {
+        let mut above = vec![0; runs.len()];
+        let mut inside = vec![0; runs.len()];
+        for (at, (&scene, &shown)) in ideal.denoised.iter().zip(shown).enumerate() {
+            let at = u32::try_from(at).unwrap();
+            let region = region(own, at % own.width(), at / own.width());
+            let difference = (scene - f64::from(shown)).abs();
+            inside[region] += 1;
+            above[region] += u32::from(difference > f64::from(own.temporal().level));
+            if ideal.srs[region] {
+                max = max.max(difference);
+                sum += difference;
+                seen += 1.0;
+            }
+        }
+        for (region, run) in runs.iter_mut().enumerate() {
+            let needed = own.temporal().min_count.max(1).min(inside[region]);
+            let is_stale = ideal.srs[region] && above[region] >= needed;
+            relevant += f64::from(u8::from(ideal.srs[region]));
+            stale += f64::from(u8::from(is_stale));
+            *run = if is_stale { *run + 1 } else { 0 };
+            longest = longest.max(*run);
+        }
+    }
+    let staleness = &figures.staleness;
+    assert_eq!(staleness.max, max);
+    assert_eq!(staleness.mean, share(sum, seen, 0.0));
+    assert_eq!((staleness.longest, staleness.share), (longest, share(stale, relevant, 0.0)));
+}
+
+fn check_scores(figures: &Figures, frames: &[Frame], own: &Design, other: &Design) {
+    if own.region_size() != other.region_size() {
+        assert!(figures.scores.is_empty());
+        return;
+    }
+    let n = f64::from(own.region_pixels());
+    let real = |score: u64| f64::from(u32::try_from(score).unwrap());
+    let (mut edge, mut temporal) = (Vec::new(), Vec::new());
+    for Frame { ideal, candidate, .. } in frames {
+        for region in 0..ideal.srs.len() {
+            edge.push((ideal.scores[0][region] - real(candidate.scores[0][region])).abs() / n);
+            let count = f64::from(candidate.temporal_count[region]);
+            temporal.push((ideal.changed[region] - count).abs() / n);
+        }
+    }
+    assert_eq!(figures.scores.len(), 2);
+    for (error, (name, all)) in figures.scores.iter().zip([("edge", edge), ("temporal", temporal)])
+    {
+        assert_eq!(
+            (error.feature.as_str(), error.unit.as_str()),
+            (name, "share of the region's pixels")
+        );
+        let rms = mean(&all.iter().map(|error| error * error).collect::<Vec<_>>()).sqrt();
+        let max = all.iter().copied().fold(0.0, f64::max);
+        for (figure, expected) in [(error.max, max), (error.mean, mean(&all)), (error.rms, rms)] {
+            assert!((figure - expected).abs() < 1e-9, "{name}: {figure} {expected}");
+        }
+    }
+}
+
+fn check(own: &Design, other: &Design, seed: u64, count: usize) {
+    let mut random = Random(seed);
+    let frames: Vec<Frame> = (0..count).map(|_| made_up(&mut random, own, other)).collect();
+    let mut fidelity = Fidelity::new(own, other).unwrap();
+    for frame in &frames {
+        let input: Raster = raster(own, frame.input.clone());
+        let shown = raster(other, frame.screen.clone());
+        fidelity.add(&input, &frame.ideal, &frame.candidate, shown.plane()).unwrap();
+    }
+    let figures = fidelity.into_tally().figures();
+    let depths = (other.pixel_bits(), own.pixel_bits());
+    let shown = |frame: &Frame| -> Vec<u16> {
+        frame.screen.iter().map(|&pixel| convert_depth(pixel, depths.0, depths.1)).collect()
+    };
+    let shown: Vec<_> = frames.iter().map(shown).collect();
+    check_decisions(&figures, &frames, own, other);
+    check_staleness(&figures, &frames, &shown, own);
+    check_pictures(&figures, &frames, &shown, own);
+    check_scores(&figures, &frames, own, other);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn figures_are_what_a_count_of_pixels_gives(
+        size in (1_u32..150, 1_u32..40),
+        sides in (2_u32..20, 2_u32..20, any::<bool>()),
+        bits in (prop_oneof![Just(8_u32), 1..=16_u32], prop_oneof![Just(8_u32), 1..=16_u32]),
+        thresholds in (0_u32..3, 0_u32..5),
+        seed in any::<u64>(),
+        count in 1_usize..5,
+    ) {
+        let (own, other) = (sides.0, if sides.2 { sides.0 } else { sides.1 });
+        let mut ideal = config(size, own, bits.0);
+        let max = (1_u32 << bits.0) - 1;
+        ideal.temporal.level = max * thresholds.0 / 3;
+        ideal.temporal.min_count = (own * own * thresholds.1 / 6).min(own * own);
+        let ideal = ideal.validate().unwrap();
+        check(&ideal, &config(size, other, bits.1).validate().unwrap(), seed, count);
+    }
+}

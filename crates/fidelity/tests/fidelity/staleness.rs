@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How old a screen is: exact numbers by hand.
+
+use foveate_engine::Raster;
+use foveate_fidelity::{Fidelity, Staleness};
+use foveate_spec::{Config, Decimal, Design, Reference};
+
+use crate::made::{blank, blank_ideal, config, pixels, raster, tally};
+
+/// Every region is relevant; a pixel has changed when it differs by more than 2.
+fn fading(reference: Reference) -> Design {
+    let mut config = config((16, 8), 8, 8);
+    config.spatial[0].min_score = Some(Decimal::whole(0));
+    config.temporal.level = 2;
+    config.temporal.reference = reference;
+    config.validate().unwrap()
+}
+
+fn fade(design: &Design, frames: u16) -> Vec<Raster> {
+    (0..frames).map(|level| raster(design, vec![10 + level; pixels(design)])).collect()
+}
+
+/// `previous` sends the first of eight frames and never sees one level per frame: its screen stays at 10
+/// while the scene goes to 17. Frames 3 to 7 differ by more than 2.
+#[test]
+fn a_fade_is_stale_once_it_has_left_the_level_behind() {
+    let (ideal, candidate) = (fading(Reference::LastSent), fading(Reference::Previous));
+    let figures = tally(&ideal, &candidate, &fade(&ideal, 8)).figures();
+    let expected = Staleness { max: 7.0, mean: 28.0 / 8.0, longest: 5, share: 5.0 / 8.0 };
+    assert_eq!(figures.staleness, expected);
+    // The ideal sends at 0, 3 and 6.
+    assert_eq!((figures.ideal_active, figures.active), (3.0 / 8.0, 1.0 / 8.0));
+    assert_eq!((figures.missed, figures.false_alarms), (2.0 / 3.0, 0.0));
+    // Squared differences of the screens: 9 in frames 3 to 5, 36 in 6 and 7.
+    let mse: f64 = (3.0 * 9.0 + 2.0 * 36.0) / 8.0;
+    assert_eq!(figures.psnr_ideal, Some(10.0 * (255.0 * 255.0 / mse).log10()));
+}
+
+#[test]
+fn what_was_sent_is_never_stale() {
+    let design = fading(Reference::LastSent);
+    let figures = tally(&design, &design, &fade(&design, 8)).figures();
+    // 0 1 2 0 1 2 0 1
+    let expected = Staleness { max: 2.0, mean: 7.0 / 8.0, longest: 0, share: 0.0 };
+    assert_eq!(figures.staleness, expected);
+}
+
+/// One region, made up: relevant or not, and how many of its pixels the screen is 9 away from.
+fn watched(config: &Config, frames: &[(bool, usize)], cut: Option<usize>) -> Staleness {
+    let design = config.validate().unwrap();
+    let mut fidelity = Fidelity::new(&design, &design).unwrap();
+    let input = raster(&design, vec![0; pixels(&design)]);
+    for (number, &(srs, away)) in frames.iter().enumerate() {
+        if cut == Some(number) {
+            fidelity.next_clip();
+        }
+        let mut ideal = blank_ideal(&design);
+        ideal.srs = vec![srs];
+        ideal.denoised[..away].fill(9.0);
+        fidelity.add(&input, &ideal, &blank(&design), input.plane()).unwrap();
+    }
+    fidelity.tally().figures().staleness
+}
+
+#[test]
+fn a_frame_that_is_not_relevant_or_not_stale_ends_a_run() {
+    let mut config = config((8, 8), 8, 8);
+    (config.temporal.level, config.temporal.min_count) = (8, 3);
+    let run = |frames: &[(bool, usize)]| {
+        let staleness = watched(&config, frames, None);
+        (staleness.longest, staleness.share)
+    };
+    assert_eq!(run(&[(true, 3); 5]), (5, 1.0));
+    assert_eq!(run(&[(true, 3), (true, 3), (false, 3), (true, 64)]), (2, 1.0));
+    assert_eq!(run(&[(true, 3), (true, 2), (true, 4), (true, 4)]), (2, 0.75));
+    assert_eq!(run(&[(false, 64); 3]), (0, 0.0));
+    let cut = watched(&config, &[(true, 3); 5], Some(2));
+    assert_eq!((cut.longest, cut.share), (3, 1.0), "a clip ends every run");
+    config.temporal.level = 9;
+    assert_eq!(watched(&config, &[(true, 64)], None).share, 0.0, "9 is not more than 9");
+}
+
+#[test]
+fn a_minimum_of_zero_is_one_and_more_than_there_are_is_all() {
+    let mut config = config((8, 8), 8, 8);
+    (config.temporal.level, config.temporal.min_count) = (8, 0);
+    assert_eq!(watched(&config, &[(true, 0), (true, 1)], None).share, 0.5);
+    // 2x3 pixels of an 8x8 region are inside of the frame.
+    (config.frame.width, config.frame.height) = (Some(2), Some(3));
+    config.temporal.min_count = 20;
+    assert_eq!(watched(&config, &[(true, 5), (true, 6)], None).share, 0.5);
+}
