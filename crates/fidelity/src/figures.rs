@@ -40,7 +40,8 @@ pub struct Figures {
     /// PSNR of the candidate's screen against the input.
     pub psnr_input: Option<f64>,
     /// SSIM of the candidate's screen against the ideal's, mean over frames of that of ffmpeg's filter
-    /// `ssim`; at most 1.
+    /// `ssim`; at most 1. (Of its C code: its assembler for x86 errs where width / 4 is 2 more than a
+    /// multiple of 4.) A frame less than 8 wide or high is one window.
     pub ssim_ideal: f64,
     /// SSIM of the candidate's screen against the input.
     pub ssim_input: f64,
