@@ -19,6 +19,7 @@ mod samples;
 mod sets;
 mod simulation;
 mod source;
+mod subject;
 mod video;
 mod y4m;
 
@@ -41,3 +42,4 @@ pub use source::form::{IdxFile, Labels, SetFiles, SetForm};
 pub use source::resize::Crop;
 pub use source::select::{Selection, parse_time};
 pub use source::{FrameRate, Kind, Source, SourceFrame};
+pub use subject::{Subject, subjects};

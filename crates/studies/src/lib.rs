@@ -7,7 +7,6 @@
 //! frame for all points of a study, and the same inputs give the same bytes on any number of cores.
 
 mod chart;
-mod clip;
 mod error;
 mod number;
 mod rank;

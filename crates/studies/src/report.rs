@@ -3,14 +3,13 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_simulator::{BatchHooks, InputOptions};
+use foveate_simulator::{BatchHooks, InputOptions, subjects};
 use foveate_spec::Config;
 use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
 
 use crate::StudyError;
 use crate::chart::Chart;
-use crate::clip::subjects;
 use crate::study::Study;
 use crate::table::Table;
 use crate::watch::{Watched, Watcher};

@@ -6,12 +6,13 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use foveate_engine::{Engine, Outcome};
-use foveate_simulator::{BatchHooks, BatchProgress, InputOptions, Kind, SimulatorError, open};
+use foveate_simulator::{
+    BatchHooks, BatchProgress, InputOptions, Kind, SimulatorError, Subject, open,
+};
 use foveate_spec::{Config, Design};
 use rayon::prelude::*;
 
 use crate::StudyError;
-use crate::clip::Subject;
 
 /// What was seen of one clip: a value per design.
 #[derive(Debug)]

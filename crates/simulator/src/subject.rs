@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a study is about: every input is a clip or set with a name, a folder of clips several.
+//! What is looked at side by side: every input is a clip or set with a name, a folder of clips several.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use foveate_simulator::{ImagesAs, InputOptions, Plan, plan};
+use crate::{ImagesAs, InputOptions, Plan, SimulatorError, plan};
 
-use crate::StudyError;
-
-/// A clip or set of a study.
+/// A clip or set with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Subject {
+pub struct Subject {
     /// Its name in tables and charts, different from that of all others.
-    pub(crate) name: String,
-    pub(crate) inputs: Vec<PathBuf>,
+    pub name: String,
+    /// What [`open`](crate::open) takes.
+    pub inputs: Vec<PathBuf>,
 }
 
 /// Image files together are one clip, as everywhere, unless they are sheets of many; else every input stands for itself.
-pub(crate) fn subjects(
+///
+/// # Errors
+/// As [`plan`].
+pub fn subjects(
     inputs: &[PathBuf],
     options: &InputOptions,
-) -> Result<Vec<Subject>, StudyError> {
+) -> Result<Vec<Subject>, SimulatorError> {
     let mut found = Vec::new();
     let sheets = options.images == ImagesAs::CifarSheet;
     if inputs.len() > 1 && !sheets && matches!(plan(inputs, options), Ok(Plan::One)) {
