@@ -117,7 +117,8 @@ impl SpatialConfig {
     }
 
     /// The entry with every key that applies to its feature filled in.
-    pub(crate) fn with_defaults(&self) -> Self {
+    #[must_use]
+    pub fn with_defaults(&self) -> Self {
         let (level, min_score, fraction) = match self.feature {
             FeatureKind::Edge => (Some(100), 5, None),
             FeatureKind::Corner => (Some(20), 5, None),

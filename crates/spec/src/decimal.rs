@@ -41,6 +41,17 @@ impl Decimal {
         Some(Self { digits: format!("{whole}{fraction}").parse().ok()?, scale })
     }
 
+    /// `billionths / 10^9`.
+    #[must_use]
+    pub const fn billionths(billionths: u64) -> Self {
+        let (mut digits, mut scale) = (billionths, MAX_SCALE);
+        while scale > 0 && digits.is_multiple_of(10) {
+            digits /= 10;
+            scale -= 1;
+        }
+        Self { digits, scale }
+    }
+
     /// The smallest integer that is at least `self * factor`.
     #[must_use]
     pub fn ceil_times(self, factor: u64) -> u128 {
@@ -115,6 +126,14 @@ mod tests {
         assert_eq!(tenth.ceil_times(641), 65);
         assert_eq!(Decimal::from_f64(4.35).unwrap().ceil_times(100), 435);
         assert_eq!(Decimal::whole(5).ceil_times(64), 320);
+    }
+
+    #[test]
+    fn billionths_are_kept_in_the_shortest_form() {
+        assert_eq!(Decimal::billionths(625_000_000), Decimal::from_f64(0.625).unwrap());
+        assert_eq!(Decimal::billionths(5_000_000_000), Decimal::whole(5));
+        assert_eq!(Decimal::billionths(0), Decimal::whole(0));
+        assert_eq!(Decimal::billionths(1).to_string(), "0.000000001");
     }
 
     #[test]

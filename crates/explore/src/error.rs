@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can go wrong. Every message names the thing and says what would be right.
+
+use std::path::PathBuf;
+
+use foveate_engine::EngineError;
+use foveate_estimate::EstimateError;
+use foveate_fidelity::FidelityError;
+use foveate_ideal::IdealError;
+use foveate_simulator::SimulatorError;
+use foveate_spec::SpecError;
+use foveate_staging::StagingError;
+use thiserror::Error;
+
+/// An exploration that cannot be started or finished.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExploreError {
+    /// The file of the space says something that is no space.
+    #[error("the space: {problem}")]
+    Space {
+        /// What is wrong.
+        problem: String,
+    },
+    /// A part of the file is no design.
+    #[error("the space, [{section}]: {error}")]
+    Section {
+        /// The table of the file.
+        section: &'static str,
+        /// What is wrong.
+        error: SpecError,
+    },
+    /// No point of the space can be built.
+    #[error("no point of the space is a design; the first, {settings}: {reason}")]
+    NoPoints {
+        /// What was asked for.
+        settings: String,
+        /// Why it cannot be built.
+        reason: String,
+    },
+    /// Clips of different sizes.
+    #[error(
+        "`{first}` has {first_size} pixels and `{other}` {other_size}; give all one size with --resize"
+    )]
+    Sizes {
+        /// A clip.
+        first: String,
+        /// Its size.
+        first_size: String,
+        /// Another one.
+        other: String,
+        /// Its size.
+        other_size: String,
+    },
+    /// A clip without enough frames.
+    #[error("`{clip}` has {frames} frames; at least {least} are needed")]
+    Short {
+        /// The clip.
+        clip: String,
+        /// How many it has.
+        frames: u64,
+        /// How many are needed.
+        least: u64,
+    },
+    /// A folder that holds something else.
+    #[error("`{}` is there and is no exploration (it has no exploration.json); name another folder", path.display())]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file of the exploration cannot be written or read.
+    #[error("cannot {action} `{}`: {source}", path.display())]
+    Io {
+        /// What was tried.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The table cannot be written as Parquet.
+    #[error("cannot write `{}` as Parquet: {problem}", path.display())]
+    Parquet {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// An input cannot be read.
+    #[error(transparent)]
+    Simulator(Box<SimulatorError>),
+    /// A configuration that is no design.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// The engine refused a frame.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// The ideal camera refused a frame.
+    #[error(transparent)]
+    Ideal(#[from] IdealError),
+    /// A design cannot be compared with the ideal.
+    #[error(transparent)]
+    Fidelity(#[from] FidelityError),
+    /// The synthesis failed.
+    #[error(transparent)]
+    Estimate(#[from] EstimateError),
+    /// A file or folder cannot be written.
+    #[error(transparent)]
+    Output(#[from] StagingError),
+    /// The page cannot be written; this is a mistake of the program.
+    #[error("cannot write the page: {problem}")]
+    Page {
+        /// What is wrong.
+        problem: String,
+    },
+    /// The user stopped it; what was finished is kept.
+    #[error("interrupted")]
+    Cancelled,
+}
+
+impl From<SimulatorError> for ExploreError {
+    fn from(error: SimulatorError) -> Self {
+        Self::Simulator(Box::new(error))
+    }
+}
+
+impl ExploreError {
+    pub(crate) fn io(
+        action: &'static str,
+        path: &std::path::Path,
+    ) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Io { action, path, source }
+    }
+}

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From a space and clips to a folder of tables, fronts, configurations and one page.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use foveate_simulator::InputOptions;
+use foveate_spec::{Config, Design};
+use foveate_staging::write_file;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::cost::{Silicon, distinct};
+use crate::footage::Footage;
+use crate::front::front;
+use crate::measure::Measured;
+use crate::row::{Fronts, Row, real};
+use crate::store::{Store, functional};
+use crate::table::{Table, errors, point};
+use crate::{ExploreError, Hooks, Point, Progress, Refused, Space, Synthesizer};
+
+/// What is explored.
+#[derive(Clone, Debug)]
+pub struct Request<'a> {
+    /// The designs.
+    pub space: &'a Space,
+    /// Clips and sets of one size, one each; image files together are one clip.
+    pub inputs: &'a [PathBuf],
+    /// How they are read.
+    pub input: &'a InputOptions,
+    /// For areas; without it there are none.
+    pub synthesizer: Option<&'a Synthesizer>,
+}
+
+/// What an exploration found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Exploration {
+    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    pub format_version: u32,
+    /// The program.
+    pub program: String,
+    /// Clips with their frames.
+    pub clips: Vec<ClipRow>,
+    /// Width and height of a frame.
+    pub size: (u32, u32),
+    /// The camera that designs are compared with, as TOML.
+    pub ideal: String,
+    /// Clock of the frame rates in MHz.
+    pub clock_mhz: u32,
+    /// Keys of the configuration that vary.
+    pub axes: Vec<String>,
+    /// The points.
+    pub rows: Vec<Row>,
+    /// Combinations that are no design.
+    pub refused: Vec<Refused>,
+    /// Clips that ended before their end, and why.
+    pub problems: Vec<String>,
+}
+
+/// A clip of an exploration.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ClipRow {
+    /// Its name.
+    pub name: String,
+    /// Its frames.
+    pub frames: u64,
+}
+
+/// Says that a folder is an exploration, and what of.
+const MARK: &str = "exploration.json";
+
+/// Runs an exploration and writes `output`. What is finished is kept there, so that a run that was
+/// interrupted goes on where it was.
+///
+/// # Errors
+/// When an input cannot be read, no point is a design, Yosys fails, the folder holds something else or
+/// cannot be written, or `hooks` cancels.
+pub fn explore(
+    request: &Request<'_>,
+    output: &Path,
+    hooks: &dyn Hooks,
+) -> Result<Exploration, ExploreError> {
+    let space = request.space;
+    let footage = Footage::new(request.inputs, request.input, &space.ideal, hooks)?;
+    let (width, height) = footage.size;
+    let (points, refused) = space.points(width, height);
+    if points.is_empty() {
+        let Refused { settings, reason } = refused.into_iter().next().unwrap_or_default();
+        return Err(ExploreError::NoPoints { settings, reason });
+    }
+    claim(output)?;
+    let store = Store::open(output)?;
+    let designs =
+        points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
+    let (looks, look_of) = looks(&points)?;
+    let measured = footage.measure(&looks, &store)?;
+    let silicon = silicon(request.synthesizer, &designs, hooks)?;
+    let mut rows = Vec::new();
+    for (index, (point, (design, silicon))) in
+        points.iter().zip(designs.iter().zip(silicon)).enumerate()
+    {
+        let of_point: Vec<&Measured> = measured.iter().map(|clip| &clip[look_of[index]]).collect();
+        let settings = point.settings.clone();
+        rows.extend(Row::new(index + 1, settings, design, &of_point, silicon, space.clock_mhz));
+    }
+    mark_fronts(&mut rows);
+    let of_clip = |(subject, measured): (&foveate_simulator::Subject, &Vec<Measured>)| ClipRow {
+        name: subject.name.clone(),
+        frames: measured.first().map_or(0, |first| first.tally.figures().frames),
+    };
+    let problem = |(subject, measured): (&foveate_simulator::Subject, &Vec<Measured>)| {
+        let problem = measured.iter().find_map(|one| one.problem.clone());
+        problem.map(|problem| format!("{}: {problem}", subject.name))
+    };
+    let exploration = Exploration {
+        format_version: 1,
+        program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
+        clips: footage.subjects.iter().zip(&measured).map(of_clip).collect(),
+        size: footage.size,
+        ideal: space.ideal.to_toml(),
+        clock_mhz: space.clock_mhz,
+        axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
+        rows,
+        refused,
+        problems: footage.subjects.iter().zip(&measured).filter_map(problem).collect(),
+    };
+    write(&exploration, &measured, &look_of, output)?;
+    Ok(exploration)
+}
+
+/// Makes the folder an exploration, unless it is something else.
+fn claim(output: &Path) -> Result<(), ExploreError> {
+    let occupied = fs::read_dir(output).is_ok_and(|mut entries| entries.next().is_some());
+    if occupied && !output.join(MARK).is_file() || output.is_file() {
+        return Err(ExploreError::Occupied { path: output.to_owned() });
+    }
+    fs::create_dir_all(output).map_err(ExploreError::io("make the folder", output))?;
+    let mark = output.join(MARK);
+    if mark.is_file() {
+        return Ok(());
+    }
+    Ok(write_file(&mark, b"{ \"finished\": false }\n")?)
+}
+
+/// The designs that look different to a camera, and for each point which of them it is: how an array
+/// is built does not change what it computes.
+fn looks(points: &[Point]) -> Result<(Vec<Design>, Vec<usize>), ExploreError> {
+    let (mut looks, mut numbers, mut of_point) = (Vec::new(), BTreeMap::new(), Vec::new());
+    for point in points {
+        let functional: Config = functional(&point.config);
+        let next = numbers.len();
+        let number = *numbers.entry(functional.to_toml()).or_insert(next);
+        if number == next {
+            looks.push(functional.validate()?);
+        }
+        of_point.push(number);
+    }
+    Ok((looks, of_point))
+}
+
+/// The area of every design, once for every distinct RTL.
+fn silicon(
+    synthesizer: Option<&Synthesizer>,
+    designs: &[Design],
+    hooks: &dyn Hooks,
+) -> Result<Vec<Option<Silicon>>, ExploreError> {
+    let Some(synthesizer) = synthesizer else { return Ok(vec![None; designs.len()]) };
+    let (keys, jobs) = distinct(designs.iter());
+    let done = AtomicUsize::new(0);
+    let all = jobs.len();
+    let areas = jobs.par_iter().map(|(key, job)| {
+        if hooks.cancelled() {
+            return Err(ExploreError::Cancelled);
+        }
+        let area = synthesizer.area(job)?;
+        hooks.progress(Progress::Synthesizing {
+            done: 1 + done.fetch_add(1, Ordering::Relaxed),
+            all,
+        });
+        Ok((key.as_str(), area))
+    });
+    let areas = areas.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
+    Ok(keys.iter().map(|key| areas.get(key.as_str()).cloned()).collect())
+}
+
+fn mark_fronts(rows: &mut [Row]) {
+    let error = |row: &Row| Some(row.figures.action_flips);
+    let clocks = |row: &Row| Some(real(row.clocks_per_frame));
+    let speed: Vec<_> = rows.iter().map(|row| [error(row), clocks(row)]).collect();
+    let area: Vec<_> = rows.iter().map(|row| [error(row), row.luts()]).collect();
+    let all: Vec<_> = rows.iter().map(|row| [error(row), clocks(row), row.luts()]).collect();
+    let (speed, area, all) = (front(&speed), front(&area), front(&all));
+    let synthesized = rows.iter().any(|row| row.silicon.is_some());
+    for (index, row) in rows.iter_mut().enumerate() {
+        let all = if synthesized { all[index] } else { speed[index] };
+        row.front = Fronts { speed: speed[index], area: area[index], all };
+    }
+}
+
+fn write(
+    exploration: &Exploration,
+    measured: &[Vec<Measured>],
+    look_of: &[usize],
+    output: &Path,
+) -> Result<(), ExploreError> {
+    let rows = &exploration.rows;
+    let table = |rows: &mut dyn Iterator<Item = &Row>| {
+        Table::of(rows.map(|row| point(row, &exploration.axes)))
+    };
+    let points = table(&mut rows.iter());
+    write_file(&output.join("points.csv"), points.csv().as_bytes())?;
+    points.write_parquet(&output.join("points.parquet"))?;
+    let pareto = table(&mut rows.iter().filter(|row| row.front.all));
+    write_file(&output.join("pareto.csv"), pareto.csv().as_bytes())?;
+    let clips = exploration.clips.iter().zip(measured).flat_map(|(clip, measured)| {
+        rows.iter().map(move |row| {
+            let figures = measured[look_of[row.number - 1]].tally.figures();
+            let mut cells = crate::table::names(row.number, &clip.name);
+            cells.extend(errors(&figures));
+            cells
+        })
+    });
+    write_file(&output.join("clips.csv"), Table::of(clips).csv().as_bytes())?;
+    let designs = output.join("designs");
+    fs::create_dir_all(&designs).map_err(ExploreError::io("make the folder", &designs))?;
+    for row in rows {
+        let name = designs.join(format!("{}.toml", row.number));
+        write_file(&name, row.config.to_toml().as_bytes())?;
+    }
+    // Plain data with text keys: this cannot fail.
+    let json = serde_json::to_string_pretty(exploration).unwrap_or_default() + "\n";
+    write_file(&output.join(MARK), json.as_bytes())?;
+    write_file(&output.join("report.html"), crate::report::page(exploration)?.as_bytes())?;
+    Ok(())
+}

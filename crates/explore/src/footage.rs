@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The clips of a run and what is measured on them, what is finished taken from the store.
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use foveate_fidelity::{Figures, Tally};
+use foveate_simulator::{InputOptions, Source, Subject, open, subjects};
+use foveate_spec::{Config, Design};
+
+use crate::measure::{Clip, Measured};
+use crate::store::{Store, identity, key};
+use crate::{ExploreError, Hooks, Progress};
+
+/// Designs that see a clip together. Many share the work of decoding and of the ideal camera; few lose
+/// less when interrupted.
+const TOGETHER: usize = 16;
+
+/// Clips of one size.
+pub(crate) struct Footage<'a> {
+    pub(crate) subjects: Vec<Subject>,
+    /// Width and height.
+    pub(crate) size: (u32, u32),
+    input: &'a InputOptions,
+    ideal: &'a Config,
+    hooks: &'a dyn Hooks,
+}
+
+impl<'a> Footage<'a> {
+    /// Looks at the inputs; sizes of scenes and bits per pixel are those of the ideal.
+    pub(crate) fn new(
+        inputs: &[PathBuf],
+        input: &'a InputOptions,
+        ideal: &'a Config,
+        hooks: &'a dyn Hooks,
+    ) -> Result<Self, ExploreError> {
+        let subjects = subjects(inputs, input)?;
+        let mut first: Option<(&str, (u32, u32))> = None;
+        for subject in &subjects {
+            let size = open(&subject.inputs, ideal, input)?.size();
+            let (name, expected) = *first.get_or_insert((&subject.name, size));
+            if size != expected {
+                let text = |(width, height)| format!("{width}x{height}");
+                return Err(ExploreError::Sizes {
+                    first: name.to_owned(),
+                    first_size: text(expected),
+                    other: subject.name.clone(),
+                    other_size: text(size),
+                });
+            }
+        }
+        let size = first.map_or((0, 0), |(_, size)| size);
+        Ok(Self { subjects, size, input, ideal, hooks })
+    }
+
+    /// For every clip and design what was seen of it over the whole clip.
+    pub(crate) fn measure(
+        &self,
+        designs: &[Design],
+        store: &Store,
+    ) -> Result<Vec<Vec<Measured>>, ExploreError> {
+        let all = self.subjects.len() * designs.len();
+        let done = AtomicUsize::new(0);
+        let mut results = Vec::new();
+        for subject in &self.subjects {
+            let clip = identity(subject, self.input);
+            let keys: Vec<String> =
+                designs.iter().map(|design| key(&clip, self.ideal, design.config())).collect();
+            let mut found: Vec<Option<Measured>> = keys.iter().map(|key| store.get(key)).collect();
+            done.fetch_add(found.iter().flatten().count(), Ordering::Relaxed);
+            let missing: Vec<usize> =
+                (0..designs.len()).filter(|&index| found[index].is_none()).collect();
+            for some in missing.chunks(TOGETHER) {
+                let tell = || Progress::Measuring { done: done.load(Ordering::Relaxed), all };
+                let together: Vec<Design> =
+                    some.iter().map(|&index| designs[index].clone()).collect();
+                let measured =
+                    self.parts(subject, &together, std::slice::from_ref(&(0..u64::MAX)), &tell)?;
+                for (&index, mut parts) in some.iter().zip(measured) {
+                    let Some(measured) = parts.pop() else { continue };
+                    store.put(&keys[index], &measured)?;
+                    found[index] = Some(measured);
+                    done.fetch_add(1, Ordering::Relaxed);
+                }
+            }
+            results.push(found.into_iter().flatten().collect());
+        }
+        Ok(results)
+    }
+
+    /// A clip from its beginning.
+    pub(crate) fn open(&self, subject: &Subject) -> Result<Box<dyn Source>, ExploreError> {
+        Ok(open(&subject.inputs, self.ideal, self.input)?)
+    }
+
+    /// For every design its figures over the first halves of all clips; `halves` says for each clip how
+    /// many frames that is.
+    pub(crate) fn first_halves(
+        &self,
+        designs: &[Design],
+        halves: &[(u64, u64)],
+        tell: &(dyn Fn() -> Progress + Sync),
+    ) -> Result<Vec<Figures>, ExploreError> {
+        let mut found = Vec::new();
+        for some in designs.chunks(TOGETHER) {
+            let mut sums: Vec<Option<Tally>> = vec![None; some.len()];
+            for (subject, &(half, _)) in self.subjects.iter().zip(halves) {
+                let measured = self.parts(subject, some, std::slice::from_ref(&(0..half)), tell)?;
+                for (sum, part) in sums.iter_mut().zip(measured.into_iter().flatten()) {
+                    match sum {
+                        Some(sum) => sum.merge(&part.tally),
+                        None => *sum = Some(part.tally),
+                    }
+                }
+            }
+            found.extend(sums.iter().flatten().map(Tally::figures));
+        }
+        Ok(found)
+    }
+
+    /// What was seen of designs in parts of one clip, measured now.
+    pub(crate) fn parts(
+        &self,
+        subject: &Subject,
+        designs: &[Design],
+        parts: &[Range<u64>],
+        tell: &(dyn Fn() -> Progress + Sync),
+    ) -> Result<Vec<Vec<Measured>>, ExploreError> {
+        let go_on = || {
+            self.hooks.progress(tell());
+            !self.hooks.cancelled()
+        };
+        let clip = Clip { subject, input: self.input, ideal: self.ideal, parts, go_on: &go_on };
+        clip.measure(designs)
+    }
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A clip through the ideal camera once, and through the engine of every design beside it.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+use std::time::Instant;
+
+use foveate_engine::{Engine, Raster};
+use foveate_fidelity::{Fidelity, Tally};
+use foveate_ideal::{IdealCamera, IdealOutcome};
+use foveate_simulator::{InputOptions, Kind, SimulatorError, Source, Subject, convert_depth, open};
+use foveate_spec::{Config, Design};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::ExploreError;
+
+/// Frames that are ready before the engines ask for them.
+const AHEAD: usize = 2;
+
+/// What was seen of a design over a part of a clip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Measured {
+    /// Errors against the ideal.
+    pub(crate) tally: Tally,
+    /// Time in the engine, beside whatever else the machine did.
+    pub(crate) seconds: f64,
+    /// Why the clip ended before its end, if it did.
+    pub(crate) problem: Option<String>,
+}
+
+/// A clip with what it is compared with.
+pub(crate) struct Clip<'a> {
+    pub(crate) subject: &'a Subject,
+    pub(crate) input: &'a InputOptions,
+    /// The camera that designs are compared with, for frames of the clip's size.
+    pub(crate) ideal: &'a Config,
+    /// Parts of the clip, by the numbers of their frames, that are measured apart.
+    pub(crate) parts: &'a [Range<u64>],
+    /// Called after every frame; says whether to go on.
+    pub(crate) go_on: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// A frame and what the ideal camera makes of it.
+struct Judged {
+    number: u64,
+    frame: Raster,
+    ideal: IdealOutcome,
+}
+
+/// A design at work.
+struct Candidate {
+    engine: Engine,
+    bits: u32,
+    /// One for each part.
+    fidelity: Vec<Fidelity>,
+    seconds: Vec<f64>,
+}
+
+impl Clip<'_> {
+    /// For every design what was seen of it in every part.
+    pub(crate) fn measure(&self, designs: &[Design]) -> Result<Vec<Vec<Measured>>, ExploreError> {
+        let source = open(&self.subject.inputs, self.ideal, self.input)?;
+        let (width, height) = source.size();
+        let mut ideal = self.ideal.clone();
+        ideal.fit_frame(width, height)?;
+        let ideal = &ideal.validate()?;
+        let candidate = |design| Candidate::new(ideal, design, self.parts.len());
+        let mut candidates = designs.iter().map(candidate).collect::<Result<Vec<_>, _>>()?;
+        let set = source.kind() == Kind::Set;
+        let problem = thread::scope(|scope| {
+            let (give, take) = sync_channel(AHEAD);
+            let end = self.parts.iter().map(|part| part.end).max().unwrap_or(0);
+            let judge = scope.spawn(move || judge(source, ideal, end, &give));
+            let seen = self.watch(&mut candidates, set, take);
+            let problem = judge.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            // What stopped the engines explains why nobody took the frames.
+            seen.and(problem)
+        })?;
+        let measured = |candidate: Candidate| {
+            let parts = candidate.fidelity.into_iter().zip(candidate.seconds);
+            let one = |(fidelity, seconds): (Fidelity, f64)| Measured {
+                tally: fidelity.tally().clone(),
+                seconds,
+                problem: problem.clone(),
+            };
+            parts.map(one).collect()
+        };
+        Ok(candidates.into_iter().map(measured).collect())
+    }
+
+    /// Shows every frame to every candidate.
+    fn watch(
+        &self,
+        candidates: &mut [Candidate],
+        set: bool,
+        frames: Receiver<Judged>,
+    ) -> Result<(), ExploreError> {
+        for judged in frames {
+            if !(self.go_on)() {
+                return Err(ExploreError::Cancelled);
+            }
+            let part = self.parts.iter().position(|part| part.contains(&judged.number));
+            let Some(part) = part else { continue };
+            let frames = at_depths(&judged.frame, candidates.iter().map(|one| one.bits))?;
+            candidates.par_iter_mut().try_for_each(|one| one.see(&judged, &frames, part, set))?;
+        }
+        Ok(())
+    }
+}
+
+/// Decodes the clip and shows it to the ideal camera until frame `end`, or nobody listens. Says why it ended
+/// before its end, if it did.
+fn judge(
+    mut source: Box<dyn Source>,
+    ideal: &Design,
+    end: u64,
+    give: &SyncSender<Judged>,
+) -> Result<Option<String>, ExploreError> {
+    let mut camera = IdealCamera::new(ideal);
+    let mut number = 0;
+    while number < end {
+        let Some(current) = source.next_frame()? else { return Ok(source.problem()) };
+        if source.kind() == Kind::Set {
+            camera.reset();
+        }
+        let ideal = camera.step(&current.frame)?.clone();
+        if give.send(Judged { number, frame: current.frame, ideal }).is_err() {
+            return Ok(None);
+        }
+        number += 1;
+    }
+    Ok(None)
+}
+
+impl Candidate {
+    fn new(ideal: &Design, design: &Design, parts: usize) -> Result<Self, ExploreError> {
+        let fidelity = (0..parts).map(|_| Fidelity::new(ideal, design));
+        Ok(Self {
+            engine: Engine::new(design),
+            bits: design.pixel_bits(),
+            fidelity: fidelity.collect::<Result<_, _>>()?,
+            seconds: vec![0.0; parts],
+        })
+    }
+
+    fn see(
+        &mut self,
+        judged: &Judged,
+        frames: &BTreeMap<u32, Raster>,
+        part: usize,
+        set: bool,
+    ) -> Result<(), ExploreError> {
+        if set {
+            self.engine.reset();
+        }
+        let frame = frames.get(&self.bits).unwrap_or(&judged.frame);
+        let began = Instant::now();
+        self.engine.step_raster(frame)?;
+        self.seconds[part] += began.elapsed().as_secs_f64();
+        let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
+        Ok(self.fidelity[part].add(&judged.frame, &judged.ideal, outcome, screen)?)
+    }
+}
+
+/// The frame in every depth that is not its own.
+fn at_depths(
+    frame: &Raster,
+    depths: impl Iterator<Item = u32>,
+) -> Result<BTreeMap<u32, Raster>, ExploreError> {
+    let mut found = BTreeMap::new();
+    let (width, height, own) = (frame.width(), frame.height(), frame.bits());
+    for bits in depths.filter(|&bits| bits != own) {
+        if found.contains_key(&bits) {
+            continue;
+        }
+        let words = frame.plane().to_words().into_iter();
+        let pixels = words.map(|pixel| convert_depth(pixel, own, bits));
+        let raster = if bits <= 8 {
+            let bytes = pixels.map(|pixel| u8::try_from(pixel).unwrap_or(u8::MAX)).collect();
+            Raster::from_bytes(width, height, bits, bytes)
+        } else {
+            Raster::from_words(width, height, bits, pixels.collect())
+        };
+        found.insert(bits, raster.map_err(SimulatorError::from)?);
+    }
+    Ok(found)
+}

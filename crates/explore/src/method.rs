@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which combinations of the values of the axes are points.
+
+use std::collections::BTreeSet;
+
+use crate::space::Axis;
+
+/// The most points of a space.
+pub(crate) const MAX_POINTS: usize = 100_000;
+
+/// How the points of a space are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Every combination.
+    Grid,
+    /// The start, and every value of each axis alone: what one choice costs.
+    Each,
+    /// So many combinations, drawn without repetition.
+    Sample {
+        /// How many; all if there are no more.
+        points: usize,
+        /// Says which.
+        seed: u64,
+    },
+}
+
+impl Method {
+    pub(crate) fn parse(
+        name: Option<&str>,
+        points: Option<usize>,
+        seed: Option<u64>,
+    ) -> Result<Self, String> {
+        let own = match name.unwrap_or("grid") {
+            "grid" => Self::Grid,
+            "each" => Self::Each,
+            "sample" => {
+                let points = points.filter(|points| (1..=MAX_POINTS).contains(points));
+                let points = points.ok_or_else(|| {
+                    format!("method = \"sample\" needs points, 1 to {MAX_POINTS}")
+                })?;
+                return Ok(Self::Sample { points, seed: seed.unwrap_or(1) });
+            }
+            other => {
+                return Err(format!(
+                    "method = \"{other}\" is not known; it takes \"grid\", \"each\" or \"sample\""
+                ));
+            }
+        };
+        match points.map(|_| "points").or(seed.map(|_| "seed")) {
+            Some(key) => Err(format!("{key} is only for method = \"sample\"")),
+            None => Ok(own),
+        }
+    }
+
+    /// How many combinations there are to try; `None` when there are more than can be counted.
+    pub(crate) fn count(self, axes: &[Axis]) -> Option<usize> {
+        let all = axes.iter().try_fold(1_usize, |all, axis| all.checked_mul(axis.values.len()));
+        match self {
+            Self::Grid => all,
+            Self::Each => Some(1 + axes.iter().map(|axis| axis.values.len()).sum::<usize>()),
+            Self::Sample { points, .. } => all.map(|all| all.min(points)),
+        }
+    }
+
+    /// The combinations: for each axis the index of its value, or none for that of the start.
+    pub(crate) fn combinations(self, axes: &[Axis]) -> Vec<Vec<Option<usize>>> {
+        let all: usize = axes.iter().map(|axis| axis.values.len()).product();
+        let mixed = |mut number: usize| {
+            // The last axis runs fastest, as nested loops would.
+            let digit = |axis: &Axis| {
+                let digit = number % axis.values.len();
+                number /= axis.values.len();
+                Some(digit)
+            };
+            let mut digits: Vec<_> = axes.iter().rev().map(digit).collect();
+            digits.reverse();
+            digits
+        };
+        match self {
+            Self::Grid => (0..all).map(mixed).collect(),
+            Self::Sample { points, seed } => {
+                sample(all, points, seed).into_iter().map(mixed).collect()
+            }
+            Self::Each => {
+                let start = vec![None; axes.len()];
+                let alone = axes.iter().enumerate().flat_map(|(place, axis)| {
+                    let start = &start;
+                    (0..axis.values.len()).map(move |value| {
+                        let mut one = start.clone();
+                        one[place] = Some(value);
+                        one
+                    })
+                });
+                std::iter::once(start.clone()).chain(alone).collect()
+            }
+        }
+    }
+}
+
+/// Different numbers below `all`, in rising order.
+fn sample(all: usize, points: usize, seed: u64) -> BTreeSet<usize> {
+    if points >= all {
+        return (0..all).collect();
+    }
+    let mut chance = fastrand::Rng::with_seed(seed);
+    // Floyd's algorithm: as many draws as numbers.
+    let mut drawn = BTreeSet::new();
+    for last in all - points..all {
+        let number = chance.usize(0..=last);
+        if !drawn.insert(number) {
+            drawn.insert(last);
+        }
+    }
+    drawn
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axes(sizes: &[usize]) -> Vec<Axis> {
+        let axis = |&size: &usize| Axis {
+            key: "key".to_owned(),
+            values: (0..size).map(|value| value.to_string()).collect(),
+        };
+        sizes.iter().map(axis).collect()
+    }
+
+    #[test]
+    fn a_grid_is_every_combination_once() {
+        let found = Method::Grid.combinations(&axes(&[2, 3]));
+        let expected: Vec<Vec<_>> =
+            (0..2).flat_map(|a| (0..3).map(move |b| vec![Some(a), Some(b)])).collect();
+        assert_eq!(found, expected);
+        assert_eq!(Method::Grid.combinations(&[]), [vec![]]);
+        assert_eq!(Method::Grid.count(&axes(&[100; 10])), None);
+    }
+
+    #[test]
+    fn each_value_stands_alone() {
+        let found = Method::Each.combinations(&axes(&[1, 2]));
+        let expected =
+            [vec![None, None], vec![Some(0), None], vec![None, Some(0)], vec![None, Some(1)]];
+        assert_eq!(found, expected);
+        assert_eq!(Method::Each.count(&axes(&[1, 2])), Some(4));
+    }
+
+    #[test]
+    fn a_sample_has_as_many_as_asked_and_its_seed_decides_which() {
+        let of = |points, seed| Method::Sample { points, seed }.combinations(&axes(&[10, 10, 10]));
+        let found = of(50, 1);
+        let different: BTreeSet<_> = found.iter().collect();
+        assert_eq!((found.len(), different.len()), (50, 50));
+        assert_eq!((of(50, 1) == found, of(50, 2) == found), (true, false));
+        assert_eq!(of(5_000, 1), Method::Grid.combinations(&axes(&[10, 10, 10])));
+    }
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The designs of a space.
+
+use std::collections::BTreeSet;
+
+use foveate_spec::{Config, Design};
+use serde::{Deserialize, Serialize};
+
+use crate::scale::at_depth;
+use crate::space::Space;
+
+/// A design of a space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The value of every axis, as TOML; empty where it is that of the start.
+    pub settings: Vec<String>,
+    /// Its configuration.
+    pub config: Config,
+}
+
+/// A combination that is no design.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refused {
+    /// What was asked for, as `key = value`.
+    pub settings: String,
+    /// Why it cannot be built.
+    pub reason: String,
+}
+
+impl Space {
+    /// The designs, each once, for frames of `width` x `height` pixels, and what is no design.
+    #[must_use]
+    pub fn points(&self, width: u32, height: u32) -> (Vec<Point>, Vec<Refused>) {
+        let (mut points, mut refused, mut seen) = (Vec::new(), Vec::new(), BTreeSet::new());
+        for combination in self.method.combinations(&self.axes) {
+            let value = |(axis, index): (&crate::space::Axis, &Option<usize>)| {
+                index.and_then(|index| axis.values.get(index).cloned()).unwrap_or_default()
+            };
+            let settings: Vec<String> = self.axes.iter().zip(&combination).map(value).collect();
+            match self.point(&settings, width, height) {
+                Ok(config) => {
+                    // Of designs that are equal the first has the fewest settings.
+                    if seen.insert(config.to_toml()) {
+                        points.push(Point { settings, config });
+                    }
+                }
+                Err(reason) => {
+                    refused.push(Refused { settings: self.described(&settings), reason });
+                }
+            }
+        }
+        (points, refused)
+    }
+
+    /// The settings as `key = value`, those of the start left out.
+    #[must_use]
+    pub fn described(&self, settings: &[String]) -> String {
+        let set = self.axes.iter().zip(settings).filter(|(_, value)| !value.is_empty());
+        let words: Vec<String> =
+            set.map(|(axis, value)| format!("{} = {value}", axis.key)).collect();
+        if words.is_empty() { "the start".to_owned() } else { words.join(", ") }
+    }
+
+    fn point(&self, settings: &[String], width: u32, height: u32) -> Result<Config, String> {
+        let set = self.axes.iter().zip(settings).filter(|(_, value)| !value.is_empty());
+        let overrides: Vec<String> =
+            set.map(|(axis, value)| format!("{}={value}", axis.key)).collect();
+        let config = self.start.with(&overrides).map_err(|error| error.to_string())?;
+        let mut config = at_depth(&config, self.ideal.frame.pixel_bits);
+        config.fit_frame(width, height).map_err(|error| error.to_string())?;
+        let design = config.validate().map_err(|error| error.to_string())?;
+        // With every default filled in, so that equal designs are equal texts.
+        Ok(Design::config(&design).clone())
+    }
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A point with all that is known of it.
+
+use super::number::{grouped, percent, real};
+use super::setting::Settings;
+use super::table::decibels;
+use crate::Row;
+
+/// What the page says of one point.
+pub(crate) struct Card {
+    pub(crate) number: usize,
+    pub(crate) front: bool,
+    /// What it sets.
+    pub(crate) settings: String,
+    /// Name and value.
+    pub(crate) facts: Vec<(String, String)>,
+    /// Its configuration as TOML.
+    pub(crate) toml: String,
+}
+
+impl Card {
+    pub(crate) fn new(row: &Row, settings: &Settings) -> Self {
+        let figures = &row.figures;
+        let share = |value: f64| format!("{} %", percent(value));
+        let mut facts = vec![
+            (
+                "Flipped actions, SRS, TRS",
+                [figures.action_flips, figures.srs_flips, figures.trs_flips].map(share).join(", "),
+            ),
+            ("Active, of the ideal", [figures.active, figures.ideal_active].map(share).join(", ")),
+            (
+                "PSNR and SSIM to the input",
+                format!(
+                    "{} dB, {}",
+                    decibels(figures.psnr_input).text,
+                    real(figures.ssim_input, 4)
+                ),
+            ),
+            (
+                "Stale",
+                format!(
+                    "{} of the relevant regions; by up to {} grey levels",
+                    share(figures.staleness.share),
+                    real(figures.staleness.max, 0)
+                ),
+            ),
+            (
+                "Engine",
+                format!("{} frames/s on one thread here", real(row.simulated_per_second, 1)),
+            ),
+        ];
+        if let Some(silicon) = &row.silicon {
+            let array = &silicon.array;
+            facts.push((
+                "Area",
+                format!(
+                    "{} units; unit {} LUTs, {} FF; array {} LUTs, {} FF, {} DSP; {} logic levels",
+                    grouped(silicon.units),
+                    grouped(silicon.unit.lut_total_packed),
+                    grouped(silicon.unit.ff),
+                    grouped(array.lut_total_packed),
+                    grouped(array.ff),
+                    grouped(array.dsp),
+                    silicon.levels
+                ),
+            ));
+        }
+        let facts = facts.into_iter().map(|(name, text)| (name.to_owned(), text));
+        let scores = figures.scores.iter().map(|score| {
+            let [max, mean, rms] = [score.max, score.mean, score.rms].map(short);
+            let text = format!("max {max}, mean {mean}, rms {rms} ({})", score.unit);
+            (format!("Error of {}", score.feature), text)
+        });
+        let fingerprint = ("Fingerprint".to_owned(), row.fingerprint.clone());
+        Self {
+            number: row.number,
+            front: row.front.all,
+            settings: settings.described(row, None),
+            facts: facts.chain(scores).chain([fingerprint]).collect(),
+            toml: row.config.to_toml(),
+        }
+    }
+}
+
+/// What a mark says when pointed at.
+pub(crate) fn title(row: &Row, settings: &Settings) -> String {
+    let figures = &row.figures;
+    let area = row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
+    format!(
+        "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{} frames/s, {} bytes/frame{area}",
+        row.number,
+        settings.described(row, None),
+        percent(figures.action_flips),
+        percent(figures.missed),
+        percent(figures.false_alarms),
+        grouped(row.frames_per_second),
+        real(row.bytes_per_frame, 0),
+    )
+}
+
+/// An error of a score: three digits that matter.
+fn short(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if size < 0.001 => format!("{value:.1e}"),
+        size if size < 1.0 => real(value, 4),
+        size if size < 100.0 => real(value, 2),
+        _ => real(value, 0),
+    }
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Colours of points: one grouping for each axis, of which the page shows one at a time.
+
+use super::setting::Settings;
+use crate::Row;
+
+/// Colours of the page that can be told apart; after them the same with square marks.
+pub(crate) const COLOURS: usize = 7;
+/// Groups that can be told apart; the rest is grey.
+const GROUPS: usize = 2 * COLOURS;
+
+/// Points in groups by what one axis is.
+pub(crate) struct Grouping {
+    /// What the groups are by.
+    pub(crate) name: String,
+    /// Whether the page starts with it.
+    pub(crate) chosen: bool,
+    /// The groups.
+    pub(crate) groups: Vec<Group>,
+    /// The group of each row.
+    pub(crate) of_row: Vec<usize>,
+}
+
+/// Points of one colour.
+pub(crate) struct Group {
+    /// What they have in common.
+    pub(crate) label: String,
+    /// Class of the colour.
+    pub(crate) class: String,
+    /// Shape of the marks.
+    pub(crate) shape: &'static str,
+}
+
+/// The class of a group's colour and the shape of its marks.
+pub(crate) fn look(group: usize) -> (String, &'static str) {
+    let shape = if (COLOURS..GROUPS).contains(&group) { "box" } else { "dot" };
+    let class = if group < GROUPS { group % COLOURS } else { COLOURS };
+    (format!("k{class}"), shape)
+}
+
+/// Every grouping of the rows; the one to start with has the most groups that can be told apart. Where
+/// points differ from a start in one axis each, that is by the axis they differ in.
+pub(crate) fn groupings(settings: &Settings, rows: &[&Row]) -> Vec<Grouping> {
+    let axes = 0..settings.names.len();
+    let of_axis = |axis: usize| {
+        let values: Vec<String> = rows.iter().map(|row| settings.value(row, axis)).collect();
+        Grouping::new(settings.names[axis].clone(), &values)
+    };
+    let mut all: Vec<Grouping> = Vec::new();
+    let most = rows.iter().map(|row| settings.set(row).count()).max().unwrap_or(0);
+    if axes.len() > 1 && most < 2 {
+        let changed =
+            |row: &&Row| settings.set(row).next().map(|axis| settings.names[axis].clone());
+        let values = rows.iter().map(|row| changed(row).unwrap_or_else(|| "the start".to_owned()));
+        let values: Vec<String> = values.collect();
+        all.push(Grouping::new("what is changed".to_owned(), &values));
+    } else {
+        all.extend(axes.map(of_axis));
+    }
+    let count = |grouping: &Grouping| Some(grouping.groups.len()).filter(|count| *count <= GROUPS);
+    let best = all.iter().filter_map(count).max();
+    let first = all.iter().position(|grouping| count(grouping) == best).unwrap_or(0);
+    if let Some(grouping) = all.get_mut(first) {
+        grouping.chosen = true;
+    }
+    all
+}
+
+impl Grouping {
+    fn new(name: String, values: &[String]) -> Self {
+        let mut labels: Vec<String> = Vec::new();
+        for value in values {
+            if !labels.contains(value) {
+                labels.push(value.clone());
+            }
+        }
+        let number = |label: &String| label.parse::<f64>().ok().filter(|value| value.is_finite());
+        if let Some(mut numbers) = labels
+            .iter()
+            .map(|label| Some((number(label)?, label.clone())))
+            .collect::<Option<Vec<_>>>()
+        {
+            numbers.sort_by(|one, other| one.0.total_cmp(&other.0));
+            labels = numbers.into_iter().map(|(_, label)| label).collect();
+        }
+        let place = |value: &String| labels.iter().position(|label| label == value);
+        let of_row = values.iter().map(|value| place(value).unwrap_or(0).min(GROUPS)).collect();
+        let more = labels.len() > GROUPS;
+        labels.truncate(GROUPS);
+        let label =
+            |label: String| if label.is_empty() { "as the start".to_owned() } else { label };
+        let rest = more.then(|| "others".to_owned());
+        let labels = labels.into_iter().map(label).chain(rest);
+        let group = |(index, label)| {
+            let (class, shape) = look(index);
+            Group { label, class, shape }
+        };
+        Self { name, chosen: false, groups: labels.enumerate().map(group).collect(), of_row }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_are_in_order_and_the_rest_is_grey() {
+        let grouping = Grouping::new("fold".to_owned(), &["16", "4", "", "4"].map(str::to_owned));
+        let labels: Vec<&str> = grouping.groups.iter().map(|group| group.label.as_str()).collect();
+        assert_eq!(labels, ["16", "4", "as the start"]);
+        assert_eq!(grouping.of_row, [0, 1, 2, 1]);
+        let many = (0..40).rev().map(|value| value.to_string()).collect::<Vec<_>>();
+        let many = Grouping::new(String::new(), &many);
+        assert_eq!((many.groups.len(), many.of_row[39], many.of_row[0]), (15, 0, 14));
+        assert_eq!(many.groups[0].label, "0");
+        let last = many.groups.last().map(|group| (group.label.as_str(), group.class.as_str()));
+        assert_eq!(last, Some(("others", "k7")));
+        assert_eq!((many.groups[7].class.as_str(), many.groups[7].shape), ("k0", "box"));
+    }
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Numbers as people read them.
+
+/// What stands where there is no number.
+pub(crate) const NONE: &str = "–";
+
+/// A share in percent, without the sign: more digits where it is small.
+pub(crate) fn percent(share: f64) -> String {
+    let value = share * 100.0;
+    match value.abs() {
+        _ if !value.is_finite() => NONE.to_owned(),
+        0.0 => "0".to_owned(),
+        size if size < 0.0005 => "<0.001".to_owned(),
+        size if size < 0.9995 => format!("{value:.3}"),
+        size if size < 9.995 => format!("{value:.2}"),
+        _ => format!("{value:.1}"),
+    }
+}
+
+/// A whole number with its thousands apart.
+pub(crate) fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A number with some digits after the point; whole with its thousands apart where it is large.
+pub(crate) fn real(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return NONE.to_owned();
+    }
+    if value.abs() < 999.5 {
+        return format!("{value:.digits$}");
+    }
+    let (whole, sign) = (format!("{:.0}", value.abs()), if value < 0.0 { "-" } else { "" });
+    whole.parse().map_or_else(|_| format!("{value:.3e}"), |whole| sign.to_owned() + &grouped(whole))
+}
+
+/// The number at a tick: short, with k, M or G.
+pub(crate) fn tick(value: f64) -> String {
+    let size = value.abs();
+    let (value, unit) = match size {
+        _ if size >= 1e9 => (value / 1e9, " G"),
+        _ if size >= 1e6 => (value / 1e6, " M"),
+        _ if size >= 1e3 => (value / 1e3, " k"),
+        _ => (value, ""),
+    };
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    format!("{}{unit}", if text == "-0" { "0" } else { text })
+}
+
+/// A number of things: `1 clip`, `2 clips`.
+pub(crate) fn things(count: usize, one: &str) -> String {
+    let count = u64::try_from(count).unwrap_or(u64::MAX);
+    format!("{} {one}{}", grouped(count), if count == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_matter() {
+        let shares = [0.0, 1e-8, 0.000_05, 0.003_1, 0.0999, 0.5, 1.0, f64::NAN].map(percent);
+        assert_eq!(shares, ["0", "<0.001", "0.005", "0.310", "9.99", "50.0", "100.0", "–"]);
+        assert_eq!([0, 999, 1000, 1_234_567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
+        assert_eq!(
+            [0.25, 37.04, 12_345.6, -4e3].map(|value| real(value, 1)),
+            ["0.2", "37.0", "12,346", "-4,000"]
+        );
+        assert_eq!(real(f64::INFINITY, 1), "–");
+        let ticks = [0.0, 0.001, 2.5, 1e3, 2e4, 1.5e6, 3e9].map(tick);
+        assert_eq!(ticks, ["0", "0.001", "2.5", "1 k", "20 k", "1.5 M", "3 G"]);
+        assert_eq!([things(1, "clip"), things(2000, "point")], ["1 clip", "2,000 points"]);
+    }
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The settings of points as people read them.
+
+use foveate_spec::Config;
+use toml::{Table, Value};
+
+use crate::{Exploration, Row};
+
+/// The axes of an exploration and the values of the start, as far as they can be known.
+pub(crate) struct Settings {
+    /// Keys as they are written in a configuration.
+    pub(crate) keys: Vec<String>,
+    /// As short as they can be told apart.
+    pub(crate) names: Vec<String>,
+    /// What an axis is where a point does not set it.
+    start: Vec<String>,
+    /// What it is in the ideal.
+    ideal: Vec<String>,
+}
+
+impl Settings {
+    pub(crate) fn new(exploration: &Exploration) -> Self {
+        let keys = exploration.axes.clone();
+        let names = keys.iter().map(|key| short(key, &keys)).collect();
+        let of = |table: Table| -> Vec<String> {
+            keys.iter().map(|key| value(&table, key).unwrap_or_default()).collect()
+        };
+        let untouched = |row: &&Row| row.settings.iter().all(String::is_empty);
+        let start = exploration.rows.iter().find(untouched);
+        let start = start.and_then(|row| row.config.to_toml().parse::<Table>().ok());
+        let ideal = complete(&exploration.ideal).parse::<Table>().unwrap_or_default();
+        let (start, ideal) = (of(start.unwrap_or_default()), of(ideal));
+        Self { keys, names, start, ideal }
+    }
+
+    /// The value of an axis; that of the start where the point does not set it, empty if nobody knows.
+    pub(crate) fn value(&self, row: &Row, axis: usize) -> String {
+        let set = row.settings.get(axis).map(|text| bare(text)).filter(|text| !text.is_empty());
+        set.or_else(|| self.start.get(axis).cloned()).unwrap_or_default()
+    }
+
+    /// The value of an axis in the ideal, if it says.
+    pub(crate) fn ideal(&self, axis: usize) -> Option<&str> {
+        self.ideal.get(axis).map(String::as_str).filter(|text| !text.is_empty())
+    }
+
+    /// What a point sets, `name value`, apart from one axis.
+    pub(crate) fn described(&self, row: &Row, without: Option<usize>) -> String {
+        let set = row.settings.iter().enumerate();
+        let set = set.filter(|(axis, text)| !text.is_empty() && Some(*axis) != without);
+        let words = set.filter_map(|(axis, text)| {
+            self.names.get(axis).map(|name| format!("{name} {}", bare(text)))
+        });
+        let words: Vec<String> = words.collect();
+        if words.is_empty() { "the start".to_owned() } else { words.join(" · ") }
+    }
+
+    /// The axes that a point sets.
+    pub(crate) fn set<'a>(&self, row: &'a Row) -> impl Iterator<Item = usize> + use<'a> {
+        let set = row.settings.iter().enumerate().filter(|(_, text)| !text.is_empty());
+        set.map(|(axis, _)| axis)
+    }
+}
+
+/// A value of TOML without the quotes of a text.
+fn bare(text: &str) -> String {
+    let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+    inner.unwrap_or(text).to_owned()
+}
+
+/// The last part of a key, if no other key has it.
+fn short(key: &str, keys: &[String]) -> String {
+    fn last(key: &str) -> &str {
+        key.rsplit('.').next().unwrap_or(key)
+    }
+    let same = keys.iter().filter(|other| last(other) == last(key)).count();
+    if same > 1 { key.to_owned() } else { last(key).replace('_', " ") }
+}
+
+/// The value of a dotted key; numbers lead into arrays.
+fn value(table: &Table, key: &str) -> Option<String> {
+    let mut parts = key.split('.');
+    let mut found = table.get(parts.next()?)?;
+    for part in parts {
+        found = match found {
+            Value::Table(table) => table.get(part)?,
+            Value::Array(values) => values.get(part.parse::<usize>().ok()?)?,
+            _ => return None,
+        };
+    }
+    Some(bare(&found.to_string()))
+}
+
+/// A configuration with every default filled in; as it is if it is none.
+fn complete(toml: &str) -> String {
+    let design = Config::from_toml(toml).and_then(|config| config.validate());
+    design.map_or_else(|_| toml.to_owned(), |design| design.config().to_toml())
+}
+
+/// A camera in one line.
+pub(crate) fn camera(toml: &str) -> String {
+    let table = complete(toml).parse::<Table>().unwrap_or_default();
+    let of = |key: &str| value(&table, key);
+    let mut words = Vec::new();
+    if let (Some(size), Some(around)) = (of("region.size"), of("region.neighborhood")) {
+        words.push(format!("regions of {size}×{size} ({around})"));
+    }
+    words.extend(of("frame.pixel_bits").map(|bits| format!("{bits} bits")));
+    words.extend(of("denoise.filter").map(|filter| match filter.as_str() {
+        "none" => "no filter".to_owned(),
+        other => other.to_owned(),
+    }));
+    let spatial = table.get("spatial").and_then(Value::as_array);
+    let features = spatial.into_iter().flatten().filter_map(|entry| {
+        let entry = entry.as_table()?;
+        let level = value(entry, "level").map(|level| format!(" {level}")).unwrap_or_default();
+        Some(value(entry, "feature")? + &level)
+    });
+    words.push(features.collect::<Vec<String>>().join(" + "));
+    words.extend(of("temporal.reference").map(|reference| {
+        let level = of("temporal.level").map(|level| format!(", level {level}"));
+        format!("reference {reference}{}", level.unwrap_or_default())
+    }));
+    words.retain(|word| !word.is_empty());
+    words.join(" · ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_short_unless_that_is_ambiguous() {
+        let keys = ["hardware.fold", "spatial.0.level", "temporal.level", "frame.pixel_bits"];
+        let keys: Vec<String> = keys.map(str::to_owned).into();
+        let names: Vec<String> = keys.iter().map(|key| short(key, &keys)).collect();
+        assert_eq!(names, ["fold", "spatial.0.level", "temporal.level", "pixel bits"]);
+    }
+
+    #[test]
+    fn a_camera_is_one_line() {
+        let toml = Config::default().to_toml();
+        let line = camera(&toml);
+        assert!(
+            line.starts_with("regions of 8×8 (isolated) · 8 bits · median3x3 · edge"),
+            "{line}"
+        );
+        assert_eq!(camera("not toml"), "");
+        let table: Table = "spatial = [{ level = 7 }]".parse().unwrap();
+        assert_eq!(value(&table, "spatial.0.level").as_deref(), Some("7"));
+        assert_eq!(value(&table, "spatial.1.level"), None);
+    }
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What was explored and what came out, in a few lines.
+
+use super::number::{grouped, percent, real, things};
+use super::setting::Settings;
+use crate::{Exploration, Row};
+
+/// A figure of the heading.
+pub(crate) struct Fact {
+    pub(crate) name: &'static str,
+    pub(crate) value: String,
+    /// Smaller, beneath it.
+    pub(crate) note: String,
+}
+
+/// What the page is called.
+pub(crate) fn title(exploration: &Exploration) -> String {
+    let points = things(exploration.rows.len(), "design");
+    match exploration.clips.as_slice() {
+        [clip] => format!("{points} over {}", clip.name),
+        clips => format!("{points} over {}", things(clips.len(), "clip")),
+    }
+}
+
+/// The names of the clips; of many the first.
+pub(crate) fn clips(exploration: &Exploration) -> String {
+    const NAMED: usize = 4;
+    let clips = &exploration.clips;
+    let names: Vec<&str> = clips.iter().take(NAMED).map(|clip| clip.name.as_str()).collect();
+    let more = if clips.len() > NAMED { " and more" } else { "" };
+    names.join(", ") + more
+}
+
+/// The figures of the heading.
+pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
+    let Exploration { rows, refused, clips, axes, .. } = exploration;
+    let frames = clips.iter().map(|clip| clip.frames).sum();
+    let front = rows.iter().filter(|row| row.front.all).count();
+    let area = rows.iter().any(|row| row.silicon.is_some());
+    let (width, height) = exploration.size;
+    let fact = |name, value, note| Fact { name, value, note };
+    let count = |count: usize| grouped(u64::try_from(count).unwrap_or(u64::MAX));
+    vec![
+        fact(
+            "Designs",
+            count(rows.len()),
+            match axes.as_slice() {
+                [] => "nothing varies".to_owned(),
+                axes => format!("{} varied", things(axes.len(), "setting")),
+            },
+        ),
+        fact(
+            "Pareto front",
+            count(front),
+            if area { "of error, speed and area" } else { "of error and speed" }.to_owned(),
+        ),
+        fact("Refused", count(refused.len()), "combinations".to_owned()),
+        fact("Frames", grouped(frames), things(clips.len(), "clip")),
+        fact("Frame", format!("{width}×{height}"), "pixels".to_owned()),
+        fact("Clock", format!("{} MHz", exploration.clock_mhz), "assumed for frames/s".to_owned()),
+    ]
+}
+
+/// The ends of the front in words.
+pub(crate) fn findings(rows: &[Row], settings: &Settings) -> Vec<String> {
+    let front = || rows.iter().filter(|row| row.front.all);
+    let by_error =
+        |one: &&Row, other: &&Row| one.figures.action_flips.total_cmp(&other.figures.action_flips);
+    let speed = |row: &Row| format!("{} frames/s", grouped(row.frames_per_second));
+    let flips = |row: &Row| format!("{} % flipped actions", percent(row.figures.action_flips));
+    let luts =
+        |row: &Row| row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
+    let mut found = Vec::new();
+    let mut say = |what: &str, row: Option<&Row>| {
+        found.extend(row.map(|row| {
+            let settings = settings.described(row, None);
+            let (flips, speed, luts) = (flips(row), speed(row), luts(row));
+            format!("{what}: point {} ({settings}), {flips} at {speed}{luts}.", row.number)
+        }));
+    };
+    say("Smallest error", front().min_by(by_error));
+    let fastest = front().min_by(|one, other| {
+        one.clocks_per_frame.cmp(&other.clocks_per_frame).then_with(|| by_error(one, other))
+    });
+    say("Fastest", fastest);
+    let smallest = front().filter(|row| row.luts().is_some()).min_by(|one, other| {
+        one.luts().partial_cmp(&other.luts()).unwrap_or(std::cmp::Ordering::Equal)
+    });
+    say("Smallest area", smallest);
+    found
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Points as rows of a table.
+
+use super::number::{NONE, grouped, percent, real};
+use super::setting::Settings;
+use crate::row::real as number;
+use crate::{Row, Silicon};
+
+/// A heading.
+pub(crate) struct Column {
+    pub(crate) name: String,
+    pub(crate) unit: &'static str,
+    /// Said in full.
+    pub(crate) title: String,
+    /// Whether it holds numbers.
+    pub(crate) numbers: bool,
+}
+
+/// A value.
+pub(crate) struct Cell {
+    pub(crate) text: String,
+    /// What it is sorted by.
+    pub(crate) sort: String,
+    /// Class of the cell.
+    pub(crate) class: &'static str,
+}
+
+/// A row.
+pub(crate) struct Line {
+    pub(crate) number: usize,
+    pub(crate) front: bool,
+    pub(crate) cells: Vec<Cell>,
+}
+
+/// Name, unit and meaning of every figure, as the table has them.
+const FIGURES: [(&str, &str, &str); 10] = [
+    ("flipped", "%", "regions that are treated otherwise on the screen than by the ideal"),
+    ("missed", "%", "of what is active in the ideal, not active here"),
+    ("false", "%", "of what is active here, not active in the ideal"),
+    ("IoU", "", "overlap of the active areas, 1 is equal"),
+    ("PSNR", "dB", "screen against the screen of the ideal; = where they are equal"),
+    ("SSIM", "", "screen against the screen of the ideal, 1 is equal"),
+    ("stale", "levels", "mean difference of screen and scene in relevant regions, in grey levels"),
+    ("longest", "frames", "longest time that one region was relevant and stale"),
+    ("bytes", "/frame", "bytes per frame that leave the array"),
+    ("clocks", "/frame", "clocks from one frame to the next"),
+];
+
+/// Name and meaning of every part of the area.
+const AREA: [(&str, &str, &str); 5] = [
+    ("LUT", "unit", "LUTs of one region unit, or of one lane of a serial design"),
+    ("LUT", "array", "LUTs of the array, those used as memory included"),
+    ("FF", "array", "flip-flops of the array"),
+    ("LUTRAM", "array", "LUTs of the array used as memory, two SRL16 in one"),
+    ("BRAM18", "array", "block RAM of the array in units of RAMB18"),
+];
+
+/// The headings after the number; with `area` those of the area.
+pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
+    let axes = settings.names.iter().zip(&settings.keys);
+    let axes = axes.map(|(name, key)| Column {
+        name: name.clone(),
+        unit: "",
+        title: key.clone(),
+        numbers: false,
+    });
+    let figure = |(name, unit, title): (&str, &'static str, &str)| Column {
+        name: name.to_owned(),
+        unit,
+        title: title.to_owned(),
+        numbers: true,
+    };
+    let speed = ("frames", "/s", "frames per second at the clock of the exploration");
+    let areas = if area { &AREA[..] } else { &[] };
+    axes.chain(FIGURES.into_iter().chain([speed]).map(figure))
+        .chain(areas.iter().copied().map(figure))
+        .collect()
+}
+
+/// The row of a point, with as many cells as there are headings.
+pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
+    let figures = &row.figures;
+    let axes = (0..settings.names.len()).map(|axis| {
+        let text = settings.value(row, axis);
+        let set = row.settings.get(axis).is_some_and(|text| !text.is_empty());
+        Cell { sort: text.clone(), text, class: if set { "" } else { "start" } }
+    });
+    let share = |value: f64| cell(percent(value), Some(value));
+    let count = |value: u64| cell(grouped(value), Some(number(value)));
+    let mut cells: Vec<Cell> = axes.collect();
+    cells.extend([
+        share(figures.action_flips),
+        share(figures.missed),
+        share(figures.false_alarms),
+        cell(real(figures.active_iou, 4), Some(figures.active_iou)),
+        decibels(figures.psnr_ideal),
+        cell(real(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
+        cell(real(figures.staleness.mean, 2), Some(figures.staleness.mean)),
+        count(figures.staleness.longest),
+        cell(real(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
+        count(row.clocks_per_frame),
+        count(row.frames_per_second),
+    ]);
+    if area {
+        let of = |take: fn(&Silicon) -> u64| match &row.silicon {
+            Some(silicon) => count(take(silicon)),
+            None => cell(NONE.to_owned(), None),
+        };
+        cells.extend([
+            of(|silicon| silicon.unit.lut_total_packed),
+            of(|silicon| silicon.array.lut_total_packed),
+            of(|silicon| silicon.array.ff),
+            of(|silicon| silicon.array.lut_memory_packed),
+            of(|silicon| silicon.array.bram18),
+        ]);
+    }
+    Line { number: row.number, front: row.front.all, cells }
+}
+
+/// A number, or none, which is sorted last.
+fn cell(text: String, value: Option<f64>) -> Cell {
+    let sort = value.filter(|value| value.is_finite()).map(|value| value.to_string());
+    Cell { text, sort: sort.unwrap_or_default(), class: "number" }
+}
+
+/// Equal pictures have no PSNR and are the best.
+pub(crate) fn decibels(psnr: Option<f64>) -> Cell {
+    match psnr {
+        Some(psnr) => cell(real(psnr, 1), Some(psnr)),
+        None => Cell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" },
+    }
+}

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::sample::{exploration, mark_fronts};
+use super::*;
+
+/// Two organizations, folds, bits and a threshold.
+const GRID: &str = r#"
+[ideal]
+region.neighborhood = "shared"
+[vary]
+hardware.organization = ["pipelined", "serial"]
+hardware.fold = [1, 16]
+frame.pixel_bits = [8, 6, 4]
+spatial.0.level = [80, 90, 100, 110, 120]
+"#;
+
+/// The page as a tree; it is well-formed XML, so nothing can be open or escaped wrongly.
+fn tree(page: &str) -> Document<'_> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    Document::parse_with_options(page, options).unwrap()
+}
+
+fn named<'a>(document: &'a Document<'_>, name: &'static str) -> Vec<Node<'a, 'a>> {
+    let all = document.descendants();
+    all.filter(|node| node.tag_name().name() == name).collect()
+}
+
+fn classed<'a>(document: &'a Document<'_>, class: &'static str) -> Vec<Node<'a, 'a>> {
+    let of = |node: &Node<'_, '_>| {
+        node.attribute("class").is_some_and(|all| all.split(' ').any(|one| one == class))
+    };
+    document.descendants().filter(of).collect()
+}
+
+#[test]
+fn every_point_is_there_with_its_configuration_rows_and_marks() {
+    let sample = exploration(GRID, true);
+    let page = page(&sample).unwrap();
+    let document = tree(&page);
+    let texts: Vec<&str> = named(&document, "pre").iter().filter_map(Node::text).collect();
+    let marks = classed(&document, "mark").len();
+    assert!(marks > 4 * sample.rows.len(), "{marks}");
+    for row in &sample.rows {
+        assert!(texts.contains(&row.config.to_toml().as_str()), "point {}", row.number);
+        for id in [format!("p{}", row.number), format!("c{}", row.number)] {
+            let found = document.descendants().filter(|node| node.attribute("id") == Some(&id));
+            assert_eq!(found.count(), 1, "{id}");
+        }
+        let front = format!("f{}", row.number);
+        let front = document.descendants().any(|node| node.attribute("id") == Some(&front));
+        assert_eq!(front, row.front.all);
+    }
+    for table in classed(&document, "sortable") {
+        let cells = |node: &Node<'_, '_>| node.children().filter(Node::is_element).count();
+        let rows = table
+            .descendants()
+            .filter(|node| node.has_tag_name("tr") || node.tag_name().name() == "tr");
+        let counts: Vec<usize> = rows.map(|row| cells(&row)).collect();
+        assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
+    }
+    for text in ["hall.mp4: frame 300 of 450 is damaged", "region.size = 65", "250 MHz", "224×224"]
+    {
+        assert!(page.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn what_a_user_wrote_is_text() {
+    let mut sample = exploration(GRID, true);
+    let bad = "\"><script>alert('&amp;')</script>";
+    sample.axes[0] = bad.to_owned();
+    sample.rows[1].settings[1] = bad.to_owned();
+    sample.rows[2].fingerprint = bad.to_owned();
+    sample.rows[3].figures.scores[0].feature = bad.to_owned();
+    sample.problems.push(bad.to_owned());
+    sample.refused.push(Refused { settings: bad.to_owned(), reason: bad.to_owned() });
+    sample.ideal = bad.to_owned();
+    sample.program = bad.to_owned();
+    sample.clips.truncate(1);
+    let page = page(&sample).unwrap();
+    assert!(!page.contains("<script>alert"));
+    let document = tree(&page);
+    assert_eq!(named(&document, "script").len(), 1);
+    let title = named(&document, "h1")[0].text().unwrap();
+    assert!(title.ends_with("street <script>alert(1)</script> & \"night\""), "{title}");
+}
+
+#[test]
+fn nothing_is_loaded_from_elsewhere() {
+    let page = page(&exploration(GRID, true)).unwrap();
+    let document = tree(&page);
+    for node in document.descendants() {
+        assert!(!["link", "img", "iframe", "object"].contains(&node.tag_name().name()));
+        assert_eq!(node.attribute("src"), None);
+        for attribute in ["href", "data-copy"] {
+            let target = node.attribute(attribute).unwrap_or("#front-dot");
+            let target = target.trim_start_matches('#');
+            let known = document.descendants().any(|node| {
+                node.attribute("id")
+                    .is_some_and(|id| id == target || id.strip_prefix('c') == Some(target))
+            });
+            assert!(known, "{target}");
+        }
+    }
+    assert!(!page.contains("@import") && !page.contains("url("));
+}
+
+/// Explorations of which a picture is hard to draw.
+fn hard() -> Vec<(&'static str, Exploration)> {
+    let each = exploration(crate::BUILT_IN[0].toml, false);
+    let one = exploration("", false);
+    let mut equal = exploration(GRID, true);
+    let first = equal.rows[0].clone();
+    for row in &mut equal.rows {
+        row.figures = first.figures.clone();
+        row.silicon.clone_from(&first.silicon);
+        row.clocks_per_frame = first.clocks_per_frame;
+        row.bytes_per_frame = first.bytes_per_frame;
+    }
+    let mut faultless = exploration(GRID, true);
+    for row in &mut faultless.rows {
+        row.figures.action_flips = 0.0;
+        row.figures.psnr_ideal = None;
+        row.figures.psnr_input = None;
+        row.figures.active = 0.0;
+        row.figures.ideal_active = 0.0;
+        row.figures.staleness.share = 0.0;
+    }
+    let mut broken = exploration(GRID, true);
+    broken.rows[0].figures.action_flips = f64::NAN;
+    broken.rows[1].figures.staleness.share = f64::INFINITY;
+    broken.rows[2].bytes_per_frame = f64::NEG_INFINITY;
+    broken.rows[3].clocks_per_frame = 0;
+    broken.rows[4].silicon = None;
+    broken.rows[5].simulated_per_second = f64::NAN;
+    let mut none = exploration(GRID, false);
+    none.rows.clear();
+    none.clips.clear();
+    let mut all = vec![
+        ("one at a time", each),
+        ("one point", one),
+        ("all equal", equal),
+        ("no errors", faultless),
+        ("no numbers", broken),
+        ("nothing", none),
+    ];
+    all.iter_mut().for_each(|(_, exploration)| mark_fronts(&mut exploration.rows));
+    all
+}
+
+#[test]
+fn pictures_have_numbers_whatever_the_data() {
+    for (name, sample) in hard() {
+        let page = page(&sample).unwrap();
+        let document = tree(&page);
+        let pictures = named(&document, "svg");
+        for node in pictures.iter().flat_map(Node::descendants) {
+            for attribute in ["d", "x", "y", "transform"] {
+                let value = node.attribute(attribute).unwrap_or_default();
+                assert!(!value.contains("NaN") && !value.contains("inf"), "{name}: {value}");
+                if ["x", "y"].contains(&attribute) && !value.is_empty() {
+                    let value: f64 = value.parse().unwrap();
+                    assert!((-10.0..=560.0).contains(&value), "{name}: {value}");
+                }
+            }
+        }
+        let ticks = classed(&document, "ticks");
+        assert!(ticks.iter().all(|ticks| ticks.children().count() >= 4), "{name}");
+        let areas = sample.rows.iter().any(|row| row.silicon.is_some());
+        assert_eq!(page.contains("There are no areas"), !areas, "{name}");
+    }
+}
+
+#[test]
+fn pages_are_the_same_every_time() {
+    let sample = exploration(GRID, true);
+    assert_eq!(page(&sample).unwrap(), page(&sample).unwrap());
+}
+
+#[test]
+fn of_very_many_points_the_fronts_are_shown() {
+    let mut sample = exploration(GRID, true);
+    let row = sample.rows[0].clone();
+    let fronts: usize = sample.rows.iter().map(|row| usize::from(row.front.all)).sum();
+    let more = (0..5000).map(|index| {
+        let front = crate::Fronts { speed: false, area: false, all: false };
+        Row { number: 1000 + index, front, ..row.clone() }
+    });
+    sample.rows.extend(more);
+    let rows = shown(&sample.rows);
+    assert!((1000..=POINTS).contains(&rows.len()), "{}", rows.len());
+    assert_eq!(rows.iter().filter(|row| row.front.all).count(), fronts);
+}
+
+/// Writes the samples to `FOVEATE_PAGES`, to look at them in a browser.
+#[test]
+fn samples_can_be_looked_at() {
+    let Some(folder) = std::env::var_os("FOVEATE_PAGES").map(std::path::PathBuf::from) else {
+        return;
+    };
+    let designs = ("designs", exploration(crate::BUILT_IN[1].toml, true));
+    for (name, sample) in hard().into_iter().chain([("grid", exploration(GRID, true)), designs]) {
+        let name = name.replace(' ', "-") + ".html";
+        std::fs::write(folder.join(name), page(&sample).unwrap()).unwrap();
+    }
+}

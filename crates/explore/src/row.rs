@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A point with everything that is known of it.
+
+use foveate_fidelity::{Figures, Tally};
+use foveate_spec::{Config, Design};
+use serde::Serialize;
+
+use crate::cost::{Silicon, speed};
+use crate::measure::Measured;
+
+/// A design with its errors, costs and speed.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Its number, from 1, in the order of the space.
+    pub number: usize,
+    /// The value of every axis; empty where it is that of the start.
+    pub settings: Vec<String>,
+    /// The configuration, with every default filled in.
+    #[serde(skip)]
+    pub config: Config,
+    /// Tells the design from all others.
+    pub fingerprint: String,
+    /// Errors over all clips.
+    pub figures: Figures,
+    /// Bytes per frame that leave the array: 2 bits per region, and the pixels of active regions.
+    pub bytes_per_frame: f64,
+    /// Clocks from one frame to the next.
+    pub clocks_per_frame: u64,
+    /// Frames per second at the clock of the space.
+    pub frames_per_second: u64,
+    /// Area, if it was asked for.
+    pub silicon: Option<Silicon>,
+    /// Frames per second of the engine on one thread, as it ran here.
+    pub simulated_per_second: f64,
+    /// The fronts that it is on.
+    pub front: Fronts,
+}
+
+/// Which fronts a point is on. The error is the share of flipped actions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Fronts {
+    /// Of error and clocks per frame.
+    pub speed: bool,
+    /// Of error and LUTs of the array.
+    pub area: bool,
+    /// Of error, clocks per frame and LUTs of the array; without areas, as `speed`.
+    pub all: bool,
+}
+
+impl Row {
+    pub(crate) fn new(
+        number: usize,
+        settings: Vec<String>,
+        design: &Design,
+        measured: &[&Measured],
+        silicon: Option<Silicon>,
+        clock_mhz: u32,
+    ) -> Option<Self> {
+        let figures = together(measured)?.figures();
+        let (clocks_per_frame, frames_per_second) = speed(design, clock_mhz);
+        let seconds: f64 = measured.iter().map(|part| part.seconds).sum();
+        Some(Self {
+            number,
+            settings,
+            config: design.config().clone(),
+            fingerprint: design.fingerprint(),
+            bytes_per_frame: bytes_per_frame(design, figures.active),
+            clocks_per_frame,
+            frames_per_second,
+            silicon,
+            simulated_per_second: real(figures.frames) / seconds.max(1e-9),
+            figures,
+            front: Fronts::default(),
+        })
+    }
+
+    /// LUTs of the array, those used as memory included, two SRL16 in one.
+    pub(crate) fn luts(&self) -> Option<f64> {
+        self.silicon.as_ref().map(|silicon| real(silicon.array.lut_total_packed))
+    }
+}
+
+/// The sums of several clips; none of none.
+pub(crate) fn together(measured: &[&Measured]) -> Option<Tally> {
+    let mut tallies = measured.iter().map(|part| &part.tally);
+    let mut all = tallies.next()?.clone();
+    tallies.for_each(|tally| all.merge(tally));
+    Some(all)
+}
+
+/// As `simulate` counts: the two bits of every region say what becomes of it, so no addresses are sent.
+pub(crate) fn bytes_per_frame(design: &Design, active: f64) -> f64 {
+    let pixels = f64::from(design.width()) * f64::from(design.height());
+    let bits = pixels * active * f64::from(design.pixel_bits());
+    (2.0 * f64::from(design.regions()) + bits) / 8.0
+}
+
+/// A count as a number to calculate with.
+#[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
+pub(crate) fn real(count: u64) -> f64 {
+    count as f64
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A space of designs as a file says it: where they start, what they are compared with, what varies.
+
+use foveate_spec::{Config, Preset, SpecError};
+use serde::Deserialize;
+use toml::{Table, Value};
+
+use crate::ExploreError;
+use crate::method::{MAX_POINTS, Method};
+
+/// Which designs to look at.
+#[derive(Clone, Debug)]
+pub struct Space {
+    /// The configuration from which every point starts, as TOML of a preset and overrides.
+    pub(crate) start: Start,
+    /// The camera with which designs are compared; it computes in floating point over whole frames.
+    pub ideal: Config,
+    /// What varies, in the order of the file.
+    pub axes: Vec<Axis>,
+    /// Which combinations are points.
+    pub method: Method,
+    /// Clock of the frame rates in MHz; an assumption, not what a design reaches.
+    pub clock_mhz: u32,
+}
+
+/// A key of the configuration and the values it takes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Axis {
+    /// Dotted, for example `region.size` or `spatial.0.level`.
+    pub key: String,
+    /// As they are written in TOML.
+    pub values: Vec<String>,
+}
+
+/// A configuration before it is read, so that a point can add to it.
+#[derive(Clone, Debug)]
+pub(crate) struct Start {
+    preset: &'static str,
+    overrides: Vec<String>,
+}
+
+impl Start {
+    /// The configuration with more overrides, each `key=TOML_VALUE`.
+    pub(crate) fn with(&self, more: &[String]) -> Result<Config, SpecError> {
+        let overrides: Vec<&String> = self.overrides.iter().chain(more).collect();
+        Config::from_toml_with(self.preset, &overrides)
+    }
+}
+
+/// A space that comes with the program.
+#[derive(Clone, Copy, Debug)]
+pub struct BuiltIn {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it is for, in one line.
+    pub summary: &'static str,
+    /// The file.
+    pub toml: &'static str,
+}
+
+/// Every space that comes with the program.
+pub const BUILT_IN: &[BuiltIn] = &[
+    BuiltIn {
+        name: "approximations",
+        summary: "what each approximation of the hardware costs in error, one at a time",
+        toml: include_str!("../spaces/approximations.toml"),
+    },
+    BuiltIn {
+        name: "designs",
+        summary: "organizations, folds, pixel bits, windows and denoising against each other",
+        toml: include_str!("../spaces/designs.toml"),
+    },
+];
+
+/// The file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    preset: Option<String>,
+    method: Option<String>,
+    points: Option<usize>,
+    seed: Option<u64>,
+    clock_mhz: Option<u32>,
+    #[serde(default)]
+    design: Table,
+    #[serde(default)]
+    ideal: Table,
+    #[serde(default)]
+    vary: Table,
+}
+
+impl Space {
+    /// Reads a space.
+    ///
+    /// # Errors
+    /// When the text is no TOML, has an unknown key, a value is of the wrong type or out of range, or
+    /// the start or the ideal is no design.
+    pub fn from_toml(text: &str) -> Result<Self, ExploreError> {
+        let file: File = toml::from_str(text).map_err(|error| {
+            let place = error.to_string().lines().next().unwrap_or_default().to_owned();
+            wrong(format!("{} ({place})", error.message().replace('\n', "; ")))
+        })?;
+        let preset = Preset::find(file.preset.as_deref().unwrap_or("paper"))?.toml;
+        let start = Start { preset, overrides: overrides(&file.design) };
+        let section = |name| move |error| ExploreError::Section { section: name, error };
+        start.with(&[]).and_then(|config| config.validate()).map_err(section("design"))?;
+        let ideal = start.with(&overrides(&file.ideal)).map_err(section("ideal"))?;
+        ideal.validate().map_err(section("ideal"))?;
+        let axes = axes("", &file.vary)?;
+        let method =
+            Method::parse(file.method.as_deref(), file.points, file.seed).map_err(wrong)?;
+        let clock_mhz = file.clock_mhz.unwrap_or(250);
+        if !(1..=10_000).contains(&clock_mhz) {
+            return Err(wrong(format!("clock_mhz = {clock_mhz} is not within 1 to 10000")));
+        }
+        let space = Self { start, ideal, axes, method, clock_mhz };
+        match space.method.count(&space.axes) {
+            Some(count) if count <= MAX_POINTS => Ok(space),
+            _ => Err(wrong(format!(
+                "it has more than {MAX_POINTS} points; use method = \"sample\" and points = 1000, or fewer values"
+            ))),
+        }
+    }
+}
+
+/// A problem of the file that is not one of a configuration.
+fn wrong(problem: String) -> ExploreError {
+    ExploreError::Space { problem }
+}
+
+/// A table of configuration as overrides: an array is a value.
+fn overrides(table: &Table) -> Vec<String> {
+    let mut found = Vec::new();
+    leaves("", table, &mut |key, value| found.push(format!("{key}={value}")));
+    found
+}
+
+fn leaves(above: &str, table: &Table, see: &mut impl FnMut(String, &Value)) {
+    for (name, value) in table {
+        let key = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
+        match value {
+            Value::Table(inner) => leaves(&key, inner, see),
+            value => see(key, value),
+        }
+    }
+}
+
+/// What varies: every array is a list of values.
+fn axes(above: &str, table: &Table) -> Result<Vec<Axis>, ExploreError> {
+    let mut found = Vec::new();
+    let mut problem = None;
+    leaves(above, table, &mut |key, value| match value {
+        Value::Array(values) if !values.is_empty() => {
+            let values = values.iter().map(Value::to_string).collect();
+            found.push(Axis { key, values });
+        }
+        other => {
+            problem.get_or_insert(format!(
+                "[vary] {key} = {other} is not a list of values, for example {key} = [{other}]"
+            ));
+        }
+    });
+    problem.map_or(Ok(found), |problem| Err(wrong(problem)))
+}

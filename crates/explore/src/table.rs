@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Points as a table: one list of columns for CSV and Parquet.
+
+use std::fmt::Write as _;
+use std::fs::File;
+use std::path::Path;
+use std::sync::Arc;
+
+use foveate_fidelity::Figures;
+use parquet::basic::Compression;
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::parser::parse_message_type;
+
+use crate::ExploreError;
+use crate::row::Row;
+
+/// A value of the table. Numbers that are not there are empty in CSV and null in Parquet.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Cell {
+    Text(String),
+    Count(Option<u64>),
+    Real(Option<f64>),
+    Flag(bool),
+}
+
+/// Columns with their values, row by row.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Table {
+    pub(crate) columns: Vec<String>,
+    pub(crate) rows: Vec<Vec<Cell>>,
+}
+
+/// The cells of a row with their names.
+type Cells = Vec<(String, Cell)>;
+
+impl Table {
+    /// A table of rows that have the same columns.
+    pub(crate) fn of(rows: impl Iterator<Item = Cells>) -> Self {
+        let mut table = Self::default();
+        for row in rows {
+            let (columns, cells) = row.into_iter().unzip();
+            table.columns = columns;
+            table.rows.push(cells);
+        }
+        table
+    }
+
+    /// CSV with a line of names.
+    pub(crate) fn csv(&self) -> String {
+        let mut text = String::new();
+        let names: Vec<String> = self.columns.iter().map(|name| quoted(name)).collect();
+        let _ = writeln!(text, "{}", names.join(","));
+        for row in &self.rows {
+            let cells: Vec<String> = row.iter().map(Cell::text).collect();
+            let _ = writeln!(text, "{}", cells.join(","));
+        }
+        text
+    }
+
+    /// Parquet: Snappy, one group.
+    pub(crate) fn write_parquet(&self, path: &Path) -> Result<(), ExploreError> {
+        let file = File::create(path).map_err(ExploreError::io("write", path))?;
+        self.parquet(file).map_err(|error| ExploreError::Parquet {
+            path: path.to_owned(),
+            problem: error.to_string(),
+        })
+    }
+
+    fn parquet(&self, file: File) -> Result<(), ParquetError> {
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::SNAPPY)
+            .set_created_by(concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned())
+            .build();
+        let schema = Arc::new(parse_message_type(&self.schema())?);
+        let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties))?;
+        let mut group = writer.next_row_group()?;
+        for column in 0..self.columns.len() {
+            let Some(mut writer) = group.next_column()? else { break };
+            let cells = self.rows.iter().filter_map(|row| row.get(column));
+            match self.rows.first().and_then(|row| row.get(column)) {
+                Some(Cell::Text(_)) => {
+                    let values: Vec<ByteArray> =
+                        cells.map(|cell| cell.plain().into_bytes().into()).collect();
+                    writer.typed::<ByteArrayType>().write_batch(&values, None, None)?;
+                }
+                Some(Cell::Flag(_)) => {
+                    let values: Vec<bool> = cells.map(|cell| *cell == Cell::Flag(true)).collect();
+                    writer.typed::<BoolType>().write_batch(&values, None, None)?;
+                }
+                Some(Cell::Count(_)) => {
+                    let values = cells.map(|cell| match cell {
+                        Cell::Count(value) => value.and_then(|value| i64::try_from(value).ok()),
+                        _ => None,
+                    });
+                    let (values, levels) = with_nulls(values);
+                    writer.typed::<Int64Type>().write_batch(&values, Some(&levels), None)?;
+                }
+                _ => {
+                    let values = cells.map(|cell| match cell {
+                        Cell::Real(value) => *value,
+                        _ => None,
+                    });
+                    let (values, levels) = with_nulls(values);
+                    writer.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
+                }
+            }
+            writer.close()?;
+        }
+        group.close()?;
+        writer.close().map(drop)
+    }
+
+    fn schema(&self) -> String {
+        let mut text = String::from("message points { ");
+        for (column, name) in self.columns.iter().enumerate() {
+            let kind = match self.rows.first().and_then(|row| row.get(column)) {
+                Some(Cell::Text(_)) => "required binary",
+                Some(Cell::Flag(_)) => "required boolean",
+                Some(Cell::Count(_)) => "optional int64",
+                _ => "optional double",
+            };
+            let of = if kind == "required binary" { " (string)" } else { "" };
+            let _ = write!(text, "{kind} {}{of}; ", name.replace('.', "_"));
+        }
+        text + "}"
+    }
+}
+
+/// The values that are there, and for each place whether there is one.
+fn with_nulls<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
+    let (mut found, mut levels) = (Vec::new(), Vec::new());
+    for value in values {
+        levels.push(i16::from(value.is_some()));
+        found.extend(value);
+    }
+    (found, levels)
+}
+
+impl Cell {
+    fn plain(&self) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Count(value) => value.map(|value| value.to_string()).unwrap_or_default(),
+            Self::Real(value) => value.map(|value| value.to_string()).unwrap_or_default(),
+            Self::Flag(value) => value.to_string(),
+        }
+    }
+
+    fn text(&self) -> String {
+        quoted(&self.plain())
+    }
+}
+
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}
+
+/// The columns of a point.
+pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
+    let mut cells: Cells = vec![("point".to_owned(), count(number(row.number)))];
+    let settings = axes.iter().zip(&row.settings);
+    cells.extend(settings.map(|(axis, value)| (axis.clone(), Cell::Text(value.clone()))));
+    cells.extend(errors(&row.figures));
+    let area = row.silicon.as_ref();
+    let of = |take: fn(&crate::Silicon) -> u64| Cell::Count(area.map(take));
+    cells.extend(
+        [
+            ("bytes_per_frame", Cell::Real(Some(row.bytes_per_frame))),
+            ("clocks_per_frame", count(row.clocks_per_frame)),
+            ("frames_per_second", count(row.frames_per_second)),
+            ("unit_lut", of(|area| area.unit.lut_total_packed)),
+            ("unit_ff", of(|area| area.unit.ff)),
+            ("unit_lutram", of(|area| area.unit.lut_memory_packed)),
+            ("units", of(|area| area.units)),
+            ("lut", of(|area| area.array.lut_total_packed)),
+            ("ff", of(|area| area.array.ff)),
+            ("lutram", of(|area| area.array.lut_memory_packed)),
+            ("bram18", of(|area| area.array.bram18)),
+            ("dsp", of(|area| area.array.dsp)),
+            ("logic_levels", of(|area| area.levels.into())),
+            ("simulated_per_second", Cell::Real(Some(row.simulated_per_second))),
+            ("front_speed", Cell::Flag(row.front.speed)),
+            ("front_area", Cell::Flag(row.front.area)),
+            ("front", Cell::Flag(row.front.all)),
+            ("fingerprint", Cell::Text(row.fingerprint.clone())),
+        ]
+        .map(|(name, cell)| (name.to_owned(), cell)),
+    );
+    cells
+}
+
+/// The columns that say what a row of one clip is about.
+pub(crate) fn names(point: usize, clip: &str) -> Cells {
+    vec![
+        ("point".to_owned(), count(number(point))),
+        ("clip".to_owned(), Cell::Text(clip.to_owned())),
+    ]
+}
+
+/// The columns of errors.
+pub(crate) fn errors(figures: &Figures) -> Cells {
+    let real = |value: f64| Cell::Real(Some(value));
+    let mut cells: Cells = [
+        ("frames", count(figures.frames)),
+        ("active", real(figures.active)),
+        ("ideal_active", real(figures.ideal_active)),
+        ("srs_flips", real(figures.srs_flips)),
+        ("trs_flips", real(figures.trs_flips)),
+        ("action_flips", real(figures.action_flips)),
+        ("missed", real(figures.missed)),
+        ("false_alarms", real(figures.false_alarms)),
+        ("active_iou", real(figures.active_iou)),
+        ("psnr_ideal", Cell::Real(figures.psnr_ideal)),
+        ("ssim_ideal", real(figures.ssim_ideal)),
+        ("psnr_input", Cell::Real(figures.psnr_input)),
+        ("ssim_input", real(figures.ssim_input)),
+        ("stale_max", real(figures.staleness.max)),
+        ("stale_mean", real(figures.staleness.mean)),
+        ("stale_share", real(figures.staleness.share)),
+        ("stale_frames", count(figures.staleness.longest)),
+    ]
+    .map(|(name, cell)| (name.to_owned(), cell))
+    .into();
+    for feature in SCORES {
+        let score = figures.scores.iter().find(|score| score.feature == feature);
+        let of = |take: fn(&foveate_fidelity::ScoreError) -> f64| Cell::Real(score.map(take));
+        cells.push((format!("{feature}_max"), of(|score| score.max)));
+        cells.push((format!("{feature}_mean"), of(|score| score.mean)));
+        cells.push((format!("{feature}_rms"), of(|score| score.rms)));
+    }
+    cells
+}
+
+/// Every score that can be compared; the same columns for all spaces, so that tables can be joined.
+const SCORES: [&str; 5] = ["edge", "corner", "mad", "variance", "temporal"];
+
+fn count(value: u64) -> Cell {
+    Cell::Count(Some(value))
+}
+
+fn number(value: usize) -> u64 {
+    u64::try_from(value).unwrap_or(u64::MAX)
+}

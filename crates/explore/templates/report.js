@@ -1,0 +1,105 @@
+(function () {
+  'use strict';
+  var all = function (what, inside) { return Array.from((inside || document).querySelectorAll(what)); };
+  document.documentElement.classList.add('scripted');
+  all('.copy, .js').forEach(function (one) { one.hidden = false; });
+
+  // Copies a configuration; where a page may not, selects it.
+  var copied = function (button, text) {
+    var before = button.textContent;
+    button.textContent = text;
+    setTimeout(function () { button.textContent = before; }, 1500);
+  };
+  var select = function (card, button) {
+    card.open = true;
+    card.scrollIntoView({ block: 'nearest' });
+    getSelection().selectAllChildren(card.querySelector('pre'));
+    copied(button, 'selected');
+  };
+  all('.copy').forEach(function (button) {
+    button.addEventListener('click', function () {
+      var card = document.getElementById('c' + button.dataset.copy);
+      if (!navigator.clipboard) { select(card, button); return; }
+      navigator.clipboard.writeText(card.querySelector('pre').textContent).then(
+        function () { copied(button, 'copied'); }, function () { select(card, button); });
+    });
+  });
+
+  // Opens the configuration that a link leads to.
+  var open = function () {
+    var card = document.getElementById(location.hash.slice(1));
+    if (card ? card.tagName.toLowerCase() === 'details' : false) { card.open = true; }
+  };
+  addEventListener('hashchange', open);
+  open();
+
+  // Sorts by a column; what has no value stays last.
+  all('table.sortable').forEach(function (table) {
+    var heads = all('thead th', table);
+    heads.forEach(function (head, column) {
+      if (head.classList.contains('plain')) { return; }
+      head.tabIndex = 0;
+      var sort = function () {
+        var down = head.getAttribute('aria-sort') === 'ascending';
+        heads.forEach(function (other) { other.removeAttribute('aria-sort'); });
+        head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
+        var body = table.tBodies[0];
+        var rows = all('tr', body).map(function (row) {
+          var text = row.cells[column].dataset.v;
+          return { row: row, text: text, number: text === '' ? NaN : Number(text) };
+        });
+        rows.sort(function (one, other) {
+          if (one.text === '' || other.text === '') { return (one.text === '') - (other.text === ''); }
+          var order = one.number - other.number;
+          if (isNaN(order)) { order = one.text.localeCompare(other.text); }
+          return down ? -order : order;
+        });
+        rows.forEach(function (one) { body.appendChild(one.row); });
+      };
+      head.addEventListener('click', sort);
+      head.addEventListener('keydown', function (event) { if (event.key === 'Enter') { sort(); } });
+    });
+  });
+
+  // Colours by another axis.
+  var pick = document.getElementById('pick');
+  var legends = all('.by-axis');
+  pick.hidden = legends.length === 0;
+  pick.querySelector('select').addEventListener('change', function (event) {
+    var axis = Number(event.target.value);
+    legends.forEach(function (legend, index) { legend.hidden = index !== axis; });
+    var marks = all('.mark[data-g]');
+    marks.forEach(function (mark) {
+      var group = Number(mark.dataset.g.split(' ')[axis]);
+      var best = mark.classList.contains('best');
+      mark.setAttribute('class', 'mark k' + (group > 13 ? 7 : group % 7) + (best ? ' best' : ''));
+      var box = group > 6 ? group !== 14 : false;
+      mark.setAttribute('href', '#' + (best ? 'front-' : 'all-') + (box ? 'box' : 'dot'));
+    });
+    // Marks of one place that look different are rings around each other.
+    var above = new Map();
+    marks.reverse().forEach(function (mark) {
+      var x = mark.getAttribute('x');
+      var y = mark.getAttribute('y');
+      var place = mark.closest('figure').id + ' ' + x + ' ' + y;
+      var look = mark.getAttribute('class') + mark.getAttribute('href');
+      var looks = above.get(place) || above.set(place, []).get(place);
+      if (!looks.includes(look)) { looks.push(look); }
+      var scale = 1 + looks.indexOf(look) / 2;
+      mark.style.setProperty('--s', scale);
+      mark.setAttribute('transform', 'translate(' + x + ' ' + y + ') scale(' + scale + ') translate(-' + x + ' -' + y + ')');
+    });
+  });
+
+  // Shows the same point everywhere.
+  var show = function (on) {
+    return function (event) {
+      var one = event.target.closest('[data-n]');
+      if (one) {
+        all('[data-n="' + one.dataset.n + '"]').forEach(function (same) { same.classList.toggle('here', on); });
+      }
+    };
+  };
+  document.addEventListener('pointerover', show(true));
+  document.addEventListener('pointerout', show(false));
+}());
