@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Looks as silicon: what could be built of them, what it costs, which is cheapest.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use foveate_estimate::Device;
+use foveate_spec::{
+    Config, Design, FeatureKind, Feed, Filter, MemoryKind, Organization, Reference,
+};
+use rayon::prelude::*;
+
+use super::FitRequest;
+use super::constraints::Held;
+use super::looks::{Look, Search};
+use crate::cost::{Silicon, distinct};
+use crate::row::real;
+use crate::{ExploreError, Hooks, Progress};
+
+/// Looks that are built though they do not hold, where none does: the nearest.
+const NEAREST: usize = 6;
+
+/// A design that could be built.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    pub(super) look: Look,
+    pub(super) design: Design,
+    pub(super) clocks_per_frame: u64,
+    pub(super) frames_per_second: u64,
+    pub(super) silicon: Silicon,
+    /// All constraints.
+    pub(super) held: Vec<Held>,
+}
+
+/// Everything that was built, the chosen one first.
+pub(super) struct Built {
+    candidates: Vec<Candidate>,
+}
+
+impl Built {
+    /// The cheapest that holds, else the nearest.
+    pub(super) fn chosen(&self) -> &Candidate {
+        &self.candidates[0]
+    }
+
+    pub(super) fn all(&self) -> &[Candidate] {
+        &self.candidates
+    }
+}
+
+impl Candidate {
+    pub(super) fn holds(&self) -> bool {
+        self.held.iter().all(|held| held.holds)
+    }
+
+    pub(super) fn excess(&self) -> f64 {
+        self.held.iter().map(Held::excess).sum()
+    }
+
+    /// The shares of the paper's device, added: LUTs, block RAM, DSP blocks, and a little for flip-flops,
+    /// of which there are two for every LUT.
+    pub(super) fn cost(&self) -> f64 {
+        let (area, device) = (&self.silicon.array, Device::xcvu9p());
+        let share = |used: u64, of: u64| real(used) / real(of);
+        share(area.lut_total_packed, device.lut)
+            + share(area.bram18, device.bram18)
+            + share(area.dsp, device.dsp)
+            + share(area.ff, device.ff) / 100.0
+    }
+}
+
+/// Builds what may be cheapest.
+pub(super) fn build(
+    search: &Search<'_>,
+    request: &FitRequest<'_>,
+    hooks: &dyn Hooks,
+) -> Result<Built, ExploreError> {
+    let holding: Vec<&Look> = search.all().filter(|look| look.holds()).collect();
+    let mut looks = simplest(&holding);
+    let mut candidates = Vec::new();
+    loop {
+        candidates.extend(synthesize(&looks, request, hooks)?);
+        let done = candidates.iter().any(Candidate::holds);
+        // Where nothing holds, the nearest and what is sacrificed for it.
+        if done || looks.iter().any(|look| !look.holds()) {
+            break;
+        }
+        let mut others: Vec<&Look> = search.all().filter(|look| !look.holds()).collect();
+        others.sort_by(|one, other| one.excess().total_cmp(&other.excess()));
+        others.truncate(NEAREST);
+        if others.is_empty() {
+            break;
+        }
+        looks = others;
+    }
+    candidates.sort_by(|one, other| {
+        let cost = one.cost().total_cmp(&other.cost());
+        match one.holds() && other.holds() {
+            true => cost,
+            false => one.excess().total_cmp(&other.excess()).then(cost),
+        }
+    });
+    if candidates.is_empty() {
+        return Err(ExploreError::NoPoints {
+            settings: "every camera that was looked at".to_owned(),
+            reason: "none can be built".to_owned(),
+        });
+    }
+    Ok(Built { candidates })
+}
+
+/// The looks than which none that holds is simpler.
+fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
+    let simpler = |one: &Config, other: &Config| {
+        let (one, other) = (complexity(one), complexity(other));
+        one.0 == other.0
+            && one != other
+            && one.1.iter().zip(&other.1).all(|(one, other)| one <= other)
+    };
+    let beaten = |look: &Look| looks.iter().any(|other| simpler(&other.config, &look.config));
+    let mut kept: Vec<&Look> = looks.iter().copied().filter(|look| !beaten(look)).collect();
+    // Thresholds are inputs of the core: of looks that differ in nothing else that with fewest flips.
+    kept.sort_by(|one, other| one.figures.action_flips.total_cmp(&other.figures.action_flips));
+    let mut seen = Vec::new();
+    kept.retain(|look| {
+        let complexity = complexity(&look.config);
+        let new = !seen.contains(&complexity);
+        seen.push(complexity);
+        new
+    });
+    kept
+}
+
+/// What cannot be compared, and what costs more the larger it is.
+type Complexity = ((u32, String, Vec<FeatureKind>), [u32; 4]);
+
+fn complexity(config: &Config) -> Complexity {
+    let features = config.spatial.iter().map(|entry| entry.feature).collect();
+    let neighborhood = config.region.neighborhood.name().to_owned();
+    let fraction = config.spatial.iter().filter_map(|entry| entry.mean_fraction_bits).sum();
+    let ordered = [
+        config.frame.pixel_bits,
+        u32::from(config.denoise.filter != Filter::None),
+        u32::from(config.temporal.reference != Reference::Previous),
+        fraction,
+    ];
+    ((config.region.size, neighborhood, features), ordered)
+}
+
+/// Every design worth building of some looks.
+fn synthesize(
+    looks: &[&Look],
+    request: &FitRequest<'_>,
+    hooks: &dyn Hooks,
+) -> Result<Vec<Candidate>, ExploreError> {
+    let max_clocks = request.constraints.min_fps.map(|fps| clocks(request.clock_hz, fps));
+    let mut designs: Vec<(&Look, Design)> = Vec::new();
+    for look in looks {
+        let ways = ways(&look.config, request.task, max_clocks);
+        designs.extend(ways.into_iter().map(|design| (*look, design)));
+    }
+    let (keys, jobs) = distinct(designs.iter().map(|(_, design)| design));
+    let (done, all) = (AtomicUsize::new(0), jobs.len());
+    let areas = jobs.par_iter().map(|(key, job)| {
+        if hooks.cancelled() {
+            return Err(ExploreError::Cancelled);
+        }
+        let area = request.synthesizer.area(job)?;
+        let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+        hooks.progress(Progress::Synthesizing { done, all });
+        Ok((key.as_str(), area))
+    });
+    let areas = areas.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
+    let candidate = |((look, design), key): ((&Look, Design), &String)| {
+        let silicon = areas.get(key.as_str())?.clone();
+        let clocks_per_frame = design.timing().clocks_per_frame();
+        let frames_per_second = request.clock_hz / clocks_per_frame.max(1);
+        let mut held = look.held.clone();
+        held.extend(request.constraints.on_speed(frames_per_second));
+        held.extend(request.constraints.on_silicon(&silicon));
+        let look = look.clone();
+        Some(Candidate { look, design, clocks_per_frame, frames_per_second, silicon, held })
+    };
+    Ok(designs.into_iter().zip(&keys).filter_map(candidate).collect())
+}
+
+/// Clocks per frame with which so many frames per second are reached.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "positive and below 2^53"
+)]
+fn clocks(clock_hz: u64, fps: f64) -> u64 {
+    (real(clock_hz) / fps.max(1e-9)).floor() as u64
+}
+
+/// Ways to build a camera: of each feed the deepest fold that is fast enough, and the deepest without
+/// block RAM; pipelined where no serial array is fast enough.
+fn ways(look: &Config, task: &Config, max_clocks: Option<u64>) -> Vec<Design> {
+    let with = |organization, feed| {
+        let mut config = look.clone();
+        config.hardware = task.hardware.clone();
+        config.hardware.organization = organization;
+        config.hardware.fold = 1;
+        config.hardware.feed = feed;
+        config.validate().ok()
+    };
+    let mut found = Vec::new();
+    for &feed in Feed::ALL {
+        let Some(serial) = with(Organization::Serial, Some(feed)) else { continue };
+        let fold = max_clocks.map_or(Some(serial.regions()), |clocks| serial.largest_fold(clocks));
+        let Some(deepest) = fold.and_then(|fold| serial.with_fold(fold)) else { continue };
+        let distributed = (0..deepest.fold().ilog2() + 1)
+            .filter_map(|halvings| serial.with_fold(deepest.fold() >> halvings))
+            .find(|design| design.lane_memory().kind != MemoryKind::Block);
+        found.extend(distributed.filter(|design| design.fold() != deepest.fold()));
+        found.push(deepest);
+    }
+    if found.is_empty() {
+        found.extend(with(Organization::Pipelined, None));
+    }
+    found
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a design must hold, and how far it is from it.
+
+use foveate_fidelity::Figures;
+use foveate_spec::Design;
+use serde::Serialize;
+
+use crate::cost::Silicon;
+use crate::row::{bytes_per_frame, real};
+
+/// What a design must hold. Shares are 0..=1; what is not there does not matter.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Constraints {
+    /// Share of regions whose action is another than the ideal's.
+    pub max_flips: Option<f64>,
+    /// Share of the area active in the ideal that is not active in the design.
+    pub max_missed: Option<f64>,
+    /// PSNR of the screen against that of the ideal, in dB.
+    pub min_psnr: Option<f64>,
+    /// Frames in a row for which a relevant region may be stale.
+    pub max_stale_frames: Option<u64>,
+    /// Bytes per frame that leave the array.
+    pub max_bytes: Option<f64>,
+    /// Frames per second at the clock.
+    pub min_fps: Option<f64>,
+    /// LUTs of one RPU or lane, those used as memory included.
+    pub max_lut: Option<u64>,
+    /// Flip-flops of one RPU or lane.
+    pub max_ff: Option<u64>,
+    /// LUTs of the array.
+    pub max_array_lut: Option<u64>,
+    /// Block RAM of the array in units of `RAMB36`.
+    pub max_bram: Option<u64>,
+}
+
+/// A constraint beside what was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Held {
+    /// The option that sets it, without its dashes.
+    pub name: &'static str,
+    /// The figure.
+    pub value: f64,
+    /// What it must be at most, or at least.
+    pub limit: f64,
+    /// Whether it must be at least that.
+    pub at_least: bool,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+impl Held {
+    fn at_most(name: &'static str, value: f64, limit: f64) -> Self {
+        Self { name, value, limit, at_least: false, holds: value <= limit }
+    }
+
+    fn at_least(name: &'static str, value: f64, limit: f64) -> Self {
+        Self { name, value, limit, at_least: true, holds: value >= limit }
+    }
+
+    /// How far it is from being held: 0 when it is, 1 when it is twice or half of what it may be. Comparable
+    /// between constraints, and finite.
+    #[must_use]
+    pub fn excess(&self) -> f64 {
+        const LEAST: f64 = 1e-6;
+        if self.holds {
+            return 0.0;
+        }
+        let (more, less) =
+            if self.at_least { (self.limit, self.value) } else { (self.value, self.limit) };
+        (more.max(LEAST) / less.max(LEAST)).log2().max(LEAST)
+    }
+}
+
+impl Constraints {
+    /// The constraints on what a camera sees and sends.
+    #[must_use]
+    pub fn on_figures(&self, design: &Design, figures: &Figures) -> Vec<Held> {
+        let at_most =
+            |name, limit: Option<f64>, value| limit.map(|l| Held::at_most(name, value, l));
+        // Screens that are identical are as near as can be.
+        let psnr = figures.psnr_ideal.unwrap_or(f64::MAX);
+        [
+            at_most("max-flips", self.max_flips, figures.action_flips),
+            at_most("max-missed", self.max_missed, figures.missed),
+            self.min_psnr.map(|limit| Held::at_least("min-psnr", psnr, limit)),
+            at_most(
+                "max-stale-frames",
+                self.max_stale_frames.map(real),
+                real(figures.staleness.longest),
+            ),
+            at_most("max-bytes", self.max_bytes, bytes_per_frame(design, figures.active)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// The constraint on speed, at so many frames per second.
+    #[must_use]
+    pub fn on_speed(&self, frames_per_second: u64) -> Vec<Held> {
+        let fps = real(frames_per_second);
+        self.min_fps.map(|limit| Held::at_least("fps", fps, limit)).into_iter().collect()
+    }
+
+    /// The constraints on area.
+    #[must_use]
+    pub fn on_silicon(&self, silicon: &Silicon) -> Vec<Held> {
+        let Silicon { unit, array, .. } = silicon;
+        [
+            ("max-lut", unit.lut_total_packed, self.max_lut),
+            ("max-ff", unit.ff, self.max_ff),
+            ("max-array-lut", array.lut_total_packed, self.max_array_lut),
+            ("max-bram", array.bram18.div_ceil(2), self.max_bram),
+        ]
+        .into_iter()
+        .filter_map(|(name, value, limit)| {
+            limit.map(|limit| Held::at_most(name, real(value), real(limit)))
+        })
+        .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn excess_is_nothing_when_it_holds_and_grows_with_distance() {
+        assert!(Held::at_most("a", 1.0, 1.0).excess() == 0.0);
+        assert!((Held::at_most("a", 4.0, 2.0).excess() - 1.0).abs() < 1e-12);
+        assert!((Held::at_least("a", 60.0, 120.0).excess() - 1.0).abs() < 1e-12);
+        let of_none = Held::at_most("a", 0.5, 0.0).excess();
+        assert!(of_none.is_finite() && of_none > Held::at_most("a", 0.5, 0.1).excess());
+    }
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Where the first half of every clip ends.
+
+use crate::ExploreError;
+use crate::Hooks;
+use crate::footage::Footage;
+
+/// For every clip the frames of its first half and all of its frames.
+pub(super) type Halves = Vec<(u64, u64)>;
+
+/// A frame to start with, and one that can change, in each half.
+const LEAST: u64 = 4;
+
+/// Counts the frames of every clip; what a container says may be wrong.
+pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves, ExploreError> {
+    let mut found = Vec::new();
+    for subject in &footage.subjects {
+        let mut source = footage.open(subject)?;
+        let mut frames = 0;
+        while let Some(frame) = source.next_frame()? {
+            source.give_back(frame);
+            frames += 1;
+            if hooks.cancelled() {
+                return Err(ExploreError::Cancelled);
+            }
+        }
+        if frames < LEAST {
+            let clip = subject.name.clone();
+            return Err(ExploreError::Short { clip, frames, least: LEAST });
+        }
+        found.push((frames / 2, frames));
+    }
+    Ok(found)
+}

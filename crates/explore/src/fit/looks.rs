@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What cameras see: the search over everything but the silicon.
+
+use std::collections::BTreeMap;
+
+use foveate_fidelity::Figures;
+use foveate_spec::{
+    Config, Decimal, FeatureKind, Filter, HardwareConfig, Neighborhood, Reference, SpatialConfig,
+    SpecError,
+};
+
+use super::constraints::{Constraints, Held};
+use super::held_out::Halves;
+use crate::ExploreError;
+use crate::Progress;
+use crate::footage::Footage;
+use crate::row::together;
+use crate::scale::at_depth;
+
+/// Sides of regions that are tried beside the task's.
+const SIDES: [u32; 3] = [4, 8, 16];
+/// The fewest bits per pixel that are tried.
+const FEWEST_BITS: u32 = 3;
+/// So many pairs of a region size and features are looked at closely, though they flip more than wanted.
+const AT_LEAST: usize = 3;
+/// Pairs that flip at most so many times what is wanted are looked at, too.
+const SLACK: f64 = 1.5;
+
+/// A camera and how it did on the first halves.
+#[derive(Clone, Debug)]
+pub(super) struct Look {
+    /// Without a choice of hardware.
+    pub(super) config: Config,
+    pub(super) figures: Figures,
+    pub(super) held: Vec<Held>,
+}
+
+/// The search and what it has seen.
+pub(super) struct Search<'a> {
+    constraints: &'a Constraints,
+    footage: &'a Footage<'a>,
+    halves: &'a Halves,
+    task: Config,
+    seen: BTreeMap<String, Look>,
+}
+
+impl Look {
+    pub(super) fn holds(&self) -> bool {
+        self.held.iter().all(|held| held.holds)
+    }
+
+    /// How far it is from holding, over all constraints.
+    pub(super) fn excess(&self) -> f64 {
+        self.held.iter().map(Held::excess).sum()
+    }
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        constraints: &'a Constraints,
+        footage: &'a Footage<'a>,
+        halves: &'a Halves,
+        task: &Config,
+    ) -> Result<Self, ExploreError> {
+        let mut task = Config { hardware: HardwareConfig::default(), ..task.clone() };
+        task.fit_frame(footage.size.0, footage.size.1)?;
+        let task = task.validate()?.config().clone();
+        Ok(Self { constraints, footage, halves, task, seen: BTreeMap::new() })
+    }
+
+    /// Everything that was looked at.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Look> {
+        self.seen.values()
+    }
+
+    /// A camera, if it was looked at.
+    pub(super) fn get(&self, config: &Config) -> Option<&Look> {
+        self.seen.get(&config.to_toml())
+    }
+
+    pub(super) fn task(&self) -> &Config {
+        &self.task
+    }
+
+    /// Sizes and features with thresholds that agree best; then bits, windows, filters, references.
+    pub(super) fn run(&mut self) -> Result<(), ExploreError> {
+        let mut bases = Vec::new();
+        for side in self.sides() {
+            for features in self.features() {
+                let tries = self.with_thresholds(side, &features);
+                let best = self.look(&tries)?.into_iter().min_by(by_flips);
+                bases.extend(best);
+            }
+        }
+        bases.sort_by(by_flips);
+        let wanted = self.constraints.max_flips.unwrap_or(0.0) * SLACK;
+        let near = bases.iter().filter(|look| look.figures.action_flips <= wanted).count();
+        bases.truncate(near.max(AT_LEAST));
+        for base in bases {
+            self.look(&self.simpler(&base.config))?;
+        }
+        Ok(())
+    }
+
+    fn sides(&self) -> Vec<u32> {
+        let own = self.task.region.size;
+        std::iter::once(own).chain(SIDES.into_iter().filter(|&side| side != own)).collect()
+    }
+
+    /// The task's features, and each feature alone.
+    fn features(&self) -> Vec<Vec<SpatialConfig>> {
+        let own = &self.task.spatial;
+        let alone = FeatureKind::ALL.iter().map(|&kind| vec![SpatialConfig::new(kind)]);
+        let is_own =
+            |features: &Vec<SpatialConfig>| own.len() == 1 && own[0].feature == features[0].feature;
+        std::iter::once(own.clone()).chain(alone.filter(|features| !is_own(features))).collect()
+    }
+
+    /// As exact as can be built, with every threshold worth trying.
+    fn with_thresholds(&self, side: u32, features: &[SpatialConfig]) -> Vec<Config> {
+        let mut exact = self.task.clone();
+        exact.region.size = side;
+        exact.region.neighborhood = Neighborhood::Shared;
+        let counts = counts(self.task.temporal.min_count, self.task.region.size, side);
+        let own = features == self.task.spatial;
+        let choices: Vec<Vec<SpatialConfig>> = match features {
+            [one] if !own => ladder(one.feature, side),
+            _ => own_thresholds(features, self.task.region.size, side),
+        };
+        let mut found = Vec::new();
+        for count in counts {
+            for spatial in &choices {
+                let mut config = exact.clone();
+                config.temporal.min_count = count;
+                config.spatial.clone_from(spatial);
+                found.push(config);
+            }
+        }
+        found
+    }
+
+    /// Every cheaper way to see the same: fewer bits, windows of their own, no filter, the other
+    /// reference, a mean without fraction.
+    fn simpler(&self, base: &Config) -> Vec<Config> {
+        let mut found = Vec::new();
+        let depth = base.frame.pixel_bits;
+        for bits in (FEWEST_BITS.min(depth)..=depth).rev() {
+            for &neighborhood in Neighborhood::ALL {
+                for &filter in Filter::ALL {
+                    for &reference in Reference::ALL {
+                        let mut config = base.clone();
+                        config.region.neighborhood = neighborhood;
+                        config.denoise.filter = filter;
+                        config.temporal.reference = reference;
+                        config.frame.pixel_bits = bits;
+                        found.push(at_depth(&config, depth));
+                    }
+                }
+            }
+        }
+        let coarse = found.clone().into_iter().filter_map(|mut config| {
+            let means = config.spatial.iter_mut().filter(|entry| entry.feature == FeatureKind::Mad);
+            means.map(|entry| entry.mean_fraction_bits = Some(0)).count().gt(&0).then_some(config)
+        });
+        let coarse: Vec<Config> = coarse.collect();
+        found.into_iter().chain(coarse).collect()
+    }
+
+    /// Looks at cameras on the first halves; what is no design is left out.
+    pub(super) fn look(&mut self, configs: &[Config]) -> Result<Vec<Look>, ExploreError> {
+        let designs: Vec<_> = configs.iter().filter_map(|config| config.validate().ok()).collect();
+        let new: BTreeMap<String, _> = designs
+            .iter()
+            .map(|design| (design.config().to_toml(), design.clone()))
+            .filter(|(text, _)| !self.seen.contains_key(text))
+            .collect();
+        let designs_new: Vec<_> = new.values().cloned().collect();
+        let done = self.seen.len();
+        let tell = || Progress::Measuring { done, all: done + designs_new.len() };
+        let figures = self.footage.first_halves(&designs_new, self.halves, &tell)?;
+        for ((text, design), figures) in new.iter().zip(figures) {
+            let held = self.constraints.on_figures(design, &figures);
+            let look = Look { config: design.config().clone(), figures, held };
+            self.seen.insert(text.clone(), look);
+        }
+        let looks = designs.iter().filter_map(|design| self.get(design.config()).cloned());
+        Ok(looks.collect())
+    }
+
+    /// The figures of a camera on the second halves, which no choice has seen.
+    pub(super) fn second_half(&self, look: &Look) -> Result<(Figures, Vec<Held>), ExploreError> {
+        let design = look.config.validate()?;
+        let mut measured = Vec::new();
+        for (subject, &(half, all)) in self.footage.subjects.iter().zip(self.halves) {
+            let tell = || Progress::Measuring { done: 0, all: 1 };
+            let designs = std::slice::from_ref(&design);
+            let mut parts = self.footage.parts(subject, designs, &[0..half, half..all], &tell)?;
+            measured.extend(parts.pop().and_then(|mut parts| parts.pop()));
+        }
+        let all: Vec<_> = measured.iter().collect();
+        let figures = together(&all).map(|tally| tally.figures());
+        let figures = figures.ok_or(SpecError::Syntax("no clip".to_owned()))?;
+        let held = self.constraints.on_figures(&design, &figures);
+        Ok((figures, held))
+    }
+}
+
+fn by_flips(one: &Look, other: &Look) -> std::cmp::Ordering {
+    one.figures.action_flips.total_cmp(&other.figures.action_flips)
+}
+
+/// A count of pixels of a region for regions of another size: as it is, as much of the area, between.
+fn counts(count: u32, from: u32, to: u32) -> Vec<u32> {
+    let n = to * to;
+    let area = (u64::from(count) * u64::from(n)).div_ceil(u64::from(from * from));
+    let area = u32::try_from(area).unwrap_or(n);
+    let mut found = vec![count, area, u32::midpoint(count, area)];
+    found.iter_mut().for_each(|count| *count = (*count).clamp(1, n));
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// The task's features with their counts of hits for another region size.
+fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<SpatialConfig>> {
+    let mut found: Vec<Vec<SpatialConfig>> = vec![Vec::new()];
+    for entry in features {
+        let entry = entry.with_defaults();
+        let hits =
+            entry.min_score.and_then(Decimal::as_whole).and_then(|hits| hits.try_into().ok());
+        let choices: Vec<SpatialConfig> = match (entry.level, hits) {
+            (Some(_), Some(hits)) => counts(hits, from, to)
+                .into_iter()
+                .map(|hits| SpatialConfig {
+                    min_score: Some(Decimal::whole(hits.into())),
+                    ..entry.clone()
+                })
+                .collect(),
+            _ => vec![entry],
+        };
+        found = found
+            .iter()
+            .flat_map(|before| {
+                choices
+                    .iter()
+                    .map(|choice| [before.as_slice(), std::slice::from_ref(choice)].concat())
+            })
+            .collect();
+    }
+    found
+}
+
+/// Thresholds of a feature that the task does not have.
+fn ladder(feature: FeatureKind, side: u32) -> Vec<Vec<SpatialConfig>> {
+    const LEVELS: [u64; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
+    let fraction = (side * side).ilog2();
+    let entry = |level: Option<u32>, min_score: u64| {
+        vec![SpatialConfig {
+            level,
+            min_score: Some(Decimal::whole(min_score)),
+            mean_fraction_bits: (feature == FeatureKind::Mad).then_some(fraction),
+            ..SpatialConfig::new(feature)
+        }]
+    };
+    let hits = |levels: [u32; 4]| {
+        let pairs = levels.into_iter().flat_map(|level| [1, 2, 5, 10].map(|hits| (level, hits)));
+        pairs.map(|(level, hits)| entry(Some(level), hits)).collect()
+    };
+    match feature {
+        FeatureKind::Edge => hits([50, 75, 100, 150]),
+        FeatureKind::Corner => hits([8, 12, 20, 30]),
+        FeatureKind::Mad => LEVELS.map(|level| entry(None, level)).into(),
+        FeatureKind::Variance => LEVELS.map(|level| entry(None, level * level)).into(),
+    }
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cheapest design that a scene needs: fitted on the first half of every clip, reported on the second.
+//!
+//! 1. With a wanted share of active regions, the task's thresholds are set to it ([`target`]).
+//! 2. Looks, which is what a camera sees and not how it is built: region sizes and features, each with
+//!    the thresholds that agree best with the ideal; of the best of them all pixel bits, windows,
+//!    filters and references ([`looks`]).
+//! 3. Of the looks that hold the constraints, those that no simpler one holds too, as silicon: the
+//!    deepest fold that is fast enough, each feed; pipelined where no serial array is ([`build`]).
+//! 4. The cheapest, and why nothing simpler would do ([`why`]).
+
+mod build;
+mod constraints;
+mod held_out;
+mod looks;
+mod report;
+mod target;
+mod why;
+
+use std::path::PathBuf;
+
+use foveate_simulator::InputOptions;
+use foveate_spec::Config;
+
+use crate::cost::Synthesizer;
+use crate::footage::Footage;
+use crate::{ExploreError, Hooks};
+use build::build;
+use held_out::{Halves, halves};
+use looks::Search;
+
+pub use constraints::{Constraints, Held};
+pub use report::{Design, Fit, Target};
+
+/// What is to be fitted.
+#[derive(Clone, Debug)]
+pub struct FitRequest<'a> {
+    /// What the camera is to do: the ideal camera does it in floating point over whole frames.
+    pub task: &'a Config,
+    /// Clips of one size.
+    pub inputs: &'a [PathBuf],
+    /// How they are read.
+    pub input: &'a InputOptions,
+    /// What the design must hold.
+    pub constraints: &'a Constraints,
+    /// The clock in Hz.
+    pub clock_hz: u64,
+    /// The wanted share of active regions, 0..=1; the task's thresholds are set to it.
+    pub target_active: Option<f64>,
+    /// For areas.
+    pub synthesizer: &'a Synthesizer,
+}
+
+/// Finds the cheapest design that holds the constraints on the first half of the footage, or the nearest
+/// if none does, and measures it on the second half.
+///
+/// # Errors
+/// When an input cannot be read or is too short to be halved, Yosys is missing or fails, or `hooks`
+/// cancels.
+pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
+    let lengths = {
+        let footage = Footage::new(request.inputs, request.input, request.task, hooks)?;
+        halves(&footage, hooks)?
+    };
+    let (task, target) = target::aim(request, &lengths, hooks)?;
+    let footage = Footage::new(request.inputs, request.input, &task, hooks)?;
+    let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
+    search.run()?;
+    let built = build(&search, request, hooks)?;
+    let chosen = built.chosen();
+    let second = search.second_half(&chosen.look)?;
+    Ok(report::fit(request, &search, &built, chosen, target, second, &lengths))
+}
+
+/// The sums of both halves of all clips in frames.
+fn frames(halves: &Halves) -> (u64, u64) {
+    halves.iter().fold((0, 0), |(first, second), (half, all)| (first + half, second + all - half))
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What came out of a fit, for people and programs.
+
+use foveate_fidelity::Figures;
+use foveate_spec::Config;
+use serde::Serialize;
+
+use super::build::{Built, Candidate};
+use super::constraints::Held;
+use super::held_out::Halves;
+use super::looks::Search;
+use super::{FitRequest, frames, why};
+use crate::cost::Silicon;
+
+/// Thresholds for a wanted share of active regions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Target {
+    /// The share that was wanted, 0..=1.
+    pub wanted: f64,
+    /// The nearest that there is, on the first half.
+    pub found: f64,
+    /// The task with these thresholds, as TOML.
+    pub task: String,
+}
+
+/// The design that was chosen.
+#[derive(Clone, Debug, Serialize)]
+pub struct Design {
+    /// Its configuration, for `generate`.
+    #[serde(skip)]
+    pub config: Config,
+    /// The same as TOML.
+    pub toml: String,
+    /// In a few words.
+    pub summary: String,
+    /// Clocks from one frame to the next.
+    pub clocks_per_frame: u64,
+    /// Frames per second at the clock.
+    pub frames_per_second: u64,
+    /// Its area.
+    pub silicon: Silicon,
+    /// Figures on the first half, which it was fitted on.
+    pub fitted: Figures,
+    /// Constraints on the first half.
+    pub fitted_held: Vec<Held>,
+    /// Figures on the second half, which no choice has seen.
+    pub held_out: Figures,
+    /// Constraints on the second half.
+    pub held_out_held: Vec<Held>,
+}
+
+/// What came out.
+#[derive(Clone, Debug, Serialize)]
+pub struct Fit {
+    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    pub format_version: u32,
+    /// Frames of the first and of the second halves.
+    pub frames: (u64, u64),
+    /// The camera that designs are compared with, as TOML.
+    pub task: String,
+    /// Its thresholds, where a share of active regions was wanted.
+    pub target: Option<Target>,
+    /// The clock in Hz.
+    pub clock_hz: u64,
+    /// Cameras that were looked at, and designs that were synthesized.
+    pub considered: (usize, usize),
+    /// Whether the design holds all constraints on the first half.
+    pub feasible: bool,
+    /// Whether it holds them on the second.
+    pub borne_out: bool,
+    /// Constraints without each of which alone there would be a design; empty where there is one.
+    pub binding: Vec<&'static str>,
+    /// The cheapest design, or the nearest where none holds all constraints.
+    pub design: Design,
+    /// Why it is this one.
+    pub why: Vec<String>,
+}
+
+pub(super) fn fit(
+    request: &FitRequest<'_>,
+    search: &Search<'_>,
+    built: &Built,
+    chosen: &Candidate,
+    target: Option<Target>,
+    (held_out, mut held): (Figures, Vec<Held>),
+    halves: &Halves,
+) -> Fit {
+    held.extend(request.constraints.on_speed(chosen.frames_per_second));
+    held.extend(request.constraints.on_silicon(&chosen.silicon));
+    let config = chosen.design.config().clone();
+    Fit {
+        format_version: 1,
+        frames: frames(halves),
+        task: search.task().to_toml(),
+        target,
+        clock_hz: request.clock_hz,
+        considered: (search.all().count(), built.all().len()),
+        feasible: chosen.holds(),
+        borne_out: held.iter().all(|held| held.holds),
+        binding: why::binding(built),
+        why: why::why(search, built, chosen, request.clock_hz),
+        design: Design {
+            toml: config.to_toml(),
+            summary: why::summary(&config),
+            clocks_per_frame: chosen.clocks_per_frame,
+            frames_per_second: chosen.frames_per_second,
+            silicon: chosen.silicon.clone(),
+            fitted: chosen.look.figures.clone(),
+            fitted_held: chosen.held.clone(),
+            held_out,
+            held_out_held: held,
+            config,
+        },
+    }
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds for a wanted share of active regions.
+//!
+//! All thresholds in grey levels are scaled by one factor, as if the contrast of the scene were scaled:
+//! that goes from nearly all regions to none in small steps. Then `temporal.min_count` is set for what
+//! whole grey levels cannot say.
+
+use foveate_spec::{Config, Decimal, Neighborhood};
+
+use super::FitRequest;
+use super::held_out::Halves;
+use super::report::Target;
+use crate::footage::Footage;
+use crate::{ExploreError, Hooks, Progress};
+
+/// Steps of the factor: quarters of a power of two, from 1/32 to 32.
+const STEPS: std::ops::RangeInclusive<i32> = -20..=20;
+
+/// The task with thresholds for the wanted share, and what was found; as it is without one.
+pub(super) fn aim(
+    request: &FitRequest<'_>,
+    halves: &Halves,
+    hooks: &dyn Hooks,
+) -> Result<(Config, Option<Target>), ExploreError> {
+    let Some(wanted) = request.target_active else { return Ok((request.task.clone(), None)) };
+    let scaled = STEPS.map(|step| scaled(request.task, f64::from(step) / 4.0)).collect();
+    let (task, _) = nearest(request, halves, hooks, scaled, wanted)?;
+    let n = task.region.size * task.region.size;
+    let counts = (1..=n).filter(|count| *count <= 16 || count % (n / 16).max(1) == 0);
+    let counted = counts.map(|count| {
+        let mut config = task.clone();
+        config.temporal.min_count = count;
+        config
+    });
+    // The best so far is among them, so that it cannot get worse.
+    let all = std::iter::once(task.clone()).chain(counted).collect();
+    let (task, found) = nearest(request, halves, hooks, all, wanted)?;
+    let target = Target { wanted, found, task: task.to_toml() };
+    Ok((task, Some(target)))
+}
+
+/// Of some tasks that whose share of active regions on the first halves is nearest.
+fn nearest(
+    request: &FitRequest<'_>,
+    halves: &Halves,
+    hooks: &dyn Hooks,
+    tasks: Vec<Config>,
+    wanted: f64,
+) -> Result<(Config, f64), ExploreError> {
+    let footage = Footage::new(request.inputs, request.input, request.task, hooks)?;
+    let (width, height) = footage.size;
+    let design = |task: &Config| {
+        let mut exact = task.clone();
+        exact.region.neighborhood = Neighborhood::Shared;
+        exact.fit_frame(width, height)?;
+        exact.validate()
+    };
+    // A scaled threshold can be out of range; that is no task.
+    let (tasks, designs): (Vec<Config>, Vec<_>) =
+        tasks.into_iter().filter_map(|task| Some((task.clone(), design(&task).ok()?))).unzip();
+    let tell = || Progress::Measuring { done: 0, all: designs.len() };
+    let shares = footage.first_halves(&designs, halves, &tell)?;
+    let found = tasks.into_iter().zip(shares.iter().map(|figures| figures.active));
+    let best = found
+        .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
+    best.ok_or(ExploreError::NoPoints {
+        settings: "every scale of the thresholds".to_owned(),
+        reason: "no scale is a design".to_owned(),
+    })
+}
+
+/// The task with every threshold in grey levels times `2^octaves`.
+fn scaled(task: &Config, octaves: f64) -> Config {
+    let factor = octaves.exp2();
+    let level = |level: u32| rounded(f64::from(level) * factor);
+    let mut config = task.clone();
+    config.temporal.level = level(config.temporal.level);
+    for entry in &mut config.spatial {
+        *entry = entry.with_defaults();
+        let in_levels = entry.level.is_none();
+        entry.level = entry.level.map(level);
+        if in_levels {
+            // Mean deviations scale with contrast, variances with its square.
+            let factor = match entry.feature {
+                foveate_spec::FeatureKind::Variance => factor * factor,
+                _ => factor,
+            };
+            let scale = |score: Decimal| {
+                let score: f64 = score.to_string().parse().unwrap_or_default();
+                Decimal::from_f64((score * factor * 1000.0).round() / 1000.0)
+            };
+            entry.min_score = entry.min_score.and_then(scale);
+        }
+    }
+    config
+}
+
+/// The nearest whole number, within the range of a level.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
+fn rounded(value: f64) -> u32 {
+    value.round().clamp(0.0, f64::from(u32::MAX)) as u32
+}

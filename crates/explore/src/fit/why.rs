@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Why a design was chosen: what one step to something simpler would do.
+
+use foveate_spec::{Config, Filter, Neighborhood, Organization, Reference};
+
+use super::build::{Built, Candidate};
+use super::constraints::Held;
+use super::looks::{Look, Search};
+use crate::row::real;
+use crate::scale::at_depth;
+
+/// The design in a few words.
+pub(super) fn summary(config: &Config) -> String {
+    let features: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
+    let hardware = &config.hardware;
+    let lanes = match hardware.organization {
+        Organization::Pipelined => "pipelined".to_owned(),
+        Organization::Serial => {
+            let feed = hardware.feed.map_or("parallel", |feed| feed.name());
+            format!("serial, {feed} feed, fold {}", hardware.fold)
+        }
+    };
+    format!(
+        "{lanes}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}",
+        features.join(" and "),
+        config.frame.pixel_bits,
+        match config.denoise.filter {
+            Filter::None => "no denoising",
+            Filter::Median3x3 => "median",
+        },
+        config.temporal.reference,
+        size = config.region.size,
+        neighborhood = config.region.neighborhood,
+    )
+}
+
+/// What one step to something simpler would do, a line each; then how far the next design is in cost.
+pub(super) fn why(
+    search: &Search<'_>,
+    built: &Built,
+    chosen: &Candidate,
+    clock_hz: u64,
+) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (step, config) in steps(&chosen.look.config) {
+        // The steps of the search's own tries are there; the others were not looked at.
+        if let Some(look) = search.get(&config) {
+            lines.push(format!("{step}: {}", verdict(look)));
+        }
+    }
+    lines.extend(other_features(search, chosen));
+    lines.extend(slower(chosen, clock_hz));
+    let other = built.all().iter().skip(1).find(|other| other.holds());
+    lines.extend(other.filter(|_| chosen.holds()).map(|other| {
+        format!(
+            "next cheapest: {}, {} LUTs and {} RAMB36 instead of {} and {}",
+            summary(other.design.config()),
+            other.silicon.array.lut_total_packed,
+            other.silicon.array.bram18.div_ceil(2),
+            chosen.silicon.array.lut_total_packed,
+            chosen.silicon.array.bram18.div_ceil(2),
+        )
+    }));
+    lines
+}
+
+/// The constraints without each of which alone one of the designs would hold all others.
+pub(super) fn binding(built: &Built) -> Vec<&'static str> {
+    if built.chosen().holds() {
+        return Vec::new();
+    }
+    let mut found: Vec<&'static str> = Vec::new();
+    for candidate in built.all() {
+        let broken: Vec<&Held> = candidate.held.iter().filter(|held| !held.holds).collect();
+        if let [one] = broken.as_slice()
+            && !found.contains(&one.name)
+        {
+            found.push(one.name);
+        }
+    }
+    found
+}
+
+/// One thing simpler than the chosen camera.
+fn steps(chosen: &Config) -> Vec<(String, Config)> {
+    let mut found = Vec::new();
+    let mut step = |what: String, change: &dyn Fn(&mut Config)| {
+        let mut config = chosen.clone();
+        change(&mut config);
+        if config != *chosen {
+            found.push((what, config));
+        }
+    };
+    let bits = chosen.frame.pixel_bits;
+    step(format!("{} bits per pixel", bits - 1), &|config| {
+        config.frame.pixel_bits = bits - 1;
+        *config = at_depth(config, bits);
+    });
+    step("without the median".to_owned(), &|config| config.denoise.filter = Filter::None);
+    step("windows of their own".to_owned(), &|config| {
+        config.region.neighborhood = Neighborhood::Isolated;
+    });
+    step("compared with the previous frame".to_owned(), &|config| {
+        config.temporal.reference = Reference::Previous;
+    });
+    found
+}
+
+/// What its constraints say of a camera.
+fn verdict(look: &Look) -> String {
+    let broken: Vec<String> = look.held.iter().filter(|held| !held.holds).map(Held::text).collect();
+    if broken.is_empty() {
+        return "would hold, too, and costs more".to_owned();
+    }
+    broken.join(", ")
+}
+
+/// The best of every other feature and region size.
+fn other_features(search: &Search<'_>, chosen: &Candidate) -> Vec<String> {
+    let of = |config: &Config| {
+        let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
+        (names.join(" and "), config.region.size)
+    };
+    let own = of(&chosen.look.config);
+    let mut best: Vec<((String, u32), &Look)> = Vec::new();
+    for look in search.all().filter(|look| of(&look.config) != own) {
+        let key = of(&look.config);
+        match best.iter_mut().find(|(other, _)| *other == key) {
+            Some((_, found)) if found.excess() <= look.excess() => {}
+            Some((_, found)) => *found = look,
+            None => best.push((key, look)),
+        }
+    }
+    // What differs in one thing only is what a reader asks for.
+    best.retain(|((features, size), _)| *features == own.0 || *size == own.1);
+    best.sort_by(|one, other| one.1.excess().total_cmp(&other.1.excess()));
+    let line = |((features, size), look): ((String, u32), &Look)| {
+        let flips = look.figures.action_flips * 100.0;
+        let verdict = if look.holds() {
+            format!("holds at best ({flips:.2} % flips), and costs more")
+        } else {
+            format!("at best {}", verdict(look))
+        };
+        format!("{features} in {size}x{size} regions: {verdict}")
+    };
+    best.into_iter().map(line).collect()
+}
+
+/// One fold more.
+fn slower(chosen: &Candidate, clock_hz: u64) -> Option<String> {
+    let deeper = chosen.design.with_fold(chosen.design.fold() + 1)?;
+    if deeper.organization() != Organization::Serial {
+        return None;
+    }
+    let rate = real(clock_hz) / real(deeper.timing().clocks_per_frame());
+    Some(format!("fold {}: {rate:.1} frames/s", deeper.fold()))
+}
+
+impl Held {
+    /// The figure beside its limit.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let side = if self.at_least { "at least" } else { "at most" };
+        let number = |value: f64| match self.name {
+            "max-flips" | "max-missed" => format!("{:.2} %", value * 100.0),
+            "min-psnr" if value == f64::MAX => "identical".to_owned(),
+            "min-psnr" => format!("{value:.1} dB"),
+            _ => format!("{value:.0}"),
+        };
+        let what = match self.name {
+            "max-flips" => "flips",
+            "max-missed" => "missed",
+            "min-psnr" => "PSNR",
+            "max-stale-frames" => "stale frames",
+            "max-bytes" => "bytes per frame",
+            "fps" => "frames/s",
+            "max-lut" => "LUTs of a unit",
+            "max-ff" => "flip-flops of a unit",
+            "max-array-lut" => "LUTs of the array",
+            _ => "RAMB36",
+        };
+        format!("{what} {} ({side} {})", number(self.value), number(self.limit))
+    }
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fitting over scenes: the cheapest design that holds, honest when none does.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use std::path::PathBuf;
+
+use foveate_explore::{
+    Constraints, ExploreError, Fit, FitRequest, Hooks, Progress, Synthesizer, fit,
+};
+use foveate_simulator::InputOptions;
+use foveate_spec::Config;
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Tool, Toolchain};
+
+struct Quiet;
+
+impl Hooks for Quiet {
+    fn progress(&self, _: Progress) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+struct Cancelled;
+
+impl Hooks for Cancelled {
+    fn progress(&self, _: Progress) {}
+
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+fn run(
+    frames: u32,
+    constraints: &Constraints,
+    target_active: Option<f64>,
+    hooks: &dyn Hooks,
+) -> Result<Fit, ExploreError> {
+    let task = "[frame]\nwidth = 32\nheight = 24\n[temporal]\nreference = \"last-sent\"\n";
+    fit(
+        &FitRequest {
+            task: &Config::from_toml(task).unwrap(),
+            inputs: &[PathBuf::from("scene:street")],
+            input: &InputOptions { frames: Some(frames), ..InputOptions::default() },
+            constraints,
+            clock_hz: 1_000_000,
+            target_active,
+            synthesizer: &Synthesizer {
+                toolchain: Toolchain::system(),
+                cache: Cache::from_env().unwrap(),
+            },
+        },
+        hooks,
+    )
+}
+
+#[test]
+fn the_design_holds_what_was_asked_and_is_one() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let constraints = Constraints {
+        max_flips: Some(0.2),
+        min_fps: Some(50.0),
+        max_lut: Some(100),
+        ..Constraints::default()
+    };
+    let found = run(8, &constraints, None, &Quiet).unwrap();
+    assert_eq!(found.frames, (4, 4));
+    assert!(found.feasible && found.binding.is_empty(), "{:?}", found.design.fitted_held);
+    let design = &found.design;
+    assert!(design.fitted.action_flips <= 0.2 && design.silicon.unit.lut_total_packed <= 100);
+    assert_eq!(design.fitted.frames, 4);
+    assert_eq!(design.held_out.frames, 4);
+    assert_eq!(design.clocks_per_frame * design.frames_per_second / 1_000_000, 0);
+    assert!(design.frames_per_second >= 50);
+    // What is written is the design that was measured.
+    let read = Config::from_toml(&design.toml).unwrap().validate().unwrap();
+    assert_eq!(read.timing().clocks_per_frame(), design.clocks_per_frame);
+    assert_eq!(found.borne_out, design.held_out_held.iter().all(|held| held.holds));
+    assert!(found.why.iter().any(|line| line.contains("regions")), "{:?}", found.why);
+}
+
+#[test]
+fn where_nothing_holds_it_says_what_binds() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let constraints = Constraints {
+        max_flips: Some(0.2),
+        min_fps: Some(50.0),
+        max_lut: Some(1),
+        ..Constraints::default()
+    };
+    let found = run(8, &constraints, None, &Quiet).unwrap();
+    assert!(!found.feasible);
+    assert_eq!(found.binding, ["max-lut"]);
+    let broken: Vec<_> = found.design.fitted_held.iter().filter(|held| !held.holds).collect();
+    assert!(matches!(broken.as_slice(), [held] if held.name == "max-lut"), "{broken:?}");
+}
+
+#[test]
+fn thresholds_meet_the_wanted_share() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let constraints = Constraints { max_flips: Some(1.0), ..Constraints::default() };
+    let share = |wanted| {
+        let target = run(24, &constraints, Some(wanted), &Quiet).unwrap().target.unwrap();
+        assert!((target.wanted - wanted).abs() < f64::EPSILON);
+        assert!((target.found - wanted).abs() < 0.06, "{wanted}: {}", target.found);
+        target.found
+    };
+    assert!(share(0.15) < share(0.5));
+}
+
+#[test]
+fn a_clip_must_have_halves_and_a_run_can_be_stopped() {
+    let short = run(3, &Constraints::default(), None, &Quiet).unwrap_err();
+    assert!(matches!(short, ExploreError::Short { frames: 3, .. }), "{short}");
+    let stopped = run(8, &Constraints::default(), None, &Cancelled).unwrap_err();
+    assert!(matches!(stopped, ExploreError::Cancelled), "{stopped}");
+}
