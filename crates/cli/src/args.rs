@@ -6,6 +6,8 @@ mod bench;
 mod check;
 mod dataset;
 mod explain;
+mod explore;
+mod fit;
 mod frames;
 mod input;
 mod outputs;
@@ -26,6 +28,8 @@ pub(crate) use bench::BenchArgs;
 pub(crate) use check::{CheckArgs, Clock, Rate};
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
+pub(crate) use explore::ExploreArgs;
+pub(crate) use fit::FitArgs;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use stress::StressArgs;
 
@@ -51,6 +55,8 @@ pub(crate) enum Command {
     Dataset(DatasetArgs),
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
+    Explore(ExploreArgs),
+    Fit(FitArgs),
     Stress(StressArgs),
     Bench(BenchArgs),
     Presets(PresetsArgs),

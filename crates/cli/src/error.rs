@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use foveate_bench::BenchError;
 use foveate_cosim::CosimError;
 use foveate_estimate::EstimateError;
+use foveate_explore::ExploreError;
 use foveate_simulator::SimulatorError;
 use foveate_spec::SpecError;
 use foveate_staging::StagingError;
@@ -32,6 +33,8 @@ pub(crate) enum CliError {
     Simulator(Box<SimulatorError>),
     #[error(transparent)]
     Study(Box<StudyError>),
+    #[error(transparent)]
+    Explore(Box<ExploreError>),
     #[error(transparent)]
     Output(#[from] StagingError),
     /// A file or folder could not be used.
@@ -64,6 +67,12 @@ impl CliError {
                 StudyError::Simulator(error) => simulator_code(error),
                 _ => INPUT,
             },
+            Self::Explore(error) => match error.as_ref() {
+                ExploreError::Cancelled => interrupt::EXIT_CODE,
+                ExploreError::Simulator(error) => simulator_code(error),
+                ExploreError::Estimate(error) => estimate_code(error),
+                _ => INPUT,
+            },
             Self::Failed(_) => 1,
             Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::EXIT_CODE,
             Self::Tool(error) => tool_code(error),
@@ -71,8 +80,7 @@ impl CliError {
             Self::Cosim(
                 CosimError::Short { .. } | CosimError::Synthesis(_) | CosimError::NoModel { .. },
             ) => TOOL,
-            Self::Estimate(EstimateError::Tool(error)) => tool_code(error),
-            Self::Estimate(_) => TOOL,
+            Self::Estimate(error) => estimate_code(error),
             Self::Simulator(error) => simulator_code(error),
             _ => INPUT,
         })
@@ -90,6 +98,13 @@ fn tool_code(error: &ToolError) -> u8 {
         // A cache or temporary folder that cannot be used is for the user to choose.
         ToolError::Unusable { .. } => TOOL,
         _ if error.is_environment() => INPUT,
+        _ => TOOL,
+    }
+}
+
+fn estimate_code(error: &EstimateError) -> u8 {
+    match error {
+        EstimateError::Tool(error) => tool_code(error),
         _ => TOOL,
     }
 }
@@ -112,6 +127,12 @@ impl From<SimulatorError> for CliError {
 impl From<StudyError> for CliError {
     fn from(error: StudyError) -> Self {
         Self::Study(Box::new(error))
+    }
+}
+
+impl From<ExploreError> for CliError {
+    fn from(error: ExploreError) -> Self {
+        Self::Explore(Box::new(error))
     }
 }
 

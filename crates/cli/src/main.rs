@@ -37,6 +37,8 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Dataset(args) => command::dataset::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Analyze(args) => command::analyze::run(args),
+        Command::Explore(args) => command::explore::run(args),
+        Command::Fit(args) => command::fit::run(args),
         Command::Stress(args) => command::stress::run(args),
         Command::Bench(args) => command::bench::run(args),
         Command::Presets(args) => command::presets::run(args),

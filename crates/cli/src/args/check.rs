@@ -42,7 +42,7 @@ const UNITS: [(&str, u64); 4] =
 impl Clock {
     const MAX: u64 = 1_000_000_000_000;
 
-    fn parse(text: &str) -> Result<Self, String> {
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
         let split = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
         let (number, unit) = text.split_at(split);
         let unit = match unit {
@@ -75,11 +75,16 @@ pub(crate) struct Rate(pub(crate) Decimal);
 impl Rate {
     const NANO: u64 = 1_000_000_000;
 
-    fn parse(text: &str) -> Result<Self, String> {
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
         decimal(text)
             .filter(|rate| (1..=1_000_000_000).contains(&rate.ceil_times(1)))
             .map(Self)
             .ok_or_else(|| "expected frames per second above 0, for example 1000".to_owned())
+    }
+
+    /// As a number to calculate with.
+    pub(crate) fn per_second(self) -> f64 {
+        self.0.to_string().parse().unwrap_or_default()
     }
 
     /// The most clocks that a frame may take.

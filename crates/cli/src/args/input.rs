@@ -10,12 +10,20 @@ use foveate_simulator::{Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selec
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Input options")]
 pub(crate) struct InputArgs {
-    /// At most this many frames, of every clip of a batch; of a scene, exactly this many
-    #[arg(long, visible_alias = "frames", value_name = "N")]
-    pub(crate) max_frames: Option<u32>,
     /// At most this many frames per second, chosen by their times; none is repeated
     #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
     pub(crate) fps: Option<FrameRate>,
+    #[command(flatten)]
+    pub(crate) frames: FrameArgs,
+}
+
+/// How inputs are read, where `--fps` is about the design.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Input options")]
+pub(crate) struct FrameArgs {
+    /// At most this many frames, of every clip of a batch; of a scene, exactly this many
+    #[arg(long, visible_alias = "frames", value_name = "N")]
+    pub(crate) max_frames: Option<u32>,
     /// Frames per second of images, which have no times of their own
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = FrameRate::parse)]
     pub(crate) rate: FrameRate,
@@ -50,10 +58,19 @@ pub(crate) enum ImagesChoice {
 impl InputArgs {
     /// What the options ask for; `images` is what image files are where they do not say.
     pub(crate) fn options(&self, images: ImagesAs) -> InputOptions {
+        let mut options = self.frames.options(images);
+        options.selection.rate = self.fps;
+        options
+    }
+}
+
+impl FrameArgs {
+    /// As [`InputArgs::options`].
+    pub(crate) fn options(&self, images: ImagesAs) -> InputOptions {
         InputOptions {
             frames: self.max_frames,
             frame_rate: self.rate,
-            selection: Selection { start_us: self.start, end_us: self.end, rate: self.fps },
+            selection: Selection { start_us: self.start, end_us: self.end, rate: None },
             crop: self.crop,
             resize: self.resize,
             images: match self.images {

@@ -9,6 +9,8 @@ pub(crate) mod cosim;
 pub(crate) mod dataset;
 pub(crate) mod estimate;
 pub(crate) mod explain;
+pub(crate) mod explore;
+pub(crate) mod fit;
 pub(crate) mod generate;
 pub(crate) mod presets;
 pub(crate) mod simulate;

@@ -116,7 +116,7 @@ impl Proposal {
             None => format!("no fold reaches {} frames/s; fold 1 is the fastest: {reach}", rate.0),
         };
         Ok(Self {
-            wanted: rate.0.to_string().parse().unwrap_or_default(),
+            wanted: rate.per_second(),
             reached: found.is_some(),
             fold,
             lanes,

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `foveate explore`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::input::InputArgs;
+
+/// Run a space of designs over clips: error against the ideal camera, area, speed, Pareto front
+///
+/// Writes points.csv, points.parquet, clips.csv, pareto.csv, a configuration for every point and
+/// report.html. What is finished is kept in the folder: run the same command again after an
+/// interrupt, or with a larger space, and only what is missing is done.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate explore approximations scene:street -o out
+          foveate explore space.toml street.mp4 bus.mp4 -o out --resize 640x360
+          foveate explore designs street.mp4 -o out --max-frames 60 --no-area
+          foveate explore --list
+          foveate explore approximations --print > space.toml")]
+pub(crate) struct ExploreArgs {
+    /// File that says what varies, or the name of a space that comes with the program
+    #[arg(value_name = "SPACE", required_unless_present = "list")]
+    pub(crate) space: Option<PathBuf>,
+    /// Clips or sets: what `foveate simulate` takes, several scenes too
+    #[arg(value_name = "INPUT", required_unless_present_any = ["list", "print"])]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// Folder to write, or to go on with
+    #[arg(long, short, value_name = "DIR", required_unless_present_any = ["list", "print"])]
+    pub(crate) output: Option<PathBuf>,
+    /// No synthesis, so that no Yosys is needed
+    #[arg(long)]
+    pub(crate) no_area: bool,
+    /// List the spaces that come with the program
+    #[arg(long, conflicts_with_all = ["space", "print"])]
+    pub(crate) list: bool,
+    /// Print the file of a space that comes with the program
+    #[arg(long, requires = "space")]
+    pub(crate) print: bool,
+    /// Print all points as JSON
+    #[arg(long, conflicts_with = "markdown")]
+    pub(crate) json: bool,
+    /// Print all points as a Markdown table
+    #[arg(long)]
+    pub(crate) markdown: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+}

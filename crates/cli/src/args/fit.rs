@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `foveate fit`, percentages among them.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use foveate_explore::Constraints;
+
+use super::check::{Clock, Rate};
+use super::input::FrameArgs;
+use super::{DesignArgs, at_least_one};
+
+/// Find the cheapest design that a scene needs, on the first half of the clips; report on the second
+///
+/// The configuration says what the camera is to do; designs are compared with the camera that does it in
+/// floating point over whole frames. Region size, features, thresholds, pixel bits, windows, denoising,
+/// reference, organization, feed and fold are searched. Exit code 1 if no design holds the constraints,
+/// or the second half does not bear it out; the nearest is written all the same.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate fit street.mp4 --fps 120 --max-flips 1% --max-lut 100
+          foveate fit scene:street --target-active 20% -o camera.toml
+          foveate fit a.mp4 b.mp4 --resize 640x360 --min-psnr 30 --max-bytes 10000")]
+pub(crate) struct FitArgs {
+    /// Clips: what `foveate simulate` takes, several scenes too
+    #[arg(value_name = "INPUT", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// File for the configuration that was found, for `foveate generate --config`
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print everything as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) constraints: ConstraintArgs,
+    #[command(flatten)]
+    pub(crate) input: FrameArgs,
+}
+
+/// What a design must hold.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "What it must hold")]
+pub(crate) struct ConstraintArgs {
+    /// Frames per second that the array must reach
+    #[arg(long, value_name = "RATE", default_value = "30", value_parser = Rate::parse)]
+    pub(crate) fps: Rate,
+    /// The clock, an assumption, not what a design reaches
+    #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
+    pub(crate) clock: Clock,
+    /// Set the thresholds for this share of active regions first
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    pub(crate) target_active: Option<f64>,
+    /// At most this share of regions with another action than the ideal's
+    #[arg(long, value_name = "PERCENT", default_value = "1%", value_parser = percent)]
+    pub(crate) max_flips: f64,
+    /// At most this share of what is active in the ideal may be missed
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    pub(crate) max_missed: Option<f64>,
+    /// At least this PSNR of the screen against the ideal's, in dB
+    #[arg(long, value_name = "DB", value_parser = decibels)]
+    pub(crate) min_psnr: Option<f64>,
+    /// At most this many frames in a row may a relevant region be stale
+    #[arg(long, value_name = "FRAMES")]
+    pub(crate) max_stale_frames: Option<u64>,
+    /// At most this many bytes per frame may leave the array
+    #[arg(long, value_name = "BYTES", value_parser = at_least_one())]
+    pub(crate) max_bytes: Option<u32>,
+    /// At most this many LUTs of one RPU or lane
+    #[arg(long, value_name = "N")]
+    pub(crate) max_lut: Option<u64>,
+    /// At most this many flip-flops of one RPU or lane
+    #[arg(long, value_name = "N")]
+    pub(crate) max_ff: Option<u64>,
+    /// At most this many LUTs of the array
+    #[arg(long, value_name = "N")]
+    pub(crate) max_array_lut: Option<u64>,
+    /// At most this many RAMB36 of the array
+    #[arg(long, value_name = "N")]
+    pub(crate) max_bram: Option<u64>,
+}
+
+impl ConstraintArgs {
+    pub(crate) fn constraints(&self) -> Constraints {
+        Constraints {
+            max_flips: Some(self.max_flips),
+            max_missed: self.max_missed,
+            min_psnr: self.min_psnr,
+            max_stale_frames: self.max_stale_frames,
+            max_bytes: self.max_bytes.map(f64::from),
+            min_fps: Some(self.fps.per_second()),
+            max_lut: self.max_lut,
+            max_ff: self.max_ff,
+            max_array_lut: self.max_array_lut,
+            max_bram: self.max_bram,
+        }
+    }
+}
+
+/// `1%`, `0.5%`, or the share itself, `0.01`.
+fn percent(text: &str) -> Result<f64, String> {
+    let share = match text.strip_suffix('%') {
+        Some(number) => number.trim().parse::<f64>().map(|value| value / 100.0),
+        None => text.parse::<f64>(),
+    };
+    share
+        .ok()
+        .filter(|share| (0.0..=1.0).contains(share))
+        .ok_or_else(|| "expected 0% to 100%, or a share such as 0.01".to_owned())
+}
+
+fn decibels(text: &str) -> Result<f64, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|value| (0.0..=200.0).contains(value))
+        .ok_or_else(|| "expected decibels, for example 30".to_owned())
+}

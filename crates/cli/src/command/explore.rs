@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate explore`: a space of designs over clips, as tables and a page.
+
+mod table;
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use foveate_explore::{
+    BUILT_IN, Exploration, ExploreError, Hooks, Progress, Request, Space, Synthesizer, explore,
+};
+use foveate_simulator::ImagesAs;
+use foveate_toolchain::{Cache, Toolchain};
+use indicatif::ProgressBar;
+
+use crate::args::ExploreArgs;
+use crate::error::CliError;
+use crate::{interrupt, output, progress};
+
+pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
+    if args.list {
+        let line =
+            |space: &foveate_explore::BuiltIn| format!("{:16}{}\n", space.name, space.summary);
+        return output::text(&BUILT_IN.iter().map(line).collect::<String>());
+    }
+    let (Some(file), output) = (&args.space, args.output.as_deref()) else {
+        return Err(CliError::Usage("name a space".to_owned()));
+    };
+    let text = read(file)?;
+    let space = Space::from_toml(&text).map_err(|error| blame(file, error))?;
+    let Some(folder) = output.filter(|_| !args.print) else { return output::text(&text) };
+    let terminal = Terminal::new(args.quiet)?;
+    let synthesizer = if args.no_area { None } else { Some(terminal.synthesizer()?) };
+    let request = Request {
+        space: &space,
+        inputs: &args.inputs,
+        input: &args.input.options(ImagesAs::Clip),
+        synthesizer: synthesizer.as_ref(),
+    };
+    let found = explore(&request, folder, &terminal);
+    terminal.bar.finish_and_clear();
+    let found = match found {
+        Err(ExploreError::Cancelled) => {
+            return Err(CliError::Interrupted { path: folder.to_owned() });
+        }
+        other => other?,
+    };
+    tell(args, folder, &found)?;
+    if found.problems.is_empty() {
+        return Ok(());
+    }
+    let place = folder.display();
+    Err(CliError::Failed(format!("`{place}` is not complete: {}", found.problems.join("; "))))
+}
+
+fn tell(args: &ExploreArgs, folder: &Path, found: &Exploration) -> Result<(), CliError> {
+    if args.json {
+        output::json(found)
+    } else if args.markdown {
+        output::text(&table::markdown(found))
+    } else {
+        output::text(&table::text(folder, found, output::width()))
+    }
+}
+
+/// The file, or the space of that name where there is no file.
+fn read(file: &Path) -> Result<String, CliError> {
+    let built_in = BUILT_IN.iter().find(|space| Path::new(space.name) == file);
+    match built_in.filter(|_| !file.exists()) {
+        Some(space) => Ok(space.toml.to_owned()),
+        None if file.exists() => fs::read_to_string(file).map_err(CliError::io("read", file)),
+        None => {
+            let names: Vec<&str> = BUILT_IN.iter().map(|space| space.name).collect();
+            Err(CliError::Usage(format!(
+                "no file `{}`, and no space of that name; those that come with the program are {}",
+                file.display(),
+                names.join(" and ")
+            )))
+        }
+    }
+}
+
+fn blame(file: &Path, error: ExploreError) -> CliError {
+    CliError::Usage(format!("{}: {error}", file.display()))
+}
+
+/// Draws progress and listens for Ctrl-C.
+pub(super) struct Terminal {
+    pub(super) bar: ProgressBar,
+    interrupted: Arc<AtomicBool>,
+}
+
+impl Terminal {
+    pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
+        Ok(Self { bar: progress::bar(quiet, 0, ""), interrupted: interrupt::flag()? })
+    }
+
+    /// The tools of this machine, stopped by the same Ctrl-C.
+    pub(super) fn synthesizer(&self) -> Result<Synthesizer, CliError> {
+        let toolchain = Toolchain::system().cancelled_by(Arc::clone(&self.interrupted));
+        // A missing Yosys is told before hours of measurements.
+        toolchain.find(foveate_toolchain::Tool::Yosys)?;
+        Ok(Synthesizer { toolchain, cache: Cache::from_env()? })
+    }
+}
+
+impl Hooks for Terminal {
+    fn progress(&self, progress: Progress) {
+        let (what, done, all) = match progress {
+            Progress::Measuring { done, all } => ("designs over clips", done, all),
+            Progress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
+        };
+        let count = |number: usize| u64::try_from(number).unwrap_or(u64::MAX);
+        self.bar.set_message(what);
+        self.bar.set_length(count(all));
+        self.bar.set_position(count(done));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Points for a terminal and as Markdown.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use foveate_explore::{Exploration, Row};
+
+/// A column: its name, and what stands in it.
+type Column = (&'static str, fn(&Row) -> String);
+
+const COLUMNS: [Column; 14] = [
+    ("flips %", |row| percent(row.figures.action_flips)),
+    ("SRS %", |row| percent(row.figures.srs_flips)),
+    ("TRS %", |row| percent(row.figures.trs_flips)),
+    ("IoU", |row| format!("{:.3}", row.figures.active_iou)),
+    ("active %", |row| percent(row.figures.active)),
+    ("PSNR ideal", |row| decibels(row.figures.psnr_ideal)),
+    ("SSIM ideal", |row| format!("{:.3}", row.figures.ssim_ideal)),
+    ("PSNR input", |row| decibels(row.figures.psnr_input)),
+    ("stale", |row| {
+        let stale = &row.figures.staleness;
+        format!("{:.0}/{:.2}/{}", stale.max, stale.mean, stale.longest)
+    }),
+    ("bytes", |row| format!("{:.0}", row.bytes_per_frame)),
+    ("clocks", |row| row.clocks_per_frame.to_string()),
+    ("frames/s", |row| row.frames_per_second.to_string()),
+    ("LUT/FF/mem", |row| unit(row)),
+    ("array LUT", |row| array(row)),
+];
+
+fn percent(share: f64) -> String {
+    format!("{:.2}", share * 100.0)
+}
+
+fn decibels(value: Option<f64>) -> String {
+    value.map_or_else(|| "same".to_owned(), |value| format!("{value:.1}"))
+}
+
+fn unit(row: &Row) -> String {
+    let figures = row.silicon.as_ref().map(|silicon| &silicon.unit);
+    figures.map_or_else(String::new, |unit| {
+        format!("{}/{}/{}", unit.lut_total_packed, unit.ff, unit.lut_memory_packed)
+    })
+}
+
+fn array(row: &Row) -> String {
+    let figures = row.silicon.as_ref().map(|silicon| &silicon.array);
+    figures.map_or_else(String::new, |array| match array.bram18 {
+        0 => array.lut_total_packed.to_string(),
+        bram => format!("{} + {} RAMB36", array.lut_total_packed, bram.div_ceil(2)),
+    })
+}
+
+/// The settings of a point as `key = value`.
+fn settings(found: &Exploration, row: &Row) -> String {
+    let set = found.axes.iter().zip(&row.settings).filter(|(_, value)| !value.is_empty());
+    let words: Vec<String> = set.map(|(axis, value)| format!("{axis} = {value}")).collect();
+    if words.is_empty() { "the start".to_owned() } else { words.join(", ") }
+}
+
+const NOTE: &str = "flips, SRS, TRS: regions that decide otherwise than the ideal camera. IoU: of the active \
+     areas. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
+     difference of the screen from the scene in relevant regions in grey levels, and frames in a row that a \
+     region was stale. LUT/FF/mem: one RPU or lane.";
+
+pub(super) fn markdown(found: &Exploration) -> String {
+    let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
+    let mut text = format!("| | {} |\n|{}\n", names.join(" | "), " --- |".repeat(names.len() + 1));
+    for row in &found.rows {
+        let cells: Vec<String> = COLUMNS.iter().map(|(_, cell)| cell(row)).collect();
+        let _ = writeln!(
+            text,
+            "| {} | {} |",
+            settings(found, row).replace('|', "\\|"),
+            cells.join(" | ")
+        );
+    }
+    let _ = writeln!(text, "\n{NOTE}");
+    text
+}
+
+/// What was found in short: the points on the front, and where the rest is.
+pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
+    let front: Vec<&Row> = found.rows.iter().filter(|row| row.front.all).collect();
+    let mut text = format!(
+        "{} points, {} of them on the Pareto front of flips, clocks and LUTs:\n",
+        found.rows.len(),
+        front.len()
+    );
+    for row in front {
+        let _ = writeln!(text, "\n{}: {}", row.number, settings(found, row));
+        let figures = COLUMNS.iter().map(|(name, cell)| (name, cell(row)));
+        let shown = figures.filter(|(_, cell)| !cell.is_empty());
+        let line: Vec<String> = shown.map(|(name, cell)| format!("{name} {cell}")).collect();
+        for line in textwrap::wrap(&line.join(" · "), width.saturating_sub(2)) {
+            let _ = writeln!(text, "  {line}");
+        }
+    }
+    if !found.refused.is_empty() {
+        let _ = writeln!(
+            text,
+            "\n{} combinations are no design; the page says why.",
+            found.refused.len()
+        );
+    }
+    let _ = writeln!(
+        text,
+        "\n{}: report.html, points.csv, points.parquet, pareto.csv, clips.csv, designs/",
+        folder.display()
+    );
+    text
+}

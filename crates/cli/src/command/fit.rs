@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate fit`: the cheapest design that a scene needs.
+
+use std::fmt::Write as _;
+
+use foveate_explore::{ExploreError, Figures, Fit, FitRequest, Held, fit};
+use foveate_simulator::ImagesAs;
+use foveate_staging::{check_file, write_file};
+
+use super::explore::Terminal;
+use crate::args::FitArgs;
+use crate::error::CliError;
+use crate::output;
+
+pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
+    let task = args.design.read()?;
+    if let Some(file) = &args.output {
+        check_file(file)?;
+    }
+    let terminal = Terminal::new(args.quiet)?;
+    let synthesizer = terminal.synthesizer()?;
+    let request = FitRequest {
+        task: &task,
+        inputs: &args.inputs,
+        input: &args.input.options(ImagesAs::Clip),
+        constraints: &args.constraints.constraints(),
+        clock_hz: args.constraints.clock.0,
+        target_active: args.constraints.target_active,
+        synthesizer: &synthesizer,
+    };
+    let found = fit(&request, &terminal);
+    terminal.bar.finish_and_clear();
+    let found = match found {
+        Err(ExploreError::Cancelled) => {
+            return Err(CliError::Stopped { done: "some of the designs".to_owned() });
+        }
+        other => other?,
+    };
+    if let Some(file) = &args.output {
+        write_file(file, found.design.toml.as_bytes())?;
+    }
+    if args.json {
+        output::json(&found)?;
+    } else {
+        output::text(&text(args, &found, output::width()))?;
+    }
+    verdict(&found)
+}
+
+/// What the exit code says.
+fn verdict(found: &Fit) -> Result<(), CliError> {
+    if !found.feasible {
+        return Err(CliError::Failed("no design holds all constraints".to_owned()));
+    }
+    if !found.borne_out {
+        let broken = found.design.held_out_held.iter().filter(|held| !held.holds);
+        let broken: Vec<String> = broken.map(Held::text).collect();
+        return Err(CliError::Failed(format!(
+            "the second half does not bear it out: {}",
+            broken.join(", ")
+        )));
+    }
+    Ok(())
+}
+
+fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
+    let mut text = String::new();
+    let design = &found.design;
+    let (looks, designs) = found.considered;
+    let (first, second) = found.frames;
+    let _ = writeln!(
+        text,
+        "{looks} cameras looked at and {designs} designs synthesized; fitted on {first} frames, held out {second}."
+    );
+    if let Some(target) = &found.target {
+        let _ = writeln!(
+            text,
+            "Thresholds for {:.1} % active: {:.1} % on the first half.",
+            target.wanted * 100.0,
+            target.found * 100.0
+        );
+    }
+    let heading = if found.feasible { "Cheapest" } else { "No design holds all; nearest" };
+    text.push('\n');
+    paragraph(&mut text, &format!("{heading}: {}", design.summary), width, "  ");
+    let (unit, array) = (&design.silicon.unit, &design.silicon.array);
+    let silicon = format!(
+        "{} units of {} LUTs ({} of them memory) and {} flip-flops; the array {} LUTs, {} flip-flops, {} RAMB36; \
+         {} clocks per frame, {} frames/s at {}",
+        design.silicon.units,
+        unit.lut_total_packed,
+        unit.lut_memory_packed,
+        unit.ff,
+        array.lut_total_packed,
+        array.ff,
+        array.bram18.div_ceil(2),
+        design.clocks_per_frame,
+        design.frames_per_second,
+        args.constraints.clock,
+    );
+    paragraph(&mut text, &silicon, width, "  ");
+    let halves = [
+        ("fitted", &design.fitted, &design.fitted_held),
+        ("held out", &design.held_out, &design.held_out_held),
+    ];
+    for (name, figures, held) in halves {
+        text.push('\n');
+        paragraph(&mut text, &format!("{name}: {}", figures_text(figures)), width, "  ");
+        for held in held {
+            let sign = if held.holds { "ok  " } else { "NOT " };
+            let _ = writeln!(text, "  {sign}{}", held.text());
+        }
+    }
+    if !found.binding.is_empty() {
+        let options: Vec<String> = found.binding.iter().map(|name| format!("--{name}")).collect();
+        paragraph(
+            &mut text,
+            &format!("\nBinding: without {} there is a design.", options.join(" or ")),
+            width,
+            "  ",
+        );
+    }
+    text += "\nWhy:\n";
+    for line in &found.why {
+        paragraph(&mut text, &format!("- {line}"), width, "  ");
+    }
+    match &args.output {
+        Some(file) => {
+            let _ = writeln!(
+                text,
+                "\n{} holds it: foveate generate --config {0} -o core",
+                file.display()
+            );
+        }
+        None => {
+            let _ =
+                writeln!(text, "\nIts configuration (--output FILE writes it):\n\n{}", design.toml);
+        }
+    }
+    text
+}
+
+fn figures_text(figures: &Figures) -> String {
+    let psnr =
+        figures.psnr_ideal.map_or_else(|| "identical".to_owned(), |psnr| format!("{psnr:.1} dB"));
+    format!(
+        "{:.2} % flips, {:.1} % active (ideal {:.1} %), IoU {:.3}, PSNR {psnr} and SSIM {:.3} to the ideal screen",
+        figures.action_flips * 100.0,
+        figures.active * 100.0,
+        figures.ideal_active * 100.0,
+        figures.active_iou,
+        figures.ssim_ideal,
+    )
+}
+
+/// A paragraph of at most `width` columns, further lines indented.
+fn paragraph(text: &mut String, line: &str, width: usize, indent: &str) {
+    let options = textwrap::Options::new(width).subsequent_indent(indent);
+    for line in textwrap::wrap(line, options) {
+        let _ = writeln!(text, "{line}");
+    }
+}
