@@ -14,9 +14,9 @@ case ${1:-} in
 *) echo "coverage: unknown option $1; see scripts/coverage.sh --help" >&2 && exit 2 ;;
 esac
 scripts/install_tools.sh
-cargo build --release --locked --quiet --package foveate
+cargo build --locked --quiet --package foveate  # what the tests build as well
 target=$(realpath "${CARGO_TARGET_DIR:-target}")
-foveate=$target/release/foveate
+foveate=$target/debug/foveate
 work=$target/coverage
 rm -rf "$work"
 mkdir -p "$work"

@@ -21,5 +21,5 @@ for option in "$@"; do
 done
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh "${set[@]}")
-cargo build --release --locked --quiet --package foveate
+cargo build --locked --quiet --package foveate  # what the tests build as well
 exec env PATH="$tools:$PATH" python3 scripts/formal.py "$@"
