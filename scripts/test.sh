@@ -20,6 +20,8 @@ step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
 step "a small set of proofs (scripts/formal.sh is the whole)"
 scripts/formal.sh --quick
+step "a sample of the lint matrix (scripts/lint.sh is the whole)"
+scripts/lint.sh --quick
 step "a sample of mutants (scripts/mutation.sh is the whole)"
 scripts/mutation.sh --sample 20 pipelined
 step "tests"
