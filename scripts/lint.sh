@@ -16,6 +16,6 @@ case ${1:-} in
 *) echo "lint: unknown option $1; see scripts/lint.sh --help" >&2 && exit 2 ;;
 esac
 scripts/install_tools.sh
-tools=$(scripts/python_tools.sh)
-cargo build --release --locked --quiet --package foveate
+tools=$(scripts/python_tools.sh --quick)
+cargo build --locked --quiet --package foveate  # what the tests build as well
 exec "$tools/python" scripts/lint.py "$@"

@@ -15,9 +15,9 @@ case ${1:-} in
 esac
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh)
-cargo build --release --locked --quiet --package foveate
+cargo build --locked --quiet --package foveate  # what the tests build as well
 target=$(realpath "${CARGO_TARGET_DIR:-target}")
-foveate=$target/release/foveate
+foveate=$target/debug/foveate
 work=$target/newer_tools
 mkdir -p "$work"
 

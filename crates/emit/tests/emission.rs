@@ -131,7 +131,7 @@ fn a_serial_core_has_its_array_and_its_lone_lane() {
     assert!(listed("rpu.f", "rtl/rpu.v") && !listed("rpu.f", "rtl/rcm.v"));
     assert!(listed("rcm.f", "rtl/rcm.v") && !listed("rcm.f", "rtl/rpu.v"));
     assert!(contents(&files, "README.md").contains("196 serial lanes"));
-    assert!(!contents(&files, "foveate_rcm.core").contains("tb/"));
+    assert!(contents(&files, "foveate_rcm.core").contains("toplevel: rpu_replay"));
 }
 
 #[test]

@@ -118,6 +118,12 @@ fn shared_luts(luts: [u64; 7]) -> u64 {
     sixes + fives + fours + threes + (ones + twos).div_ceil(2)
 }
 
+/// A quotient rounded to thousandths.
+pub(crate) fn quotient(value: u64, unit: u64) -> f64 {
+    let thousandths = (value * 1000 + unit / 2) / unit;
+    f64::from(u32::try_from(thousandths).unwrap_or(u32::MAX)) / 1000.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

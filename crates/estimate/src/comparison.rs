@@ -3,8 +3,10 @@
 
 use serde::Serialize;
 
+use crate::device::{Device, Share};
+use crate::paper::{PAPER_RCM, PAPER_RPU};
 use crate::render::{heading, ramb36};
-use crate::report::{Device, PAPER_RCM, PAPER_RPU, Report, Share};
+use crate::report::Report;
 use crate::table::{Table, grouped, wrap};
 
 /// Clocks per frame of the paper's array.

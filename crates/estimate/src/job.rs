@@ -11,7 +11,7 @@ use crate::error::EstimateError;
 use crate::leaves::leaf_areas;
 use crate::levels::longest_paths;
 use crate::netlist::Netlist;
-use crate::report::{Areas, Paths, Report, Rtl, ToolRecord};
+use crate::report::{Areas, Paths, Report, Rtl, ToolRecord, Units};
 
 const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
 /// Shift registers, which `synth_xilinx` would make in the middle. Yosys up to 0.67 loses their enable
@@ -32,6 +32,8 @@ pub struct EstimateJob {
     /// The module of which the array has many, an RPU or a lane. Its leaves are flattened into it. If
     /// it has parameters, its Verilog must have the attribute `keep_hierarchy`.
     pub unit: String,
+    /// What people call it: `RPU` or `lane`.
+    pub unit_name: String,
     /// How many of it the array has.
     pub units: u64,
     /// The module of the array.
@@ -95,6 +97,7 @@ pub fn estimate(
         synthesis.tool,
         Rtl { sha256: sources_sha256(&job.sources), rpu_sha256: job.rpu_sha256.clone() },
         job.regions,
+        Units { name: job.unit_name.clone(), count: job.units },
         Areas {
             unit: netlist.whole_area(without[0], &[])?,
             glue: netlist.whole_area(&job.array, &without)?,

@@ -11,11 +11,13 @@
 mod area;
 mod cells;
 mod comparison;
+mod device;
 mod error;
 mod job;
 mod leaves;
 mod levels;
 mod netlist;
+mod paper;
 mod render;
 mod report;
 mod table;
@@ -23,11 +25,10 @@ mod table;
 pub use area::Area;
 pub use cells::CellKind;
 pub use comparison::{Candidate, Comparison, Skipped};
+pub use device::{Device, Share, XCVU9P};
 pub use error::EstimateError;
 pub use job::{EstimateJob, Synthesis, estimate};
 pub use levels::LogicPath;
+pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
 pub use render::{render_markdown, render_text};
-pub use report::{
-    BesidePaper, Device, FORMAT_VERSION, LeafArea, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper,
-    PaperRow, Paths, Ratios, Report, Share, ToolRecord, XCVU9P,
-};
+pub use report::{FORMAT_VERSION, LeafArea, Paths, Report, ToolRecord};

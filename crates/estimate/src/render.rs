@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The report for people: text for a terminal, Markdown for a document.
 
+mod paper;
+
 use crate::area::Area;
 use crate::levels::LogicPath;
-use crate::report::{BesidePaper, LeafArea, Paths, Report, ToolRecord};
+use crate::report::{LeafArea, Paths, Report, ToolRecord};
 use crate::table::{Table, grouped, wrap};
+use paper::paper_table;
 
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "BRAM"];
 
@@ -45,12 +48,12 @@ fn tables(report: &Report) -> Vec<Table> {
 }
 
 fn area_table(report: &Report) -> Table {
-    let mut rows = area_rows("RPU", &report.rpu);
+    let mut rows = area_rows(&report.unit, &report.rpu);
     rows.extend(area_rows("RCM", &report.rcm));
     rows.push(area_row("  glue only", &report.rcm_glue));
     rows.push(share_row(report));
     Table {
-        title: format!("Area of {} regions, one RPU each", grouped(report.regions)),
+        title: area_title(report),
         header: header("module", &COLUMNS),
         rows,
         note: Some(
@@ -61,13 +64,22 @@ fn area_table(report: &Report) -> Table {
     }
 }
 
+fn area_title(report: &Report) -> String {
+    let Report { regions, unit, units, .. } = report;
+    if units == regions {
+        format!("Area of {} regions, one {unit} each", grouped(*regions))
+    } else {
+        format!("Area of {} regions, {} {unit}s", grouped(*regions), grouped(*units))
+    }
+}
+
 fn path_table(report: &Report) -> Table {
     let Paths { rpu, rcm } = &report.paths;
     let row = |name: &str, path: &LogicPath| {
         vec![name.to_owned(), path.levels.to_string(), path.carry4.to_string()]
     };
     let way = |path: &LogicPath| format!("from {} by {} to {}", path.from, cells(path), path.to);
-    let mut note = format!("RPU: {}. ", way(rpu));
+    let mut note = format!("{}: {}. ", report.unit, way(rpu));
     if rcm != rpu {
         note += &format!("RCM: {}. ", way(rcm));
     }
@@ -76,7 +88,7 @@ fn path_table(report: &Report) -> Table {
     Table {
         title: "Longest path in logic levels, from and to registers, memories and ports".to_owned(),
         header: header("module", &["levels", "CARRY4"]),
-        rows: vec![row("RPU", rpu), row("RCM", rcm)],
+        rows: vec![row(&report.unit, rpu), row("RCM", rcm)],
         note: Some(note),
     }
 }
@@ -135,62 +147,19 @@ fn share_row(report: &Report) -> Vec<String> {
     ]
 }
 
-fn paper_table(report: &Report) -> Table {
-    let mut rows = paper_rows("RPU", &report.rpu, &report.paper.rpu);
-    if let Some(comparison) = &report.paper.rcm {
-        rows.extend(paper_rows("RCM", &report.rcm, comparison));
-    }
-    let columns = ["LUT", "ratio", "FF", "ratio", "LUTRAM", "ratio"];
-    Table {
-        title: "Beside the paper's table (Vivado, 8x8 regions, 224x224 frames)".to_owned(),
-        header: header("", &columns),
-        rows,
-        note: None,
-    }
-}
-
-fn paper_rows(name: &str, area: &Area, comparison: &BesidePaper) -> Vec<Vec<String>> {
-    let BesidePaper { paper, ratio } = comparison;
-    let row = |name: String, cells: [(u64, Option<f64>); 3]| {
-        let pairs = cells.into_iter().flat_map(|(value, ratio)| {
-            [grouped(value), ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}x"))]
-        });
-        std::iter::once(name).chain(pairs).collect()
-    };
-    let mut rows = vec![
-        row(format!("{name}, paper"), [(paper.lut, None), (paper.ff, None), (paper.lutram, None)]),
-        row(
-            format!("{name}, Yosys estimate"),
-            [
-                (area.lut_total, Some(ratio.lut_total)),
-                (area.ff, Some(ratio.ff)),
-                (area.lut_memory, Some(ratio.lut_memory)),
-            ],
-        ),
-    ];
-    if area.lut_memory_packed != area.lut_memory {
-        rows.push(row(
-            "  SRL16 in pairs".to_owned(),
-            [
-                (area.lut_total_packed, Some(ratio.lut_total_packed)),
-                (area.ff, Some(ratio.ff)),
-                (area.lut_memory_packed, Some(ratio.lut_memory_packed)),
-            ],
-        ));
-    }
-    rows
-}
-
 fn leaf_table(report: &Report) -> Table {
+    // The first is the module whose leaves they are.
+    let of_array = report.leaves.first().is_some_and(|leaf| leaf.module == "rcm");
+    let whole = if of_array { "RCM" } else { report.unit.as_str() };
+    let title = if of_array { "the RCM".to_owned() } else { format!("one {whole}") };
     Table {
-        title: "Modules of one RPU, each synthesized apart".to_owned(),
+        title: format!("Modules of {title}, each synthesized apart"),
         header: header("module", &["count", "low", "high", "memory", "LUT", "FF", "carry"]),
         rows: report.leaves.iter().map(leaf_row).collect(),
-        note: Some(
+        note: Some(format!(
             "Figures are for one instance without the modules inside it. They do not add up to the \
-             RPU above, where logic is optimized across modules."
-                .to_owned(),
-        ),
+             {whole} above, where logic is optimized across modules."
+        )),
     }
 }
 
@@ -216,7 +185,7 @@ pub(crate) fn ramb36(bram18: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::tests::example;
+    use crate::report::tests::{example, serial_example};
 
     #[test]
     fn text_fits_the_terminal() {
@@ -248,5 +217,27 @@ mod tests {
         assert_eq!(text.matches("| --- |").count(), 4);
         assert!(text.contains("| RPU, Yosys estimate | 160 | 0.87x |"), "{text}");
         assert!(text.contains("| median WIDTH=8 SIDE=8 | 2 |"), "{text}");
+    }
+
+    #[test]
+    fn lanes_are_no_rpus() {
+        let mut report = serial_example(784, 21);
+        report.leaves[0].module = "rcm".into();
+        let text = render_text(&report, 200);
+        for part in [
+            "Area of 784 regions, 21 lanes",
+            "\nlane ",
+            "lane: from",
+            "RPU, paper",
+            "lane, Yosys estimate",
+            "Modules of the RCM,",
+            "add up to the RCM above",
+        ] {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+        assert_eq!(text.matches("RPU").count(), 1, "only the paper's:\n{text}");
+        let each = render_text(&serial_example(784, 784), 200);
+        assert!(each.contains("Area of 784 regions, one lane each"), "{each}");
+        assert!(each.contains("Modules of one lane,"), "{each}");
     }
 }

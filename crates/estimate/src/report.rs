@@ -4,131 +4,13 @@
 use serde::{Deserialize, Serialize};
 
 use crate::area::Area;
+use crate::device::{Device, Share};
 use crate::error::EstimateError;
 use crate::levels::LogicPath;
+use crate::paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper};
 
 /// The version of the JSON report. It grows when a field changes its meaning or goes away.
 pub const FORMAT_VERSION: u32 = 1;
-
-/// What a device has.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Device {
-    /// The name of the part.
-    pub name: String,
-    /// LUTs.
-    pub lut: u64,
-    /// LUTs that can be memory.
-    pub lut_memory: u64,
-    /// Flip-flops.
-    pub ff: u64,
-    /// DSP blocks.
-    pub dsp: u64,
-    /// Block RAM in units of `RAMB18`.
-    pub bram18: u64,
-}
-
-/// The XCVU9P of the VCU118 board: name, LUTs, memory LUTs, flip-flops, DSP blocks, RAMB18.
-pub const XCVU9P: (&str, [u64; 5]) = ("XCVU9P", [1_182_240, 591_840, 2_364_480, 6_840, 2 * 2_160]);
-
-impl Device {
-    /// The paper's device.
-    #[must_use]
-    pub fn xcvu9p() -> Self {
-        let (name, [lut, lut_memory, ff, dsp, bram18]) = XCVU9P;
-        Self { name: name.to_owned(), lut, lut_memory, ff, dsp, bram18 }
-    }
-}
-
-/// A row of the paper's table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PaperRow {
-    /// LUTs, those used as memory included.
-    pub lut: u64,
-    /// Flip-flops.
-    pub ff: u64,
-    /// LUTs used as memory.
-    pub lutram: u64,
-}
-
-/// The paper's RPU, 8x8 pixels.
-pub const PAPER_RPU: PaperRow = PaperRow { lut: 183, ff: 90, lutram: 16 };
-/// The paper's RCM, 224x224 pixels.
-pub const PAPER_RCM: PaperRow = PaperRow { lut: 143_472, ff: 70_562, lutram: 12_544 };
-/// The number of regions of the paper's RCM.
-pub const PAPER_REGIONS: u64 = 784;
-
-/// Figures divided by the paper's; below 1 is smaller.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Ratios {
-    /// `lut_total` by the paper's LUTs.
-    pub lut_total: f64,
-    /// `lut_total_packed` by the paper's LUTs.
-    pub lut_total_packed: f64,
-    /// Flip-flops.
-    pub ff: f64,
-    /// `lut_memory` by the paper's LUTRAM.
-    pub lut_memory: f64,
-    /// `lut_memory_packed` by the paper's LUTRAM.
-    pub lut_memory_packed: f64,
-}
-
-/// The paper's row and what the design is of it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct BesidePaper {
-    /// The paper's figures.
-    pub paper: PaperRow,
-    /// The design's figures divided by them.
-    pub ratio: Ratios,
-}
-
-impl BesidePaper {
-    fn new(area: &Area, paper: PaperRow) -> Self {
-        let ratio = Ratios {
-            lut_total: quotient(area.lut_total, paper.lut),
-            lut_total_packed: quotient(area.lut_total_packed, paper.lut),
-            ff: quotient(area.ff, paper.ff),
-            lut_memory: quotient(area.lut_memory, paper.lutram),
-            lut_memory_packed: quotient(area.lut_memory_packed, paper.lutram),
-        };
-        Self { paper, ratio }
-    }
-}
-
-/// The paper's table beside the design.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Paper {
-    /// The RPU.
-    pub rpu: BesidePaper,
-    /// The RCM; absent unless the design has as many regions as the paper's.
-    pub rcm: Option<BesidePaper>,
-}
-
-/// The part of the device that the RCM takes, in percent.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Share {
-    /// Of the LUTs, by `lut_total`.
-    pub lut: f64,
-    /// Of the LUTs that can be memory, by `lut_memory`.
-    pub lut_memory: f64,
-    /// Of the flip-flops.
-    pub ff: f64,
-    /// Of the DSP blocks.
-    pub dsp: f64,
-    /// Of the block RAM.
-    pub bram: f64,
-}
-
-impl Share {
-    fn new(area: &Area, device: &Device) -> Self {
-        Self {
-            lut: quotient(area.lut_total * 100, device.lut),
-            lut_memory: quotient(area.lut_memory * 100, device.lut_memory),
-            ff: quotient(area.ff * 100, device.ff),
-            dsp: quotient(area.dsp * 100, device.dsp),
-            bram: quotient(area.bram18 * 100, device.bram18),
-        }
-    }
-}
 
 /// What made the figures.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -171,6 +53,13 @@ pub(crate) struct Areas {
     pub(crate) array: Area,
 }
 
+/// What the array has many of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Units {
+    pub(crate) name: String,
+    pub(crate) count: u64,
+}
+
 /// What was synthesized.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rtl {
@@ -194,6 +83,10 @@ pub struct Report {
     pub device: Device,
     /// The number of regions.
     pub regions: u64,
+    /// What the array has many of: `RPU`, one per region, or `lane`.
+    pub unit: String,
+    /// How many of it.
+    pub units: u64,
     /// One RPU, or one lane, its leaves flattened.
     pub rpu: Area,
     /// What the RCM has beside its RPUs or lanes.
@@ -217,6 +110,7 @@ impl Report {
         tool: ToolRecord,
         rtl: Rtl,
         regions: u64,
+        units: Units,
         areas: Areas,
         paths: Paths,
         leaves: Vec<LeafArea>,
@@ -235,6 +129,8 @@ impl Report {
             rpu_sha256: rtl.rpu_sha256,
             device,
             regions,
+            unit: units.name,
+            units: units.count,
             rpu: unit,
             rcm_glue: glue,
             rcm: array,
@@ -254,18 +150,21 @@ impl Report {
     }
 }
 
-/// A quotient rounded to thousandths.
-fn quotient(value: u64, unit: u64) -> f64 {
-    let thousandths = (value * 1000 + unit / 2) / unit;
-    f64::from(u32::try_from(thousandths).unwrap_or(u32::MAX)) / 1000.0
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
 
     /// A report with round figures, for the tests of its renderings.
     pub(crate) fn example(regions: u64) -> Report {
+        of_units(regions, Units { name: "RPU".into(), count: regions })
+    }
+
+    /// The same as a serial array of `lanes` lanes.
+    pub(crate) fn serial_example(regions: u64, lanes: u64) -> Report {
+        of_units(regions, Units { name: "lane".into(), count: lanes })
+    }
+
+    fn of_units(regions: u64, units: Units) -> Report {
         let rpu = Area {
             lut_logic_low: 90,
             lut_logic_high: 120,
@@ -298,7 +197,7 @@ pub(crate) mod tests {
             area: rpu,
         };
         let leaves = vec![leaf("rpu", &[], 1), leaf("median", &["WIDTH=8", "SIDE=8"], 2)];
-        let areas = Areas { unit: rpu, glue, array: rpu.times(regions).plus(glue) };
+        let areas = Areas { unit: rpu, glue, array: rpu.times(units.count).plus(glue) };
         let path = LogicPath {
             levels: 3,
             carry4: 2,
@@ -308,7 +207,7 @@ pub(crate) mod tests {
         };
         let paths = Paths { rpu: path.clone(), rcm: path };
         let rtl = Rtl { sha256: "00".into(), rpu_sha256: "01".into() };
-        Report::new(tool, rtl, regions, areas, paths, leaves)
+        Report::new(tool, rtl, regions, units, areas, paths, leaves)
     }
 
     #[test]

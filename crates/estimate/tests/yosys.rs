@@ -17,6 +17,7 @@ fn toy(regions: u64) -> EstimateJob {
     EstimateJob {
         sources: sources.map(|(name, text)| (name.to_owned(), text)).to_vec(),
         unit: "rpu".to_owned(),
+        unit_name: "RPU".to_owned(),
         units: regions,
         array: "rcm".to_owned(),
         parameters: Vec::new(),
@@ -40,6 +41,7 @@ fn a_toy_array_is_estimated() {
     assert_eq!(report.rcm, report.rpu.times(784).plus(report.rcm_glue));
     assert!(report.paths.rpu.levels >= 3, "{:?}", report.paths);
     assert!(report.paths.rpu.to.contains("(FDRE."), "{:?}", report.paths);
+    assert_eq!((report.unit.as_str(), report.units), ("RPU", 784));
     assert!(report.tool.version.starts_with("Yosys "));
     let modules: Vec<&str> = report.leaves.iter().map(|leaf| leaf.module.as_str()).collect();
     assert_eq!(modules, ["rpu", "adder", "adder", "pair", "ram"]);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate generate`: the core of a design as a folder.
 
-use foveate_cosim::{Stimulus, replay_bench, vectors_hex};
+use foveate_bench::random_frames;
+use foveate_cosim::{Level, Stimulus, replay_bench, vectors_hex};
 use foveate_emit::{SourceFile, Top};
-use foveate_spec::{Design, Organization};
+use foveate_simulator::SimulatorError;
+use foveate_spec::{Design, Timing};
 use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
 
@@ -16,9 +18,16 @@ const CORE: Kind = Kind {
     what: "a generated core (its foveate_rcm.core)",
     is: |folder| folder.join("foveate_rcm.core").is_file(),
 };
-/// Clocks of the bench that comes with a core: enough for several frames of each kind at 8x8, small
+/// Clocks of the bench that comes with a pipelined core: enough for several frames of each kind at 8x8, small
 /// enough to be kept under version control.
 const BENCH_CLOCKS: u64 = 2000;
+/// Frames of the bench of a serial core, each of thousands of clocks. The second is the first again, so that
+/// nothing of it is sent.
+const SERIAL_FRAMES: u64 = 3;
+/// Clocks of that bench at which it has fewer frames, but one at least.
+const SERIAL_CLOCKS: u64 = 100_000;
+/// Clocks of that bench at most; a frame of very large regions is longer.
+const SERIAL_LIMIT: u64 = 250_000;
 
 #[derive(Serialize)]
 struct Listing<'a> {
@@ -54,20 +63,30 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     ))
 }
 
-/// The core and, where there is a model to compare with at every clock, its replay bench with vectors
-/// from that.
+/// The core, and its replay bench with vectors from the model.
 fn files(design: &Design) -> Result<Vec<SourceFile>, CliError> {
     let mut files = foveate_emit::core(design);
-    match design.organization() {
-        Organization::Pipelined => {}
-        Organization::Serial => return Ok(files),
-    }
-    let stimulus = Stimulus { rounds: 1, ..Stimulus::default() };
+    let lane = Level::Rpu.design(design)?;
+    let (stimulus, clocks) = stimulus(&lane)?;
     let cancel = interrupt::flag()?;
-    let recording = stimulus.record_until(design, &cancel, &mut |_, _| {})?;
+    let recording = stimulus.record_until(&lane, &cancel, &mut |_, _| {})?;
     let rpu = Top::Rpu;
     let mut add = |path: &str, contents| files.push(SourceFile { path: path.to_owned(), contents });
-    add("tb/rpu_replay.v", replay_bench(rpu.module(), &rpu.ports(design), &rpu.parameters(design)));
-    add("tb/rpu_vectors.hex", vectors_hex(&recording, BENCH_CLOCKS)?);
+    add("tb/rpu_replay.v", replay_bench(rpu.module(), &rpu.ports(&lane), &rpu.parameters(&lane)));
+    add("tb/rpu_vectors.hex", vectors_hex(&recording, clocks)?);
     Ok(files)
+}
+
+/// What the bench of an RPU or lane replays, and for how many clocks.
+fn stimulus(lane: &Design) -> Result<(Stimulus, u64), CliError> {
+    match lane.timing() {
+        Timing::Pipelined(_) => Ok((Stimulus { rounds: 1, ..Stimulus::default() }, BENCH_CLOCKS)),
+        Timing::Serial(timing) => {
+            let count = (SERIAL_CLOCKS / timing.clocks_per_frame()).clamp(1, SERIAL_FRAMES);
+            let mut frames = random_frames(lane, 1, 2).map_err(SimulatorError::from)?;
+            frames.insert(1, frames[0].clone());
+            frames.truncate(usize::try_from(count).unwrap_or(1));
+            Ok((Stimulus { rounds: 0, frames, ..Stimulus::default() }, SERIAL_LIMIT))
+        }
+    }
 }

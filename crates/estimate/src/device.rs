@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The device of the paper, and the part of it that an array takes.
+
+use serde::{Deserialize, Serialize};
+
+use crate::area::{Area, quotient};
+
+/// What a device has.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Device {
+    /// The name of the part.
+    pub name: String,
+    /// LUTs.
+    pub lut: u64,
+    /// LUTs that can be memory.
+    pub lut_memory: u64,
+    /// Flip-flops.
+    pub ff: u64,
+    /// DSP blocks.
+    pub dsp: u64,
+    /// Block RAM in units of `RAMB18`.
+    pub bram18: u64,
+}
+
+/// The XCVU9P of the VCU118 board: name, LUTs, memory LUTs, flip-flops, DSP blocks, RAMB18.
+pub const XCVU9P: (&str, [u64; 5]) = ("XCVU9P", [1_182_240, 591_840, 2_364_480, 6_840, 2 * 2_160]);
+
+impl Device {
+    /// The paper's device.
+    #[must_use]
+    pub fn xcvu9p() -> Self {
+        let (name, [lut, lut_memory, ff, dsp, bram18]) = XCVU9P;
+        Self { name: name.to_owned(), lut, lut_memory, ff, dsp, bram18 }
+    }
+}
+
+/// The part of the device that the RCM takes, in percent.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Share {
+    /// Of the LUTs, by `lut_total`.
+    pub lut: f64,
+    /// Of the LUTs that can be memory, by `lut_memory`.
+    pub lut_memory: f64,
+    /// Of the flip-flops.
+    pub ff: f64,
+    /// Of the DSP blocks.
+    pub dsp: f64,
+    /// Of the block RAM.
+    pub bram: f64,
+}
+
+impl Share {
+    pub(crate) fn new(area: &Area, device: &Device) -> Self {
+        Self {
+            lut: quotient(area.lut_total * 100, device.lut),
+            lut_memory: quotient(area.lut_memory * 100, device.lut_memory),
+            ff: quotient(area.ff * 100, device.ff),
+            dsp: quotient(area.dsp * 100, device.dsp),
+            bram: quotient(area.bram18 * 100, device.bram18),
+        }
+    }
+}

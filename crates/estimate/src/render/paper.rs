@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The paper's table with the design's figures below.
+
+use super::header;
+use crate::area::Area;
+use crate::paper::BesidePaper;
+use crate::report::Report;
+use crate::table::{Table, grouped};
+
+pub(super) fn paper_table(report: &Report) -> Table {
+    let mut rows = paper_rows("RPU", &report.unit, &report.rpu, &report.paper.rpu);
+    if let Some(comparison) = &report.paper.rcm {
+        rows.extend(paper_rows("RCM", "RCM", &report.rcm, comparison));
+    }
+    let columns = ["LUT", "ratio", "FF", "ratio", "LUTRAM", "ratio"];
+    Table {
+        title: "Beside the paper's table (Vivado, 8x8 regions, 224x224 frames)".to_owned(),
+        header: header("", &columns),
+        rows,
+        note: None,
+    }
+}
+
+/// The paper's module, and what stands beside it.
+fn paper_rows(
+    paper_name: &str,
+    name: &str,
+    area: &Area,
+    comparison: &BesidePaper,
+) -> Vec<Vec<String>> {
+    let BesidePaper { paper, ratio } = comparison;
+    let row = |name: String, cells: [(u64, Option<f64>); 3]| {
+        let pairs = cells.into_iter().flat_map(|(value, ratio)| {
+            [grouped(value), ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}x"))]
+        });
+        std::iter::once(name).chain(pairs).collect()
+    };
+    let mut rows = vec![
+        row(
+            format!("{paper_name}, paper"),
+            [(paper.lut, None), (paper.ff, None), (paper.lutram, None)],
+        ),
+        row(
+            format!("{name}, Yosys estimate"),
+            [
+                (area.lut_total, Some(ratio.lut_total)),
+                (area.ff, Some(ratio.ff)),
+                (area.lut_memory, Some(ratio.lut_memory)),
+            ],
+        ),
+    ];
+    if area.lut_memory_packed != area.lut_memory {
+        rows.push(row(
+            "  SRL16 in pairs".to_owned(),
+            [
+                (area.lut_total_packed, Some(ratio.lut_total_packed)),
+                (area.ff, Some(ratio.ff)),
+                (area.lut_memory_packed, Some(ratio.lut_memory_packed)),
+            ],
+        ));
+    }
+    rows
+}
