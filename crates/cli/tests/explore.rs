@@ -33,7 +33,9 @@ fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
     let before = files_below(&dir.path().join("out"));
     let names: Vec<String> =
         before.iter().filter_map(|(path, _)| path.to_str().map(str::to_owned)).collect();
-    for name in ["report.html", "points.csv", "points.parquet", "pareto.csv", "clips.csv", "designs/1.toml"] {
+    for name in
+        ["report.html", "points.csv", "points.parquet", "pareto.csv", "clips.csv", "designs/1.toml"]
+    {
         assert!(names.iter().any(|path| path.ends_with(name)), "{name} in {names:?}");
     }
     succeed_in(dir.path(), &RUN);
@@ -62,13 +64,19 @@ fn the_page_carries_every_configuration_and_loads_nothing() {
 fn mistakes_are_one_line() {
     let dir = folder_with_space();
     let wrong = |args: &[&str], parts: &[&str]| fail_in(dir.path(), 2, args, parts);
-    wrong(&["explore", "spaces", "scene:street", "-o", "x"], &["`spaces`", "approximations and designs"]);
+    wrong(
+        &["explore", "spaces", "scene:street", "-o", "x"],
+        &["`spaces`", "approximations and designs"],
+    );
     fs::write(dir.path().join("bad.toml"), "[vary]\nregion.size = 8\n").unwrap();
     wrong(&["explore", "bad.toml", "scene:street", "-o", "x"], &["bad.toml", "not a list"]);
     wrong(&["explore", "space.toml", "scene:nothing", "-o", "x", "--no-area"], &["scene"]);
     fs::create_dir(dir.path().join("mine")).unwrap();
     fs::write(dir.path().join("mine/notes.txt"), "mine").unwrap();
-    wrong(&["explore", "space.toml", "scene:street", "-o", "mine", "--no-area"], &["mine", "no exploration"]);
+    wrong(
+        &["explore", "space.toml", "scene:street", "-o", "mine", "--no-area"],
+        &["mine", "no exploration"],
+    );
     let with_tools = require_tools(&[Tool::Yosys]);
     if with_tools {
         wrong(&["fit", "scene:street", "--frames", "3"], &["3 frames"]);
@@ -95,7 +103,10 @@ fn what_fit_finds_can_be_generated() {
     let dir = tempfile::tempdir().unwrap();
     let frame = ["--set", "frame={width=32,height=24}", "--frames", "8", "--quiet"];
     let fit = |more: &[&str]| {
-        run_in(dir.path(), &[&["fit", "scene:street", "-o", "found.toml"], &frame[..], more].concat())
+        run_in(
+            dir.path(),
+            &[&["fit", "scene:street", "-o", "found.toml"], &frame[..], more].concat(),
+        )
     };
     let found = fit(&["--max-flips", "40%", "--fps", "100", "--clock", "1MHz"]);
     assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);

@@ -66,11 +66,11 @@ fn verdict(found: &Fit) -> Result<(), CliError> {
 fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     let mut text = String::new();
     let design = &found.design;
-    let (looks, designs) = found.considered;
+    let (looks, designs, left_out) = found.considered;
     let (first, second) = found.frames;
     let _ = writeln!(
         text,
-        "{looks} cameras looked at and {designs} designs synthesized; fitted on {first} frames, held out {second}."
+        "{looks} cameras looked at, {designs} designs synthesized, {left_out} less promising ones not; fitted on {first} frames, held out {second}."
     );
     if let Some(target) = &found.target {
         let _ = writeln!(

@@ -13,12 +13,17 @@ use rayon::prelude::*;
 use super::FitRequest;
 use super::constraints::Held;
 use super::looks::{Look, Search};
+use super::rough::rough;
 use crate::cost::{Silicon, distinct};
 use crate::row::real;
 use crate::{ExploreError, Hooks, Progress};
 
 /// Looks that are built though they do not hold, where none does: the nearest.
 const NEAREST: usize = 6;
+/// Designs that are synthesized before it is looked whether one holds.
+const BATCH: usize = 8;
+/// The most that are synthesized.
+const MOST: usize = 48;
 
 /// A design that could be built.
 #[derive(Clone, Debug)]
@@ -35,6 +40,8 @@ pub(super) struct Candidate {
 /// Everything that was built, the chosen one first.
 pub(super) struct Built {
     candidates: Vec<Candidate>,
+    /// Designs that were less promising, and were not synthesized.
+    pub(super) left_out: usize,
 }
 
 impl Built {
@@ -77,9 +84,11 @@ pub(super) fn build(
 ) -> Result<Built, ExploreError> {
     let holding: Vec<&Look> = search.all().filter(|look| look.holds()).collect();
     let mut looks = simplest(&holding);
-    let mut candidates = Vec::new();
+    let (mut candidates, mut left_out) = (Vec::new(), 0);
     loop {
-        candidates.extend(synthesize(&looks, request, hooks)?);
+        let (built, left) = in_batches(&looks, request, hooks)?;
+        candidates.extend(built);
+        left_out += left;
         let done = candidates.iter().any(Candidate::holds);
         // Where nothing holds, the nearest and what is sacrificed for it.
         if done || looks.iter().any(|look| !look.holds()) {
@@ -106,7 +115,7 @@ pub(super) fn build(
             reason: "none can be built".to_owned(),
         });
     }
-    Ok(Built { candidates })
+    Ok(Built { candidates, left_out })
 }
 
 /// The looks than which none that holds is simpler.
@@ -147,18 +156,37 @@ fn complexity(config: &Config) -> Complexity {
     ((config.region.size, neighborhood, features), ordered)
 }
 
-/// Every design worth building of some looks.
-fn synthesize(
+/// Builds the designs of some looks, the promising ones first, until one holds; says how many are left.
+fn in_batches(
     looks: &[&Look],
     request: &FitRequest<'_>,
     hooks: &dyn Hooks,
-) -> Result<Vec<Candidate>, ExploreError> {
+) -> Result<(Vec<Candidate>, usize), ExploreError> {
     let max_clocks = request.constraints.min_fps.map(|fps| clocks(request.clock_hz, fps));
     let mut designs: Vec<(&Look, Design)> = Vec::new();
     for look in looks {
         let ways = ways(&look.config, request.task, max_clocks);
         designs.extend(ways.into_iter().map(|design| (*look, design)));
     }
+    designs.sort_by(|(_, one), (_, other)| rough(one).total_cmp(&rough(other)));
+    let all = designs.len();
+    let mut built = Vec::new();
+    for batch in designs.chunks(BATCH).take(MOST.div_ceil(BATCH)) {
+        built.extend(synthesize(batch, request, hooks)?);
+        if built.iter().any(Candidate::holds) {
+            break;
+        }
+    }
+    let left_out = all - built.len();
+    Ok((built, left_out))
+}
+
+/// Builds designs.
+fn synthesize(
+    designs: &[(&Look, Design)],
+    request: &FitRequest<'_>,
+    hooks: &dyn Hooks,
+) -> Result<Vec<Candidate>, ExploreError> {
     let (keys, jobs) = distinct(designs.iter().map(|(_, design)| design));
     let (done, all) = (AtomicUsize::new(0), jobs.len());
     let areas = jobs.par_iter().map(|(key, job)| {
@@ -171,17 +199,17 @@ fn synthesize(
         Ok((key.as_str(), area))
     });
     let areas = areas.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
-    let candidate = |((look, design), key): ((&Look, Design), &String)| {
+    let candidate = |((look, design), key): (&(&Look, Design), &String)| {
         let silicon = areas.get(key.as_str())?.clone();
         let clocks_per_frame = design.timing().clocks_per_frame();
         let frames_per_second = request.clock_hz / clocks_per_frame.max(1);
         let mut held = look.held.clone();
         held.extend(request.constraints.on_speed(frames_per_second));
         held.extend(request.constraints.on_silicon(&silicon));
-        let look = look.clone();
+        let (look, design) = ((*look).clone(), design.clone());
         Some(Candidate { look, design, clocks_per_frame, frames_per_second, silicon, held })
     };
-    Ok(designs.into_iter().zip(&keys).filter_map(candidate).collect())
+    Ok(designs.iter().zip(&keys).filter_map(candidate).collect())
 }
 
 /// Clocks per frame with which so many frames per second are reached.

@@ -6,7 +6,8 @@
 //!    the thresholds that agree best with the ideal; of the best of them all pixel bits, windows,
 //!    filters and references ([`looks`]).
 //! 3. Of the looks that hold the constraints, those that no simpler one holds too, as silicon: the
-//!    deepest fold that is fast enough, each feed; pipelined where no serial array is ([`build`]).
+//!    deepest fold that is fast enough, each feed; pipelined where no serial array is ([`build`]). The most
+//!    promising are synthesized first ([`rough`]).
 //! 4. The cheapest, and why nothing simpler would do ([`why`]).
 
 mod build;
@@ -14,6 +15,7 @@ mod constraints;
 mod held_out;
 mod looks;
 mod report;
+mod rough;
 mod target;
 mod why;
 

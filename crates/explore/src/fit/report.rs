@@ -62,8 +62,8 @@ pub struct Fit {
     pub target: Option<Target>,
     /// The clock in Hz.
     pub clock_hz: u64,
-    /// Cameras that were looked at, and designs that were synthesized.
-    pub considered: (usize, usize),
+    /// Cameras that were looked at, designs that were synthesized, and designs that were less promising.
+    pub considered: (usize, usize, usize),
     /// Whether the design holds all constraints on the first half.
     pub feasible: bool,
     /// Whether it holds them on the second.
@@ -94,7 +94,7 @@ pub(super) fn fit(
         task: search.task().to_toml(),
         target,
         clock_hz: request.clock_hz,
-        considered: (search.all().count(), built.all().len()),
+        considered: (search.all().count(), built.all().len(), built.left_out),
         feasible: chosen.holds(),
         borne_out: held.iter().all(|held| held.holds),
         binding: why::binding(built),
