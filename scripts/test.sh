@@ -19,7 +19,7 @@ cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
 step "a sample of mutants (scripts/mutation.sh is the whole)"
-scripts/mutation.sh --sample 20 pipelined
+scripts/mutation.sh --sample 20
 step "tests"
 cargo test --workspace --locked --quiet --doc
 log=$(mktemp)
