@@ -4,33 +4,42 @@
 1. Records the vectors of every design below once, as co-simulation gives them to Icarus.
 2. Makes the mutants: one edit each, from a seed, spread over all leaves and rendered modules of an organization. The edits are
    those of `edits`; parameter defaults, clocks and loop steps are left alone, declared ranges only become narrower.
-3. Replays the vectors of the designs that contain the module, smallest first, until a mismatch; a run of 30 times the time of
-   the unmutated one is a mismatch, too. What survives sees longer vectors.
-4. What still survives: Yosys tries to prove the whole designs equal by induction; else mutation/survivors.txt must say why.
+3. Replays the vectors of the designs that contain the module, smallest first, until a mismatch; 12 times the processor time
+   of the unmutated one is a mismatch, too.
+4. Where Icarus makes the same program the mutant is not in the design. What survives is equivalent if Yosys makes the same netlist of it in every design, and no mutant if a net is left without
+   a driver or has two, which every tool for synthesis refuses. What is left sees longer vectors.
+5. What still survives must be proven equal in every design, from reset on (mutation_proof.py), or mutation/survivors.txt must say why.
 """
 import argparse
 import collections
 import concurrent.futures
+import hashlib
+import json
 import os
 import random
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import threading
 import time
 
+import mutation_proof
+
 TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
 WORK = os.path.join(TARGET, "mutation")
 FOVEATE = os.path.join(TARGET, "debug", "foveate")
-YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
+YOSYS = mutation_proof.YOSYS
 REASONS = "mutation/survivors.txt"
 DESIGNS = "mutation/designs.txt"
 LEAVES = "crates/emit/src/leaf.rs"
 # Rounds and seed of the vectors of each stage.
 STAGES = ((1, 1), (3, 2))
 LATER = 1
-SLOWER = 30
+SLOWER = 12
+# After so many of the smallest designs it is asked whether the mutant makes another netlist at all.
+QUICK = 3
 WRAPPERS_AT = os.path.join(WORK, "wrappers")
 
 # ---------------------------------------------------------------------------------------------------------------- designs
@@ -40,10 +49,11 @@ class Design:
     """A design with its sources and its vectors."""
 
     def __init__(self, organization, name, options):
-        # A late design is only there for what has survived the others.
-        self.organization, self.late, self.name, self.options = organization, name.endswith("+"), name.rstrip("+"), options
+        # A late design is only there for what has survived the others, one with a star is in the sample.
+        self.organization, self.late, self.starred, self.name = organization, name.endswith("+"), name.endswith("*"), name.rstrip("+*")
+        self.options = options
         self.folder = os.path.join(WORK, "designs", organization, self.name)
-        self.lock, self.modules = threading.Lock(), None
+        self.lock, self.modules, self.netlists, self.program = threading.Lock(), None, {}, None
         self.vectors, self.seconds = {}, {}
 
     def record(self, stage):
@@ -54,31 +64,50 @@ class Design:
             # The long vectors of a late design are those that are short elsewhere.
             rounds, seed = STAGES[0 if self.late else stage]
             keep = os.path.join(self.folder, f"stage{stage}")
-            os.makedirs(keep)
-            env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(WRAPPERS_AT, "iverilog"),
-                       FOVEATE_VVP=os.path.join(WRAPPERS_AT, "vvp"))
-            command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
-                       "--replay", os.path.join(keep, "replay"), *self.options]
-            if "--rounds" not in self.options:
-                command += ["--rounds", str(rounds)]
-            began = time.monotonic()
-            done = subprocess.run(command, env=env, capture_output=True, text=True)
-            if done.returncode != 0:
-                sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant: {done.stdout}{done.stderr}")
+            done_at = os.path.join(keep, "seconds")
+            if not os.path.exists(done_at):
+                shutil.rmtree(keep, ignore_errors=True)
+                os.makedirs(keep)
+                self.simulate(keep, rounds, seed)
             self.vectors[stage] = os.path.join(keep, "vectors.hex")
             self.sources = keep
             self.files = open(os.path.join(keep, "files")).read().split()
             self.bench = next(name for name in self.files if name.endswith("_replay.v"))
             self.top = self.bench[: -len("_replay.v")]
             self.texts = {name: open(os.path.join(keep, name)).read() for name in self.files}
-            self.seconds[stage] = time.monotonic() - began
+            self.seconds[stage] = float(open(done_at).read())
+
+    def simulate(self, keep, rounds, seed):
+        """Co-simulates without a mutant and keeps what is needed to do so again."""
+        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(WRAPPERS_AT, "iverilog"),
+                   FOVEATE_VVP=os.path.join(WRAPPERS_AT, "vvp"))
+        command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
+                   "--replay", os.path.join(keep, "replay"), *self.options]
+        if "--rounds" not in self.options:
+            command += ["--rounds", str(rounds)]
+        done = subprocess.run(command, env=env, capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant: {done.stdout}{done.stderr}")
+        # Of processor time: the last line of `times` is that of vvp.
+        minutes, seconds = open(os.path.join(keep, "times")).read().split()[2].rstrip("s").split("m")
+        with open(os.path.join(keep, "seconds"), "w") as out:
+            out.write(str(60 * int(minutes) + float(seconds)))
+
+    def clocks(self, stage):
+        """A measure of the length of the vectors."""
+        return os.path.getsize(self.vectors[stage])
+
+    def digest(self):
+        """Changes with the sources and the vectors that were recorded first."""
+        stage = LATER if self.late else 0
+        return hashlib.sha256(json.dumps([self.texts, self.clocks(stage), STAGES], sort_keys=True).encode()).hexdigest()
 
     def has(self, module):
         return f"rtl/{module}.v" in self.files
 
-    def run(self, stage, module, text, limit=None):
-        """`pass`, `fail`, `hang`, or `refused` if it does not elaborate, of a module with another text."""
-        self.record(stage)
+    def compiled(self, module, text):
+        """The program for Icarus with another text of a module, if it elaborates, and where it is; addresses and the values of
+        parameters, which the code has as constants, are left out."""
         folder = os.path.join(WORK, "run", str(threading.get_ident()))
         os.makedirs(folder, exist_ok=True)
         files = [os.path.join(self.sources, name) for name in self.files]
@@ -87,19 +116,38 @@ class Design:
             with open(mutant, "w") as out:
                 out.write(text)
             files[self.files.index(f"rtl/{module}.v")] = mutant
-        program = os.path.join(folder, "program.vvp")
-        limit = limit or max(10, SLOWER * self.seconds[stage])
-        try:
-            built = subprocess.run(["iverilog", "-g2005", "-s", f"{self.top}_replay", "-o", program, *files],
-                                   capture_output=True, timeout=60)
-        except subprocess.TimeoutExpired:
-            return "refused"
+        path = os.path.join(folder, "program.vvp")
+        built = mutation_proof.limited(["iverilog", "-g2005", "-s", f"{self.top}_replay", "-o", path, *files], 60)
         if built.returncode != 0:
+            return None, path
+        code = re.sub(r"^P_.*\n", "", open(path).read().split("\n# The file index")[0], flags=re.M)
+        known = {}
+        code = re.sub(r"0x[0-9a-f]{6,}", lambda match: known.setdefault(match[0], str(len(known))), code)
+        return hashlib.sha256(code.encode()).hexdigest(), path
+
+    def alike(self, module, text):
+        """Whether Icarus makes the same program with another text of a module."""
+        self.record(LATER if self.late else 0)
+        with self.lock:
+            if not self.program:
+                self.program = self.compiled(None, None)[0]
+        return self.compiled(module, text)[0] == self.program
+
+    def run(self, stage, module, text):
+        """`pass`, `fail`, `hang`, `refused` if it does not elaborate, or `same` if it is the same program, of a module with another
+        text."""
+        self.record(stage)
+        with self.lock:
+            if not self.program:
+                self.program = self.compiled(None, None)[0]
+        code, program = self.compiled(module, text)
+        if code is None:
             return "refused"
-        try:
-            done = subprocess.run(["vvp", "-n", program, f"+vectors={self.vectors[stage]}", "+stop"], cwd=folder,
-                                  capture_output=True, text=True, errors="replace", timeout=limit)
-        except subprocess.TimeoutExpired:
+        if code == self.program:
+            return "same"
+        limit = int(max(10, SLOWER * self.seconds[stage]))
+        done = mutation_proof.limited(["vvp", "-n", program, f"+vectors={self.vectors[stage]}", "+stop"], limit, cwd=os.path.dirname(program))
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return "hang"
         last = (done.stdout.strip().splitlines() or [""])[-1]
         if last.startswith("PASS"):
@@ -126,31 +174,21 @@ class Design:
                 self.modules = [line.strip() for line in done.stderr.splitlines()]
         return [name for name in self.modules if re.fullmatch(rf"(\$paramod(\$\w+)?\\)?{module}(\\.*)?", name)]
 
+    def same(self, module, text, inside=None):
+        """Whether Yosys makes the same netlist with another text of a module, of the whole or of the module of that name; None if
+        the mutant is none."""
+        with self.lock:
+            if inside not in self.netlists:
+                self.netlists[inside] = mutation_proof.netlist(self, WORK, inside=inside)
+        cells, problems = self.netlists[inside]
+        mutant, mutant_problems = mutation_proof.netlist(self, WORK, module, text, inside)
+        if mutant_problems > problems:
+            return None
+        return cells is not None and mutant == cells
+
     def equal(self, module, text, inside=None):
-        """Whether Yosys proves that the design with another text of a module is the design; or the module of that name alone."""
-        folder = os.path.join(WORK, "equal", str(threading.get_ident()))
-        os.makedirs(folder, exist_ok=True)
-        mutant = os.path.join(folder, f"{module}.v")
-        with open(mutant, "w") as out:
-            out.write(text)
-        script = []
-        for side in ("gold", "gate"):
-            names = [name for name in self.files if name != self.bench]
-            paths = [os.path.join(self.sources, name) for name in names]
-            if side == "gate":
-                paths[names.index(f"rtl/{module}.v")] = mutant
-            script += [f"read_verilog {' '.join(paths)}", f"hierarchy -top {self.top}{self.chparam()}",
-                       f"hierarchy -top {inside or self.top}", "proc",
-                       "setattr -mod -unset keep_hierarchy *", "flatten",
-                       "memory -nomap", "memory_map", "opt -full", "splitnets -ports", "opt_clean -purge", "rename -top " + side, f"design -stash {side}"]
-        script += ["design -copy-from gold -as gold gold", "design -copy-from gate -as gate gate", "equiv_make gold gate equal",
-                   "hierarchy -top equal", "opt -full", "equiv_struct", "equiv_simple -undef", "equiv_induct -undef",
-                   "equiv_status -assert"]
-        try:
-            done = subprocess.run([YOSYS, "-q", "-p", "; ".join(script)], capture_output=True, text=True, timeout=150)
-        except subprocess.TimeoutExpired:
-            return False
-        return done.returncode == 0
+        """Whether the design with another text of a module is proven to be the design; or the module of that name alone."""
+        return mutation_proof.equal(self, WORK, module, text, inside)
 
 
 def designs(organization):
@@ -171,22 +209,23 @@ def designs(organization):
 WRAPPERS = {
     "iverilog": 'for word in "$@"; do\n    [[ $word != *.v ]] || { cp --parents "$word" "$KEEP"; echo "$word" >>"$KEEP/files"; }\n'
                 'done\nexec iverilog "$@"\n',
-    "vvp": 'for word in "$@"; do\n    [[ $word != +vectors=* ]] || cp "${word#+vectors=}" "$KEEP/vectors.hex"\ndone\nexec vvp "$@"\n',
+    "vvp": 'for word in "$@"; do\n    [[ $word != +vectors=* ]] || cp "${word#+vectors=}" "$KEEP/vectors.hex"\ndone\ncode=0\nvvp "$@" || code=$?\n'
+           'times >"$KEEP/times"\nexit $code\n',
 }
 
 
-def recorded(organization, jobs, late=True):
-    """The designs of an organization with their vectors, the quickest first; the late ones too, or not."""
+def recorded(organization, jobs, sample):
+    """The designs of an organization with their vectors, the shortest first; of a sample only those."""
     os.makedirs(WRAPPERS_AT, exist_ok=True)
     for name, body in WRAPPERS.items():
         path = os.path.join(WRAPPERS_AT, name)
         with open(path, "w") as out:
             out.write("#!/usr/bin/env bash\n" + body)
         os.chmod(path, 0o755)
-    found = [design for design in designs(organization) if late or not design.late]
+    found = [design for design in designs(organization) if design.starred or not sample]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         list(pool.map(lambda design: design.record(LATER if design.late else 0), found))
-    return sorted(found, key=lambda design: min(design.seconds.values()))
+    return sorted(found, key=lambda design: design.clocks(LATER if design.late else 0))
 
 
 # ---------------------------------------------------------------------------------------------------------------- mutants
@@ -407,7 +446,9 @@ class Mutant:
         flat = lambda piece: " ".join(piece.split())
         self.was = flat(text[low:high])
         self.now = flat(text[low:start] + replacement + text[end:high])
-        self.verdict = self.by = None
+        self.verdict = self.by = self.proof = None
+        # Designs in which the code that is changed is not elaborated.
+        self.apart = set()
 
     def pointless(self):
         """Whether it only touches a wire that tells lint what is not used, or gives a wire to itself."""
@@ -485,48 +526,105 @@ def reasons():
     return found
 
 
-def judge(mutant, all_of, stages, verbose=False):
-    """Sets the verdict of the vectors: `refused`, `killed` or `survived`."""
+class Journal:
+    """What has been found of each mutant, so that an interrupted run can go on."""
+
+    def __init__(self, all_of):
+        self.of = hashlib.sha256("".join(sorted(design.digest() for design in all_of)).encode()).hexdigest()
+        self.lock, self.path, self.found = threading.Lock(), os.path.join(WORK, "journal"), {}
+        for line in open(self.path) if os.path.exists(self.path) else ():
+            key, *verdict = json.loads(line)
+            self.found[key] = verdict
+
+    def key(self, mutant, phase):
+        return hashlib.sha256(json.dumps([self.of, mutant.place(), mutant.text, phase]).encode()).hexdigest()
+
+    def ask(self, phase, mutant, find):
+        """Sets the verdict: what is known, or what `find` says."""
+        key = self.key(mutant, phase)
+        if key not in self.found:
+            find(mutant)
+            with self.lock, open(self.path, "a") as out:
+                print(json.dumps([key, mutant.verdict, mutant.by, mutant.proof]), file=out)
+        else:
+            mutant.verdict, mutant.by, mutant.proof = self.found[key]
+
+
+def replay(mutant, designs, stage):
+    """Whether the vectors of a design decide; the verdict then is `refused` or `killed`."""
+    for design in designs:
+        if design.name in mutant.apart:
+            continue
+        outcome = design.run(stage, mutant.module, mutant.text)
+        if outcome == "refused":
+            mutant.verdict = "refused"
+        elif outcome == "same":
+            mutant.apart.add(design.name)
+        elif outcome != "pass":
+            mutant.verdict, mutant.by = "killed", (stage, design.name, outcome)
+        if mutant.verdict:
+            return True
+    return False
+
+
+def judge(mutant, all_of, prove):
+    """Sets the verdict of the short vectors and of the netlists: `refused`, `killed`, `equivalent` or `survived`."""
     if mutant.pointless():
         mutant.verdict = "refused"
         return
-    contain = [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
-    for stage in stages:
-        for design in contain:
-            if design.late and stage < LATER:
-                continue
-            outcome = design.run(stage, mutant.module, mutant.text)
-            if outcome == "refused":
-                mutant.verdict = "refused"
-                return
-            if outcome != "pass":
-                mutant.verdict, mutant.by = "killed", (stage, design.name, outcome)
-                return
+    contain = [design for design in containing(mutant, all_of) if not design.late]
+    if replay(mutant, contain[:QUICK], 0):
+        return
+    found = everywhere(mutant, all_of, "same") if prove else False
+    if found is not False:
+        mutant.verdict, mutant.proof = "refused" if found is None else "equivalent", "same"
+        return
+    if replay(mutant, contain[QUICK:], 0):
+        return
+    # A leaf is small beside the designs around it and the longer vectors of all of them.
+    if prove and not mutant.design and everywhere(mutant, all_of, "equal", around=False):
+        mutant.verdict, mutant.proof = "equivalent", "equal"
+        return
     mutant.verdict = "survived"
-    if verbose:
-        print(f"the vectors do not kill {mutant}", flush=True)
 
 
-def proven_in(mutant, all_of):
-    """Whether Yosys proves the module equal for the parameters of every design, or else the design around it."""
-    if mutant.design:
-        return mutant.design.equal(mutant.module, mutant.text)
+def judge_longer(mutant, all_of):
+    """The same of the longer vectors."""
+    mutant.verdict = None
+    if not replay(mutant, containing(mutant, all_of), LATER):
+        mutant.verdict = "survived"
+
+
+def containing(mutant, all_of):
+    return [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
+
+
+def everywhere(mutant, all_of, proof, around=True):
+    """Whether the proof holds for the module with the parameters of every design, or else the design around it, if that is to be
+    tried; None if the proof says so."""
     known = {}
-    for design in all_of:
-        if not design.has(mutant.module):
+    for design in containing(mutant, all_of):
+        if design.name in mutant.apart:
+            continue
+        if design.late and design.alike(mutant.module, mutant.text):
+            mutant.apart.add(design.name)
             continue
         variants = design.variants(mutant.module)
         for name in variants:
             if name not in known:
-                known[name] = design.equal(mutant.module, mutant.text, name)
-        if not all(known[name] for name in variants) and not design.equal(mutant.module, mutant.text):
+                known[name] = getattr(design, proof)(mutant.module, mutant.text, name)
+            if known[name] is None:
+                return None
+            if not (known[name] or around and design.top not in variants):
+                return False
+        if not all(known[name] for name in variants) and not getattr(design, proof)(mutant.module, mutant.text):
             return False
     return True
 
 
 def prove(mutant, all_of):
-    if proven_in(mutant, all_of):
-        mutant.verdict = "equivalent"
+    if everywhere(mutant, all_of, "equal"):
+        mutant.verdict, mutant.proof = "equivalent", "equal"
 
 
 def drawn(pools, takes, pool, check):
@@ -548,15 +646,15 @@ def drawn(pools, takes, pool, check):
 
 def examine(organization, options, excuses, used):
     began = time.monotonic()
-    all_of = recorded(organization, options.jobs, not options.sample)
+    all_of = recorded(organization, options.jobs, options.sample)
     found = pools(all_of, options.seed)
     takes = wanted(found, options.count)
     print(f"{organization}: {len(all_of)} designs recorded in {time.monotonic() - began:.0f} s, {len(found)} modules with"
           f" {sum(map(len, found.values()))} possible mutants", flush=True)
-    stages = range(1 if options.sample else len(STAGES))
+    journal = Journal(all_of)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         if options.sample:
-            # Every so many of the mutants of a whole run without late designs.
+            # Every so many of the mutants of a whole run of these designs.
             whole = [mutant for place in found for mutant in found[place][:takes[place]]]
             step = len(whole) / options.sample
             chosen = collections.defaultdict(list)
@@ -565,25 +663,34 @@ def examine(organization, options, excuses, used):
                 chosen[mutant.place()].append(mutant)
             found = {place: chosen[place] + [m for m in found[place] if m not in chosen[place]] for place in chosen}
             takes = {place: len(chosen[place]) for place in chosen}
-        mutants = drawn(found, takes, pool, lambda mutant: judge(mutant, all_of, stages, options.verbose))
-        survivors = [mutant for mutant in mutants if mutant.verdict == "survived"]
-        unknown = [mutant for mutant in survivors if mutant.key() not in excuses]
-        # A sample does without late designs, unless something has survived that they may kill.
-        for design in designs(organization) if options.sample and unknown else ():
-            if design.late:
-                design.record(LATER)
-                for mutant in unknown:
-                    if not mutant.design and mutant.verdict == "survived" and design.has(mutant.module):
-                        judge(mutant, [design], [LATER])
+        mutants = drawn(found, takes, pool, lambda mutant: journal.ask("short", mutant, lambda it: judge(it, all_of, options.prove)))
+        survivors = [mutant for mutant in mutants if mutant.verdict in ("survived", "equivalent")]
+        unknown = [mutant for mutant in survivors if mutant.verdict == "survived"]
+        if options.sample:
+            # A sample does without the other designs, unless something has survived that they may kill.
+            unknown = [mutant for mutant in unknown if mutant.key() not in excuses]
+            for mutant in unknown:
+                others = [design for design in designs(organization) if not (design.starred or mutant.design)]
+                mutant.verdict = None
+                for design in others:
+                    stage = LATER if design.late else 0
+                    design.record(stage)
+                    if design.has(mutant.module) and replay(mutant, [design], stage):
+                        break
+                mutant.verdict = mutant.verdict or "survived"
+        elif options.longer:
+            list(pool.map(lambda mutant: journal.ask("long", mutant, lambda it: judge_longer(it, all_of)), unknown))
+            unknown = [mutant for mutant in unknown if mutant.key() not in excuses]
         unknown = [mutant for mutant in unknown if mutant.verdict == "survived"]
         if options.prove:
-            list(pool.map(lambda mutant: prove(mutant, all_of), unknown))
+            if options.longer:
+                list(pool.map(lambda mutant: journal.ask("proof", mutant, lambda it: prove(it, all_of)), unknown))
             # The proofs must tell: what was killed in the same module is not equal.
-            proven = {mutant.place() for mutant in survivors if mutant.verdict == "equivalent"}
-            controls = {mutant.place(): mutant for mutant in mutants if mutant.verdict == "killed" and mutant.place() in proven}
-            for place, wrong in zip(controls, pool.map(lambda mutant: proven_in(mutant, all_of), controls.values())):
-                if wrong:
-                    sys.exit(f"mutation: Yosys proves equal what the vectors tell apart: {controls[place]}")
+            proven = {mutant.place(): mutant.proof for mutant in survivors if mutant.proof}
+            controls = [mutant for mutant in {m.place(): m for m in mutants if m.verdict == "killed" and m.place() in proven}.values()]
+            wrong = pool.map(lambda mutant: everywhere(mutant, all_of, proven[mutant.place()]), controls)
+            for mutant in [mutant for mutant, claim in zip(controls, wrong) if claim]:
+                sys.exit(f"mutation: proven equal is what the vectors tell apart: {mutant}")
     open_ones = 0
     for mutant in survivors:
         if mutant.verdict == "survived" and mutant.key() in excuses:
@@ -593,17 +700,18 @@ def examine(organization, options, excuses, used):
             open_ones += 1
             print(f"SURVIVES {mutant}")
         elif options.verbose:
-            print(f"{mutant.verdict} {mutant}")
+            print(f"{mutant.verdict}{f' ({mutant.proof})' if mutant.proof else ''} {mutant}")
     if options.table:
         print(f"  {'module':28} mutants  killed  equivalent  excused")
         for place in found:
             of = [mutant.verdict for mutant in mutants if mutant.place() == place]
             print(f"  {place:28} {len(of):7} {of.count('killed'):7} {of.count('equivalent'):11} {of.count('excused'):8}")
     count = collections.Counter(mutant.verdict for mutant in mutants)
+    alike = sum(1 for mutant in mutants if mutant.verdict == "equivalent" and mutant.proof == "same")
     longer = sum(1 for mutant in mutants if mutant.by and mutant.by[0] > 0)
     hangs = sum(1 for mutant in mutants if mutant.by and mutant.by[2] == "hang")
     print(f"{organization}: {len(mutants)} mutants of {len(found)} modules: {count['killed']} killed ({longer} of them by the longer vectors,"
-          f" {hangs} by time), {count['equivalent']} proven equivalent, {count['excused']} excused with a reason, {open_ones} open;"
+          f" {hangs} by time), {count['equivalent']} proven equivalent ({alike} of them by the same netlist), {count['excused']} excused with a reason, {open_ones} open;"
           f" {time.monotonic() - began:.0f} s", flush=True)
     return open_ones
 
@@ -612,17 +720,20 @@ def main():
     parser = argparse.ArgumentParser(prog="mutation.sh", description="Mutants of the Verilog against the co-simulation vectors.")
     parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help="pipelined, serial; by default both")
     parser.add_argument("--count", type=int, default=320, help="mutants of an organization (%(default)s)")
-    parser.add_argument("--sample", type=int, metavar="N", help="only N of them, evenly spread, only the short vectors, late designs only for survivors")
+    parser.add_argument("--sample", type=int, metavar="N", help="only N of them, evenly spread, in the smallest designs; the others only for survivors")
     parser.add_argument("--seed", type=int, default=1, help="seed of the mutants (%(default)s)")
     parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", os.cpu_count() or 1)), help="at a time (%(default)s)")
     parser.add_argument("--table", action="store_true", help="print a table by module")
     parser.add_argument("--verbose", action="store_true", help="print the survivors that are proven or excused, too")
     parser.add_argument("--no-proofs", dest="prove", action="store_false", help="do not try to prove survivors equivalent")
+    parser.add_argument("--no-longer", dest="longer", action="store_false", help="leave survivors of the short vectors open")
+    parser.add_argument("--resume", action="store_true", help="go on where a run was ended, if neither this script nor the designs have changed")
     options = parser.parse_args()
     organizations = options.organizations or ["pipelined", "serial"]
     if set(organizations) - {"pipelined", "serial"}:
         parser.error(f"an organization is pipelined or serial, not {' '.join(organizations)}")
-    shutil.rmtree(WORK, ignore_errors=True)
+    if not options.resume:
+        shutil.rmtree(WORK, ignore_errors=True)
     excuses, used = reasons(), set()
     open_ones = sum(examine(organization, options, excuses, used) for organization in organizations)
     unused = []

@@ -280,6 +280,33 @@ fn scores_reach_their_largest_values() {
     }
 }
 
+/// The largest gradient there is, with the level just below it, and on it: one round has both.
+#[test]
+fn the_largest_gradient_meets_its_level() {
+    for bits in [1, 3, 8, 16] {
+        let mut config = config(&[feature(FeatureKind::Edge, 2)]);
+        config.frame.pixel_bits = bits;
+        config.region.size = 4;
+        config.denoise.filter = Filter::None;
+        config.spatial[0].level = Some(1);
+        config.temporal.level = 0;
+        let design = design(&config, GRID);
+        let recording = record(&design, &directed(LEVEL, 1));
+        let largest = 6 * u64::from(design.pixel_max());
+        let mut found = BTreeSet::new();
+        for clock in story(&design, &recording) {
+            let says = |role| value(recording.outputs(), role, &clock.output);
+            if says(PortRole::ScoreValid) == 1 && says(PortRole::ScoreIndex) == 1 {
+                let role = PortRole::Level(FeatureKind::Edge);
+                let level = value(recording.inputs(), role, &clock.input);
+                found.insert((level, says(PortRole::AnyScore) > 0));
+            }
+        }
+        assert!(found.contains(&(largest - 1, true)), "{bits} bits: {found:?}");
+        assert!(found.contains(&(largest, false)), "{bits} bits: {found:?}");
+    }
+}
+
 fn fields_of(layout: &Layout) -> Vec<&str> {
     layout.fields().iter().map(|field| field.port.name.as_str()).collect()
 }

@@ -67,6 +67,31 @@ fn scores_reach_their_largest_values() {
     }
 }
 
+/// The largest gradient there is, with the level just below it, and on it: one round has both.
+#[test]
+fn the_largest_gradient_meets_its_level() {
+    for bits in [1, 3, 8, 16] {
+        let toml = format!(
+            "[frame]\npixel_bits = {bits}\n[denoise]\nfilter = \"none\"\n[[spatial]]\n\
+             feature = \"edge\"\nlevel = 1\n[temporal]\nlevel = 0\n"
+        );
+        let design = design(&config(&toml), (1, 1));
+        let recording = record(&design, &directed(Level::Rpu, 1));
+        let largest = 6 * u64::from(design.pixel_max());
+        let (inputs, outputs) = (recording.inputs(), recording.outputs());
+        let mut found = BTreeSet::new();
+        for (input, output) in clocks(&recording) {
+            if field(outputs, PortRole::DecisionValid).get(&output, 0) == 1 {
+                let level = field(inputs, PortRole::Level(FeatureKind::Edge)).get(&input, 0);
+                let score = field(outputs, PortRole::Score(FeatureKind::Edge)).get(&output, 0);
+                found.insert((level, score > 0));
+            }
+        }
+        assert!(found.contains(&(largest - 1, true)), "{bits} bits: {found:?}");
+        assert!(found.contains(&(largest, false)), "{bits} bits: {found:?}");
+    }
+}
+
 #[test]
 fn every_border_is_seen_and_resets_come_at_any_time() {
     let design = design(&config("[region]\nneighborhood = \"shared\"\n"), (1, 1));

@@ -91,6 +91,21 @@ impl Ranges {
             narrow(near(difference.into(), self.temporal_level.into(), random));
     }
 
+    /// Levels one below the largest value that pixels can have; every fifth turn that value itself.
+    pub(crate) fn aim_largest_levels(&self, turn: u32, thresholds: &mut Thresholds) {
+        let max = u16::try_from(self.temporal_level).unwrap_or(u16::MAX);
+        let steepest = magnitude(&[max, max, 0, max, 0, 0, 0, 0, 0]);
+        let less = u32::from(turn % 5 != 4);
+        for (level, kind) in thresholds.level.iter_mut().zip(&self.kinds) {
+            match kind {
+                FeatureKind::Edge => *level = steepest - less,
+                FeatureKind::Corner => *level = self.temporal_level - less,
+                FeatureKind::Mad | FeatureKind::Variance => {}
+            }
+        }
+        thresholds.temporal_level = self.temporal_level - less;
+    }
+
     /// Thresholds without any relation to the data.
     pub(crate) fn shake(&self, thresholds: &mut Thresholds, random: &mut Random) {
         for (level, &max) in thresholds.level.iter_mut().zip(&self.level) {

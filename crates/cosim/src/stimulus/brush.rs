@@ -79,6 +79,14 @@ impl Artist {
         })
     }
 
+    pub(super) fn quadrant(&mut self) -> Vec<u16> {
+        let turn = self.quadrants;
+        self.quadrants += 1;
+        let (dark, right) = (turn % 2 == 1, turn / 2 % 2 == 1);
+        let half = self.side / 2;
+        self.fill(|max, (x, y)| if (y < half && (x < half) != right) != dark { max } else { 0 })
+    }
+
     pub(super) fn ramp(&mut self) -> Vec<u16> {
         let steepest = usize::from(self.max) / (2 * self.side).max(1);
         let slope = usize::from(self.amount()).min(steepest).max(1);

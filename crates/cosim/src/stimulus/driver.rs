@@ -27,6 +27,8 @@ pub(crate) struct Driver<'a> {
     configured: Thresholds,
     constant: bool,
     aim: Aim,
+    /// How often levels have been aimed since the sequence began.
+    turn: u32,
     border: u8,
     max: u16,
     garbage: Vec<u16>,
@@ -59,6 +61,7 @@ impl<'a> Driver<'a> {
             configured,
             constant: design.thresholds() == Mode::Constant,
             aim: Aim::Design,
+            turn: 0,
             border: 0,
             max: u16::try_from(design.pixel_max()).unwrap_or(u16::MAX),
             garbage: vec![0; lanes],
@@ -69,6 +72,7 @@ impl<'a> Driver<'a> {
     /// Starts over: a reset, during which anything may be on the other inputs.
     pub(crate) fn begin(&mut self, aim: Aim, border: u8) -> Result<(), CosimError> {
         self.aim = if self.constant { Aim::Design } else { aim };
+        self.turn = 0;
         self.border = border;
         self.thresholds = self.configured;
         for _ in 0..=self.random.up_to(1) {
@@ -91,9 +95,14 @@ impl<'a> Driver<'a> {
 
     /// Levels for the frame that comes.
     pub(crate) fn aim_levels(&mut self, now: &[u16], before: &[u16]) {
-        if self.aim == Aim::Exact {
-            self.ranges.aim_levels(now, before, &mut self.thresholds, &mut self.random);
+        match self.aim {
+            Aim::Exact => {
+                self.ranges.aim_levels(now, before, &mut self.thresholds, &mut self.random);
+            }
+            Aim::Largest => self.ranges.aim_largest_levels(self.turn, &mut self.thresholds),
+            Aim::Design | Aim::Restless => {}
         }
+        self.turn += 1;
     }
 
     /// The first `count` pixels of a frame; `streams` holds one stream per lane, one after the other.

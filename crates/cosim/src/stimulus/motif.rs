@@ -21,6 +21,9 @@ pub(crate) enum Motif {
     HotCorner,
     /// Two halves that differ by a chosen amount.
     Step,
+    /// One quadrant at the maximum and the others at zero, or the other way around, by turns: the largest
+    /// gradient of each direction, the strongest corner, and each time the largest change.
+    Quadrant,
     /// A ramp of constant slope, so that every pixel is an edge.
     Ramp,
     /// A pixel with 4 to 8 contiguous neighbors that differ by a chosen amount.
@@ -67,6 +70,8 @@ pub(crate) struct Artist {
     pub(super) amounts: Vec<u16>,
     /// Changes that meet the temporal level, or miss it by one.
     pub(super) changes: Vec<u16>,
+    /// How many quadrants have been drawn.
+    pub(super) quadrants: usize,
     gauge: Gauge,
     pub(crate) pixels: Vec<u16>,
     pub(super) random: Random,
@@ -103,6 +108,7 @@ impl Artist {
             counts,
             amounts,
             changes,
+            quadrants: 0,
             gauge: Gauge::of(design, side),
             pixels: vec![0; side * side],
             random,
@@ -125,6 +131,7 @@ impl Artist {
             }
             Motif::HotCorner => self.hot_corner(),
             Motif::Step => self.step(),
+            Motif::Quadrant => self.quadrant(),
             Motif::Ramp => self.ramp(),
             Motif::Ring => self.ring(),
             Motif::HalfMean => self.half_mean(),
@@ -177,13 +184,14 @@ mod tests {
     use super::*;
     use foveate_spec::Config;
 
-    const ALL: [Motif; 19] = [
+    const ALL: [Motif; 20] = [
         Motif::Zero,
         Motif::Max,
         Motif::Flat,
         Motif::Checkerboard,
         Motif::HotCorner,
         Motif::Step,
+        Motif::Quadrant,
         Motif::Ramp,
         Motif::Ring,
         Motif::HalfMean,

@@ -36,6 +36,8 @@ pub(crate) enum Aim {
     /// Levels on, just below or just above what a pixel of the frame has, minima likewise with the
     /// scores that are to be decided.
     Exact,
+    /// Levels just below the largest value that a pixel can have, or on it; minima as with `Exact`.
+    Largest,
     /// All change at every clock; minima are exact where a decision is made.
     Restless,
 }
@@ -92,6 +94,12 @@ pub(crate) const SEQUENCES: &[Sequence] = &[
     drained("flicker", &[Smooth, Flicker, Flicker, Same]),
     drained("fade", &[Binary, Fade, Fade, Fade]),
     drained("moving pixel", &[Flat, MovingPixel, MovingPixel, MovingPixel]),
+    Sequence {
+        name: "largest",
+        motifs: &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
+        end: End::Drained,
+        thresholds: Aim::Largest,
+    },
 ];
 
 /// When pixels come.

@@ -21,6 +21,9 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Mad, "carry_adder", "~carry_i}", "1'b1}"),
     fault("width", Paper, "carry_adder", "{plain_i, 1'b0}", "{1'b0, plain_i[WIDTH-2:0], 1'b0}"),
 
+    // Only the largest gradient with a level just below it needs the highest bit.
+    fault("width", Edge, "rcm", ".ACC_BITS(11)", ".ACC_BITS(10)"),
+
     fault("operator", Paper, "serial_lane", "stays = sum[ACC_BITS-1] == acc_q[ACC_BITS-1];",
         "stays = sum[ACC_BITS-1] != acc_q[ACC_BITS-1];"),
     fault("constant", Raster, "serial_lane", "RASTER != 0 && select_row_i && select_column_i", "RASTER != 0 && select_row_i"),

@@ -15,6 +15,8 @@ pub(crate) enum Aim {
     /// Levels on, just below or just above what a pixel of the frame has, minima likewise with the scores
     /// of its region.
     Exact,
+    /// Levels just below the largest value that a pixel can have, or on it; minima as with `Exact`.
+    Largest,
     /// The least that is not nothing: what is not flat is relevant, what changes has changed.
     Least,
 }
@@ -40,11 +42,13 @@ impl Aimer {
         self.ranges.shake(thresholds, random);
     }
 
-    /// Thresholds near the data of one region of the frame that the model takes next.
+    /// Thresholds near the data of one region of the frame that the model takes next; with `largest`
+    /// levels near the largest values that there are, by turns.
     pub(super) fn exact(
         &mut self,
         model: &SerialRcm,
         feed: &Feed,
+        largest: Option<u32>,
         random: &mut Random,
     ) -> Thresholds {
         let region = random.up_to_u32(self.design.regions() - 1);
@@ -59,6 +63,9 @@ impl Aimer {
         });
         self.ranges.aim_feature_levels(stream, &mut thresholds, random);
         self.ranges.aim_temporal_level(difference.unwrap_or(0), &mut thresholds, random);
+        if let Some(turn) = largest {
+            self.ranges.aim_largest_levels(turn, &mut thresholds);
+        }
         let scores = self.scorer.scores(&thresholds);
         let count = self.scorer.temporal_count(reference, &thresholds);
         self.ranges.aim_minima(&scores, count, &mut thresholds, random);

@@ -28,6 +28,8 @@ pub(crate) struct Driver<'a> {
     is_under_way: bool,
     constant: bool,
     aim: Aim,
+    /// Frames since the sequence began.
+    turn: u32,
     manners: Manners,
     max: u16,
     garbage: Vec<u16>,
@@ -67,6 +69,7 @@ impl<'a> Driver<'a> {
             is_under_way: false,
             constant: design.thresholds() == Mode::Constant,
             aim: Aim::Design,
+            turn: 0,
             manners: Manners::Quiet,
             max: u16::try_from(design.pixel_max()).unwrap_or(u16::MAX),
             garbage: vec![0; model.output().forward_valid.len()],
@@ -78,6 +81,7 @@ impl<'a> Driver<'a> {
     pub(super) fn begin(&mut self, aim: Aim) -> Result<(), CosimError> {
         self.aim = if self.constant { Aim::Design } else { aim };
         self.is_under_way = false;
+        self.turn = 0;
         for _ in 0..=self.random.up_to(1) {
             let valid = self.random.one_in(2);
             self.clock(true, valid, None)?;
@@ -122,9 +126,13 @@ impl<'a> Driver<'a> {
             if !self.is_under_way {
                 self.thresholds = match self.aim {
                     Aim::Design => self.configured,
-                    Aim::Exact => self.aimer.exact(&self.model, feed, &mut self.random),
+                    Aim::Exact | Aim::Largest => {
+                        let largest = (self.aim == Aim::Largest).then_some(self.turn);
+                        self.aimer.exact(&self.model, feed, largest, &mut self.random)
+                    }
                     Aim::Least => Aimer::least(),
                 };
+                self.turn += 1;
                 self.is_under_way = true;
             }
             self.clock(false, true, Some(pixels))?;

@@ -81,4 +81,11 @@ pub(super) const SEQUENCES: &[Sequence] = &[
     mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
     cut("reset when ready", &[Max], End::Ready),
     mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
+    Sequence {
+        name: "largest",
+        motifs: &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
+        mixed: false,
+        end: End::Drained,
+        aim: Aim::Largest,
+    },
 ];

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Used by mutation.py: proofs that a design with a mutant is the design.
+
+`same`   Yosys makes the same netlist of both, down to the last cell: nothing in it comes from what has been changed.
+`equal`  ABC proves that no sequence of inputs tells the two netlists apart: registers that are always equal are found by
+         induction, what is left by PDR. Registers and memories are 0 at the start; resets may come at any clock.
+"""
+import os
+import re
+import resource
+import shutil
+import subprocess
+import threading
+
+YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
+# Memories stay as they are where netlists are only compared.
+READ = ["proc", "setattr -mod -unset keep_hierarchy *", "flatten", "memory -nomap", "opt -full"]
+SMALL = ["wreduce", "opt -full", "wreduce -memx", "opt -full", "opt_clean -purge"]
+BITS = ["memory_map", "opt -full", "splitnets -ports", "opt_clean -purge"]
+MITER = ["miter -equiv -flatten gold gate miter", "hierarchy -top miter", "opt -full", "techmap", "opt -full", "dffunmap",
+         "setundef -undriven -zero", "setundef -init -zero", "zinit -all", "opt -full", "dffunmap", "abc -g AND", "opt_clean"]
+ABC = "strash; scorr; scorr -F 2; dc2; scorr; dprove; pdr"
+# Seconds of processor time, so that a busy machine finds the same.
+READING, PROVING = 60, 40
+
+
+def folder(work):
+    path = os.path.join(work, "proof", str(threading.get_ident()))
+    os.makedirs(path, exist_ok=True)
+    return path
+
+
+def sources(design, work, module=None, text=None):
+    """The files of a design, one of them with another text."""
+    names = [name for name in design.files if name != design.bench]
+    paths = [os.path.join(design.sources, name) for name in names]
+    if module:
+        mutant = os.path.join(folder(work), f"{module}.v")
+        with open(mutant, "w") as out:
+            out.write(text)
+        paths[names.index(f"rtl/{module}.v")] = mutant
+    return paths
+
+
+def load(design, paths, inside):
+    return [f"read_verilog {' '.join(paths)}", f"hierarchy -top {design.top}{design.chparam()}", f"hierarchy -top {inside or design.top}"]
+
+
+def limited(command, seconds, **options):
+    """Runs it for at most so many seconds of processor time; it then ends by a signal."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+
+    return subprocess.run(command, capture_output=True, text=True, errors="replace", preexec_fn=limit, **options)
+
+
+def run(command, seconds=READING):
+    """What it says, if it ends well and in time."""
+    done = limited(command, seconds)
+    return done.stdout if done.returncode == 0 else None
+
+
+def netlist(design, work, module=None, text=None, inside=None):
+    """The netlist with all names of its own numbered, and how many nets have no driver or more than one."""
+    out = os.path.join(folder(work), "netlist.il")
+    script = load(design, sources(design, work, module, text), inside)
+    script += READ[:1] + ["tee -q -o " + out + ".check check"] + READ[1:] + SMALL
+    script += ["rename -top top", "rename -enumerate", f"write_rtlil {out}"]
+    if run([YOSYS, "-q", "-p", "; ".join(script)]) is None:
+        return None, 0
+    found = re.search(r"found and reported (\d+) problems", open(out + ".check").read(), re.I)
+    cells = re.sub(r"^\s*attribute (?!\\init ).*\n|^#.*\n|^autoidx .*\n", "", open(out).read(), flags=re.M)
+    return cells, int(found.group(1))
+
+
+def equal(design, work, module, text, inside=None):
+    """Whether no sequence of inputs tells the design, or the module of that name, from the one with another text."""
+    out = os.path.join(folder(work), "miter.aig")
+    script = []
+    for side, change in (("gold", ()), ("gate", (module, text))):
+        script += load(design, sources(design, work, *change), inside) + READ + BITS + [f"rename -top {side}", f"design -stash {side}"]
+    script += [f"design -copy-from {side} -as {side} {side}" for side in ("gold", "gate")] + MITER + [f"write_aiger -zinit {out}"]
+    if run([YOSYS, "-q", "-p", "; ".join(script)]) is None:
+        return False
+    said = run([abc(), "-c", f"read {out}; {ABC}"], PROVING) or ""
+    return bool(re.search(r"UNSATISFIABLE|Property proved|Networks are equivalent", said)) and "was asserted" not in said
+
+
+def abc():
+    """The one that belongs to Yosys."""
+    beside = os.path.join(os.path.dirname(shutil.which(YOSYS) or YOSYS), os.path.basename(YOSYS) + "-abc")
+    return beside if os.path.exists(beside) else "yosys-abc"
