@@ -23,7 +23,7 @@ scripts/formal.sh --quick
 step "a sample of the lint matrix (scripts/lint.sh is the whole)"
 scripts/lint.sh --quick
 step "a sample of mutants (scripts/mutation.sh is the whole)"
-scripts/mutation.sh --sample 20
+scripts/mutation.sh --sample 10
 step "tests"
 cargo test --workspace --locked --quiet --doc
 log=$(mktemp)

@@ -27,7 +27,7 @@ pub use cost::{Silicon, Synthesizer};
 pub use error::ExploreError;
 pub use explore::{ClipRow, Exploration, Request, explore};
 pub use fit::{Constraints, Design as FittedDesign, Fit, FitRequest, Held, Target, fit};
-pub use foveate_fidelity::Figures;
+pub use foveate_fidelity::{Figures, ScoreError};
 pub use method::Method;
 pub use point::{Point, Refused};
 pub use row::{Fronts, Row};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use foveate_engine::{Engine, Raster};
 use foveate_fidelity::{Fidelity, Tally};
@@ -25,8 +25,8 @@ const AHEAD: usize = 2;
 pub(crate) struct Measured {
     /// Errors against the ideal.
     pub(crate) tally: Tally,
-    /// Time in the engine, beside whatever else the machine did.
-    pub(crate) seconds: f64,
+    /// Time in the engine in nanoseconds, beside whatever else the machine did.
+    pub(crate) nanoseconds: u64,
     /// Why the clip ended before its end, if it did.
     pub(crate) problem: Option<String>,
 }
@@ -56,7 +56,7 @@ struct Candidate {
     bits: u32,
     /// One for each part.
     fidelity: Vec<Fidelity>,
-    seconds: Vec<f64>,
+    time: Vec<Duration>,
 }
 
 impl Clip<'_> {
@@ -80,10 +80,10 @@ impl Clip<'_> {
             seen.and(problem)
         })?;
         let measured = |candidate: Candidate| {
-            let parts = candidate.fidelity.into_iter().zip(candidate.seconds);
-            let one = |(fidelity, seconds): (Fidelity, f64)| Measured {
+            let parts = candidate.fidelity.into_iter().zip(candidate.time);
+            let one = |(fidelity, time): (Fidelity, Duration)| Measured {
                 tally: fidelity.tally().clone(),
-                seconds,
+                nanoseconds: u64::try_from(time.as_nanos()).unwrap_or(u64::MAX),
                 problem: problem.clone(),
             };
             parts.map(one).collect()
@@ -142,7 +142,7 @@ impl Candidate {
             engine: Engine::new(design),
             bits: design.pixel_bits(),
             fidelity: fidelity.collect::<Result<_, _>>()?,
-            seconds: vec![0.0; parts],
+            time: vec![Duration::ZERO; parts],
         })
     }
 
@@ -159,7 +159,7 @@ impl Candidate {
         let frame = frames.get(&self.bits).unwrap_or(&judged.frame);
         let began = Instant::now();
         self.engine.step_raster(frame)?;
-        self.seconds[part] += began.elapsed().as_secs_f64();
+        self.time[part] += began.elapsed();
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
         Ok(self.fidelity[part].add(&judged.frame, &judged.ideal, outcome, screen)?)
     }

@@ -58,7 +58,7 @@ impl Row {
     ) -> Option<Self> {
         let figures = together(measured)?.figures();
         let (clocks_per_frame, frames_per_second) = speed(design, clock_mhz);
-        let seconds: f64 = measured.iter().map(|part| part.seconds).sum();
+        let nanoseconds: u64 = measured.iter().map(|part| part.nanoseconds).sum();
         Some(Self {
             number,
             settings,
@@ -68,7 +68,7 @@ impl Row {
             clocks_per_frame,
             frames_per_second,
             silicon,
-            simulated_per_second: real(figures.frames) / seconds.max(1e-9),
+            simulated_per_second: real(figures.frames) * 1e9 / real(nanoseconds.max(1)),
             figures,
             front: Fronts::default(),
         })

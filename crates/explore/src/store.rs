@@ -16,7 +16,7 @@ use crate::ExploreError;
 use crate::measure::Measured;
 
 /// Grows when figures change their meaning, so that older ones are not taken for new ones.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const FOLDER: &str = "measured";
 
 /// Finished measurements.

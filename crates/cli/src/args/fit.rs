@@ -35,6 +35,9 @@ pub(crate) struct FitArgs {
     /// No progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    /// At most this many designs are synthesized, the promising ones first
+    #[arg(long, value_name = "N", default_value_t = 48, value_parser = at_least_one())]
+    pub(crate) max_syntheses: u32,
     #[command(flatten)]
     pub(crate) constraints: ConstraintArgs,
     #[command(flatten)]

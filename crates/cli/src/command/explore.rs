@@ -29,7 +29,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
         return Err(CliError::Usage("name a space".to_owned()));
     };
     let text = read(file)?;
-    let space = Space::from_toml(&text).map_err(|error| blame(file, error))?;
+    let space = Space::from_toml(&text).map_err(|error| blame(file, &error))?;
     let Some(folder) = output.filter(|_| !args.print) else { return output::text(&text) };
     let terminal = Terminal::new(args.quiet)?;
     let synthesizer = if args.no_area { None } else { Some(terminal.synthesizer()?) };
@@ -82,7 +82,7 @@ fn read(file: &Path) -> Result<String, CliError> {
     }
 }
 
-fn blame(file: &Path, error: ExploreError) -> CliError {
+fn blame(file: &Path, error: &ExploreError) -> CliError {
     CliError::Usage(format!("{}: {error}", file.display()))
 }
 

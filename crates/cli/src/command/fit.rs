@@ -3,8 +3,9 @@
 
 use std::fmt::Write as _;
 
-use foveate_explore::{ExploreError, Figures, Fit, FitRequest, Held, fit};
+use foveate_explore::{ExploreError, Figures, Fit, FitRequest, FittedDesign, Held, fit};
 use foveate_simulator::ImagesAs;
+use foveate_spec::Organization;
 use foveate_staging::{check_file, write_file};
 
 use super::explore::Terminal;
@@ -27,6 +28,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         clock_hz: args.constraints.clock.0,
         target_active: args.constraints.target_active,
         synthesizer: &synthesizer,
+        most: usize::try_from(args.max_syntheses).unwrap_or(usize::MAX),
     };
     let found = fit(&request, &terminal);
     terminal.bar.finish_and_clear();
@@ -85,9 +87,9 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     paragraph(&mut text, &format!("{heading}: {}", design.summary), width, "  ");
     let (unit, array) = (&design.silicon.unit, &design.silicon.array);
     let silicon = format!(
-        "{} units of {} LUTs ({} of them memory) and {} flip-flops; the array {} LUTs, {} flip-flops, {} RAMB36; \
+        "{} of {} LUTs ({} of them memory) and {} flip-flops; the array {} LUTs, {} flip-flops, {} RAMB36; \
          {} clocks per frame, {} frames/s at {}",
-        design.silicon.units,
+        units(design),
         unit.lut_total_packed,
         unit.lut_memory_packed,
         unit.ff,
@@ -113,12 +115,9 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     }
     if !found.binding.is_empty() {
         let options: Vec<String> = found.binding.iter().map(|name| format!("--{name}")).collect();
-        paragraph(
-            &mut text,
-            &format!("\nBinding: without {} there is a design.", options.join(" or ")),
-            width,
-            "  ",
-        );
+        let line = format!("Binding: without {} there would be a design.", options.join(" or "));
+        text.push('\n');
+        paragraph(&mut text, &line, width, "  ");
     }
     text += "\nWhy:\n";
     for line in &found.why {
@@ -138,6 +137,16 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
         }
     }
     text
+}
+
+/// How many RPUs or lanes there are.
+fn units(design: &FittedDesign) -> String {
+    let name = match design.config.hardware.organization {
+        Organization::Pipelined => "RPU",
+        Organization::Serial => "lane",
+    };
+    let plural = if design.silicon.units == 1 { "" } else { "s" };
+    format!("{} {name}{plural}", design.silicon.units)
 }
 
 fn figures_text(figures: &Figures) -> String {

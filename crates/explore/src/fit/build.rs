@@ -22,8 +22,6 @@ use crate::{ExploreError, Hooks, Progress};
 const NEAREST: usize = 6;
 /// Designs that are synthesized before it is looked whether one holds.
 const BATCH: usize = 8;
-/// The most that are synthesized.
-const MOST: usize = 48;
 
 /// A design that could be built.
 #[derive(Clone, Debug)]
@@ -171,7 +169,7 @@ fn in_batches(
     designs.sort_by(|(_, one), (_, other)| rough(one).total_cmp(&rough(other)));
     let all = designs.len();
     let mut built = Vec::new();
-    for batch in designs.chunks(BATCH).take(MOST.div_ceil(BATCH)) {
+    for batch in designs[..all.min(request.most)].chunks(BATCH) {
         built.extend(synthesize(batch, request, hooks)?);
         if built.iter().any(Candidate::holds) {
             break;

@@ -51,6 +51,8 @@ pub struct FitRequest<'a> {
     pub target_active: Option<f64>,
     /// For areas.
     pub synthesizer: &'a Synthesizer,
+    /// The most designs that are synthesized, of all that hold what can be told without, or of the nearest.
+    pub most: usize,
 }
 
 /// Finds the cheapest design that holds the constraints on the first half of the footage, or the nearest

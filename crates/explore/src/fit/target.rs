@@ -100,3 +100,60 @@ fn scaled(task: &Config, octaves: f64) -> Config {
 fn rounded(value: f64) -> u32 {
     value.round().clamp(0.0, f64::from(u32::MAX)) as u32
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use foveate_simulator::InputOptions;
+    use foveate_toolchain::{Cache, Toolchain};
+
+    use super::*;
+    use crate::{Constraints, Synthesizer};
+
+    struct Quiet;
+
+    impl Hooks for Quiet {
+        fn progress(&self, _: Progress) {}
+
+        fn cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    #[test]
+    fn thresholds_meet_the_wanted_share() {
+        let share = |wanted: f64| {
+            let request = FitRequest {
+                task: &Config::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap(),
+                inputs: &[PathBuf::from("scene:street")],
+                input: &InputOptions { frames: Some(16), ..InputOptions::default() },
+                constraints: &Constraints::default(),
+                clock_hz: 1,
+                target_active: Some(wanted),
+                synthesizer: &Synthesizer {
+                    toolchain: Toolchain::system(),
+                    cache: Cache::throw_away().unwrap(),
+                },
+                most: 1,
+            };
+            let (task, target) = aim(&request, &vec![(8, 16)], &Quiet).unwrap();
+            let target = target.unwrap();
+            assert!((target.found - wanted).abs() < 0.05, "{wanted}: {}", target.found);
+            assert_eq!(target.task, task.to_toml());
+            target.found
+        };
+        assert!(share(0.1) < share(0.25) && share(0.25) < share(0.6));
+    }
+
+    #[test]
+    fn scaling_is_of_grey_levels_and_of_their_squares() {
+        let text = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
+        let twice = scaled(&Config::from_toml(text).unwrap(), 1.0);
+        assert_eq!((twice.temporal.level, twice.temporal.min_count), (16, 5));
+        assert_eq!(twice.spatial[0].level, Some(200));
+        let scores: Vec<String> =
+            twice.spatial.iter().map(|entry| entry.min_score.unwrap().to_string()).collect();
+        assert_eq!(scores, ["5", "10", "200"]);
+    }
+}

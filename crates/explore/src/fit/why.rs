@@ -45,10 +45,10 @@ pub(super) fn why(
     for (step, config) in steps(&chosen.look.config) {
         // The steps of the search's own tries are there; the others were not looked at.
         if let Some(look) = search.get(&config) {
-            lines.push(format!("{step}: {}", verdict(look)));
+            lines.push(format!("{step}: {}", verdict(look, built)));
         }
     }
-    lines.extend(other_features(search, chosen));
+    lines.extend(other_features(search, built, chosen));
     lines.extend(slower(chosen, clock_hz));
     let other = built.all().iter().skip(1).find(|other| other.holds());
     lines.extend(other.filter(|_| chosen.holds()).map(|other| {
@@ -106,27 +106,48 @@ fn steps(chosen: &Config) -> Vec<(String, Config)> {
     found
 }
 
-/// What its constraints say of a camera.
-fn verdict(look: &Look) -> String {
+/// What its constraints say of a camera, or what it costs if they hold.
+fn verdict(look: &Look, built: &Built) -> String {
     let broken: Vec<String> = look.held.iter().filter(|held| !held.holds).map(Held::text).collect();
-    if broken.is_empty() {
-        return "would hold, too, and costs more".to_owned();
+    if !broken.is_empty() {
+        return broken.join(", ");
     }
-    broken.join(", ")
+    let flips = look.figures.action_flips * 100.0;
+    let own = built.all().iter().filter(|candidate| candidate.look.config == look.config);
+    match own.min_by(|one, other| one.cost().total_cmp(&other.cost())) {
+        Some(candidate) => {
+            let broken = candidate.held.iter().filter(|held| !held.holds).map(Held::text);
+            let broken: Vec<String> = broken.collect();
+            let costs = format!(
+                "{} LUTs and {} RAMB36",
+                candidate.silicon.array.lut_total_packed,
+                candidate.silicon.array.bram18.div_ceil(2)
+            );
+            let but =
+                if broken.is_empty() { String::new() } else { format!("; {}", broken.join(", ")) };
+            format!("{flips:.2} % flips; {costs}{but}")
+        }
+        None => format!(
+            "{flips:.2} % flips; not synthesized, as less promising or beaten by a simpler one"
+        ),
+    }
 }
 
 /// The best of every other feature and region size.
-fn other_features(search: &Search<'_>, chosen: &Candidate) -> Vec<String> {
+fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec<String> {
     let of = |config: &Config| {
         let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
         (names.join(" and "), config.region.size)
     };
+    let synthesized =
+        |look: &Look| built.all().iter().any(|candidate| candidate.look.config == look.config);
+    let rank = |look: &Look| (look.excess(), !synthesized(look));
     let own = of(&chosen.look.config);
     let mut best: Vec<((String, u32), &Look)> = Vec::new();
     for look in search.all().filter(|look| of(&look.config) != own) {
         let key = of(&look.config);
         match best.iter_mut().find(|(other, _)| *other == key) {
-            Some((_, found)) if found.excess() <= look.excess() => {}
+            Some((_, found)) if rank(found) <= rank(look) => {}
             Some((_, found)) => *found = look,
             None => best.push((key, look)),
         }
@@ -135,13 +156,7 @@ fn other_features(search: &Search<'_>, chosen: &Candidate) -> Vec<String> {
     best.retain(|((features, size), _)| *features == own.0 || *size == own.1);
     best.sort_by(|one, other| one.1.excess().total_cmp(&other.1.excess()));
     let line = |((features, size), look): ((String, u32), &Look)| {
-        let flips = look.figures.action_flips * 100.0;
-        let verdict = if look.holds() {
-            format!("holds at best ({flips:.2} % flips), and costs more")
-        } else {
-            format!("at best {}", verdict(look))
-        };
-        format!("{features} in {size}x{size} regions: {verdict}")
+        format!("{features} in {size}x{size} regions: at best {}", verdict(look, built))
     };
     best.into_iter().map(line).collect()
 }

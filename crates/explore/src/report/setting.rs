@@ -97,14 +97,14 @@ fn complete(toml: &str) -> String {
     design.map_or_else(|_| toml.to_owned(), |design| design.config().to_toml())
 }
 
-/// A camera in one line.
+/// The ideal camera in one line: its windows are those of the whole frame, whatever its neighborhood.
 pub(crate) fn camera(toml: &str) -> String {
     let table = complete(toml).parse::<Table>().unwrap_or_default();
     let of = |key: &str| value(&table, key);
     let mut words = Vec::new();
-    if let (Some(size), Some(around)) = (of("region.size"), of("region.neighborhood")) {
-        words.push(format!("regions of {size}×{size} ({around})"));
-    }
+    words.extend(
+        of("region.size").map(|size| format!("regions of {size}×{size}, whole-frame windows")),
+    );
     words.extend(of("frame.pixel_bits").map(|bits| format!("{bits} bits")));
     words.extend(of("denoise.filter").map(|filter| match filter.as_str() {
         "none" => "no filter".to_owned(),
@@ -142,7 +142,7 @@ mod tests {
         let toml = Config::default().to_toml();
         let line = camera(&toml);
         assert!(
-            line.starts_with("regions of 8×8 (isolated) · 8 bits · median3x3 · edge"),
+            line.starts_with("regions of 8×8, whole-frame windows · 8 bits · median3x3 · edge"),
             "{line}"
         );
         assert_eq!(camera("not toml"), "");

@@ -9,12 +9,13 @@ use foveate_explore::{Exploration, Row};
 /// A column: its name, and what stands in it.
 type Column = (&'static str, fn(&Row) -> String);
 
-const COLUMNS: [Column; 14] = [
+const COLUMNS: [Column; 16] = [
     ("flips %", |row| percent(row.figures.action_flips)),
     ("SRS %", |row| percent(row.figures.srs_flips)),
     ("TRS %", |row| percent(row.figures.trs_flips)),
     ("IoU", |row| format!("{:.3}", row.figures.active_iou)),
     ("active %", |row| percent(row.figures.active)),
+    ("score errors", scores),
     ("PSNR ideal", |row| decibels(row.figures.psnr_ideal)),
     ("SSIM ideal", |row| format!("{:.3}", row.figures.ssim_ideal)),
     ("PSNR input", |row| decibels(row.figures.psnr_input)),
@@ -25,8 +26,9 @@ const COLUMNS: [Column; 14] = [
     ("bytes", |row| format!("{:.0}", row.bytes_per_frame)),
     ("clocks", |row| row.clocks_per_frame.to_string()),
     ("frames/s", |row| row.frames_per_second.to_string()),
-    ("LUT/FF/mem", |row| unit(row)),
-    ("array LUT", |row| array(row)),
+    ("LUT/FF/mem", unit),
+    ("array LUT", array),
+    ("simulated/s", |row| format!("{:.0}", row.simulated_per_second)),
 ];
 
 fn percent(share: f64) -> String {
@@ -35,6 +37,23 @@ fn percent(share: f64) -> String {
 
 fn decibels(value: Option<f64>) -> String {
     value.map_or_else(|| "same".to_owned(), |value| format!("{value:.1}"))
+}
+
+/// Largest, mean and RMS of every score that can be compared.
+fn scores(row: &Row) -> String {
+    let score = |score: &foveate_explore::ScoreError| {
+        let digits = |value: f64| {
+            format!("{value:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
+        };
+        format!(
+            "{} {}/{}/{}",
+            score.feature,
+            digits(score.max),
+            digits(score.mean),
+            digits(score.rms)
+        )
+    };
+    row.figures.scores.iter().map(score).collect::<Vec<_>>().join(", ")
 }
 
 fn unit(row: &Row) -> String {
@@ -60,9 +79,11 @@ fn settings(found: &Exploration, row: &Row) -> String {
 }
 
 const NOTE: &str = "flips, SRS, TRS: regions that decide otherwise than the ideal camera. IoU: of the active \
-     areas. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
+     areas. score errors: largest, mean, RMS; edge, corner and temporal as share of a region's pixels, mad and \
+     variance in grey levels and their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a row that a \
-     region was stale. LUT/FF/mem: one RPU or lane.";
+     region was stale. LUT/FF/mem: one RPU or lane. simulated/s: frames per second of \
+     the engine on one thread, as it ran here.";
 
 pub(super) fn markdown(found: &Exploration) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
