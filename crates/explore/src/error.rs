@@ -52,6 +52,14 @@ pub enum ExploreError {
         /// Its size.
         other_size: String,
     },
+    /// An input that is gone once it has been read.
+    #[error(
+        "`{input}` cannot be read more than once, as this command must; record it to a file first"
+    )]
+    ReadOnce {
+        /// The input.
+        input: String,
+    },
     /// A clip without enough frames.
     #[error("`{clip}` has {frames} frames; at least {least} are needed")]
     Short {

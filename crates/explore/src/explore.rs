@@ -55,7 +55,7 @@ pub struct Exploration {
     pub rows: Vec<Row>,
     /// Combinations that are no design.
     pub refused: Vec<Refused>,
-    /// Clips that ended before their end, and why.
+    /// Clips that ended before their end and designs that Yosys did not synthesize, and why.
     pub problems: Vec<String>,
 }
 
@@ -96,7 +96,7 @@ pub fn explore(
         points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
     let (looks, look_of) = looks(&points)?;
     let measured = footage.measure(&looks, &store)?;
-    let silicon = silicon(request.synthesizer, &designs, hooks)?;
+    let (silicon, failed) = silicon(request.synthesizer, &designs, hooks)?;
     let mut rows = Vec::new();
     for (index, (point, (design, silicon))) in
         points.iter().zip(designs.iter().zip(silicon)).enumerate()
@@ -124,7 +124,13 @@ pub fn explore(
         axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
         rows,
         refused,
-        problems: footage.subjects.iter().zip(&measured).filter_map(problem).collect(),
+        problems: footage
+            .subjects
+            .iter()
+            .zip(&measured)
+            .filter_map(problem)
+            .chain(failed)
+            .collect(),
     };
     write(&exploration, &measured, &look_of, output)?;
     Ok(exploration)
@@ -137,11 +143,7 @@ fn claim(output: &Path) -> Result<(), ExploreError> {
         return Err(ExploreError::Occupied { path: output.to_owned() });
     }
     fs::create_dir_all(output).map_err(ExploreError::io("make the folder", output))?;
-    let mark = output.join(MARK);
-    if mark.is_file() {
-        return Ok(());
-    }
-    Ok(write_file(&mark, b"{ \"finished\": false }\n")?)
+    Ok(write_file(&output.join(MARK), b"{ \"finished\": false }\n")?)
 }
 
 /// The designs that look different to a camera, and for each point which of them it is: how an array
@@ -160,29 +162,39 @@ fn looks(points: &[Point]) -> Result<(Vec<Design>, Vec<usize>), ExploreError> {
     Ok((looks, of_point))
 }
 
-/// The area of every design, once for every distinct RTL.
+/// The area of every design, once for every distinct RTL, and what Yosys said of those without one: one of
+/// many that fails does not lose the others.
 fn silicon(
     synthesizer: Option<&Synthesizer>,
     designs: &[Design],
     hooks: &dyn Hooks,
-) -> Result<Vec<Option<Silicon>>, ExploreError> {
-    let Some(synthesizer) = synthesizer else { return Ok(vec![None; designs.len()]) };
+) -> Result<(Vec<Option<Silicon>>, Vec<String>), ExploreError> {
+    let Some(synthesizer) = synthesizer else { return Ok((vec![None; designs.len()], Vec::new())) };
     let (keys, jobs) = distinct(designs.iter());
-    let done = AtomicUsize::new(0);
-    let all = jobs.len();
-    let areas = jobs.par_iter().map(|(key, job)| {
-        if hooks.cancelled() {
-            return Err(ExploreError::Cancelled);
-        }
-        let area = synthesizer.area(job)?;
-        hooks.progress(Progress::Synthesizing {
-            done: 1 + done.fetch_add(1, Ordering::Relaxed),
-            all,
-        });
-        Ok((key.as_str(), area))
-    });
-    let areas = areas.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
-    Ok(keys.iter().map(|key| areas.get(key.as_str()).cloned()).collect())
+    let (done, all) = (AtomicUsize::new(0), jobs.len());
+    let areas: BTreeMap<&str, Result<Silicon, ExploreError>> = jobs
+        .par_iter()
+        .filter(|_| !hooks.cancelled())
+        .map(|(key, job)| {
+            let area = synthesizer.area(job);
+            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+            hooks.progress(Progress::Synthesizing { done, all });
+            (key.as_str(), area)
+        })
+        .collect();
+    if hooks.cancelled() {
+        return Err(ExploreError::Cancelled);
+    }
+    let failed = |key: &String| match areas.get(key.as_str()) {
+        Some(Err(error)) => Some(error.to_string()),
+        _ => None,
+    };
+    let numbered = keys.iter().enumerate();
+    let problems =
+        numbered.filter_map(|(index, key)| Some(format!("point {}: {}", index + 1, failed(key)?)));
+    let problems = problems.collect();
+    let area = |key: &String| areas.get(key.as_str()).and_then(|area| area.as_ref().ok()).cloned();
+    Ok((keys.iter().map(area).collect(), problems))
 }
 
 fn mark_fronts(rows: &mut [Row]) {
@@ -225,13 +237,20 @@ fn write(
     write_file(&output.join("clips.csv"), Table::of(clips).csv().as_bytes())?;
     let designs = output.join("designs");
     fs::create_dir_all(&designs).map_err(ExploreError::io("make the folder", &designs))?;
+    // Numbers of an earlier, larger space would belong to other points.
+    for number in rows.len() + 1.. {
+        let surplus = designs.join(format!("{number}.toml"));
+        if !surplus.exists() {
+            break;
+        }
+        fs::remove_file(&surplus).map_err(ExploreError::io("remove", &surplus))?;
+    }
     for row in rows {
         let name = designs.join(format!("{}.toml", row.number));
         write_file(&name, row.config.to_toml().as_bytes())?;
     }
-    // Plain data with text keys: this cannot fail.
-    let json = serde_json::to_string_pretty(exploration).unwrap_or_default() + "\n";
-    write_file(&output.join(MARK), json.as_bytes())?;
     write_file(&output.join("report.html"), crate::report::page(exploration)?.as_bytes())?;
-    Ok(())
+    // Last, since it says that all is there. Plain data with text keys: this cannot fail.
+    let json = serde_json::to_string_pretty(exploration).unwrap_or_default() + "\n";
+    Ok(write_file(&output.join(MARK), json.as_bytes())?)
 }

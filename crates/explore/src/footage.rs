@@ -2,7 +2,7 @@
 //! The clips of a run and what is measured on them, what is finished taken from the store.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_fidelity::{Figures, Tally};
@@ -35,6 +35,9 @@ impl<'a> Footage<'a> {
         ideal: &'a Config,
         hooks: &'a dyn Hooks,
     ) -> Result<Self, ExploreError> {
+        if let Some(once) = inputs.iter().find(|input| is_read_once(input)) {
+            return Err(ExploreError::ReadOnce { input: once.display().to_string() });
+        }
         let subjects = subjects(inputs, input)?;
         let mut first: Option<(&str, (u32, u32))> = None;
         for subject in &subjects {
@@ -79,7 +82,10 @@ impl<'a> Footage<'a> {
                     self.parts(subject, &together, std::slice::from_ref(&(0..u64::MAX)), &tell)?;
                 for (&index, mut parts) in some.iter().zip(measured) {
                     let Some(measured) = parts.pop() else { continue };
-                    store.put(&keys[index], &measured)?;
+                    // A clip that broke off may be whole the next time.
+                    if measured.problem.is_none() {
+                        store.put(&keys[index], &measured)?;
+                    }
                     found[index] = Some(measured);
                     done.fetch_add(1, Ordering::Relaxed);
                 }
@@ -134,4 +140,9 @@ impl<'a> Footage<'a> {
         let clip = Clip { subject, input: self.input, ideal: self.ideal, parts, go_on: &go_on };
         clip.measure(designs)
     }
+}
+
+/// Whether an input cannot be read a second time.
+fn is_read_once(input: &Path) -> bool {
+    input == Path::new("-") || input.to_str().is_some_and(|name| name.starts_with("v4l2:"))
 }

@@ -155,6 +155,7 @@ impl Candidate {
     ) -> Result<(), ExploreError> {
         if set {
             self.engine.reset();
+            self.fidelity[part].next_clip();
         }
         let frame = frames.get(&self.bits).unwrap_or(&judged.frame);
         let began = Instant::now();

@@ -13,7 +13,7 @@ pub(crate) fn at_depth(config: &Config, bits: u32) -> Config {
     let own = config.frame.pixel_bits;
     let mut config = config.clone();
     let shift = |level: u32| match own.checked_sub(bits) {
-        Some(more) => level.checked_shl(more).unwrap_or(u32::MAX),
+        Some(more) => u32::try_from(u64::from(level) << more).unwrap_or(u32::MAX),
         None => level.checked_shr(bits - own).unwrap_or(0),
     };
     let changed = config.temporal.level;

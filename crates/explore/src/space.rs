@@ -7,6 +7,7 @@ use toml::{Table, Value};
 
 use crate::ExploreError;
 use crate::method::{MAX_POINTS, Method};
+use crate::store::functional;
 
 /// Which designs to look at.
 #[derive(Clone, Debug)]
@@ -104,7 +105,9 @@ impl Space {
         let start = Start { preset, overrides: overrides(&file.design) };
         let section = |name| move |error| ExploreError::Section { section: name, error };
         start.with(&[]).and_then(|config| config.validate()).map_err(section("design"))?;
+        // What the ideal sees does not depend on how an array is built.
         let ideal = start.with(&overrides(&file.ideal)).map_err(section("ideal"))?;
+        let ideal = functional(&ideal);
         ideal.validate().map_err(section("ideal"))?;
         let axes = axes("", &file.vary)?;
         let method =

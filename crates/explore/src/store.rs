@@ -16,7 +16,7 @@ use crate::ExploreError;
 use crate::measure::Measured;
 
 /// Grows when figures change their meaning, so that older ones are not taken for new ones.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const FOLDER: &str = "measured";
 
 /// Finished measurements.
@@ -69,21 +69,52 @@ pub(crate) fn identity(subject: &Subject, input: &InputOptions) -> String {
     let mut text = format!("{input:?}");
     for path in &subject.inputs {
         let _ = write!(text, "\n{}", path.display());
-        if path.is_dir() {
-            let mut files: Vec<PathBuf> = fs::read_dir(path)
-                .map(|entries| entries.flatten().map(|entry| entry.path()).collect())
-                .unwrap_or_default();
-            files.sort();
-            files.iter().for_each(|file| stamp(&mut text, file));
-        } else {
-            stamp(&mut text, path);
+        // What is not there by its name may be a pattern, or a scene, which has no files.
+        let pattern = path.to_str().filter(|_| !path.exists()).map(glob::glob);
+        match pattern {
+            Some(Ok(files)) => files.flatten().for_each(|file| stamp_all(&mut text, &file)),
+            _ => stamp_all(&mut text, path),
         }
     }
     text
+}
+
+/// Stamps a file, or all files below a folder.
+fn stamp_all(text: &mut String, path: &Path) {
+    let Ok(entries) = fs::read_dir(path) else { return stamp(text, path) };
+    let mut inside: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    inside.sort();
+    inside.iter().for_each(|path| stamp_all(text, path));
 }
 
 fn stamp(text: &mut String, file: &Path) {
     let Ok(about) = fs::metadata(file) else { return };
     let changed = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
     let _ = write!(text, "\n{} {} {:?}", file.display(), about.len(), changed);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clip_is_another_when_one_of_its_files_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let below = folder.path().join("class");
+        fs::create_dir(&below).unwrap();
+        fs::write(below.join("a.png"), "a").unwrap();
+        let of = |input: PathBuf| {
+            let subject = Subject { name: String::new(), inputs: vec![input] };
+            identity(&subject, &InputOptions::default())
+        };
+        let both = || (of(folder.path().to_owned()), of(below.join("*.png")));
+        let before = both();
+        assert_eq!(before, both());
+        fs::write(below.join("a.png"), "other").unwrap();
+        let changed = both();
+        assert!(before.0 != changed.0 && before.1 != changed.1);
+        fs::write(below.join("b.png"), "b").unwrap();
+        let more = both();
+        assert!(more.0 != changed.0 && more.1 != changed.1);
+    }
 }

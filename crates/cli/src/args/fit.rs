@@ -103,16 +103,13 @@ impl ConstraintArgs {
     }
 }
 
-/// `1%`, `0.5%`, or the share itself, `0.01`.
+/// `1%` or `0.5%` as a share. Without its sign a number could be either.
 fn percent(text: &str) -> Result<f64, String> {
-    let share = match text.strip_suffix('%') {
-        Some(number) => number.trim().parse::<f64>().map(|value| value / 100.0),
-        None => text.parse::<f64>(),
-    };
-    share
-        .ok()
-        .filter(|share| (0.0..=1.0).contains(share))
-        .ok_or_else(|| "expected 0% to 100%, or a share such as 0.01".to_owned())
+    text.strip_suffix('%')
+        .and_then(|number| number.trim().parse::<f64>().ok())
+        .filter(|percent| (0.0..=100.0).contains(percent))
+        .map(|percent| percent / 100.0)
+        .ok_or_else(|| "expected 0% to 100%, with the sign, for example 1%".to_owned())
 }
 
 fn decibels(text: &str) -> Result<f64, String> {

@@ -51,6 +51,9 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
 
 /// What the exit code says.
 fn verdict(found: &Fit) -> Result<(), CliError> {
+    if !found.problems.is_empty() {
+        return Err(CliError::Failed(format!("not all was seen: {}", found.problems.join("; "))));
+    }
     if !found.feasible {
         return Err(CliError::Failed("no design holds all constraints".to_owned()));
     }
@@ -88,7 +91,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     let (unit, array) = (&design.silicon.unit, &design.silicon.array);
     let silicon = format!(
         "{} of {} LUTs ({} of them memory) and {} flip-flops; the array {} LUTs, {} flip-flops, {} RAMB36; \
-         {} clocks per frame, {} frames/s at {}",
+         {} clocks per frame, {:.1} frames/s at {}",
         units(design),
         unit.lut_total_packed,
         unit.lut_memory_packed,
@@ -118,6 +121,9 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
         let line = format!("Binding: without {} there would be a design.", options.join(" or "));
         text.push('\n');
         paragraph(&mut text, &line, width, "  ");
+    }
+    if !found.feasible && found.binding.is_empty() {
+        text += "\nNo single constraint binds: every design breaks more than one.\n";
     }
     text += "\nWhy:\n";
     for line in &found.why {

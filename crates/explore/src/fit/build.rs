@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_estimate::Device;
-use foveate_spec::{
-    Config, Design, FeatureKind, Feed, Filter, MemoryKind, Organization, Reference,
-};
+use foveate_spec::{Config, Design, FeatureKind, Feed, Filter, Organization, Reference};
 use rayon::prelude::*;
 
 use super::FitRequest;
@@ -29,7 +27,7 @@ pub(super) struct Candidate {
     pub(super) look: Look,
     pub(super) design: Design,
     pub(super) clocks_per_frame: u64,
-    pub(super) frames_per_second: u64,
+    pub(super) frames_per_second: f64,
     pub(super) silicon: Silicon,
     /// All constraints.
     pub(super) held: Vec<Held>,
@@ -81,31 +79,24 @@ pub(super) fn build(
     hooks: &dyn Hooks,
 ) -> Result<Built, ExploreError> {
     let holding: Vec<&Look> = search.all().filter(|look| look.holds()).collect();
-    let mut looks = simplest(&holding);
-    let (mut candidates, mut left_out) = (Vec::new(), 0);
-    loop {
-        let (built, left) = in_batches(&looks, request, hooks)?;
-        candidates.extend(built);
-        left_out += left;
-        let done = candidates.iter().any(Candidate::holds);
-        // Where nothing holds, the nearest and what is sacrificed for it.
-        if done || looks.iter().any(|look| !look.holds()) {
-            break;
-        }
+    let looks = simplest(&holding);
+    let max_clocks = request.constraints.min_fps.map(|fps| clocks(request.clock_hz, fps));
+    let (mut candidates, mut left_out) =
+        in_batches(&looks, max_clocks, request.most, request, hooks)?;
+    if !candidates.iter().any(Candidate::holds) {
+        // The nearest that do not hold, and what would hold if it might be slower: for what binds.
         let mut others: Vec<&Look> = search.all().filter(|look| !look.holds()).collect();
         others.sort_by(|one, other| one.excess().total_cmp(&other.excess()));
         others.truncate(NEAREST);
-        if others.is_empty() {
-            break;
+        for (looks, max_clocks) in [(&others, max_clocks), (&looks, None)] {
+            let (built, left) = in_batches(looks, max_clocks, BATCH, request, hooks)?;
+            candidates.extend(built);
+            left_out += left;
         }
-        looks = others;
     }
     candidates.sort_by(|one, other| {
         let cost = one.cost().total_cmp(&other.cost());
-        match one.holds() && other.holds() {
-            true => cost,
-            false => one.excess().total_cmp(&other.excess()).then(cost),
-        }
+        one.excess().total_cmp(&other.excess()).then(cost)
     });
     if candidates.is_empty() {
         return Err(ExploreError::NoPoints {
@@ -154,13 +145,15 @@ fn complexity(config: &Config) -> Complexity {
     ((config.region.size, neighborhood, features), ordered)
 }
 
-/// Builds the designs of some looks, the promising ones first, until one holds; says how many are left.
+/// Builds the designs of some looks, the promising ones first, until one holds or there are `most`; says
+/// how many are left.
 fn in_batches(
     looks: &[&Look],
+    max_clocks: Option<u64>,
+    most: usize,
     request: &FitRequest<'_>,
     hooks: &dyn Hooks,
 ) -> Result<(Vec<Candidate>, usize), ExploreError> {
-    let max_clocks = request.constraints.min_fps.map(|fps| clocks(request.clock_hz, fps));
     let mut designs: Vec<(&Look, Design)> = Vec::new();
     for look in looks {
         let ways = ways(&look.config, request.task, max_clocks);
@@ -169,7 +162,7 @@ fn in_batches(
     designs.sort_by(|(_, one), (_, other)| rough(one).total_cmp(&rough(other)));
     let all = designs.len();
     let mut built = Vec::new();
-    for batch in designs[..all.min(request.most)].chunks(BATCH) {
+    for batch in designs[..all.min(most)].chunks(BATCH) {
         built.extend(synthesize(batch, request, hooks)?);
         if built.iter().any(Candidate::holds) {
             break;
@@ -191,7 +184,10 @@ fn synthesize(
         if hooks.cancelled() {
             return Err(ExploreError::Cancelled);
         }
-        let area = request.synthesizer.area(job)?;
+        let area = request.synthesizer.area(job).map_err(|error| match hooks.cancelled() {
+            true => ExploreError::Cancelled,
+            false => error,
+        })?;
         let done = 1 + done.fetch_add(1, Ordering::Relaxed);
         hooks.progress(Progress::Synthesizing { done, all });
         Ok((key.as_str(), area))
@@ -200,7 +196,7 @@ fn synthesize(
     let candidate = |((look, design), key): (&(&Look, Design), &String)| {
         let silicon = areas.get(key.as_str())?.clone();
         let clocks_per_frame = design.timing().clocks_per_frame();
-        let frames_per_second = request.clock_hz / clocks_per_frame.max(1);
+        let frames_per_second = real(request.clock_hz) / real(clocks_per_frame.max(1));
         let mut held = look.held.clone();
         held.extend(request.constraints.on_speed(frames_per_second));
         held.extend(request.constraints.on_silicon(&silicon));
@@ -220,8 +216,8 @@ fn clocks(clock_hz: u64, fps: f64) -> u64 {
     (real(clock_hz) / fps.max(1e-9)).floor() as u64
 }
 
-/// Ways to build a camera: of each feed the deepest fold that is fast enough, and the deepest without
-/// block RAM; pipelined where no serial array is fast enough.
+/// Ways to build a camera: of each feed the deepest fold that is fast enough and its halvings, since lanes
+/// do not only shrink with their number; pipelined where no serial array is fast enough.
 fn ways(look: &Config, task: &Config, max_clocks: Option<u64>) -> Vec<Design> {
     let with = |organization, feed| {
         let mut config = look.clone();
@@ -236,11 +232,8 @@ fn ways(look: &Config, task: &Config, max_clocks: Option<u64>) -> Vec<Design> {
         let Some(serial) = with(Organization::Serial, Some(feed)) else { continue };
         let fold = max_clocks.map_or(Some(serial.regions()), |clocks| serial.largest_fold(clocks));
         let Some(deepest) = fold.and_then(|fold| serial.with_fold(fold)) else { continue };
-        let distributed = (0..deepest.fold().ilog2() + 1)
-            .filter_map(|halvings| serial.with_fold(deepest.fold() >> halvings))
-            .find(|design| design.lane_memory().kind != MemoryKind::Block);
-        found.extend(distributed.filter(|design| design.fold() != deepest.fold()));
-        found.push(deepest);
+        let halvings = 0..=deepest.fold().max(1).ilog2();
+        found.extend(halvings.filter_map(|halving| serial.with_fold(deepest.fold() >> halving)));
     }
     if found.is_empty() {
         found.extend(with(Organization::Pipelined, None));

@@ -97,9 +97,9 @@ impl Constraints {
 
     /// The constraint on speed, at so many frames per second.
     #[must_use]
-    pub fn on_speed(&self, frames_per_second: u64) -> Vec<Held> {
-        let fps = real(frames_per_second);
-        self.min_fps.map(|limit| Held::at_least("fps", fps, limit)).into_iter().collect()
+    pub fn on_speed(&self, frames_per_second: f64) -> Vec<Held> {
+        let held = |limit| Held::at_least("fps", frames_per_second, limit);
+        self.min_fps.map(held).into_iter().collect()
     }
 
     /// The constraints on area.

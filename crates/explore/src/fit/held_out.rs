@@ -5,15 +5,21 @@ use crate::ExploreError;
 use crate::Hooks;
 use crate::footage::Footage;
 
-/// For every clip the frames of its first half and all of its frames.
-pub(super) type Halves = Vec<(u64, u64)>;
+/// Clips and where they are divided.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Halves {
+    /// For every clip the frames of its first half and all of its frames.
+    pub(super) frames: Vec<(u64, u64)>,
+    /// Clips that ended before their end, and why.
+    pub(super) problems: Vec<String>,
+}
 
 /// A frame to start with, and one that can change, in each half.
 const LEAST: u64 = 4;
 
 /// Counts the frames of every clip; what a container says may be wrong.
 pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves, ExploreError> {
-    let mut found = Vec::new();
+    let mut found = Halves::default();
     for subject in &footage.subjects {
         let mut source = footage.open(subject)?;
         let mut frames = 0;
@@ -28,7 +34,9 @@ pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves,
             let clip = subject.name.clone();
             return Err(ExploreError::Short { clip, frames, least: LEAST });
         }
-        found.push((frames / 2, frames));
+        found.frames.push((frames / 2, frames));
+        let problem = source.problem().map(|problem| format!("{}: {problem}", subject.name));
+        found.problems.extend(problem);
     }
     Ok(found)
 }

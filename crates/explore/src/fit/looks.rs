@@ -124,7 +124,7 @@ impl<'a> Search<'a> {
         let counts = counts(self.task.temporal.min_count, self.task.region.size, side);
         let own = features == self.task.spatial;
         let choices: Vec<Vec<SpatialConfig>> = match features {
-            [one] if !own => ladder(one.feature, side),
+            [one] if !own => ladder(one.feature, self.task.frame.pixel_bits),
             _ => own_thresholds(features, self.task.region.size, side),
         };
         let mut found = Vec::new();
@@ -133,6 +133,9 @@ impl<'a> Search<'a> {
                 let mut config = exact.clone();
                 config.temporal.min_count = count;
                 config.spatial.clone_from(spatial);
+                for entry in config.spatial.iter_mut().filter(|e| e.feature == FeatureKind::Mad) {
+                    entry.mean_fraction_bits = Some(exact_fraction(side));
+                }
                 found.push(config);
             }
         }
@@ -177,7 +180,7 @@ impl<'a> Search<'a> {
         let designs_new: Vec<_> = new.values().cloned().collect();
         let done = self.seen.len();
         let tell = || Progress::Measuring { done, all: done + designs_new.len() };
-        let figures = self.footage.first_halves(&designs_new, self.halves, &tell)?;
+        let figures = self.footage.first_halves(&designs_new, &self.halves.frames, &tell)?;
         for ((text, design), figures) in new.iter().zip(figures) {
             let held = self.constraints.on_figures(design, &figures);
             let look = Look { config: design.config().clone(), figures, held };
@@ -191,7 +194,7 @@ impl<'a> Search<'a> {
     pub(super) fn second_half(&self, look: &Look) -> Result<(Figures, Vec<Held>), ExploreError> {
         let design = look.config.validate()?;
         let mut measured = Vec::new();
-        for (subject, &(half, all)) in self.footage.subjects.iter().zip(self.halves) {
+        for (subject, &(half, all)) in self.footage.subjects.iter().zip(&self.halves.frames) {
             let tell = || Progress::Measuring { done: 0, all: 1 };
             let designs = std::slice::from_ref(&design);
             let mut parts = self.footage.parts(subject, designs, &[0..half, half..all], &tell)?;
@@ -211,6 +214,9 @@ fn by_flips(one: &Look, other: &Look) -> std::cmp::Ordering {
 
 /// A count of pixels of a region for regions of another size: as it is, as much of the area, between.
 fn counts(count: u32, from: u32, to: u32) -> Vec<u32> {
+    if count == 0 {
+        return vec![0];
+    }
     let n = to * to;
     let area = (u64::from(count) * u64::from(n)).div_ceil(u64::from(from * from));
     let area = u32::try_from(area).unwrap_or(n);
@@ -250,15 +256,27 @@ fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<Spa
     found
 }
 
-/// Thresholds of a feature that the task does not have.
-fn ladder(feature: FeatureKind, side: u32) -> Vec<Vec<SpatialConfig>> {
+/// Fraction bits with which the mean of a region is exact, or as exact as there is: ceil(log2 n).
+fn exact_fraction(side: u32) -> u32 {
+    (side * side).next_power_of_two().ilog2()
+}
+
+/// Thresholds of a feature that the task does not have, those of 8 bits at another depth.
+fn ladder(feature: FeatureKind, bits: u32) -> Vec<Vec<SpatialConfig>> {
+    let scaled = |spatial| {
+        let mut config = Config { spatial, ..Config::default() };
+        config.frame.pixel_bits = bits;
+        at_depth(&config, 8).spatial
+    };
+    ladder_of_8_bits(feature).into_iter().map(scaled).collect()
+}
+
+fn ladder_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
     const LEVELS: [u64; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
-    let fraction = (side * side).ilog2();
     let entry = |level: Option<u32>, min_score: u64| {
         vec![SpatialConfig {
             level,
             min_score: Some(Decimal::whole(min_score)),
-            mean_fraction_bits: (feature == FeatureKind::Mad).then_some(fraction),
             ..SpatialConfig::new(feature)
         }]
     };

@@ -22,7 +22,7 @@ mod why;
 use std::path::PathBuf;
 
 use foveate_simulator::InputOptions;
-use foveate_spec::Config;
+use foveate_spec::{Config, HardwareConfig};
 
 use crate::cost::Synthesizer;
 use crate::footage::Footage;
@@ -62,6 +62,11 @@ pub struct FitRequest<'a> {
 /// When an input cannot be read or is too short to be halved, Yosys is missing or fails, or `hooks`
 /// cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
+    // How the task would be built is no matter of what it is to see.
+    let thresholds = request.task.hardware.thresholds;
+    let hardware = HardwareConfig { thresholds, ..HardwareConfig::default() };
+    let task = Config { hardware, ..request.task.clone() };
+    let request = &FitRequest { task: &task, ..request.clone() };
     let lengths = {
         let footage = Footage::new(request.inputs, request.input, request.task, hooks)?;
         halves(&footage, hooks)?
@@ -78,5 +83,8 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
 
 /// The sums of both halves of all clips in frames.
 fn frames(halves: &Halves) -> (u64, u64) {
-    halves.iter().fold((0, 0), |(first, second), (half, all)| (first + half, second + all - half))
+    halves
+        .frames
+        .iter()
+        .fold((0, 0), |(first, second), (half, all)| (first + half, second + all - half))
 }

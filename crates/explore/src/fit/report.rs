@@ -36,7 +36,7 @@ pub struct Design {
     /// Clocks from one frame to the next.
     pub clocks_per_frame: u64,
     /// Frames per second at the clock.
-    pub frames_per_second: u64,
+    pub frames_per_second: f64,
     /// Its area.
     pub silicon: Silicon,
     /// Figures on the first half, which it was fitted on.
@@ -68,12 +68,15 @@ pub struct Fit {
     pub feasible: bool,
     /// Whether it holds them on the second.
     pub borne_out: bool,
-    /// Constraints without each of which alone there would be a design; empty where there is one.
+    /// Constraints without each of which alone there would be a design. Empty where there is one, and where
+    /// every design breaks more than one.
     pub binding: Vec<&'static str>,
     /// The cheapest design, or the nearest where none holds all constraints.
     pub design: Design,
     /// Why it is this one.
     pub why: Vec<String>,
+    /// Clips that ended before their end, and why.
+    pub problems: Vec<String>,
 }
 
 pub(super) fn fit(
@@ -98,7 +101,8 @@ pub(super) fn fit(
         feasible: chosen.holds(),
         borne_out: held.iter().all(|held| held.holds),
         binding: why::binding(built),
-        why: why::why(search, built, chosen, request.clock_hz),
+        why: why::why(search, built, chosen, request),
+        problems: halves.problems.clone(),
         design: Design {
             toml: config.to_toml(),
             summary: why::summary(&config),

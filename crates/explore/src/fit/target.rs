@@ -59,7 +59,7 @@ fn nearest(
     let (tasks, designs): (Vec<Config>, Vec<_>) =
         tasks.into_iter().filter_map(|task| Some((task.clone(), design(&task).ok()?))).unzip();
     let tell = || Progress::Measuring { done: 0, all: designs.len() };
-    let shares = footage.first_halves(&designs, halves, &tell)?;
+    let shares = footage.first_halves(&designs, &halves.frames, &tell)?;
     let found = tasks.into_iter().zip(shares.iter().map(|figures| figures.active));
     let best = found
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
@@ -137,7 +137,8 @@ mod tests {
                 },
                 most: 1,
             };
-            let (task, target) = aim(&request, &vec![(8, 16)], &Quiet).unwrap();
+            let halves = Halves { frames: vec![(8, 16)], ..Halves::default() };
+            let (task, target) = aim(&request, &halves, &Quiet).unwrap();
             let target = target.unwrap();
             assert!((target.found - wanted).abs() < 0.05, "{wanted}: {}", target.found);
             assert_eq!(target.task, task.to_toml());

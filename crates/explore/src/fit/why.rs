@@ -3,6 +3,7 @@
 
 use foveate_spec::{Config, Filter, Neighborhood, Organization, Reference};
 
+use super::FitRequest;
 use super::build::{Built, Candidate};
 use super::constraints::Held;
 use super::looks::{Look, Search};
@@ -39,7 +40,7 @@ pub(super) fn why(
     search: &Search<'_>,
     built: &Built,
     chosen: &Candidate,
-    clock_hz: u64,
+    request: &FitRequest<'_>,
 ) -> Vec<String> {
     let mut lines = Vec::new();
     for (step, config) in steps(&chosen.look.config) {
@@ -49,17 +50,11 @@ pub(super) fn why(
         }
     }
     lines.extend(other_features(search, built, chosen));
-    lines.extend(slower(chosen, clock_hz));
+    lines.extend(slower(chosen, request));
     let other = built.all().iter().skip(1).find(|other| other.holds());
     lines.extend(other.filter(|_| chosen.holds()).map(|other| {
-        format!(
-            "next cheapest: {}, {} LUTs and {} RAMB36 instead of {} and {}",
-            summary(other.design.config()),
-            other.silicon.array.lut_total_packed,
-            other.silicon.array.bram18.div_ceil(2),
-            chosen.silicon.array.lut_total_packed,
-            chosen.silicon.array.bram18.div_ceil(2),
-        )
+        let (own, its) = (price(chosen), price(other));
+        format!("next cheapest: {}: {its}, instead of {own}", summary(other.design.config()))
     }));
     lines
 }
@@ -118,11 +113,7 @@ fn verdict(look: &Look, built: &Built) -> String {
         Some(candidate) => {
             let broken = candidate.held.iter().filter(|held| !held.holds).map(Held::text);
             let broken: Vec<String> = broken.collect();
-            let costs = format!(
-                "{} LUTs and {} RAMB36",
-                candidate.silicon.array.lut_total_packed,
-                candidate.silicon.array.bram18.div_ceil(2)
-            );
+            let costs = price(candidate);
             let but =
                 if broken.is_empty() { String::new() } else { format!("; {}", broken.join(", ")) };
             format!("{flips:.2} % flips; {costs}{but}")
@@ -161,14 +152,24 @@ fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec
     best.into_iter().map(line).collect()
 }
 
-/// One fold more.
-fn slower(chosen: &Candidate, clock_hz: u64) -> Option<String> {
+/// One fold more, if that is too slow.
+fn slower(chosen: &Candidate, request: &FitRequest<'_>) -> Option<String> {
     let deeper = chosen.design.with_fold(chosen.design.fold() + 1)?;
-    if deeper.organization() != Organization::Serial {
-        return None;
-    }
-    let rate = real(clock_hz) / real(deeper.timing().clocks_per_frame());
-    Some(format!("fold {}: {rate:.1} frames/s", deeper.fold()))
+    let rate = real(request.clock_hz) / real(deeper.timing().clocks_per_frame());
+    let slow =
+        deeper.organization() == Organization::Serial && request.constraints.min_fps > Some(rate);
+    slow.then(|| format!("fold {}: {rate:.2} frames/s", deeper.fold()))
+}
+
+/// What a design takes, and the figure that designs are chosen by.
+fn price(candidate: &Candidate) -> String {
+    let area = &candidate.silicon.array;
+    format!(
+        "{} LUTs and {} RAMB36, {:.3} % of the device",
+        area.lut_total_packed,
+        area.bram18.div_ceil(2),
+        candidate.cost() * 100.0
+    )
 }
 
 impl Held {
@@ -180,6 +181,7 @@ impl Held {
             "max-flips" | "max-missed" => format!("{:.2} %", value * 100.0),
             "min-psnr" if value == f64::MAX => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
+            "fps" => format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned(),
             _ => format!("{value:.0}"),
         };
         let what = match self.name {

@@ -105,7 +105,7 @@ pub(super) fn markdown(found: &Exploration) -> String {
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     let front: Vec<&Row> = found.rows.iter().filter(|row| row.front.all).collect();
     let mut text = format!(
-        "{} points, {} of them on the Pareto front of flips, clocks and LUTs:\n",
+        "{} points, {} of them on the Pareto front of flips, clocks and (if synthesized) LUTs:\n",
         found.rows.len(),
         front.len()
     );
