@@ -118,10 +118,25 @@ impl Space {
         }
         let space = Self { start, ideal, axes, method, clock_mhz };
         match space.method.count(&space.axes) {
-            Some(count) if count <= MAX_POINTS => Ok(space),
+            Some(count) if count <= MAX_POINTS => {
+                space.axes.iter().try_for_each(|axis| axis.check(&space.start)).map(|()| space)
+            }
             _ => Err(wrong(format!(
                 "it has more than {MAX_POINTS} points; use method = \"sample\" and points = 1000, or fewer values"
             ))),
+        }
+    }
+}
+
+impl Axis {
+    /// Refuses a key that is none: every point with it would be refused for the same reason.
+    fn check(&self, start: &Start) -> Result<(), ExploreError> {
+        let first = self.values.first().map(String::as_str).unwrap_or_default();
+        match start.with(&[format!("{}={first}", self.key)]) {
+            Err(error @ SpecError::UnknownKey { .. }) => {
+                Err(ExploreError::Section { section: "vary", error })
+            }
+            _ => Ok(()),
         }
     }
 }

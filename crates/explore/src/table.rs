@@ -2,11 +2,11 @@
 //! Points as a table: one list of columns for CSV and Parquet.
 
 use std::fmt::Write as _;
-use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
 use foveate_fidelity::Figures;
+use foveate_staging::write_file;
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
@@ -62,20 +62,20 @@ impl Table {
 
     /// Parquet: Snappy, one group.
     pub(crate) fn write_parquet(&self, path: &Path) -> Result<(), ExploreError> {
-        let file = File::create(path).map_err(ExploreError::io("write", path))?;
-        self.parquet(file).map_err(|error| ExploreError::Parquet {
+        let bytes = self.parquet().map_err(|error| ExploreError::Parquet {
             path: path.to_owned(),
             problem: error.to_string(),
-        })
+        })?;
+        Ok(write_file(path, &bytes)?)
     }
 
-    fn parquet(&self, file: File) -> Result<(), ParquetError> {
+    fn parquet(&self) -> Result<Vec<u8>, ParquetError> {
         let properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
             .set_created_by(concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned())
             .build();
         let schema = Arc::new(parse_message_type(&self.schema())?);
-        let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties))?;
+        let mut writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties))?;
         let mut group = writer.next_row_group()?;
         for column in 0..self.columns.len() {
             let Some(mut writer) = group.next_column()? else { break };
@@ -110,7 +110,7 @@ impl Table {
             writer.close()?;
         }
         group.close()?;
-        writer.close().map(drop)
+        writer.into_inner()
     }
 
     fn schema(&self) -> String {

@@ -70,6 +70,7 @@ fn what_is_wrong_is_said_with_its_place() {
         ("preset = 'none'", "paper"),
         ("[vary]\nregion.size = 8", "is not a list of values"),
         ("[design]\nregion.sise = 8", "[design]"),
+        ("method = 'each'\n[vary]\nregion.sise = [8]", "[vary]"),
         ("[ideal]\nregion.size = 1", "[ideal]"),
         (
             "[vary]\na = [1,2,3,4,5,6,7,8,9,10]\nb = [1,2,3,4,5,6,7,8,9,10]\nc = [1,2,3,4,5,6,7,8,9,10]\n\

@@ -38,7 +38,7 @@ pub struct Constraints {
 pub struct Held {
     /// The option that sets it, without its dashes.
     pub name: &'static str,
-    /// The figure.
+    /// The figure; infinite, which JSON has as null, for the PSNR of identical screens.
     pub value: f64,
     /// What it must be at most, or at least.
     pub limit: f64,
@@ -78,7 +78,7 @@ impl Constraints {
         let at_most =
             |name, limit: Option<f64>, value| limit.map(|l| Held::at_most(name, value, l));
         // Screens that are identical are as near as can be.
-        let psnr = figures.psnr_ideal.unwrap_or(f64::MAX);
+        let psnr = figures.psnr_ideal.unwrap_or(f64::INFINITY);
         [
             at_most("max-flips", self.max_flips, figures.action_flips),
             at_most("max-missed", self.max_missed, figures.missed),

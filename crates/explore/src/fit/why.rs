@@ -179,7 +179,7 @@ impl Held {
         let side = if self.at_least { "at least" } else { "at most" };
         let number = |value: f64| match self.name {
             "max-flips" | "max-missed" => format!("{:.2} %", value * 100.0),
-            "min-psnr" if value == f64::MAX => "identical".to_owned(),
+            "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
             "fps" => format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned(),
             _ => format!("{value:.0}"),
