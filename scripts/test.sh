@@ -18,15 +18,18 @@ step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
-step "a small set of proofs (scripts/formal.sh is the whole)"
-scripts/formal.sh --quick
-step "a sample of the lint matrix (scripts/lint.sh is the whole)"
-scripts/lint.sh --quick
-step "a sample of mutants (scripts/mutation.sh is the whole)"
-scripts/mutation.sh --sample 10
+step "build of the tests"
+cargo test --workspace --locked --quiet --no-run
+step "samples of proofs, lint matrix and mutants (scripts/formal.sh, lint.sh and mutation.sh are the whole)"
+beside=$(mktemp)
+log=$(mktemp)
+trap 'rm -f "$beside" "$log"' EXIT
+# One of two processors for each.
+(JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick) >"$beside" 2>&1 &
+JOBS=1 scripts/mutation.sh --sample 10
+wait $! || { cat "$beside" && exit 1; }
+cat "$beside"
 step "tests"
 cargo test --workspace --locked --quiet --doc
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
 cargo test --workspace --locked --lib --bins --tests | tee "$log"
 awk '/^test result:/ { passed += $4; failed += $6 } END { print passed " passed, " failed " failed" }' "$log"
