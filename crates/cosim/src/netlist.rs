@@ -66,6 +66,12 @@ pub fn synthesis(design: &Design, top: Top, sources: Vec<Source>) -> EstimateJob
     }
 }
 
+/// The same of freshly generated Verilog.
+#[must_use]
+pub fn synthesis_of(design: &Design, top: Top) -> EstimateJob {
+    synthesis(design, top, named(foveate_emit::verilog(design, top)))
+}
+
 /// Verilog as the tools take it.
 fn named(files: Vec<SourceFile>) -> Vec<Source> {
     files.into_iter().map(|file| (file.path, file.contents)).collect()

@@ -32,3 +32,4 @@ pub use levels::LogicPath;
 pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
 pub use render::{render_markdown, render_text};
 pub use report::{FORMAT_VERSION, LeafArea, Paths, Report, ToolRecord};
+pub use table::grouped;

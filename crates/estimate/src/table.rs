@@ -133,7 +133,8 @@ pub(crate) fn wrap(sentence: &str, width: usize) -> String {
 }
 
 /// A number with commas between thousands.
-pub(crate) fn grouped(value: u64) -> String {
+#[must_use]
+pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let (first, rest) = digits.split_at((digits.len() - 1) % 3 + 1);
     let thousands = rest.as_bytes().chunks(3).map(String::from_utf8_lossy);

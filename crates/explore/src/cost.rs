@@ -2,14 +2,16 @@
 //! What a design costs: clocks from its timing, area from Yosys, once for every distinct RTL.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_emit::Top;
 use foveate_estimate::{Area, EstimateJob, estimate};
 use foveate_spec::Design;
 use foveate_toolchain::{Cache, Toolchain, sources_sha256};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::ExploreError;
+use crate::{ExploreError, Hooks, Progress};
 
 /// Area of a design, in Yosys' estimate.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,17 +41,61 @@ pub(crate) fn speed(design: &Design, clock_mhz: u32) -> (u64, u64) {
     (clocks, u64::from(clock_mhz) * 1_000_000 / clocks.max(1))
 }
 
-/// The job of a design, and what tells its RTL from that of others.
-pub(crate) fn job(design: &Design) -> (String, EstimateJob) {
-    let sources = foveate_emit::verilog(design, Top::Rcm);
-    let sources: Vec<_> = sources.into_iter().map(|file| (file.path, file.contents)).collect();
-    let hash = sources_sha256(&sources);
-    let job = foveate_cosim::synthesis(design, Top::Rcm, sources);
-    (format!("{hash} {:?}", job.parameters), job)
+/// The areas of some designs, or what Yosys said of those without one.
+pub(crate) struct Areas {
+    /// For every design what tells its RTL from that of others.
+    keys: Vec<String>,
+    by_rtl: BTreeMap<String, Result<Silicon, ExploreError>>,
+}
+
+impl Areas {
+    /// For every design its area or why it has none.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&Silicon, &ExploreError>> {
+        self.keys.iter().filter_map(|key| self.by_rtl.get(key)).map(Result::as_ref)
+    }
+
+    /// For every design its area.
+    ///
+    /// # Errors
+    /// What Yosys said of the first without one.
+    pub(crate) fn all(self) -> Result<Vec<Silicon>, ExploreError> {
+        let found = self.by_rtl.into_iter().map(|(key, area)| Ok((key, area?)));
+        let found = found.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
+        Ok(self.keys.iter().filter_map(|key| found.get(key).cloned()).collect())
+    }
 }
 
 impl Synthesizer {
-    pub(crate) fn area(&self, job: &EstimateJob) -> Result<Silicon, ExploreError> {
+    /// Synthesizes every distinct RTL of some designs, side by side.
+    ///
+    /// # Errors
+    /// When `hooks` cancels.
+    pub(crate) fn areas<'a>(
+        &self,
+        designs: impl Iterator<Item = &'a Design>,
+        hooks: &dyn Hooks,
+    ) -> Result<Areas, ExploreError> {
+        let mut jobs = BTreeMap::new();
+        let keys = designs.map(|design| {
+            let job = foveate_cosim::synthesis_of(design, Top::Rcm);
+            let key = format!("{} {:?}", sources_sha256(&job.sources), job.parameters);
+            jobs.entry(key.clone()).or_insert(job);
+            key
+        });
+        let keys = keys.collect();
+        let (done, all) = (AtomicUsize::new(0), jobs.len());
+        let jobs = jobs.into_par_iter().filter(|_| !hooks.cancelled());
+        let areas = jobs.map(|(key, job)| {
+            let area = self.area(&job);
+            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+            hooks.progress(Progress::Synthesizing { done, all });
+            (key, area)
+        });
+        let by_rtl = areas.collect();
+        if hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(Areas { keys, by_rtl }) }
+    }
+
+    fn area(&self, job: &EstimateJob) -> Result<Silicon, ExploreError> {
         let report = estimate(&self.toolchain, &self.cache, job)?;
         Ok(Silicon {
             unit: report.rpu,
@@ -58,18 +104,4 @@ impl Synthesizer {
             levels: report.paths.rcm.levels.max(report.paths.rpu.levels),
         })
     }
-}
-
-/// Every distinct RTL of some designs.
-pub(crate) fn distinct<'a>(
-    designs: impl Iterator<Item = &'a Design>,
-) -> (Vec<String>, BTreeMap<String, EstimateJob>) {
-    let mut jobs = BTreeMap::new();
-    let keys = designs.map(|design| {
-        let (key, job) = job(design);
-        jobs.entry(key.clone()).or_insert(job);
-        key
-    });
-    let keys = keys.collect();
-    (keys, jobs)
 }

@@ -4,22 +4,21 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_simulator::InputOptions;
 use foveate_spec::{Config, Design};
 use foveate_staging::write_file;
-use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::cost::{Silicon, distinct};
+use crate::cost::Silicon;
 use crate::footage::Footage;
 use crate::front::front;
 use crate::measure::Measured;
+use crate::point::described;
 use crate::row::{Fronts, Row, real};
 use crate::store::{Store, functional};
 use crate::table::{Table, errors, point};
-use crate::{ExploreError, Hooks, Point, Progress, Refused, Space, Synthesizer};
+use crate::{ExploreError, Hooks, Point, Refused, Space, Synthesizer};
 
 /// What is explored.
 #[derive(Clone, Debug)]
@@ -59,6 +58,14 @@ pub struct Exploration {
     pub problems: Vec<String>,
 }
 
+impl Exploration {
+    /// What a point sets, as `key = value`.
+    #[must_use]
+    pub fn described(&self, row: &Row) -> String {
+        described(self.axes.iter().map(String::as_str), &row.settings)
+    }
+}
+
 /// A clip of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ClipRow {
@@ -75,8 +82,8 @@ const MARK: &str = "exploration.json";
 /// interrupted goes on where it was.
 ///
 /// # Errors
-/// When an input cannot be read, no point is a design, Yosys fails, the folder holds something else or
-/// cannot be written, or `hooks` cancels.
+/// When an input cannot be read, no point is a design, the folder holds something else or cannot be
+/// written, or `hooks` cancels.
 pub fn explore(
     request: &Request<'_>,
     output: &Path,
@@ -162,39 +169,19 @@ fn looks(points: &[Point]) -> Result<(Vec<Design>, Vec<usize>), ExploreError> {
     Ok((looks, of_point))
 }
 
-/// The area of every design, once for every distinct RTL, and what Yosys said of those without one: one of
-/// many that fails does not lose the others.
+/// The area of every design, and what Yosys said of those without one: one of many that fails does not
+/// lose the others.
 fn silicon(
     synthesizer: Option<&Synthesizer>,
     designs: &[Design],
     hooks: &dyn Hooks,
 ) -> Result<(Vec<Option<Silicon>>, Vec<String>), ExploreError> {
     let Some(synthesizer) = synthesizer else { return Ok((vec![None; designs.len()], Vec::new())) };
-    let (keys, jobs) = distinct(designs.iter());
-    let (done, all) = (AtomicUsize::new(0), jobs.len());
-    let areas: BTreeMap<&str, Result<Silicon, ExploreError>> = jobs
-        .par_iter()
-        .filter(|_| !hooks.cancelled())
-        .map(|(key, job)| {
-            let area = synthesizer.area(job);
-            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-            hooks.progress(Progress::Synthesizing { done, all });
-            (key.as_str(), area)
-        })
-        .collect();
-    if hooks.cancelled() {
-        return Err(ExploreError::Cancelled);
-    }
-    let failed = |key: &String| match areas.get(key.as_str()) {
-        Some(Err(error)) => Some(error.to_string()),
-        _ => None,
-    };
-    let numbered = keys.iter().enumerate();
-    let problems =
-        numbered.filter_map(|(index, key)| Some(format!("point {}: {}", index + 1, failed(key)?)));
-    let problems = problems.collect();
-    let area = |key: &String| areas.get(key.as_str()).and_then(|area| area.as_ref().ok()).cloned();
-    Ok((keys.iter().map(area).collect(), problems))
+    let areas = synthesizer.areas(designs.iter(), hooks)?;
+    let failed =
+        areas.iter().enumerate().filter_map(|(index, area)| Some((index + 1, area.err()?)));
+    let problems = failed.map(|(point, error)| format!("point {point}: {error}")).collect();
+    Ok((areas.iter().map(|area| area.ok().cloned()).collect(), problems))
 }
 
 fn mark_fronts(rows: &mut [Row]) {

@@ -2,11 +2,11 @@
 //! The clips of a run and what is measured on them, what is finished taken from the store.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_fidelity::{Figures, Tally};
-use foveate_simulator::{InputOptions, Source, Subject, open, subjects};
+use foveate_simulator::{InputOptions, Source, Subject, is_read_once, open, subjects};
 use foveate_spec::{Config, Design};
 
 use crate::measure::{Clip, Measured};
@@ -140,9 +140,4 @@ impl<'a> Footage<'a> {
         let clip = Clip { subject, input: self.input, ideal: self.ideal, parts, go_on: &go_on };
         clip.measure(designs)
     }
-}
-
-/// Whether an input cannot be read a second time.
-fn is_read_once(input: &Path) -> bool {
-    input == Path::new("-") || input.to_str().is_some_and(|name| name.starts_with("v4l2:"))
 }

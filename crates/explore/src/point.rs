@@ -55,10 +55,7 @@ impl Space {
     /// The settings as `key = value`, those of the start left out.
     #[must_use]
     pub fn described(&self, settings: &[String]) -> String {
-        let set = self.axes.iter().zip(settings).filter(|(_, value)| !value.is_empty());
-        let words: Vec<String> =
-            set.map(|(axis, value)| format!("{} = {value}", axis.key)).collect();
-        if words.is_empty() { "the start".to_owned() } else { words.join(", ") }
+        described(self.axes.iter().map(|axis| axis.key.as_str()), settings)
     }
 
     fn point(&self, settings: &[String], width: u32, height: u32) -> Result<Config, String> {
@@ -73,3 +70,13 @@ impl Space {
         Ok(Design::config(&design).clone())
     }
 }
+
+/// The settings of some axes as `key = value`, those of the start left out.
+pub(crate) fn described<'a>(axes: impl Iterator<Item = &'a str>, settings: &[String]) -> String {
+    let set = axes.zip(settings).filter(|(_, value)| !value.is_empty());
+    let words: Vec<String> = set.map(|(axis, value)| format!("{axis} = {value}")).collect();
+    if words.is_empty() { START.to_owned() } else { words.join(", ") }
+}
+
+/// A point that sets nothing.
+pub(crate) const START: &str = "the start";

@@ -10,13 +10,15 @@ use std::time::UNIX_EPOCH;
 use foveate_simulator::{InputOptions, Subject};
 use foveate_spec::{Config, HardwareConfig};
 use foveate_staging::write_file;
-use sha2::{Digest, Sha256};
+use foveate_toolchain::sha256_hex;
 
 use crate::ExploreError;
 use crate::measure::Measured;
 
 /// Grows when figures change their meaning, so that older ones are not taken for new ones.
 const VERSION: u32 = 3;
+/// Hexadecimal digits of a name: 96 bits.
+const KEY_DIGITS: usize = 24;
 const FOLDER: &str = "measured";
 
 /// Finished measurements.
@@ -57,11 +59,7 @@ pub(crate) fn functional(config: &Config) -> Config {
 /// The name of a measurement.
 pub(crate) fn key(clip: &str, ideal: &Config, functional: &Config) -> String {
     let text = format!("{VERSION}\n{clip}\n{}\n{}", ideal.to_toml(), functional.to_toml());
-    let digest = Sha256::digest(text.as_bytes());
-    digest.iter().take(12).fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
+    sha256_hex(text)[..KEY_DIGITS].to_owned()
 }
 
 /// What tells a clip, as it is read, from others: names, sizes and times of its files.

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use foveate_fidelity::Figures;
+use foveate_simulator::csv_field;
 use foveate_staging::write_file;
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
@@ -51,7 +52,7 @@ impl Table {
     /// CSV with a line of names.
     pub(crate) fn csv(&self) -> String {
         let mut text = String::new();
-        let names: Vec<String> = self.columns.iter().map(|name| quoted(name)).collect();
+        let names: Vec<String> = self.columns.iter().map(|name| csv_field(name)).collect();
         let _ = writeln!(text, "{}", names.join(","));
         for row in &self.rows {
             let cells: Vec<String> = row.iter().map(Cell::text).collect();
@@ -150,15 +151,7 @@ impl Cell {
     }
 
     fn text(&self) -> String {
-        quoted(&self.plain())
-    }
-}
-
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
+        csv_field(&self.plain())
     }
 }
 

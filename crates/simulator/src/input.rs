@@ -89,7 +89,13 @@ fn after<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
 
 /// Whether an input is a source by itself that is no file.
 pub(crate) fn is_special(input: &Path) -> bool {
-    input == Path::new("-") || ["scene:", "v4l2:"].iter().any(|p| after(p, input).is_some())
+    is_read_once(input) || after("scene:", input).is_some()
+}
+
+/// Whether an input cannot be read a second time: standard input, a camera.
+#[must_use]
+pub fn is_read_once(input: &Path) -> bool {
+    input == Path::new("-") || after("v4l2:", input).is_some()
 }
 
 fn feed(

@@ -30,11 +30,11 @@ pub use depth::display_depth;
 pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
 pub use foveate_engine::convert_depth;
-pub use input::{ImagesAs, InputOptions, open};
+pub use input::{ImagesAs, InputOptions, is_read_once, open};
 pub use natural::natural_order;
 pub use output::{
     Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent,
-    PixelEvents, Range, RunOptions, Summary, Traffic,
+    PixelEvents, Range, RunOptions, Summary, Traffic, csv_field,
 };
 pub use picture::{MAX_SIDE, decode, luma, read};
 pub use simulation::{Hooks, Progress, Silent, Simulation};

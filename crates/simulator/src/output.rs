@@ -32,6 +32,7 @@ mod table;
 mod video;
 
 pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
+pub use csv::quoted as csv_field;
 pub use data_set::DataSet;
 pub use options::{EventTables, Medium, PixelEvents, RunOptions};
 pub use pixel_camera::{PixelCamera, PixelEvent};

@@ -3,6 +3,8 @@
 
 use std::fmt::Write as _;
 
+use foveate_simulator::csv_field;
+
 /// A table. Cells are text that is already rounded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Table {
@@ -23,7 +25,7 @@ impl Table {
         }
         let _ = writeln!(text, "{}", self.columns.join(","));
         for row in &self.rows {
-            let cells: Vec<String> = row.iter().map(|cell| quoted(cell)).collect();
+            let cells: Vec<String> = row.iter().map(|cell| csv_field(cell)).collect();
             let _ = writeln!(text, "{}", cells.join(","));
         }
         text
@@ -38,14 +40,6 @@ impl Table {
             let _ = writeln!(text, "| {} |", cells.join(" | "));
         }
         text
-    }
-}
-
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
     }
 }
 

@@ -25,11 +25,9 @@ struct Flow {
 
 impl Flow {
     fn estimate(&self, design: &Design, leaves: bool) -> Result<Report, CliError> {
-        let sources = foveate_emit::verilog(design, Top::Rcm);
-        let sources = sources.into_iter().map(|file| (file.path, file.contents)).collect();
         let job = EstimateJob {
             leaves_of: leaves.then(|| leaves_of(design).to_owned()),
-            ..foveate_cosim::synthesis(design, Top::Rcm, sources)
+            ..foveate_cosim::synthesis_of(design, Top::Rcm)
         };
         Ok(estimate(&self.toolchain, &self.cache, &job)?)
     }

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Looks as silicon: what could be built of them, what it costs, which is cheapest.
 
-use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use foveate_estimate::Device;
-use foveate_spec::{Config, Design, FeatureKind, Feed, Filter, Organization, Reference};
-use rayon::prelude::*;
+use foveate_spec::{
+    Config, Design, FeatureKind, Feed, Filter, Neighborhood, Organization, Reference,
+};
 
 use super::FitRequest;
-use super::constraints::Held;
+use super::constraints::{Held, all_hold, excess};
 use super::looks::{Look, Search};
 use super::rough::rough;
-use crate::cost::{Silicon, distinct};
+use crate::cost::Silicon;
 use crate::row::real;
-use crate::{ExploreError, Hooks, Progress};
+use crate::{ExploreError, Hooks};
 
 /// Looks that are built though they do not hold, where none does: the nearest.
 const NEAREST: usize = 6;
@@ -53,11 +51,11 @@ impl Built {
 
 impl Candidate {
     pub(super) fn holds(&self) -> bool {
-        self.held.iter().all(|held| held.holds)
+        all_hold(&self.held)
     }
 
     pub(super) fn excess(&self) -> f64 {
-        self.held.iter().map(Held::excess).sum()
+        excess(&self.held)
     }
 
     /// The shares of the paper's device, added: LUTs, block RAM, DSP blocks, and a little for flip-flops,
@@ -130,11 +128,10 @@ fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
 }
 
 /// What cannot be compared, and what costs more the larger it is.
-type Complexity = ((u32, String, Vec<FeatureKind>), [u32; 4]);
+type Complexity = ((u32, Neighborhood, Vec<FeatureKind>), [u32; 4]);
 
 fn complexity(config: &Config) -> Complexity {
     let features = config.spatial.iter().map(|entry| entry.feature).collect();
-    let neighborhood = config.region.neighborhood.name().to_owned();
     let fraction = config.spatial.iter().filter_map(|entry| entry.mean_fraction_bits).sum();
     let ordered = [
         config.frame.pixel_bits,
@@ -142,7 +139,7 @@ fn complexity(config: &Config) -> Complexity {
         u32::from(config.temporal.reference != Reference::Previous),
         fraction,
     ];
-    ((config.region.size, neighborhood, features), ordered)
+    ((config.region.size, config.region.neighborhood, features), ordered)
 }
 
 /// Builds the designs of some looks, the promising ones first, until one holds or there are `most`; says
@@ -178,32 +175,18 @@ fn synthesize(
     request: &FitRequest<'_>,
     hooks: &dyn Hooks,
 ) -> Result<Vec<Candidate>, ExploreError> {
-    let (keys, jobs) = distinct(designs.iter().map(|(_, design)| design));
-    let (done, all) = (AtomicUsize::new(0), jobs.len());
-    let areas = jobs.par_iter().map(|(key, job)| {
-        if hooks.cancelled() {
-            return Err(ExploreError::Cancelled);
-        }
-        let area = request.synthesizer.area(job).map_err(|error| match hooks.cancelled() {
-            true => ExploreError::Cancelled,
-            false => error,
-        })?;
-        let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-        hooks.progress(Progress::Synthesizing { done, all });
-        Ok((key.as_str(), area))
-    });
-    let areas = areas.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
-    let candidate = |((look, design), key): (&(&Look, Design), &String)| {
-        let silicon = areas.get(key.as_str())?.clone();
+    let designs_alone = designs.iter().map(|(_, design)| design);
+    let areas = request.synthesizer.areas(designs_alone, hooks)?.all()?;
+    let candidate = |((look, design), silicon): (&(&Look, Design), Silicon)| {
         let clocks_per_frame = design.timing().clocks_per_frame();
         let frames_per_second = real(request.clock_hz) / real(clocks_per_frame.max(1));
         let mut held = look.held.clone();
         held.extend(request.constraints.on_speed(frames_per_second));
         held.extend(request.constraints.on_silicon(&silicon));
         let (look, design) = ((*look).clone(), design.clone());
-        Some(Candidate { look, design, clocks_per_frame, frames_per_second, silicon, held })
+        Candidate { look, design, clocks_per_frame, frames_per_second, silicon, held }
     };
-    Ok(designs.iter().zip(&keys).filter_map(candidate).collect())
+    Ok(designs.iter().zip(areas).map(candidate).collect())
 }
 
 /// Clocks per frame with which so many frames per second are reached.

@@ -71,6 +71,16 @@ impl Held {
     }
 }
 
+/// Whether all of them hold.
+pub(super) fn all_hold(held: &[Held]) -> bool {
+    held.iter().all(|held| held.holds)
+}
+
+/// How far they are from being held, together.
+pub(super) fn excess(held: &[Held]) -> f64 {
+    held.iter().map(Held::excess).sum()
+}
+
 impl Constraints {
     /// The constraints on what a camera sees and sends.
     #[must_use]

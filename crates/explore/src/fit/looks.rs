@@ -9,7 +9,7 @@ use foveate_spec::{
     SpecError,
 };
 
-use super::constraints::{Constraints, Held};
+use super::constraints::{Constraints, Held, all_hold, excess};
 use super::held_out::Halves;
 use crate::ExploreError;
 use crate::Progress;
@@ -46,12 +46,12 @@ pub(super) struct Search<'a> {
 
 impl Look {
     pub(super) fn holds(&self) -> bool {
-        self.held.iter().all(|held| held.holds)
+        all_hold(&self.held)
     }
 
     /// How far it is from holding, over all constraints.
     pub(super) fn excess(&self) -> f64 {
-        self.held.iter().map(Held::excess).sum()
+        excess(&self.held)
     }
 }
 

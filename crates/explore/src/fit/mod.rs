@@ -6,8 +6,8 @@
 //!    the thresholds that agree best with the ideal; of the best of them all pixel bits, windows,
 //!    filters and references ([`looks`]).
 //! 3. Of the looks that hold the constraints, those that no simpler one holds too, as silicon: the
-//!    deepest fold that is fast enough, each feed; pipelined where no serial array is ([`build`]). The most
-//!    promising are synthesized first ([`rough`]).
+//!    deepest fold that is fast enough and its halvings, each feed; pipelined where no serial array is
+//!    ([`build`]). The most promising are synthesized first ([`rough`]).
 //! 4. The cheapest, and why nothing simpler would do ([`why`]).
 
 mod build;
@@ -67,11 +67,12 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let hardware = HardwareConfig { thresholds, ..HardwareConfig::default() };
     let task = Config { hardware, ..request.task.clone() };
     let request = &FitRequest { task: &task, ..request.clone() };
-    let lengths = {
+    let (lengths, (task, target)) = {
         let footage = Footage::new(request.inputs, request.input, request.task, hooks)?;
-        halves(&footage, hooks)?
+        let lengths = halves(&footage, hooks)?;
+        let aimed = target::aim(request, &footage, &lengths)?;
+        (lengths, aimed)
     };
-    let (task, target) = target::aim(request, &lengths, hooks)?;
     let footage = Footage::new(request.inputs, request.input, &task, hooks)?;
     let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
     search.run()?;

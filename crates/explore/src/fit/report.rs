@@ -6,7 +6,7 @@ use foveate_spec::Config;
 use serde::Serialize;
 
 use super::build::{Built, Candidate};
-use super::constraints::Held;
+use super::constraints::{Held, all_hold};
 use super::held_out::Halves;
 use super::looks::Search;
 use super::{FitRequest, frames, why};
@@ -99,7 +99,7 @@ pub(super) fn fit(
         clock_hz: request.clock_hz,
         considered: (search.all().count(), built.all().len(), built.left_out),
         feasible: chosen.holds(),
-        borne_out: held.iter().all(|held| held.holds),
+        borne_out: all_hold(&held),
         binding: why::binding(built),
         why: why::why(search, built, chosen, request),
         problems: halves.problems.clone(),

@@ -2,16 +2,14 @@
 //! A rough cost of a design before it is synthesized, only to try the promising ones first. What is
 //! chosen is chosen by what Yosys counts.
 
+use foveate_estimate::Device;
 use foveate_spec::{Design, FeatureKind, Filter, MemoryKind, Organization};
 
 use crate::row::real;
 
-/// LUTs and RAMB18 of the paper's device, whose shares are the cost.
-const LUTS: f64 = 1_182_240.0;
-const RAMB18: f64 = 4_320.0;
-
 /// About the share of the device. The constants are read off the area table of 8x8 regions.
 pub(super) fn rough(design: &Design) -> f64 {
+    let device = Device::xcvu9p();
     let bits = f64::from(design.pixel_bits());
     let kinds = design.features().iter().map(|feature| feature.kind());
     let median = design.filter() == Filter::Median3x3;
@@ -20,7 +18,7 @@ pub(super) fn rough(design: &Design) -> f64 {
             let features: f64 =
                 kinds.map(|kind| if kind == FeatureKind::Corner { 30.0 } else { 10.0 }).sum();
             let unit = 8.0 + features + if median { 37.0 } else { 0.0 };
-            f64::from(design.regions()) * unit * bits / LUTS
+            f64::from(design.regions()) * unit * bits / real(device.lut)
         }
         Organization::Serial => {
             let features: f64 = kinds
@@ -38,7 +36,8 @@ pub(super) fn rough(design: &Design) -> f64 {
                 MemoryKind::Distributed => ((words / 64.0).ceil() * bits, 0.0),
                 MemoryKind::Block => (0.0, (words * bits / 18_432.0).ceil()),
             };
-            (300.0 + lanes * (logic + luts)) / LUTS + lanes * blocks / RAMB18
+            (300.0 + lanes * (logic + luts)) / real(device.lut)
+                + lanes * blocks / real(device.bram18)
         }
     }
 }

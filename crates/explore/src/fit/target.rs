@@ -11,7 +11,7 @@ use super::FitRequest;
 use super::held_out::Halves;
 use super::report::Target;
 use crate::footage::Footage;
-use crate::{ExploreError, Hooks, Progress};
+use crate::{ExploreError, Progress};
 
 /// Steps of the factor: quarters of a power of two, from 1/32 to 32.
 const STEPS: std::ops::RangeInclusive<i32> = -20..=20;
@@ -19,12 +19,12 @@ const STEPS: std::ops::RangeInclusive<i32> = -20..=20;
 /// The task with thresholds for the wanted share, and what was found; as it is without one.
 pub(super) fn aim(
     request: &FitRequest<'_>,
+    footage: &Footage<'_>,
     halves: &Halves,
-    hooks: &dyn Hooks,
 ) -> Result<(Config, Option<Target>), ExploreError> {
     let Some(wanted) = request.target_active else { return Ok((request.task.clone(), None)) };
     let scaled = STEPS.map(|step| scaled(request.task, f64::from(step) / 4.0)).collect();
-    let (task, _) = nearest(request, halves, hooks, scaled, wanted)?;
+    let (task, _) = nearest(footage, halves, scaled, wanted)?;
     let n = task.region.size * task.region.size;
     let counts = (1..=n).filter(|count| *count <= 16 || count % (n / 16).max(1) == 0);
     let counted = counts.map(|count| {
@@ -34,20 +34,18 @@ pub(super) fn aim(
     });
     // The best so far is among them, so that it cannot get worse.
     let all = std::iter::once(task.clone()).chain(counted).collect();
-    let (task, found) = nearest(request, halves, hooks, all, wanted)?;
+    let (task, found) = nearest(footage, halves, all, wanted)?;
     let target = Target { wanted, found, task: task.to_toml() };
     Ok((task, Some(target)))
 }
 
 /// Of some tasks that whose share of active regions on the first halves is nearest.
 fn nearest(
-    request: &FitRequest<'_>,
+    footage: &Footage<'_>,
     halves: &Halves,
-    hooks: &dyn Hooks,
     tasks: Vec<Config>,
     wanted: f64,
 ) -> Result<(Config, f64), ExploreError> {
-    let footage = Footage::new(request.inputs, request.input, request.task, hooks)?;
     let (width, height) = footage.size;
     let design = |task: &Config| {
         let mut exact = task.clone();
@@ -109,7 +107,7 @@ mod tests {
     use foveate_toolchain::{Cache, Toolchain};
 
     use super::*;
-    use crate::{Constraints, Synthesizer};
+    use crate::{Constraints, Hooks, Synthesizer};
 
     struct Quiet;
 
@@ -137,8 +135,10 @@ mod tests {
                 },
                 most: 1,
             };
+            let footage =
+                Footage::new(request.inputs, request.input, request.task, &Quiet).unwrap();
             let halves = Halves { frames: vec![(8, 16)], ..Halves::default() };
-            let (task, target) = aim(&request, &halves, &Quiet).unwrap();
+            let (task, target) = aim(&request, &footage, &halves).unwrap();
             let target = target.unwrap();
             assert!((target.found - wanted).abs() < 0.05, "{wanted}: {}", target.found);
             assert_eq!(target.task, task.to_toml());

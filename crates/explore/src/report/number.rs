@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Numbers as people read them.
 
+pub(crate) use foveate_estimate::grouped;
+
 /// What stands where there is no number.
 pub(crate) const NONE: &str = "–";
 
@@ -15,19 +17,6 @@ pub(crate) fn percent(share: f64) -> String {
         size if size < 9.995 => format!("{value:.2}"),
         _ => format!("{value:.1}"),
     }
-}
-
-/// A whole number with its thousands apart.
-pub(crate) fn grouped(value: u64) -> String {
-    let digits = value.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// A number with some digits after the point; whole with its thousands apart where it is large.

@@ -4,6 +4,7 @@
 use foveate_spec::Config;
 use toml::{Table, Value};
 
+use crate::point::START;
 use crate::{Exploration, Row};
 
 /// The axes of an exploration and the values of the start, as far as they can be known.
@@ -52,7 +53,7 @@ impl Settings {
             self.names.get(axis).map(|name| format!("{name} {}", bare(text)))
         });
         let words: Vec<String> = words.collect();
-        if words.is_empty() { "the start".to_owned() } else { words.join(" · ") }
+        if words.is_empty() { START.to_owned() } else { words.join(" · ") }
     }
 
     /// The axes that a point sets.

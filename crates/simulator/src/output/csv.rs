@@ -35,7 +35,8 @@ impl Csv {
 }
 
 /// A field of a CSV file (RFC 4180).
-pub(super) fn quoted(text: &str) -> String {
+#[must_use]
+pub fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

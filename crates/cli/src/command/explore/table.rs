@@ -71,13 +71,6 @@ fn array(row: &Row) -> String {
     })
 }
 
-/// The settings of a point as `key = value`.
-fn settings(found: &Exploration, row: &Row) -> String {
-    let set = found.axes.iter().zip(&row.settings).filter(|(_, value)| !value.is_empty());
-    let words: Vec<String> = set.map(|(axis, value)| format!("{axis} = {value}")).collect();
-    if words.is_empty() { "the start".to_owned() } else { words.join(", ") }
-}
-
 const NOTE: &str = "flips, SRS, TRS: regions that decide otherwise than the ideal camera. IoU: of the active \
      areas. score errors: largest, mean, RMS; edge, corner and temporal as share of a region's pixels, mad and \
      variance in grey levels and their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
@@ -93,7 +86,7 @@ pub(super) fn markdown(found: &Exploration) -> String {
         let _ = writeln!(
             text,
             "| {} | {} |",
-            settings(found, row).replace('|', "\\|"),
+            found.described(row).replace('|', "\\|"),
             cells.join(" | ")
         );
     }
@@ -110,7 +103,7 @@ pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
         front.len()
     );
     for row in front {
-        let _ = writeln!(text, "\n{}: {}", row.number, settings(found, row));
+        let _ = writeln!(text, "\n{}: {}", row.number, found.described(row));
         let figures = COLUMNS.iter().map(|(name, cell)| (name, cell(row)));
         let shown = figures.filter(|(_, cell)| !cell.is_empty());
         let line: Vec<String> = shown.map(|(name, cell)| format!("{name} {cell}")).collect();
