@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs the command as a user does.
+
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+
+/// The command, with a cache that all tests share.
+pub(crate) fn foveate(args: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("foveate").unwrap();
+    command.args(args);
+    command
+}
+
+/// What a command printed, and its exit code.
+pub(crate) struct Outcome {
+    pub(crate) code: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+/// Runs the command in `folder`.
+pub(crate) fn run_in(folder: &Path, args: &[&str]) -> Outcome {
+    let output = foveate(args).current_dir(folder).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    Outcome {
+        code: output.status.code().unwrap(),
+        stdout: text(output.stdout),
+        stderr: text(output.stderr),
+    }
+}
+
+/// Runs the command in `folder` and expects it to end well.
+pub(crate) fn succeed_in(folder: &Path, args: &[&str]) -> String {
+    let outcome = run_in(folder, args);
+    assert_eq!(outcome.code, 0, "{args:?}: {}", outcome.stderr);
+    outcome.stdout
+}
+
+/// Runs the command in `folder` and expects one line on standard error that has all of `parts`.
+pub(crate) fn fail_in(folder: &Path, code: i32, args: &[&str], parts: &[&str]) {
+    let outcome = run_in(folder, args);
+    assert_eq!(outcome.code, code, "{args:?}: {}", outcome.stderr);
+    assert_eq!(outcome.stderr.lines().count(), 1, "{args:?}: {}", outcome.stderr);
+    for part in parts {
+        assert!(outcome.stderr.contains(part), "{args:?}: {} lacks {part}", outcome.stderr);
+    }
+}
+
+/// Every file below `folder` by its path, sorted.
+pub(crate) fn files_below(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in std::fs::read_dir(&next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                let name = path.strip_prefix(folder).unwrap().to_owned();
+                found.push((name, std::fs::read(&path).unwrap()));
+            }
+        }
+    }
+    found.sort();
+    found
+}

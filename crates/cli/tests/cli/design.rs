@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! check, presets, completions and generate, end to end.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{fail_in, files_below, run_in, succeed_in};
+use serde_json::Value;
+
+fn repository() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+#[test]
+fn check_prints_the_card_as_text_and_json() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("camera.toml"), "[region]\nsize = 16\n").unwrap();
+    let text = succeed_in(dir.path(), &["check", "camera.toml"]);
+    for part in ["14 x 14 = 196 regions of 16x16", "cycles per frame  256", "edge_score_o"] {
+        assert!(text.contains(part), "{text}");
+    }
+    let json = succeed_in(dir.path(), &["check", "--config", "camera.toml", "--json"]);
+    let card: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(card["format_version"], 1);
+    assert_eq!(card["grid"]["regions"], 196);
+    assert_eq!(card["timing"]["cycles_per_frame"], 256);
+    assert_eq!(card["rcm_ports"].as_array().unwrap().len(), 16);
+}
+
+#[test]
+fn check_tells_how_fast_each_organization_is() {
+    let dir = tempfile::tempdir().unwrap();
+    let check = |args: &[&str]| succeed_in(dir.path(), &[&["check"], args].concat());
+    let json = |args: &[&str]| -> Value {
+        serde_json::from_str(&check(&[args, &["--json"]].concat())).unwrap()
+    };
+    assert!(check(&[]).contains("3906250 frames/s at 250 MHz"));
+    let card = json(&["--clock", "64kHz"]);
+    assert_eq!(
+        (&card["rate"]["clock_hz"], &card["rate"]["frames_per_second"]),
+        (&64_000.into(), &1000.0.into())
+    );
+    assert!(card.get("array").is_none() && card.get("proposal").is_none());
+
+    let text = check(&["--preset", "serial"]);
+    for part in [
+        "784, 1 region each, parallel feed",
+        "128 words of 8 bits, distributed; 128 per slot for raw 8x8",
+        "7905: 64 to take the frame, 7840 steps, 1 between",
+        "31625 frames/s at 250 MHz",
+        "ready_o",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let card = json(&["--preset", "serial", "--set", "hardware.fold=4"]);
+    assert_eq!(
+        (&card["array"]["lanes"], &card["array"]["memory"]["words"]),
+        (&196.into(), &512.into())
+    );
+    assert_eq!(card["timing"]["phases"].as_array().unwrap().len(), 5);
+}
+
+#[test]
+fn check_proposes_the_largest_fold_that_reaches_a_rate() {
+    let dir = tempfile::tempdir().unwrap();
+    let ask = |fps| ["check", "--preset", "serial", "--fps", fps, "--clock", "250MHz", "--json"];
+    let card: Value = serde_json::from_str(&succeed_in(dir.path(), &ask("1000"))).unwrap();
+    let proposal = &card["proposal"];
+    assert_eq!((&proposal["reached"], &proposal["lanes"]), (&true.into(), &21.into()));
+    assert_eq!((&proposal["fold"], &proposal["cycles_per_frame"]), (&38.into(), &244797.into()));
+    let text = succeed_in(dir.path(), &ask("1000")[..7]);
+    assert!(text.contains("fold 38 for 1000 frames/s: 21 lanes"), "{text}");
+    // The design itself takes 250 MHz / 7905 = 31,625.5 frames per second: no fold is faster.
+    let none = ["no fold reaches 31626 frames/s", "fold 1 is the fastest", "7905 clocks per frame"];
+    fail_in(dir.path(), 1, &ask("31626")[..7], &none);
+    succeed_in(dir.path(), &ask("31625.5"));
+    fail_in(dir.path(), 2, &["check", "--fps", "1000"], &["hardware.organization=serial"]);
+    for args in [["--clock", "fast"], ["--fps", "0"]] {
+        assert_eq!(run_in(dir.path(), &[&["check"], &args[..]].concat()).code, 2, "{args:?}");
+    }
+}
+
+#[test]
+fn wrong_configurations_end_with_2_and_one_line() {
+    let dir = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(dir.path().join(name), text).unwrap();
+    write("unknown.toml", "[region]\nsiez = 8\n");
+    write("type.toml", "[region]\nsize = \"big\"\n");
+    write("range.toml", "[region]\nsize = 65\n");
+    write("syntax.toml", "[region\n");
+    write("clash.toml", "[[spatial]]\nfeature = \"mad\"\nlevel = 3\n");
+    let fail = |args: &[&str], parts: &[&str]| fail_in(dir.path(), 2, args, parts);
+    fail(&["check", "unknown.toml"], &["unknown.toml", "`region.siez`", "`region.size`"]);
+    fail(&["check", "type.toml"], &["type.toml", "`region.size`", "a whole number, 2..=64"]);
+    fail(&["check", "range.toml"], &["`region.size` = 65", "2..=64"]);
+    fail(&["check", "syntax.toml"], &["syntax.toml", "not valid TOML", "line 1"]);
+    fail(&["check", "clash.toml"], &["`spatial[0].level` = 3", "leave the key out"]);
+    fail(&["check", "missing.toml"], &["missing.toml", "No such file"]);
+    fail(&["check", "--preset", "papre"], &["`papre`", "paper"]);
+    fail(&["check", "--set", "region.size"], &["--set region.size", "KEY=VALUE"]);
+    fail(&["check", "--set", "hardware.fold=2"], &["`hardware.fold` = 2", "use 1"]);
+    fail(&["generate", "--set", "region.size=1", "-o", "core"], &["2..=64"]);
+    assert!(!dir.path().join("core").exists());
+}
+
+#[test]
+fn usage_errors_end_with_2() {
+    let dir = tempfile::tempdir().unwrap();
+    for args in [&["frobnicate"][..], &["generate"], &["cosim", "--grid", "0x3"], &["simulate"]] {
+        assert_eq!(run_in(dir.path(), args).code, 2, "{args:?}");
+    }
+    fail_in(dir.path(), 2, &["cosim", "--grid", "2x2"], &["--level rcm"]);
+}
+
+#[test]
+fn every_preset_is_a_file_that_check_takes() {
+    let dir = tempfile::tempdir().unwrap();
+    let list: Value =
+        serde_json::from_str(&succeed_in(dir.path(), &["presets", "--json"])).unwrap();
+    for preset in list["entries"].as_array().unwrap() {
+        let name = preset["name"].as_str().unwrap();
+        fs::write(dir.path().join("p.toml"), succeed_in(dir.path(), &["presets", name])).unwrap();
+        let from_file = succeed_in(dir.path(), &["check", "p.toml"]);
+        assert_eq!(from_file, succeed_in(dir.path(), &["check", "--preset", name]), "{name}");
+    }
+    assert!(succeed_in(dir.path(), &["presets", "--scenes"]).contains("street"));
+}
+
+#[test]
+fn completions_name_the_commands() {
+    let dir = tempfile::tempdir().unwrap();
+    for shell in ["bash", "zsh", "fish"] {
+        assert!(succeed_in(dir.path(), &["completions", shell]).contains("cosim"));
+    }
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    let dir = tempfile::tempdir().unwrap();
+    let commands = ["check", "generate", "cosim", "estimate", "simulate", "presets", "completions"];
+    for command in commands {
+        let help = succeed_in(dir.path(), &[command, "--help"]);
+        assert!(help.contains("Example") && help.contains(&format!("foveate {command}")), "{help}");
+    }
+}
+
+/// Regenerate with `foveate generate --preset paper -o rtl/generated/paper --force`.
+#[test]
+fn the_committed_core_is_not_stale() {
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &["generate", "--preset", "paper", "-o", "core"]);
+    let fresh = files_below(&dir.path().join("core"));
+    let committed = files_below(&repository().join("rtl/generated/paper"));
+    let names = |files: &[(std::path::PathBuf, Vec<u8>)]| {
+        files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&fresh), names(&committed));
+    for ((name, fresh), (_, committed)) in fresh.iter().zip(&committed) {
+        assert!(fresh == committed, "{} is stale; see this test's documentation", name.display());
+    }
+}
+
+#[test]
+fn generated_folders_are_whole_or_absent() {
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &["generate", "-o", "a/core"]);
+    succeed_in(dir.path(), &["generate", "-o", "b"]);
+    assert_eq!(files_below(&dir.path().join("a/core")), files_below(&dir.path().join("b")));
+
+    fail_in(dir.path(), 2, &["generate", "-o", "b"], &["`b`", "--force"]);
+    succeed_in(dir.path(), &["generate", "-o", "b", "--force", "--set", "region.size=16"]);
+    assert!(fs::read_to_string(dir.path().join("b/design.toml")).unwrap().contains("size = 16"));
+
+    fs::create_dir(dir.path().join("mine")).unwrap();
+    fs::write(dir.path().join("mine/thesis.tex"), "years of work").unwrap();
+    fail_in(dir.path(), 2, &["generate", "-o", "mine", "--force"], &["`mine`"]);
+    assert_eq!(files_below(&dir.path().join("mine")).len(), 1);
+    fail_in(dir.path(), 2, &["generate", "-o", "mine/thesis.tex/core"], &["mine/thesis.tex"]);
+    let left: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(left.len(), 3, "nothing half-written is left: {left:?}");
+}

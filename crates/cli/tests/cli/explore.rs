@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate explore` and `foveate fit`, end to end.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{fail_in, files_below, run_in, succeed_in};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+
+const SPACE: &str = "method = 'each'\n[design]\nframe.width = 64\nframe.height = 48\n[ideal]\n\
+     region.neighborhood = 'shared'\n[vary]\nframe.pixel_bits = [6, 4]\nregion.neighborhood = ['shared']\n\
+     hardware.fold = [2]\n";
+
+const RUN: [&str; 9] =
+    ["explore", "space.toml", "scene:street", "-o", "out", "--frames", "6", "--no-area", "--quiet"];
+
+fn folder_with_space() -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("space.toml"), SPACE).unwrap();
+    dir
+}
+
+#[test]
+fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
+    let dir = folder_with_space();
+    let printed = succeed_in(dir.path(), &RUN);
+    assert!(printed.starts_with("4 points, "), "{printed}");
+    assert!(printed.contains("1 combinations are no design"), "{printed}");
+    let before = files_below(&dir.path().join("out"));
+    let names: Vec<String> =
+        before.iter().filter_map(|(path, _)| path.to_str().map(str::to_owned)).collect();
+    for name in
+        ["report.html", "points.csv", "points.parquet", "pareto.csv", "clips.csv", "designs/1.toml"]
+    {
+        assert!(names.iter().any(|path| path.ends_with(name)), "{name} in {names:?}");
+    }
+    succeed_in(dir.path(), &RUN);
+    assert_eq!(files_below(&dir.path().join("out")), before);
+    let json = succeed_in(dir.path(), &[&RUN[..], &["--json"]].concat());
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["rows"][3]["figures"]["action_flips"], 0.0);
+    let markdown = succeed_in(dir.path(), &[&RUN[..], &["--markdown"]].concat());
+    assert!(markdown.contains("| frame.pixel_bits = 6 |"), "{markdown}");
+    succeed_in(dir.path(), &["check", "out/designs/2.toml"]);
+}
+
+#[test]
+fn the_page_carries_every_configuration_and_loads_nothing() {
+    let dir = folder_with_space();
+    succeed_in(dir.path(), &RUN);
+    let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<svg"));
+    assert!(page.matches("pixel_bits = 4").count() > 0);
+    for outside in ["src=\"http", "href=\"http", "@import", "url(http"] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+}
+
+#[test]
+fn mistakes_are_one_line() {
+    let dir = folder_with_space();
+    let wrong = |args: &[&str], parts: &[&str]| fail_in(dir.path(), 2, args, parts);
+    wrong(
+        &["explore", "spaces", "scene:street", "-o", "x"],
+        &["`spaces`", "approximations and designs"],
+    );
+    fs::write(dir.path().join("bad.toml"), "[vary]\nregion.size = 8\n").unwrap();
+    wrong(&["explore", "bad.toml", "scene:street", "-o", "x"], &["bad.toml", "not a list"]);
+    wrong(&["explore", "space.toml", "scene:nothing", "-o", "x", "--no-area"], &["scene"]);
+    fs::create_dir(dir.path().join("mine")).unwrap();
+    fs::write(dir.path().join("mine/notes.txt"), "mine").unwrap();
+    wrong(
+        &["explore", "space.toml", "scene:street", "-o", "mine", "--no-area"],
+        &["mine", "no exploration"],
+    );
+    let with_tools = require_tools(&[Tool::Yosys]);
+    if with_tools {
+        wrong(&["fit", "scene:street", "--frames", "3"], &["3 frames"]);
+    }
+    for bad in ["--max-flips=101%", "--target-active=x", "--fps=0", "--min-psnr=-1"] {
+        assert_eq!(run_in(dir.path(), &["fit", "scene:street", bad]).code, 2, "{bad}");
+    }
+}
+
+#[test]
+fn spaces_are_listed_and_printed() {
+    let dir = tempfile::tempdir().unwrap();
+    let list = succeed_in(dir.path(), &["explore", "--list"]);
+    assert_eq!(list.lines().count(), 2, "{list}");
+    let file = succeed_in(dir.path(), &["explore", "designs", "--print"]);
+    assert!(file.contains("[vary]"), "{file}");
+}
+
+#[test]
+fn what_fit_finds_can_be_generated() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let frame =
+        ["--set", "frame={width=32,height=24}", "--frames", "8", "--quiet", "--max-syntheses", "2"];
+    let fit = |more: &[&str]| {
+        run_in(
+            dir.path(),
+            &[&["fit", "scene:street", "-o", "found.toml"], &frame[..], more].concat(),
+        )
+    };
+    let found = fit(&["--max-flips", "0%", "--fps", "100", "--clock", "1MHz"]);
+    assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
+    assert!(found.stdout.contains("Cheapest: serial"), "{}", found.stdout);
+    for part in ["fitted: ", "held out: ", "Why:", "found.toml holds it"] {
+        assert!(found.stdout.contains(part), "{part} in {}", found.stdout);
+    }
+    succeed_in(dir.path(), &["generate", "--config", "found.toml", "-o", "core"]);
+    assert!(Path::new(&dir.path().join("core/rtl/rcm.v")).exists());
+    let none = fit(&["--max-flips", "0%", "--fps", "100", "--clock", "1MHz", "--max-lut", "2"]);
+    assert_eq!(none.code, 1, "{}", none.stdout);
+    assert!(none.stdout.contains("Binding: without --max-lut"), "{}", none.stdout);
+    assert!(none.stderr.contains("no design holds all constraints"), "{}", none.stderr);
+}

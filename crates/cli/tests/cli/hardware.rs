@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! cosim and estimate, end to end, with the tools and without.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{fail_in, foveate, run_in, succeed_in};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::{data_folder, require_tools};
+use serde_json::Value;
+
+const SIMULATORS: &[Tool] = &[Tool::Verilator, Tool::Cxx, Tool::Iverilog, Tool::Vvp];
+
+fn edit(file: &Path, from: &str, to: &str) {
+    let text = fs::read_to_string(file).unwrap();
+    assert_eq!(text.matches(from).count(), 1, "{from}");
+    fs::write(file, text.replace(from, to)).unwrap();
+}
+
+#[test]
+fn model_and_rtl_agree_in_both_simulators() {
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    for simulator in ["verilator", "iverilog"] {
+        let args =
+            ["cosim", "scene:street", "--preset", "bare", "--simulator", simulator, "--json"];
+        let report: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+        assert_eq!(report["format_version"], 1);
+        assert!(report["mismatch"].is_null());
+        assert!(report["comparisons"].as_u64().unwrap() > 100_000);
+        assert_eq!(report["rtl_sha256"].as_str().unwrap().len(), 64);
+    }
+    let text = succeed_in(
+        dir.path(),
+        &["cosim", "--level", "rcm", "--grid", "3x2", "--simulator", "iverilog"],
+    );
+    assert!(text.contains("no mismatch") && text.contains("3 x 2 regions"), "{text}");
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "a good run leaves nothing");
+}
+
+/// Every region of real images, where the environment variable FOVEATE_DATA names their folder.
+#[test]
+fn real_images_agree() {
+    let Some(data) = data_folder() else { return };
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let folder = data.join("mosquito/culex");
+    let args = ["cosim", folder.to_str().unwrap(), "--rounds", "0", "--json"];
+    let report: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    assert!(report["mismatch"].is_null());
+    assert_eq!((&report["sequences"], &report["frames"]), (&784.into(), &(2 * 784).into()));
+}
+
+#[test]
+fn edited_verilog_is_caught_and_replayed() {
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let args = ["generate", "--preset", "bare", "-o", "core"];
+    succeed_in(dir.path(), &args);
+    let cosim = |extra: &[&str]| {
+        let args = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl"];
+        run_in(dir.path(), &[&args[..], extra].concat())
+    };
+    assert_eq!(cosim(&["--simulator", "iverilog"]).code, 0);
+    let array = cosim(&["--simulator", "iverilog", "--level", "rcm", "--grid", "3x1"]);
+    assert_eq!(array.code, 0, "the array takes any grid: {}", array.stderr);
+
+    edit(&dir.path().join("core/rtl/vote.v"), "score_i >= minimum_i", "score_i > minimum_i");
+    let outcome = cosim(&["--junit", "cosim.xml"]);
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    for part in
+        ["mismatch", "trs_o is 'h0, expected 'h1", "replay it with foveate-replay/replay.sh"]
+    {
+        assert!(outcome.stdout.contains(part), "{}", outcome.stdout);
+    }
+    let junit = fs::read_to_string(dir.path().join("cosim.xml")).unwrap();
+    assert!(junit.contains("<failure") && junit.contains("trs_o"), "{junit}");
+    let replay = Command::new(dir.path().join("foveate-replay/replay.sh")).output().unwrap();
+    let printed = String::from_utf8(replay.stdout).unwrap();
+    assert_eq!(replay.status.code(), Some(1), "{printed}");
+    assert!(printed.contains("port trs_o"), "{printed}");
+}
+
+/// Broken Verilog is the tool's refusal, not a mismatch; files of another design are bad input.
+#[test]
+fn verilog_that_does_not_fit_is_refused() {
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &["generate", "--preset", "bare", "-o", "core"]);
+    let other = ["cosim", "--preset", "mad", "--rtl", "core/rtl", "--simulator", "iverilog"];
+    fail_in(dir.path(), 2, &other, &["mad_min_i"]);
+    edit(&dir.path().join("core/rtl/vote.v"), "assign vote_o", "asign vote_o");
+    let same = ["cosim", "--preset", "bare", "--rtl", "core/rtl"];
+    let outcome = run_in(dir.path(), &same);
+    assert_eq!(outcome.code, 3);
+    assert!(outcome.stderr.contains("vote.v"), "{}", outcome.stderr);
+    assert_eq!(run_in(dir.path(), &[&same[..], &["--junit", "cosim.xml"]].concat()).code, 3);
+    let junit = fs::read_to_string(dir.path().join("cosim.xml")).unwrap();
+    assert!(junit.contains("<error") && junit.contains("vote.v"), "{junit}");
+    fail_in(dir.path(), 2, &["cosim", "--junit", "no/cosim.xml"], &["`no/cosim.xml`"]);
+    fs::create_dir(dir.path().join("empty")).unwrap();
+    fail_in(dir.path(), 2, &["cosim", "--rtl", "empty"], &["`empty`", "no .v file"]);
+    fail_in(dir.path(), 2, &["cosim", "--rtl", "missing"], &["`missing`"]);
+}
+
+#[test]
+fn a_replay_folder_that_is_not_one_is_refused_before_anything_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir(dir.path().join("mine")).unwrap();
+    fs::write(dir.path().join("mine/thesis.tex"), "years of work").unwrap();
+    fail_in(dir.path(), 2, &["cosim", "--replay", "mine"], &["`mine`", "replay"]);
+}
+
+/// An interrupt stops the compiler, too, and leaves no folder behind.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_a_build() {
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let temporary = dir.path().join("tmp");
+    fs::create_dir(&temporary).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_foveate"))
+        .args(["cosim", "--full", "--rounds", "0", "scene:street"])
+        .current_dir(dir.path())
+        .env("FOVEATE_CACHE", "off")
+        .env("TMPDIR", &temporary)
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let left: Vec<_> = fs::read_dir(&temporary).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn the_area_is_beside_the_papers() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let text = succeed_in(dir.path(), &["estimate", "--preset", "bare"]);
+    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+    for part in ["Yosys estimate (Yosys ", "RCM, paper", "143,472", "edge_detector"] {
+        assert!(text.contains(part), "{text}");
+    }
+    let json = succeed_in(dir.path(), &["estimate", "--preset", "bare", "--json"]);
+    let report: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!((&report["format_version"], &report["regions"]), (&1.into(), &784.into()));
+    // The paper's own ground: 183 LUTs of which 16 are memory, 90 flip-flops. A pair of SRL16
+    // shares a LUT.
+    let rpu = &report["rpu"];
+    assert!(rpu["lut_total_packed"].as_u64().unwrap() <= 183, "{rpu}");
+    assert!(rpu["lut_memory_packed"].as_u64().unwrap() <= 16, "{rpu}");
+    assert!(rpu["ff"].as_u64().unwrap() <= 90, "{rpu}");
+}
+
+/// The area is of the RTL that was tested, and the netlist that is counted is the one that is simulated.
+#[test]
+fn estimate_and_cosim_are_about_the_same_rtl() {
+    if !require_tools(SIMULATORS) || !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let json = |command: &[&str]| -> Value {
+        let design =
+            ["--preset", "bare", "--set", "region.size=4", "--set", "frame={width=8,height=4}"];
+        let args = [command, &design[..], &["--json"]].concat();
+        serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap()
+    };
+    let area = json(&["estimate"]);
+    let rpu = json(&["cosim", "--rounds", "1", "--netlist"]);
+    let array = json(&["cosim", "--full", "--simulator", "iverilog"]);
+    assert_eq!(rpu["name"], "rpu netlist iverilog");
+    assert_eq!(rpu["netlist"]["tool"], area["tool"]);
+    assert_eq!(rpu["rtl_sha256"], area["rpu_sha256"]);
+    assert_eq!(array["rtl_sha256"], area["rtl_sha256"]);
+    assert!(area["paths"]["rcm"]["levels"].as_u64() >= area["paths"]["rpu"]["levels"].as_u64());
+    let refused = foveate(&["cosim", "--netlist", "--simulator", "verilator"]).output().unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("'--netlist' cannot be used"));
+}
+
+#[test]
+fn a_missing_tool_ends_with_3_and_says_how_to_install_it() {
+    let dir = tempfile::tempdir().unwrap();
+    for (args, tool) in [
+        (&["cosim"][..], "verilator"),
+        (&["cosim", "--simulator", "iverilog"], "iverilog"),
+        (&["estimate"], "yosys"),
+    ] {
+        let command = foveate(args).current_dir(dir.path()).env("PATH", dir.path()).output();
+        let output = command.unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{message}");
+        assert!(message.contains(&format!("apt-get install {tool}")), "{message}");
+    }
+    let command = foveate(&["estimate"]).env("FOVEATE_YOSYS", "/nonexistent/yosys").output();
+    let message = String::from_utf8(command.unwrap().stderr).unwrap();
+    assert!(
+        message.contains("FOVEATE_YOSYS") && message.contains("/nonexistent/yosys"),
+        "{message}"
+    );
+}

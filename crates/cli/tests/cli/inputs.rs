@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What simulate reads, end to end: streams, video, sets, batches, and what each fault ends with.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{fail_in, foveate, run_in, succeed_in};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+use serde_json::Value;
+
+/// A stream of `frames` frames of 16x16 pixels, 25 per second.
+fn y4m(frames: u8) -> Vec<u8> {
+    let mut bytes = b"YUV4MPEG2 W16 H16 F25:1 Cmono\n".to_vec();
+    for frame in 0..frames {
+        bytes.extend(b"FRAME\n");
+        bytes.extend((0..=255u8).map(|pixel| pixel.wrapping_mul(frame + 1)));
+    }
+    bytes
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+#[test]
+fn a_stream_comes_through_standard_input() {
+    let dir = tempfile::tempdir().unwrap();
+    let args = ["simulate", "-", "-o", "out", "--fps", "5", "--start", "0.2", "--resize", "8x8"];
+    let output = foveate(&args).current_dir(dir.path()).write_stdin(y4m(20)).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
+    let times: Vec<&str> = table.lines().skip(1).map(|l| l.split(',').nth(1).unwrap()).collect();
+    assert_eq!(times, ["200000", "400000", "600000"]);
+    let cut = y4m(3)[..700].to_vec();
+    let args = ["simulate", "-", "-o", "cut"];
+    let output = foveate(&args).current_dir(dir.path()).write_stdin(cut).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("`cut` is not complete: after 2 frames"), "{said}");
+    assert_eq!(json(&dir.path().join("cut/summary.json"))["complete"], false);
+    let output = foveate(&["simulate", "-", "-o", "none"]).write_stdin("").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn without_ffmpeg_video_ends_with_3_and_the_rest_works() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("a.mp4"), "whatever").unwrap();
+    fs::write(dir.path().join("a.y4m"), y4m(2)).unwrap();
+    let bare = |input: &str| {
+        let args = ["simulate", input, "-o", input.split('.').next_back().unwrap()];
+        foveate(&args)
+            .current_dir(dir.path())
+            .env("PATH", "")
+            .env_remove("FOVEATE_FFMPEG")
+            .output()
+            .unwrap()
+    };
+    let output = bare("a.mp4");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("ffmpeg is not installed; install it with"), "{said}");
+    assert!(!dir.path().join("mp4").exists());
+    assert!(bare("a.y4m").status.success() && bare("scene:street").status.success());
+}
+
+#[test]
+fn a_folder_of_clips_is_a_batch() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir_all(dir.path().join("clips/cars")).unwrap();
+    fs::write(dir.path().join("clips/a.y4m"), y4m(3)).unwrap();
+    fs::write(dir.path().join("clips/cars/b.y4m"), y4m(4)).unwrap();
+    let text = succeed_in(dir.path(), &["simulate", "clips", "-o", "out"]);
+    assert!(text.contains("2 clips, 7 frames"), "{text}");
+    assert_eq!(json(&dir.path().join("out/cars/b/summary.json"))["frames"], 4);
+    fs::write(dir.path().join("clips/c.y4m"), "YUV4MPEG2 broken").unwrap();
+    let outcome = run_in(dir.path(), &["simulate", "clips", "-o", "out", "--force", "--json"]);
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("1 of 3 clips are not complete"), "{}", outcome.stderr);
+    let printed: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert_eq!(printed, json(&dir.path().join("out/summary.json")));
+    assert!(printed["clips"][1]["problem"].as_str().unwrap().contains("c.y4m"));
+}
+
+#[test]
+fn a_video_runs_and_a_cut_one_ends_with_1() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let made = Command::new("ffmpeg")
+        .args(["-v", "error", "-f", "lavfi", "-i", "testsrc=size=64x48:rate=25:duration=2"])
+        .args(["-c:v", "mpeg4"])
+        .arg(dir.path().join("a.avi"))
+        .status();
+    assert!(made.unwrap().success());
+    let text = succeed_in(dir.path(), &["simulate", "a.avi", "-o", "out"]);
+    assert!(text.contains("50 frames of 64 x 48 pixels"), "{text}");
+    let whole = fs::read(dir.path().join("a.avi")).unwrap();
+    fs::write(dir.path().join("cut.avi"), &whole[..whole.len() / 2]).unwrap();
+    let parts = ["`cut` is not complete: the file is truncated", "bytes are missing"];
+    fail_in(dir.path(), 1, &["simulate", "cut.avi", "-o", "cut"], &parts);
+    assert_eq!(json(&dir.path().join("cut/summary.json"))["complete"], false);
+}
+
+#[test]
+fn options_that_make_no_sense_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    for (option, value, part) in [
+        ("--resize", "0x4", "640x360"),
+        ("--resize", "10", "640x360"),
+        ("--crop", "4x4", "320x240+16+0"),
+        ("--crop", "4x4+1+2+3", "320x240+16+0"),
+        ("--fps", "0", "frames per second"),
+        ("--start", "1:99", "HH:MM:SS"),
+        ("--crop", "999x4+0+0", "224x224"),
+        ("--end", "0", "later than the start"),
+    ] {
+        let args = ["simulate", "scene:street", "-o", "out", option, value];
+        let outcome = run_in(dir.path(), &args);
+        assert_eq!(outcome.code, 2, "{option} {value}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(part), "{}", outcome.stderr);
+        assert!(!dir.path().join("out").exists());
+    }
+}

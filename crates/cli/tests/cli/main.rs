@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The command line, end to end: every command as its users call it.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod bench;
+mod common;
+mod core;
+mod dataset;
+mod design;
+mod explore;
+mod full_disk;
+mod hardware;
+mod inputs;
+mod outputs;
+mod serial;
+mod simulation;
+mod stress;
+mod studies;

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The optional outputs of simulate, and explain, end to end.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{fail_in, files_below, foveate, succeed_in};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+use serde_json::Value;
+
+const SMALL: [&str; 6] =
+    ["scene:street", "--frames", "4", "--set", "frame={width=64,height=48}", "--quiet"];
+
+fn simulate<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["simulate", "-o", "out"], &SMALL[..], more].concat()
+}
+
+fn has(folder: &Path, name: &str) -> bool {
+    folder.join("out").join(name).exists()
+}
+
+#[test]
+fn every_option_writes_its_files_and_no_others() {
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &simulate(&[]));
+    let plain = files_below(&dir.path().join("out")).len();
+    for (options, files) in [
+        (&["--events", "csv"][..], &["events.csv"][..]),
+        (&["--events", "parquet,csv", "--only", "active"], &["events.csv", "events.parquet"]),
+        (&["--pixel-events"], &["pixel_events.npz"]),
+        (&["--pixel-events=csv,npz", "--log"], &["pixel_events.csv", "pixel_events.npz"]),
+        (&["--pixel-events=csv", "--contrast", "2.5"], &["pixel_events.csv"]),
+    ] {
+        succeed_in(dir.path(), &[&simulate(options)[..], &["--force"]].concat());
+        assert_eq!(files_below(&dir.path().join("out")).len(), plain + files.len(), "{options:?}");
+        assert!(files.iter().all(|name| has(dir.path(), name)), "{options:?}");
+    }
+    let pictures = ["--overlay", "--heatmap", "--rendered", "none", "--force"];
+    succeed_in(dir.path(), &simulate(&pictures));
+    assert!(!has(dir.path(), "rendered"));
+    for name in ["overlay/000003.png", "heatmap_edge/000003.png", "heatmap_temporal/000000.png"] {
+        assert!(has(dir.path(), name), "{name}");
+    }
+}
+
+#[test]
+fn the_summary_compares_the_cameras() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = succeed_in(dir.path(), &simulate(&["--pixel-events=csv"]));
+    let summary = fs::read_to_string(dir.path().join("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let csv = fs::read_to_string(dir.path().join("out/pixel_events.csv")).unwrap();
+    let events = csv.lines().count() - 1;
+    assert_eq!(summary["bandwidth"]["pixel"]["events"], events);
+    assert_eq!(summary["bandwidth"]["pixel"]["bytes"], 4 * events);
+    assert_eq!(summary["bandwidth"]["raw"]["bytes"], 4 * 64 * 48);
+    for (name, key) in
+        [("raw video", "raw"), ("region camera", "region"), ("pixel events", "pixel")]
+    {
+        let line = text.lines().find(|line| line.starts_with(name)).unwrap();
+        let bytes = format!(" {} bytes (", summary["bandwidth"][key]["bytes"]);
+        assert!(line.contains(&bytes), "{line} {bytes}");
+    }
+}
+
+#[test]
+fn options_that_say_nothing_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    for (options, part) in [
+        (&["--only", "active"][..], "--events"),
+        (&["--log"], "--pixel-events"),
+        (&["--contrast", "3"], "--pixel-events"),
+        (&["--pixel-events", "--contrast", "-1"], "contrast"),
+        (&["--events", "json"], "parquet"),
+        (&["--rendered", "gif"], "mp4"),
+        (&["--rendered", "png", "--no-rendered"], "--no-rendered"),
+    ] {
+        let output = foveate(&simulate(options)).current_dir(dir.path()).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(stderr.contains(part), "{options:?}: {stderr}");
+    }
+    let too_small = ["--pixel-events", "--contrast", "0.001"];
+    fail_in(dir.path(), 2, &simulate(&too_small), &["contrast of 0.001", "0.01"]);
+    assert!(!dir.path().join("out").exists());
+}
+
+/// Without ffmpeg video is refused with a way out, and pictures still work.
+#[cfg(unix)]
+#[test]
+fn without_ffmpeg_there_are_pictures() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |more: &[&str], ffmpeg: &str| {
+        let output = foveate(&simulate(more))
+            .current_dir(dir.path())
+            .env("FOVEATE_FFMPEG", ffmpeg)
+            .output()
+            .unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, stderr) = run(&["--rendered", "video"], "/nowhere/ffmpeg");
+    assert_eq!(code, Some(3), "{stderr}");
+    assert!(stderr.contains("FOVEATE_FFMPEG") && stderr.contains("--rendered png"), "{stderr}");
+    assert!(fs::read_dir(dir.path()).unwrap().next().is_none(), "nothing is left");
+    assert_eq!(run(&["--overlay"], "/nowhere/ffmpeg").0, Some(0));
+}
+
+/// An ffmpeg that gives up is quoted, and nothing is left.
+#[cfg(unix)]
+#[test]
+fn a_failing_ffmpeg_is_quoted() {
+    use std::os::unix::fs::PermissionsExt;
+    let dir = tempfile::tempdir().unwrap();
+    let stub = tempfile::tempdir().unwrap();
+    let ffmpeg = stub.path().join("ffmpeg");
+    for then in ["exit 1", "cat > /dev/null; exit 1"] {
+        let script = format!(
+            "#!/bin/sh\n[ \"$1\" = -version ] && echo 'ffmpeg version 6.0' && exit 0\n\
+             echo 'Unknown encoder' >&2\n{then}\n"
+        );
+        fs::write(&ffmpeg, script).unwrap();
+        fs::set_permissions(&ffmpeg, fs::Permissions::from_mode(0o755)).unwrap();
+        let output = foveate(&simulate(&["--rendered", "mkv"]))
+            .current_dir(dir.path())
+            .env("FOVEATE_FFMPEG", &ffmpeg)
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{stderr}");
+        assert!(stderr.contains("Unknown encoder") && stderr.contains("rendered.mkv"), "{stderr}");
+        assert!(fs::read_dir(dir.path()).unwrap().next().is_none(), "nothing is left");
+    }
+}
+
+#[test]
+fn video_is_one_file() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &simulate(&["--rendered", "video", "--overlay=mp4"]));
+    assert!(has(dir.path(), "rendered.mkv") && has(dir.path(), "overlay.mp4"));
+    assert!(!has(dir.path(), "rendered") && !has(dir.path(), "overlay"));
+}
+
+#[test]
+fn explain_says_why_in_text_and_json() {
+    let dir = tempfile::tempdir().unwrap();
+    let args = ["explain", "scene:street", "--frame", "2", "--region", "3,4"];
+    let args = [&args[..], &["--set", "frame={width=64,height=48}"]].concat();
+    let text = succeed_in(dir.path(), &args);
+    let told: Value =
+        serde_json::from_str(&succeed_in(dir.path(), &[&args[..], &["--json"]].concat())).unwrap();
+    assert_eq!((&told["frame"], &told["region"]["x0"]), (&2.into(), &24.into()));
+    assert_eq!(told["raw"].as_array().unwrap().len(), 8);
+    let rule = told["rule"].as_str().unwrap().split(": ").next().unwrap().to_owned();
+    assert!(text.contains(&format!("Table I   {rule}")), "{text}");
+    // What simulate says of the same region.
+    succeed_in(dir.path(), &simulate(&["--events", "csv"]));
+    let table = fs::read_to_string(dir.path().join("out/events.csv")).unwrap();
+    let row = table.lines().find(|line| line.starts_with("2,66667,3,4,24,32,")).unwrap();
+    let bit = |key: &str| u8::from(told[key].as_bool().unwrap());
+    let expected = format!(
+        "{},{},{},{},{}",
+        bit("srs"),
+        bit("trs"),
+        told["spatial"][0]["score"],
+        told["temporal"]["count"],
+        told["action"].as_str().unwrap()
+    );
+    assert!(row.ends_with(&expected), "{row} {expected}");
+    for (frame, region, parts) in [
+        ("99", "0,0", ["no frame 99", "counted from 0"]),
+        ("0", "8,0", ["no region 8,0", "0 to 7"]),
+    ] {
+        let bad = ["explain", "scene:street", "--frame", frame, "--region", region];
+        let bad = [&bad[..], &["--set", "frame={width=64,height=48}"]].concat();
+        fail_in(dir.path(), 2, &bad, &parts);
+    }
+}

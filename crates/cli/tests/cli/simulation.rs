@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! simulate, end to end.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{fail_in, files_below, run_in, succeed_in};
+use serde_json::Value;
+
+/// A PGM of `size` x `size` pixels of one value.
+fn pgm(path: &Path, size: usize, value: u8) {
+    let mut bytes = format!("P5\n{size} {size}\n255\n").into_bytes();
+    bytes.extend(std::iter::repeat_n(value, size * size));
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_scene_becomes_arrays_pictures_and_a_summary() {
+    let dir = tempfile::tempdir().unwrap();
+    let args = ["simulate", "scene:street", "-o", "out", "--frames", "3", "--overlay", "--json"];
+    let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    assert_eq!((&summary["frames"], &summary["regions"]), (&3.into(), &784.into()));
+    let names: Vec<_> =
+        files_below(&dir.path().join("out")).into_iter().map(|(name, _)| name).collect();
+    for name in ["srs.npy", "trs.npy", "t_count.npy", "score_edge.npy", "summary.json"] {
+        assert!(names.iter().any(|path| path == Path::new(name)), "{name} of {names:?}");
+    }
+    for name in ["rendered/000002.png", "overlay/000002.png"] {
+        assert!(names.iter().any(|path| path == Path::new(name)), "{name} of {names:?}");
+    }
+    let again = ["simulate", "scene:street", "-o", "out", "--frames", "3"];
+    fail_in(dir.path(), 2, &again, &["out", "not empty"]);
+    succeed_in(dir.path(), &[&again[..], &["--force", "--no-rendered"]].concat());
+    assert!(!dir.path().join("out/rendered").exists());
+}
+
+#[test]
+fn the_frame_size_comes_from_the_input() {
+    let dir = tempfile::tempdir().unwrap();
+    for frame in 0..3 {
+        pgm(&dir.path().join(format!("f{frame}.pgm")), 20, 10 * frame);
+    }
+    let text = succeed_in(dir.path(), &["simulate", "f*.pgm", "-o", "out"]);
+    assert!(text.contains("3 frames of 20 x 20 pixels, 9 regions"), "{text}");
+    let args = ["simulate", "f0.pgm", "-o", "no", "--set", "frame.width=32"];
+    fail_in(dir.path(), 2, &args, &["frame.width", "32", "20x20"]);
+    assert!(!dir.path().join("no").exists());
+}
+
+#[test]
+fn bad_inputs_end_with_2_and_leave_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    pgm(&at("small.pgm"), 16, 0);
+    pgm(&at("large.pgm"), 24, 0);
+    fs::write(at("broken.pgm"), b"P5\n16 16\n255\nshort").unwrap();
+    fs::write(at("text.png"), b"no picture").unwrap();
+    fs::create_dir(at("empty")).unwrap();
+    let fail = |inputs: &[&str], parts: &[&str]| {
+        fail_in(dir.path(), 2, &[&["simulate"], inputs, &["-o", "out"]].concat(), parts);
+        assert!(!at("out").exists(), "{inputs:?}");
+    };
+    fail(&["small.pgm", "large.pgm"], &["small.pgm", "large.pgm", "16", "24"]);
+    fail(&["broken.pgm"], &["broken.pgm"]);
+    fail(&["text.png"], &["text.png"]);
+    fail(&["empty"], &["empty", "no image"]);
+    fail(&["none-*.png"], &["none-*.png"]);
+    fail(&["missing.png"], &["missing.png", "does not exist"]);
+    fail(&["scene:stret"], &["stret", "street"]);
+    fail(&["scene:street", "small.pgm"], &["scene:street"]);
+    fail_in(dir.path(), 2, &["simulate", "small.pgm", "-o", "small.pgm/out"], &["small.pgm"]);
+}
+
+/// An interrupt ends a long run soon, says so, and leaves what was done.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_what_was_done() {
+    let dir = tempfile::tempdir().unwrap();
+    let child = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"))
+        .args(["simulate", "scene:street", "-o", "out", "--frames", "100000"])
+        .current_dir(dir.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The hidden folder has its first picture when the first frame is done.
+    let done = || {
+        let hidden = fs::read_dir(dir.path()).unwrap().next()?.ok()?.path();
+        hidden.join("rendered/000001.png").exists().then_some(())
+    };
+    while done().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("interrupted") && said.contains("`out`"), "{said}");
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    let summary = fs::read(dir.path().join("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_slice(&summary).unwrap();
+    assert_eq!((&summary["complete"], &summary["problem"]), (&false.into(), &"interrupted".into()));
+    assert!(summary["frames"].as_u64().unwrap() > 0);
+}
+
+/// Real images, where the environment variable FOVEATE_DATA names their folder.
+#[test]
+fn real_images_run() {
+    let Some(data) = foveate_toolchain::testing::data_folder() else {
+        return;
+    };
+    let folder = data.join("mosquito/aedes");
+    let dir = tempfile::tempdir().unwrap();
+    let input = folder.to_str().unwrap();
+    let args = ["simulate", input, "-o", "out", "--frames", "20", "--no-rendered", "--json"];
+    let outcome = run_in(dir.path(), &args);
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    let summary: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert_eq!((&summary["frames"], &summary["width"]), (&20.into(), &224.into()));
+    let share = summary["srs_share"].as_f64().unwrap();
+    assert!(share > 0.01 && share < 0.99, "real images have edges here and there: {share}");
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Reads a recording back.
+
+use foveate_cosim::{Field, Layout, Recording};
+use foveate_spec::PortRole;
+
+pub(crate) fn field(layout: &Layout, role: PortRole) -> &Field {
+    layout.fields().iter().find(|field| field.port.role == role).unwrap()
+}
+
+/// Input and expected output records, clock by clock.
+pub(crate) fn clocks(recording: &Recording) -> Vec<(Vec<u8>, Vec<u8>)> {
+    let inputs = std::fs::read(recording.inputs_path()).unwrap();
+    let outputs = std::fs::read(recording.expected_path()).unwrap();
+    let inputs = inputs.chunks_exact(recording.inputs().record_bytes());
+    let outputs = outputs.chunks_exact(recording.outputs().record_bytes());
+    assert_eq!(inputs.len() as u64, recording.clocks());
+    assert_eq!(outputs.len() as u64, recording.clocks());
+    inputs.zip(outputs).map(|(a, b)| (a.to_vec(), b.to_vec())).collect()
+}
+
+/// The value of a port with one lane; 0 where there is no such port.
+pub(crate) fn value(layout: &Layout, role: PortRole, record: &[u8]) -> u64 {
+    layout.fields().iter().find(|field| field.port.role == role).map_or(0, |f| f.get(record, 0))
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Model against emitted RTL for a few designs at every level, in both simulators.
+#![allow(clippy::print_stdout, reason = "helpers of tests")]
+
+use foveate_cosim::{Job, Level, Simulator, Stimulus};
+use foveate_scenes::{Scene, SceneSize};
+use foveate_spec::{Config, Design, PRESETS};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Toolchain};
+
+fn small(config: &Config, regions: (u32, u32)) -> Design {
+    let mut config = config.clone();
+    let side = config.region.size;
+    (config.frame.width, config.frame.height) = (Some(regions.0 * side), Some(regions.1 * side));
+    config.validate().unwrap()
+}
+
+fn agrees(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str) {
+    if !require_tools(simulator.tools()) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let mut job = Job::new(design, stimulus, &output.path().join("replay")).unwrap();
+    job.simulator = simulator;
+    let cache = Cache::from_env().unwrap();
+    let report = job.run(&Toolchain::system(), &cache, &mut |_| {}).unwrap();
+    assert!(report.passed(), "{what}: {report}");
+    println!("{what}: {report}; seconds: {:?}", report.seconds);
+}
+
+#[test]
+fn every_preset_agrees_at_rpu_level_in_both_simulators() {
+    for preset in PRESETS {
+        let design = small(&preset.config().unwrap(), (3, 2));
+        for simulator in Simulator::ALL {
+            let scene = Scene::find("street").unwrap();
+            let size = SceneSize { width: 24, height: 16, bits: 8, region_size: 8, frames: 4 };
+            let stimulus = Stimulus { frames: scene.frames(size).collect(), ..Stimulus::default() };
+            agrees(&design, simulator, stimulus, preset.name);
+        }
+    }
+}
+
+#[test]
+fn arrays_agree_on_three_grids() {
+    for (preset, simulator) in [
+        ("paper", Simulator::Iverilog),
+        ("seamless", Simulator::Verilator),
+        ("mad", Simulator::Verilator),
+    ] {
+        let preset = PRESETS.iter().find(|p| p.name == preset).unwrap();
+        let design = small(&preset.config().unwrap(), (4, 3));
+        for (columns, rows) in [(2, 2), (3, 1), (1, 1)] {
+            let level = Level::Rcm { columns, rows };
+            let stimulus = Stimulus { level, rounds: 1, ..Stimulus::default() };
+            agrees(&design, simulator, stimulus, preset.name);
+        }
+    }
+}
+
+/// The paper's 28x28 regions, on the street:
+/// `cargo test -p foveate-cosim --test designs -- --ignored`. Its C++ takes 100 s of processor time to
+/// build, the model and the simulation a few seconds each, so that it is not part of the normal run.
+#[test]
+#[ignore = "takes minutes to build"]
+fn the_whole_array_of_the_paper_agrees() {
+    let design = Config::default().validate().unwrap();
+    let scene = Scene::find("street").unwrap();
+    let size = SceneSize { width: 224, height: 224, bits: 8, region_size: 8, frames: 4 };
+    let frames = scene.frames(size).collect();
+    let stimulus = Stimulus { level: Level::Full, rounds: 1, frames, ..Stimulus::default() };
+    agrees(&design, Simulator::Verilator, stimulus, "full");
+}

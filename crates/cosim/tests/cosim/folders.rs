@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a run leaves on disk, and what it must leave alone.
+
+use crate::common::{cosimulate, design, directed};
+use foveate_cosim::{CosimError, CosimReport, Job, Level, Progress, Simulator};
+use foveate_spec::Config;
+use foveate_staging::StagingError;
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Toolchain};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+const SIMULATOR: Simulator = Simulator::Iverilog;
+
+fn run(output: &Path, edit: impl FnOnce(&mut Job)) -> Result<CosimReport, CosimError> {
+    let mut config = Config::default();
+    config.region.size = 4;
+    cosimulate(&design(&config, (1, 1)), SIMULATOR, directed(Level::Rpu, 1), output, edit)
+}
+
+fn break_it(job: &mut Job) {
+    for file in &mut job.sources {
+        file.contents = file.contents.replace("score_i >= minimum_i", "score_i > minimum_i");
+    }
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_run_without_mismatch_leaves_nothing_but_waves_that_were_asked_for() {
+    if !require_tools(SIMULATOR.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let output = dir.path().join("out");
+    let report = run(&output, |_| {}).unwrap();
+    assert!(report.passed() && !output.exists());
+    let report = run(&output, |job| job.trace = true).unwrap();
+    assert_eq!(report.waves.as_deref(), Some(output.join("waves.fst").as_path()));
+    assert_eq!(names(&output), ["waves.fst"]);
+    assert!(run(&output, break_it).unwrap().replay.is_some(), "a replay takes the place of waves");
+}
+
+#[test]
+fn a_replay_replaces_a_replay_and_nothing_else() {
+    if !require_tools(SIMULATOR.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let output = dir.path().join("out");
+    for _ in 0..2 {
+        let report = run(&output, break_it).unwrap();
+        assert_eq!(report.replay.as_deref(), Some(output.as_path()));
+    }
+    let expected = ["README.md", "replay.sh", "rpu_replay.v", "rtl", "vectors.hex"];
+    assert_eq!(names(&output), expected);
+    assert_eq!(names(dir.path()), ["out"]);
+
+    let precious = dir.path().join("precious");
+    fs::create_dir(&precious).unwrap();
+    fs::write(precious.join("thesis.tex"), "").unwrap();
+    let error = run(&precious, break_it).unwrap_err();
+    assert!(matches!(error, CosimError::Output(StagingError::Foreign { .. })), "{error}");
+    assert_eq!(names(&precious), ["thesis.tex"]);
+    assert_eq!(names(dir.path()), ["out", "precious"]);
+}
+
+#[test]
+fn a_passing_run_leaves_no_earlier_replay() {
+    if !require_tools(SIMULATOR.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let output = dir.path().join("out");
+    run(&output, break_it).unwrap();
+    assert!(output.is_dir());
+    assert!(run(&output, |_| {}).unwrap().passed());
+    assert_eq!(names(dir.path()), Vec::<String>::new());
+    run(&output, |job| job.trace = true).unwrap();
+    run(&output, |_| {}).unwrap();
+    assert_eq!(names(dir.path()), Vec::<String>::new());
+
+    // Something of the same names is not a replay.
+    fs::create_dir(&output).unwrap();
+    for name in ["replay.sh", "vectors.hex", "README.md"] {
+        fs::write(output.join(name), "mine").unwrap();
+    }
+    run(&output, |_| {}).unwrap();
+    assert_eq!(names(&output).len(), 3);
+}
+
+#[test]
+fn an_interrupt_ends_the_simulation_and_leaves_nothing() {
+    if !require_tools(SIMULATOR.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let flag = Arc::new(AtomicBool::new(false));
+    let toolchain = Toolchain::system().cancelled_by(Arc::clone(&flag));
+    let cache = Cache::at(&dir.path().join("cache")).unwrap();
+    let design = design(&Config::default(), (1, 1));
+    let job = Job::new(&design, directed(Level::Rpu, 1), &dir.path().join("out")).unwrap();
+    let result = job.run(&toolchain, &cache, &mut |progress| {
+        flag.store(matches!(progress, Progress::Simulation { .. }), Ordering::Relaxed);
+    });
+    assert!(result.unwrap_err().is_interrupted());
+    assert_eq!(names(dir.path()), ["cache"]);
+    assert_eq!(names(cache.root()), Vec::<String>::new());
+}
+
+#[test]
+fn waves_of_a_replay_are_written_when_asked_for() {
+    for simulator in Simulator::ALL {
+        if !require_tools(SIMULATOR.tools()) || !require_tools(simulator.tools()) {
+            continue;
+        }
+        let dir = tempfile::tempdir().unwrap();
+        let output = dir.path().join("with blank");
+        run(&output, break_it).unwrap();
+        let script =
+            Command::new(output.join("replay.sh")).args([simulator.name(), "waves"]).output();
+        let script = script.unwrap();
+        assert_eq!(script.status.code(), Some(1), "{}", String::from_utf8_lossy(&script.stderr));
+        let waves = ["waves.fst", "waves.vcd"][usize::from(simulator == Simulator::Verilator)];
+        assert!(output.join(waves).is_file(), "{:?}", names(&output));
+    }
+}

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The machinery without model and RTL: a small hand-made module with ports of every storage class,
+//! and a closure that says what it does.
+
+use foveate_cosim::{
+    CosimError, Dut, Outcome, Recorder, Recording, Run, Simulator, bench_name, replay_bench,
+    vectors_hex,
+};
+use foveate_spec::{Direction, Port, PortRole, Qualifier};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::verilator::Optimize;
+use foveate_toolchain::{Cache, Invocation, Tool, Toolchain};
+use std::time::Duration;
+
+const TINY: &str = include_str!("tiny.v");
+
+fn ports() -> Vec<Port> {
+    use Direction::{Input, Output};
+    let port = |name: &str, direction, width, lanes| Port {
+        name: name.to_owned(),
+        direction,
+        role: if name == "clk_i" { PortRole::Clock } else { PortRole::Valid },
+        width,
+        lanes,
+        per_lane: lanes > 1,
+        qualifier: Qualifier::Always,
+        doc: String::new(),
+    };
+    vec![
+        port("clk_i", Input, 1, 1),
+        port("rst_i", Input, 1, 1),
+        port("a_i", Input, 8, 1),
+        port("b_i", Input, 33, 1),
+        port("c_i", Input, 64, 1),
+        port("d_i", Input, 8, 25),
+        port("bit_o", Output, 1, 1),
+        port("a_o", Output, 12, 1),
+        port("b_o", Output, 33, 1),
+        port("c_o", Output, 64, 1),
+        port("d_o", Output, 8, 25),
+    ]
+}
+
+/// `clocks` clocks with numbers from a simple generator; what comes out is what went in, a clock
+/// later and complemented, and the number of clocks since the reset.
+fn recording(clocks: u64) -> Recording {
+    let mut recorder = Recorder::new(&ports()).unwrap();
+    let (inputs, outputs) = (recorder.inputs().clone(), recorder.outputs().clone());
+    let (mut state, mut count) = (1u64, 0);
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        state ^ (state >> 29)
+    };
+    for clock in 0..clocks {
+        if clock % 50 == 0 {
+            recorder.begin_frame("counting", clock / 50, None);
+        }
+        let reset = clock == 0 || random() % 64 == 0;
+        let (mut input, mut output) = (inputs.record(), outputs.record());
+        inputs.fields()[0].set(&mut input, 0, reset.into());
+        count = if reset { 0 } else { count + 1 };
+        outputs.fields()[0].set(&mut output, 0, count % 2);
+        outputs.fields()[1].set(&mut output, 0, count);
+        for (from, to) in inputs.fields()[2..].iter().zip(&outputs.fields()[2..]) {
+            for lane in 0..from.port.lanes {
+                let value = random();
+                from.set(&mut input, lane, value);
+                to.set(&mut output, lane, if reset { 0 } else { !value });
+            }
+        }
+        recorder.push(&input, &output).unwrap();
+    }
+    recorder.finish().unwrap()
+}
+
+fn dut(verilog: &str) -> Dut {
+    Dut {
+        top: "tiny".to_owned(),
+        ports: ports(),
+        parameters: Vec::new(),
+        sources: vec![("tiny.v".to_owned(), verilog.to_owned())],
+        no_inline: Vec::new(),
+    }
+}
+
+fn run(
+    simulator: Simulator,
+    verilog: &str,
+    recording: &Recording,
+    trace: bool,
+) -> Result<Outcome, CosimError> {
+    let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
+    let limit = Duration::from_secs(60);
+    let (toolchain, cache) = (&toolchain, &cache);
+    let run = Run { simulator, seed: 3, trace, toolchain, cache, limit, optimize: Optimize::Build };
+    run.run(&dut(verilog), recording)
+}
+
+fn edited(from: &str, to: &str) -> String {
+    assert_eq!(TINY.matches(from).count(), 1, "{from}");
+    TINY.replace(from, to)
+}
+
+#[test]
+fn ports_of_every_width_pass_in_both_simulators() {
+    for simulator in Simulator::ALL {
+        if require_tools(simulator.tools()) {
+            let recording = recording(5000);
+            let outcome = run(simulator, TINY, &recording, false).unwrap();
+            assert_eq!(outcome.difference, None, "{simulator}");
+            assert!(outcome.waves.is_none());
+        }
+    }
+}
+
+#[test]
+fn a_planted_fault_is_found_at_its_clock_and_port() {
+    // The first clock at which the counter since reset reaches 41.
+    let fault = edited("count + 12'd1", "count + 12'd1 + (count == 12'd40)");
+    let lane = edited("~d_i;", "~d_i ^ (200'd1 << 8 * 17 + 3);");
+    for simulator in Simulator::ALL {
+        if !require_tools(simulator.tools()) {
+            continue;
+        }
+        let recording = recording(2000);
+        let found = run(simulator, &fault, &recording, false).unwrap().difference.unwrap();
+        let expected = if found.port == "bit_o" { "1" } else { "029" };
+        assert_eq!(found.expected, expected, "{simulator} {found:?}");
+        let clock = found.clock;
+        let found = run(simulator, &lane, &recording, false).unwrap().difference.unwrap();
+        assert_eq!((found.port.as_str(), found.lane, found.clock), ("d_o", 17, 1), "{simulator}");
+        let hex = |text: &str| u8::from_str_radix(text, 16).unwrap();
+        assert_eq!(hex(&found.expected) ^ hex(&found.got), 8, "{simulator}");
+        assert!(clock > 40, "{simulator}");
+    }
+}
+
+#[test]
+fn a_register_that_reset_forgets_is_found() {
+    let forgetful = edited("count <= 12'd0;", "");
+    for simulator in Simulator::ALL {
+        if require_tools(simulator.tools()) {
+            let outcome = run(simulator, &forgetful, &recording(100), false).unwrap();
+            let found = outcome.difference.unwrap();
+            assert_eq!(found.clock, 0, "{simulator}");
+            assert_eq!(simulator == Simulator::Iverilog, found.got.contains('x'), "{simulator}");
+        }
+    }
+}
+
+#[test]
+fn waves_are_written_when_asked_for() {
+    for simulator in Simulator::ALL {
+        if require_tools(simulator.tools()) {
+            let recording = recording(100);
+            let outcome = run(simulator, TINY, &recording, true).unwrap();
+            let waves = std::fs::read(outcome.waves.unwrap()).unwrap();
+            assert!(waves.len() > 100, "{simulator}");
+        }
+    }
+}
+
+#[test]
+fn a_simulation_that_ends_early_is_an_error() {
+    let early = edited("// here", "if (count == 12'd60) $finish;");
+    if require_tools(Simulator::Iverilog.tools()) {
+        let error = run(Simulator::Iverilog, &early, &recording(2000), false).unwrap_err();
+        assert!(matches!(error, CosimError::Short { clocks: 2000, .. }), "{error}");
+    }
+    let early = edited("// here", "if (count == 12'd60) $stop;");
+    if require_tools(Simulator::Verilator.tools()) {
+        let error = run(Simulator::Verilator, &early, &recording(2000), false).unwrap_err();
+        assert!(matches!(error, CosimError::Short { clocks: 2000, .. }), "{error}");
+    }
+}
+
+#[test]
+fn sources_of_something_else_are_refused_by_name() {
+    if !require_tools(Simulator::Iverilog.tools()) {
+        return;
+    }
+    let other = edited("module tiny", "module tony");
+    let error = run(Simulator::Iverilog, &other, &recording(1), false).unwrap_err();
+    assert!(error.to_string().starts_with("no module `tiny` in the Verilog (tiny.v)"), "{error}");
+    let other = TINY.replace("b_i", "other_i");
+    let error = run(Simulator::Iverilog, &other, &recording(1), false).unwrap_err();
+    assert!(error.to_string().starts_with("module `tiny` has no port `b_i`"), "{error}");
+    let broken = edited("endmodule", "end");
+    let error = run(Simulator::Iverilog, &broken, &recording(1), false).unwrap_err();
+    assert!(matches!(error, CosimError::Tool(_)), "{error}");
+}
+
+/// Widths of the same storage class too, which C++ and Verilog join without a word.
+#[test]
+fn ports_of_another_width_are_refused() {
+    let edits = [
+        ("[32:0]  b_o", "[31:0]  b_o", "b_o", 32, 33),
+        ("[7:0]   a_i", "[4:0]   a_i", "a_i", 5, 8),
+        ("[11:0]  a_o", "[8:0]  a_o", "a_o", 9, 12),
+        ("[199:0] d_i", "[201:2-1] d_i", "d_i", 201, 200),
+        ("rst_i,", "[1:0] rst_i,", "rst_i", 2, 1),
+    ];
+    for simulator in Simulator::ALL {
+        if !require_tools(simulator.tools()) {
+            continue;
+        }
+        for (from, to, name, bits, of_design) in edits {
+            let error = run(simulator, &edited(from, to), &recording(1), false).unwrap_err();
+            let CosimError::PortWidth { top, port, found, wanted } = &error else {
+                panic!("{simulator} {to}: {error}");
+            };
+            assert_eq!((top.as_str(), port.as_str()), ("tiny", name), "{simulator}");
+            assert_eq!((*found, *wanted), (bits, of_design), "{simulator} {to}");
+        }
+        // Named as a word, but no port.
+        let other = TINY
+            .replace("input  wire [7:0]   a_i,", "")
+            .replace("    reg [11:0] count;", "    wire a_i = 1'b0; reg [11:0] count;");
+        assert!(run(simulator, &other, &recording(1), false).is_err(), "{simulator}");
+    }
+}
+
+#[test]
+fn the_bench_is_clean_in_both_tools() {
+    if !require_tools(&[Tool::Iverilog, Tool::Verilator]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    put("tiny.v", TINY);
+    put("tiny_replay.v", &replay_bench("tiny", &ports(), &[]));
+    let (toolchain, bench) = (Toolchain::system(), bench_name("tiny"));
+    let files = ["tiny.v", "tiny_replay.v"];
+    let check = |tool, args: &[&str]| {
+        let invocation: Invocation = toolchain.invocation(tool).unwrap();
+        let invocation = invocation.args(args).args(files).dir(dir.path()).merge_stderr();
+        let output = toolchain.run_checked(&invocation).unwrap();
+        assert_eq!(output.log(), "");
+    };
+    check(Tool::Iverilog, &["-g2005", "-Wall", "-s", &bench, "-o", "simulation"]);
+    check(Tool::Verilator, &["--lint-only", "--timing", "-Wall", "--top-module", &bench]);
+}
+
+#[test]
+fn vectors_are_lines_of_hexadecimal_numbers() {
+    let text = vectors_hex(&recording(20), 10).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 10);
+    let digits: Vec<usize> = lines[3].split(' ').map(str::len).collect();
+    assert_eq!(digits, [1, 2, 9, 16, 50, 1, 3, 9, 16, 50]);
+}

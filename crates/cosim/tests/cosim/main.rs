@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Co-simulation: model against emitted RTL and netlists, planted faults, the vectors, the machinery.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+mod designs;
+mod folders;
+mod gates;
+mod machinery;
+mod matrix;
+mod negative_control;
+mod netlist;
+mod report;
+mod same_results;
+mod serial_matrix;
+mod serial_stimulus;
+mod stimulus;
+mod widths;

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Model against emitted RTL at RPU level: every feature x region size x filter x neighborhood x
+//! reference, with the other keys sampled along the way, and what lies beyond at the edges.
+
+use crate::common::{cosimulate, design, directed, in_parallel};
+use foveate_cosim::{Level, Simulator};
+use foveate_spec::{
+    Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+    SpatialConfig, Thresholds,
+};
+use foveate_toolchain::testing::require_tools;
+
+/// From this many pixels per region on, the time to build with Verilator is won back.
+const COMPILED_FROM: u32 = 32 * 32;
+
+fn simulator(config: &Config) -> Simulator {
+    if config.region.size * config.region.size >= COMPILED_FROM {
+        Simulator::Verilator
+    } else {
+        Simulator::Iverilog
+    }
+}
+
+fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConfig {
+    let mut feature = SpatialConfig::new(kind);
+    feature.mean_fraction_bits = (kind == FeatureKind::Mad).then_some(mean_fraction_bits);
+    feature
+}
+
+fn name(config: &Config) -> String {
+    let kinds: Vec<_> = config.spatial.iter().map(|s| s.feature.name()).collect();
+    format!(
+        "{} N={} P={} {} {} {} {} {} {} {}",
+        kinds.join("+"),
+        config.region.size,
+        config.frame.pixel_bits,
+        config.denoise.filter,
+        config.region.neighborhood,
+        config.temporal.reference,
+        config.render.irrelevant,
+        config.render.payload,
+        config.decision.combine,
+        config.hardware.thresholds,
+    )
+}
+
+fn check_all(configs: &[Config]) {
+    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let failures = in_parallel(configs, |config| {
+        let (name, design) = (name(config), design(config, (1, 1)));
+        let folder = output.path().join(design.fingerprint());
+        let stimulus = directed(Level::Rpu, 1);
+        match cosimulate(&design, simulator(config), stimulus, &folder, |_| {}) {
+            Ok(report) if report.passed() => Ok(()),
+            Ok(report) => Err(format!("{name}: {report}")),
+            Err(error) => Err(format!("{name}: {error}")),
+        }
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// The 160 designs. Keys that are not among the five axes take turns.
+fn matrix() -> Vec<Config> {
+    let mut configs = Vec::new();
+    for &kind in FeatureKind::ALL {
+        for size in [4, 5, 8, 16, 32] {
+            for &filter in Filter::ALL {
+                for &neighborhood in Neighborhood::ALL {
+                    for &reference in Reference::ALL {
+                        let turn = configs.len();
+                        let fraction = u32::try_from(turn / 4 % 5).unwrap();
+                        let mut config =
+                            Config { spatial: vec![feature(kind, fraction)], ..Config::default() };
+                        config.region.size = size;
+                        config.region.neighborhood = neighborhood;
+                        config.denoise.filter = filter;
+                        config.temporal.reference = reference;
+                        config.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
+                        config.render.payload = Payload::ALL[turn / 3 % 2];
+                        configs.push(config);
+                    }
+                }
+            }
+        }
+    }
+    configs
+}
+
+#[test]
+fn every_feature_size_filter_neighborhood_and_reference_agrees() {
+    let configs = matrix();
+    assert_eq!(configs.len(), 160);
+    check_all(&configs);
+}
+
+/// Several features, other depths, other sizes, built-in thresholds.
+#[test]
+fn what_the_matrix_leaves_out_agrees() {
+    use FeatureKind::{Corner, Edge, Mad, Variance};
+    let sets: [&[FeatureKind]; 5] = [
+        &[Edge, Corner],
+        &[Mad, Edge],
+        &[Variance, Corner, Edge],
+        &[Edge, Corner, Mad, Variance],
+        &[Mad, Variance],
+    ];
+    let mut configs = Vec::new();
+    for (turn, kinds) in sets.iter().enumerate() {
+        for &combine in Combine::ALL {
+            let spatial = kinds.iter().map(|&kind| feature(kind, 2)).collect();
+            let mut config = Config { spatial, ..Config::default() };
+            config.region.size = [8, 5, 4][turn % 3];
+            config.region.neighborhood = Neighborhood::ALL[turn % 2];
+            config.decision.combine = combine;
+            config.temporal.reference = Reference::ALL[(turn + 1) % 2];
+            config.render.payload = Payload::ALL[turn / 2 % 2];
+            configs.push(config);
+        }
+    }
+    for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
+        let mut config = Config::default();
+        config.frame.pixel_bits = bits;
+        let kinds = [[Edge, Mad], [Corner, Variance]][turn % 2];
+        config.spatial = kinds.map(|kind| feature(kind, 4)).to_vec();
+        for spatial in &mut config.spatial {
+            spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
+            spatial.min_score = Some(Decimal::whole(0));
+        }
+        config.temporal.level = 1;
+        config.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
+        config.temporal.reference = Reference::ALL[turn % 2];
+        configs.push(config);
+    }
+    for (turn, size) in [2, 3, 7, 2, 3, 7, 2, 64, 64].into_iter().enumerate() {
+        let spatial = vec![feature([Edge, Mad, Corner, Variance][turn % 4], size % 3)];
+        let mut config = Config { spatial, ..Config::default() };
+        config.region.size = size;
+        config.spatial[0].min_score = Some(Decimal::whole(2));
+        config.temporal.min_count = 2;
+        config.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
+        config.temporal.reference = Reference::ALL[turn % 2];
+        config.render.payload = Payload::ALL[turn / 2 % 2];
+        configs.push(config);
+    }
+    for (turn, &kind) in FeatureKind::ALL.iter().cycle().take(8).enumerate() {
+        let mut config = Config { spatial: vec![feature(kind, 3)], ..Config::default() };
+        config.hardware.thresholds = Thresholds::Constant;
+        config.region.size = [4, 5][turn / 4];
+        config.denoise.filter = Filter::ALL[turn % 2];
+        config.temporal.reference = Reference::ALL[turn / 2 % 2];
+        configs.push(config);
+    }
+    check_all(&configs);
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The negative control: single edits of the emitted RTL, over all its modules. Every one must
+//! still compile, and every one must be caught.
+
+mod faults;
+mod planted;
+mod serial_faults;
+
+use crate::common::{cosimulate, directed, in_parallel};
+use faults::Fault;
+use foveate_cosim::{CosimReport, Level, Simulator};
+use foveate_toolchain::testing::require_tools;
+use planted::Planted;
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
+
+fn plant(fault: &Fault, output: &Path) -> Result<CosimReport, String> {
+    let design = fault.design.design();
+    let Fault { what, module, from, to, .. } = fault;
+    let path = format!("rtl/{module}.v");
+    let (level, simulator) = (fault.design.level(module), fault.design.simulator());
+    let mut problem = None;
+    let report = cosimulate(&design, simulator, directed(level, 1), output, |job| {
+        match job.sources.iter_mut().find(|file| file.path == path) {
+            None => problem = Some(format!("{module}: not in this design")),
+            Some(file) if file.contents.matches(from).count() != 1 => {
+                let count = file.contents.matches(from).count();
+                problem = Some(format!("{module}: `{from}` is there {count} times"));
+            }
+            Some(file) => file.contents = file.contents.replace(from, to),
+        }
+    });
+    match (problem, report) {
+        (Some(problem), _) => Err(problem),
+        (None, Err(error)) => Err(format!("{module}, {what}: {error}")),
+        (None, Ok(report)) => Ok(report),
+    }
+}
+
+fn all_are_caught(faults: &[Fault]) {
+    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let numbered: Vec<(usize, &Fault)> = faults.iter().enumerate().collect();
+    let failures = in_parallel(&numbered, |(number, fault)| {
+        let folder = output.path().join(number.to_string());
+        let Fault { what, module, from, to, .. } = fault;
+        let report = plant(fault, &folder)?;
+        if report.passed() {
+            return Err(format!("{module}, {what}: not caught: `{from}` -> `{to}`: {report}"));
+        }
+        assert!(report.replay.as_deref().is_some_and(|replay| replay.join("replay.sh").is_file()));
+        Ok(())
+    });
+    assert!(
+        failures.is_empty(),
+        "{} of {}:\n{}",
+        failures.len(),
+        faults.len(),
+        failures.join("\n")
+    );
+}
+
+#[test]
+fn every_planted_fault_is_caught() {
+    all_are_caught(faults::FAULTS);
+}
+
+#[test]
+fn every_planted_fault_of_the_serial_organization_is_caught() {
+    all_are_caught(serial_faults::FAULTS);
+}
+
+/// Else a fault would be caught that is none.
+#[test]
+fn every_design_passes_without_a_fault() {
+    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let mut designs = Vec::new();
+    for fault in faults::FAULTS.iter().chain(serial_faults::FAULTS) {
+        if !designs.contains(&fault.design) {
+            designs.push(fault.design);
+        }
+    }
+    let failures = in_parallel(&designs, |planted| {
+        let folder = output.path().join(format!("{planted:?}"));
+        let stimulus = directed(planted.level(""), 1);
+        match cosimulate(&planted.design(), planted.simulator(), stimulus, &folder, |_| {}) {
+            Ok(report) if report.passed() => Ok(()),
+            Ok(report) => Err(format!("{planted:?}: {report}")),
+            Err(error) => Err(format!("{planted:?}: {error}")),
+        }
+    });
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// A module that nobody has thought of needs faults of its own.
+#[test]
+fn every_module_has_a_fault() {
+    let all = || faults::FAULTS.iter().chain(serial_faults::FAULTS);
+    let covered: BTreeSet<&str> = all().map(|fault| fault.module).collect();
+    let modules = foveate_emit::LEAVES.iter().map(|leaf| leaf.name).chain(["rpu", "rcm"]);
+    let missing: Vec<&str> = modules.filter(|module| !covered.contains(module)).collect();
+    assert!(missing.is_empty(), "no fault is planted in {missing:?}");
+    let kinds: BTreeSet<&str> = all().map(|fault| fault.what).collect();
+    assert_eq!(kinds, BTreeSet::from(["constant", "index", "operator", "reset", "width"]));
+}
+
+#[test]
+fn the_replay_of_a_fault_shows_it_again() {
+    for simulator in Simulator::ALL {
+        if !require_tools(simulator.tools()) {
+            continue;
+        }
+        let output = tempfile::tempdir().unwrap();
+        let folder = output.path().join("replay");
+        let edit = |job: &mut foveate_cosim::Job| {
+            let vote = job.sources.iter_mut().find(|file| file.path == "rtl/vote.v").unwrap();
+            vote.contents = vote.contents.replace("score_i >= minimum_i", "score_i > minimum_i");
+            job.trace = true;
+        };
+        let design = Planted::Constant.design();
+        let report =
+            cosimulate(&design, simulator, directed(Level::Rpu, 1), &folder, edit).unwrap();
+        let mismatch = report.mismatch.unwrap();
+        assert!(folder.join("waves.fst").is_file());
+        let readme = std::fs::read_to_string(folder.join("README.md")).unwrap();
+        assert!(readme.contains(&mismatch.to_string()), "{readme}");
+        let again = Command::new(folder.join("replay.sh")).output().unwrap();
+        let log = String::from_utf8_lossy(&again.stdout).into_owned();
+        assert_eq!(again.status.code(), Some(1), "{log}");
+        let line = format!("MISMATCH clock {} port {} ", mismatch.clock, mismatch.port);
+        assert!(log.contains(&line), "{line}\n{log}");
+
+        // Repaired by hand, the replay passes.
+        let vote = folder.join("rtl/vote.v");
+        let text = std::fs::read_to_string(&vote).unwrap();
+        std::fs::write(&vote, text.replace("score_i > minimum_i", "score_i >= minimum_i")).unwrap();
+        let again = Command::new(folder.join("replay.sh")).arg(simulator.name()).output().unwrap();
+        assert_eq!(again.status.code(), Some(0), "{}", String::from_utf8_lossy(&again.stdout));
+    }
+}

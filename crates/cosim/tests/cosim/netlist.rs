@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The synthesized netlist does what the model does, and one with a fault does not.
+
+use crate::common::{design, directed, in_parallel};
+use foveate_cosim::{CosimReport, Job, Level, Netlist, Simulator};
+use foveate_spec::Config;
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Tool, Toolchain};
+use std::path::Path;
+use std::process::Command;
+
+const TOOLS: &[Tool] = &[Tool::Yosys, Tool::Iverilog, Tool::Vvp];
+
+/// Window, lines in shift registers, store in distributed RAM, carry chains.
+const EDGES: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n";
+/// Median, second pass, thresholds built in.
+const MAD: &str =
+    "[region]\nsize = 4\n[[spatial]]\nfeature = \"mad\"\n[hardware]\nthresholds = \"constant\"\n";
+
+fn job(toml: &str, level: Level, regions: (u32, u32), output: &Path) -> Job {
+    let design = design(&Config::from_toml(toml).unwrap(), regions);
+    let mut job = Job::new(&design, directed(level, 1), output).unwrap();
+    job.simulator = Simulator::Iverilog;
+    job.netlist =
+        Some(Netlist::of(&job, &Toolchain::system(), &Cache::from_env().unwrap()).unwrap());
+    job
+}
+
+fn run(job: &Job) -> CosimReport {
+    job.run(&Toolchain::system(), &Cache::from_env().unwrap(), &mut |_| {}).unwrap()
+}
+
+#[test]
+fn netlists_agree_with_the_model() {
+    if !require_tools(TOOLS) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let jobs = [
+        (EDGES, Level::Rpu, (1, 1)),
+        (MAD, Level::Rpu, (1, 1)),
+        (EDGES, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
+    ];
+    let failures = in_parallel(&jobs, |&(toml, level, regions)| {
+        let job = job(toml, level, regions, &output.path().join(level.to_string()));
+        let report = run(&job);
+        let record = report.netlist.clone().unwrap();
+        assert!(record.tool.version.starts_with("Yosys"), "{record:?}");
+        assert!(report.name.contains(" netlist iverilog"), "{report}");
+        if report.passed() { Ok(()) } else { Err(report.to_string()) }
+    });
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// A fault in a table: the LUT of that number has one entry inverted, or all.
+fn with_fault(netlist: &Netlist, lut: usize, bit: Option<u64>) -> Option<Netlist> {
+    let mut faulty = netlist.clone();
+    let (_, text) = faulty.sources.iter_mut().find(|(name, _)| name.ends_with("netlist.v"))?;
+    let (at, _) = text.match_indices(" LUT").nth(lut)?;
+    let first = at + text[at..].find("'h")? + 2;
+    let last = first + text[first..].find(')')?;
+    let bits: u32 = text[..first - 2].rsplit('(').next()?.parse().ok()?;
+    let all = u64::MAX >> (64 - bits);
+    let init = u64::from_str_radix(&text[first..last], 16).ok()?;
+    let wrong = init ^ bit.map_or(all, |bit| 1 << (bit % u64::from(bits)));
+    text.replace_range(first..last, &format!("{wrong:x}"));
+    Some(faulty)
+}
+
+#[test]
+fn a_wrong_table_is_found() {
+    if !require_tools(TOOLS) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let sound = job(EDGES, Level::Rpu, (1, 1), &output.path().join("sound"));
+    let netlist = sound.netlist.clone().unwrap();
+    let faults: Vec<(usize, Option<u64>)> =
+        (0..4).flat_map(|i| [(26 * i, None), (26 * i + 7, Some(5 * i as u64))]).collect();
+    let hidden = in_parallel(&faults, |&(lut, bit)| {
+        let folder = output.path().join(format!("{lut} {bit:?}"));
+        let netlist = with_fault(&netlist, lut, bit);
+        let netlist = Some(netlist.ok_or("no such LUT")?);
+        let job = Job { netlist, output: folder, ..sound.clone() };
+        if run(&job).passed() { Err(format!("LUT {lut}, entry {bit:?}")) } else { Ok(()) }
+    });
+    // No state of the design may ask for a single entry; some must be found, and every inverted table.
+    assert!(!hidden.iter().any(|fault| fault.contains("None")), "not found: {hidden:?}");
+    assert!(hidden.len() <= 2, "not found: {hidden:?}");
+
+    // What it leaves shows the mismatch again, without Foveate.
+    let folder = output.path().join("0 None");
+    let again = Command::new(folder.join("replay.sh")).output().unwrap();
+    let log = String::from_utf8_lossy(&again.stdout).into_owned();
+    assert_eq!(again.status.code(), Some(1), "{log}");
+    assert!(log.contains("MISMATCH clock "), "{log}");
+}

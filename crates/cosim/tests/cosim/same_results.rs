@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Both organizations and the functional model: the same integers from the same frames. Each RTL is
+//! simulated against vectors of its own model, and what these vectors say is read back as
+//! scores, decisions and pixels.
+
+use crate::common;
+use crate::common::serial::{config, feature};
+use crate::common::vectors::{clocks, value};
+use crate::common::{cosimulate, in_parallel};
+use foveate_cosim::{Level, Recording, Simulator, Stimulus};
+use foveate_model::{Camera, Frame, region_pixels};
+use foveate_scenes::{Scene, SceneSize};
+use foveate_spec::{
+    Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization,
+    Payload, PortRole, Reference,
+};
+use foveate_toolchain::testing::require_tools;
+
+/// What became of one region of one frame.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Result {
+    count: u64,
+    scores: Vec<u64>,
+    srs: bool,
+    trs: bool,
+    /// Empty unless the region is active.
+    pixels: Vec<u64>,
+}
+
+/// Frame after frame, region after region.
+type Results = Vec<Vec<Result>>;
+
+fn functional(design: &Design, frames: &[Frame]) -> Results {
+    let mut camera = Camera::new(design);
+    let mut results = Vec::new();
+    for frame in frames {
+        let outcome = camera.step(frame).unwrap();
+        let result = |region: u32| {
+            let at = region as usize;
+            let mut pixels = Vec::new();
+            if outcome.active[at] {
+                region_pixels(design, outcome.payload(design), region, &mut pixels);
+            }
+            Result {
+                count: outcome.temporal_count[at].into(),
+                scores: outcome.scores.iter().map(|scores| scores[at]).collect(),
+                srs: outcome.srs[at],
+                trs: outcome.trs[at],
+                pixels: pixels.into_iter().map(u64::from).collect(),
+            }
+        };
+        results.push((0..design.regions()).map(result).collect());
+    }
+    results
+}
+
+fn pipelined(design: &Design, recording: &Recording, frames: usize) -> Results {
+    let regions = design.regions() as usize;
+    let outputs = recording.outputs();
+    let field = |role| common::vectors::field(outputs, role);
+    let mut results: Results = Vec::new();
+    let mut forwarded = vec![Vec::new(); regions];
+    for (_, output) in clocks(recording) {
+        let says = |role, lane| field(role).get(&output, lane);
+        if says(PortRole::DecisionValid, 0) == 1 {
+            let result = |lane| Result {
+                count: says(PortRole::TemporalCount, lane),
+                scores: design
+                    .features()
+                    .iter()
+                    .map(|f| says(PortRole::Score(f.kind()), lane))
+                    .collect(),
+                srs: says(PortRole::Srs, lane) == 1,
+                trs: says(PortRole::Trs, lane) == 1,
+                pixels: Vec::new(),
+            };
+            results.push((0..design.regions()).map(result).collect());
+        }
+        for (lane, pixels) in (0..).zip(&mut forwarded) {
+            if says(PortRole::ForwardValid, lane) == 1 {
+                pixels.push(says(PortRole::ForwardPixel, lane));
+            }
+        }
+    }
+    // What follows the caller's frames lets the last of them leave.
+    results.truncate(frames);
+    let pixels = design.region_pixels() as usize;
+    for results in &mut results {
+        for (result, forwarded) in results.iter_mut().zip(&mut forwarded) {
+            if result.srs && result.trs {
+                result.pixels = forwarded.drain(..pixels).collect();
+            }
+        }
+    }
+    results
+}
+
+fn serial(design: &Design, recording: &Recording) -> Results {
+    let (regions, outputs) = (design.regions() as usize, recording.outputs());
+    let field = |role| common::vectors::field(outputs, role);
+    let mut results: Results = Vec::new();
+    // A frame begins with the temporal count of region 0.
+    for (_, output) in clocks(recording) {
+        let says = |role| value(outputs, role, &output);
+        if says(PortRole::ScoreValid) == 1 {
+            let (region, index) = (says(PortRole::Region), says(PortRole::ScoreIndex));
+            if (region, index) == (0, 0) {
+                results.push(vec![Result::default(); regions]);
+            }
+            let result = &mut results.last_mut().unwrap()[usize::try_from(region).unwrap()];
+            match index {
+                0 => result.count = says(PortRole::AnyScore),
+                _ => result.scores.push(says(PortRole::AnyScore)),
+            }
+            if says(PortRole::DecisionValid) == 1 {
+                (result.srs, result.trs) = (says(PortRole::Srs) == 1, says(PortRole::Trs) == 1);
+            }
+        }
+        let valid = field(PortRole::ForwardValid);
+        for lane in (0..valid.port.lanes).filter(|&lane| valid.get(&output, lane) == 1) {
+            let region = match design.feed() {
+                Feed::Raster => says(PortRole::ForwardRegion),
+                Feed::Parallel => u64::from(lane * design.fold()) + says(PortRole::ForwardSlot),
+            };
+            let pixel = field(PortRole::ForwardPixel).get(&output, lane);
+            let result = &mut results.last_mut().unwrap()[usize::try_from(region).unwrap()];
+            assert_eq!(result.pixels.len() as u64, says(PortRole::ForwardPosition));
+            result.pixels.push(pixel);
+        }
+    }
+    results
+}
+
+/// Simulates the RTL of both organizations on the frames, and compares what all three say.
+fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(), String> {
+    let design = |organization, feed, fold| {
+        let mut config = config.clone();
+        config.hardware.organization = organization;
+        (config.hardware.feed, config.hardware.fold) = (feed, fold);
+        (config.frame.width, config.frame.height) =
+            (Some(frames[0].width()), Some(frames[0].height()));
+        config.validate().unwrap()
+    };
+    let expected = functional(&design(Organization::Pipelined, None, 1), frames);
+    for (organization, feed, fold) in [
+        (Organization::Pipelined, None, 1),
+        (Organization::Serial, Some(Feed::Parallel), 1),
+        (Organization::Serial, Some(Feed::Raster), 2),
+    ] {
+        let design = design(organization, feed, fold);
+        let level = Level::Rcm { columns: design.columns(), rows: design.rows() };
+        let frames = frames.to_vec();
+        let stimulus = Stimulus { level, seed: 1, rounds: 0, frames };
+        let output = tempfile::tempdir().unwrap();
+        let folder = output.path().join("replay");
+        let report = cosimulate(&design, Simulator::Iverilog, stimulus.clone(), &folder, |_| {});
+        let report = report.map_err(|error| format!("{what}: {error}"))?;
+        if !report.passed() {
+            return Err(format!("{what}, {organization}: {report}"));
+        }
+        let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+        let got = match organization {
+            Organization::Pipelined => pipelined(&design, &recording, stimulus.frames.len()),
+            Organization::Serial => serial(&design, &recording),
+        };
+        if got != expected {
+            return Err(format!("{what}: {organization} {feed:?} is not what the contract says"));
+        }
+    }
+    Ok(())
+}
+
+/// Hard cases, each over the whole frame, with repetitions and small changes between them.
+fn hard_cases(width: u32, height: u32, bits: u32) -> Vec<Frame> {
+    let max = u16::try_from((1u32 << bits) - 1).unwrap();
+    let noise = |x: u32, y: u32, seed: u32| {
+        let mixed = (x + 131 * y + 7919 * seed).wrapping_mul(0x9e37_79b9);
+        u16::try_from((mixed ^ (mixed >> 15)) >> 8 & u32::from(max)).unwrap()
+    };
+    let pictures: [&dyn Fn(u32, u32) -> u16; 10] = [
+        &|x, y| noise(x, y, 1),
+        &|x, y| noise(x, y, 1),
+        &|_, _| 0,
+        &|x, y| noise(x, y, 1),
+        &|_, _| max,
+        &|x, y| if (x + y) % 2 == 0 { max } else { 0 },
+        &|x, y| if x % 4 == 0 && y % 4 == 0 { max } else { max / 2 },
+        &|x, _| u16::try_from(x * u32::from(max) / width).unwrap(),
+        &|x, y| noise(x, y, 2) / 16 + u16::from(x > y),
+        &|x, y| if noise(x, y, 3) % 2 == 0 { 0 } else { max },
+    ];
+    let frame = |picture: &&dyn Fn(u32, u32) -> u16| Frame::from_fn(width, height, bits, picture);
+    pictures.iter().map(|picture| frame(picture).unwrap()).collect()
+}
+
+fn configs() -> Vec<Config> {
+    use FeatureKind::{Corner, Edge, Mad, Variance};
+    let sets: [&[FeatureKind]; 6] =
+        [&[Edge], &[Corner], &[Mad], &[Variance], &[Edge, Corner, Mad, Variance], &[Mad, Edge]];
+    let mut configs = Vec::new();
+    for (turn, kinds) in sets.into_iter().enumerate() {
+        let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
+        let mut config = config(&features);
+        config.region.size = [4, 5][turn % 2];
+        for spatial in &mut config.spatial {
+            spatial.min_score = Some(Decimal::whole(3));
+        }
+        config.temporal.min_count = 3;
+        config.denoise.filter = Filter::ALL[turn / 2 % 2];
+        config.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
+        config.temporal.reference = Reference::ALL[turn.div_ceil(2) % 2];
+        config.render.irrelevant = Irrelevant::ALL[turn / 3 % 2];
+        config.render.payload = Payload::ALL[turn % 2];
+        configs.push(config);
+    }
+    configs
+}
+
+#[test]
+fn hard_cases_give_the_same_in_both_organizations() {
+    if !require_tools(Simulator::Iverilog.tools()) {
+        return;
+    }
+    let failures = in_parallel(&configs(), |config| {
+        let side = config.region.size;
+        let frames = hard_cases(3 * side - 1, 2 * side, config.frame.pixel_bits);
+        check(config, &frames, &format!("{:?}", config.spatial))
+    });
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn a_street_gives_the_same_in_both_organizations() {
+    if !require_tools(Simulator::Iverilog.tools()) {
+        return;
+    }
+    let size = SceneSize { width: 20, height: 16, bits: 8, region_size: 8, frames: 4 };
+    let frames: Vec<Frame> = Scene::find("street").unwrap().frames(size).collect();
+    let config = config(&[feature(FeatureKind::Edge, 0)]);
+    check(&config, &frames, "street").unwrap();
+}

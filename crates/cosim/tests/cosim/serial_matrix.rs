@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Model against emitted RTL for serial designs: one lane and small arrays. Frames take thousands of
+//! clocks, so that the keys are not crossed but take turns, each at a pace of its own.
+
+use crate::common::serial::{config, feature, name};
+use crate::common::{cosimulate, design, directed, in_parallel};
+use foveate_cosim::{Level, Simulator};
+use foveate_spec::{
+    Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Payload,
+    Reference, Thresholds,
+};
+use foveate_toolchain::testing::require_tools;
+
+use FeatureKind::{Corner, Edge, Mad, Variance};
+
+/// A design at a level, the grid of `rcm` being that of its frame.
+struct Case {
+    config: Config,
+    grid: (u32, u32),
+    level: Level,
+}
+
+/// From so much work on (clocks of a frame x lanes), the time to build with Verilator is won back.
+const COMPILED_FROM: u64 = 4000;
+
+impl Case {
+    fn lane(config: Config) -> Self {
+        let fold = config.hardware.fold;
+        Self { config, grid: (fold, 1), level: Level::Rpu }
+    }
+
+    fn array(config: Config, (columns, rows): (u32, u32)) -> Self {
+        Self { config, grid: (columns, rows), level: Level::Rcm { columns, rows } }
+    }
+
+    fn design(&self) -> Design {
+        design(&self.config, self.grid)
+    }
+
+    fn simulator(&self) -> Simulator {
+        let design = self.design();
+        if design.timing().clocks_per_frame() * u64::from(design.lanes()) >= COMPILED_FROM {
+            Simulator::Verilator
+        } else {
+            Simulator::Iverilog
+        }
+    }
+}
+
+fn check_all(cases: &[Case]) {
+    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let failures = in_parallel(cases, |case| {
+        let (name, design) = (name(&case.config, case.grid), case.design());
+        let folder = output.path().join(format!("{}-{}", design.fingerprint(), case.level));
+        let stimulus = directed(case.level, 1);
+        match cosimulate(&design, case.simulator(), stimulus, &folder, |_| {}) {
+            Ok(report) if report.passed() => Ok(()),
+            Ok(report) => Err(format!("{name}: {report}")),
+            Err(error) => Err(format!("{name}: {error}")),
+        }
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Lets the keys that are no axis of a test take turns.
+fn with_turns(mut config: Config, turn: usize) -> Config {
+    config.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
+    config.render.payload = Payload::ALL[turn / 3 % 2];
+    config.decision.combine = Combine::ALL[turn / 5 % 2];
+    config
+}
+
+/// One lane: every feature x filter x neighborhood x reference, and sizes, feeds and folds in turn.
+#[test]
+fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
+    let mut cases = Vec::new();
+    for &kind in FeatureKind::ALL {
+        for &filter in Filter::ALL {
+            for &neighborhood in Neighborhood::ALL {
+                for &reference in Reference::ALL {
+                    let turn = cases.len();
+                    let fraction = u32::try_from(turn % 5).unwrap();
+                    let mut config = with_turns(config(&[feature(kind, fraction)]), turn);
+                    config.denoise.filter = filter;
+                    config.region.neighborhood = neighborhood;
+                    config.temporal.reference = reference;
+                    config.region.size = [4, 5, 4, 8][turn / 3 % 4];
+                    config.hardware.fold = [1, 2, 1, 3][turn % 4];
+                    config.hardware.feed = Some(Feed::ALL[(turn / 2 + turn / 8) % 2]);
+                    cases.push(Case::lane(config));
+                }
+            }
+        }
+    }
+    assert_eq!(cases.len(), 32);
+    check_all(&cases);
+}
+
+/// Small arrays: feed x neighborhood x fold, among them folds that leave empty slots, and every region in
+/// one lane; features alone and together.
+#[test]
+fn arrays_agree_for_every_feed_neighborhood_and_fold() {
+    let sets: [&[FeatureKind]; 7] = [
+        &[Edge],
+        &[Corner],
+        &[Edge, Corner],
+        &[Mad, Edge],
+        &[Variance, Corner, Edge],
+        &[Edge, Corner, Mad, Variance],
+        &[Mad, Variance],
+    ];
+    let mut cases = Vec::new();
+    for &feed in Feed::ALL {
+        for &neighborhood in Neighborhood::ALL {
+            for (grid, fold) in [
+                ((3, 2), 1),
+                ((2, 2), 2),
+                ((5, 1), 2),
+                ((2, 2), 3),
+                ((3, 2), 4),
+                ((1, 3), 3),
+                ((1, 1), 1),
+            ] {
+                let turn = cases.len();
+                let kinds = sets[turn % sets.len()];
+                let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
+                let mut config = with_turns(config(&features), turn);
+                config.hardware.feed = Some(feed);
+                config.hardware.fold = fold;
+                config.region.neighborhood = neighborhood;
+                config.region.size = [4, 5, 4, 4, 5][turn % 5];
+                config.denoise.filter = Filter::ALL[turn / 2 % 2];
+                config.temporal.reference = Reference::ALL[(turn + turn / 7) % 2];
+                cases.push(Case::array(config, grid));
+            }
+        }
+    }
+    assert_eq!(cases.len(), 28);
+    check_all(&cases);
+}
+
+/// Other depths and sizes, block memory, built-in thresholds.
+#[test]
+fn depths_sizes_memories_and_constants_agree() {
+    let mut cases = Vec::new();
+    for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
+        let kinds = [[Edge, Mad], [Corner, Variance]][turn % 2];
+        let mut config = config(&kinds.map(|kind| feature(kind, 4)));
+        config.frame.pixel_bits = bits;
+        for spatial in &mut config.spatial {
+            spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
+            spatial.min_score = Some(Decimal::whole(0));
+        }
+        config.temporal.level = 1;
+        config.region.size = 4;
+        config.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
+        config.temporal.reference = Reference::ALL[turn % 2];
+        config.hardware.feed = Some(Feed::ALL[turn / 3 % 2]);
+        config.hardware.fold = 1 + u32::try_from(turn % 2).unwrap();
+        cases.push(Case::array(config, (2, 1)));
+    }
+    // Memory: distributed up to 128 LUTs, so block for the larger regions and folds.
+    for (turn, (size, fold)) in
+        [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2)].into_iter().enumerate()
+    {
+        let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn % 3];
+        let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
+        config.region.size = size;
+        config.hardware.fold = fold;
+        config.hardware.feed = Some(Feed::ALL[turn % 2]);
+        config.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
+        config.temporal.reference = Reference::ALL[turn / 2 % 2];
+        config.denoise.filter = Filter::ALL[(turn / 2 + turn) % 2];
+        cases.push(Case::array(config, (3, 2)));
+    }
+    let mut large = config(&[feature(Edge, 0)]);
+    large.region.size = 32;
+    large.denoise.filter = Filter::None;
+    large.temporal.reference = Reference::LastSent;
+    cases.push(Case::lane(large));
+    for (turn, &kind) in FeatureKind::ALL.iter().enumerate() {
+        let mut config = with_turns(config(&[feature(kind, 3)]), turn);
+        config.hardware.thresholds = Thresholds::Constant;
+        config.region.size = [4, 5][turn % 2];
+        config.hardware.fold = [1, 2][turn / 2];
+        config.denoise.filter = Filter::ALL[turn % 2];
+        config.temporal.reference = Reference::ALL[turn / 2];
+        cases.push(Case::array(config, (2, 2)));
+    }
+    check_all(&cases);
+}

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether the vectors of serial designs hit what they are meant to hit, and keep to the contract in what
+//! they offer; no tool is needed for that.
+
+use crate::common;
+use crate::common::serial::{config, feature};
+use crate::common::vectors::{clocks, value};
+use crate::common::{design, directed};
+use foveate_cosim::{Layout, Level, Recording, Stimulus};
+use foveate_model::Frame;
+use foveate_spec::{
+    Config, Design, FeatureKind, Feed, Filter, Neighborhood, PortRole, Reference, Timing,
+};
+use std::collections::BTreeSet;
+
+const GRID: (u32, u32) = (3, 2);
+const LEVEL: Level = Level::Rcm { columns: GRID.0, rows: GRID.1 };
+
+fn record(design: &Design, stimulus: &Stimulus) -> Recording {
+    stimulus.record(design, &mut |_, _| {}).unwrap()
+}
+
+/// Small, with every feature, against the pixels last sent.
+fn every_feature() -> Config {
+    let features: Vec<_> = FeatureKind::ALL.iter().map(|&kind| feature(kind, 2)).collect();
+    let mut config = config(&features);
+    config.region.size = 4;
+    config.denoise.filter = Filter::None;
+    config.temporal.reference = Reference::LastSent;
+    config
+}
+
+/// One of each feed; the raster has a halo and a fold that leaves slots empty.
+fn designs() -> [Design; 2] {
+    let mut raster = every_feature();
+    raster.hardware.feed = Some(Feed::Raster);
+    raster.hardware.fold = 4;
+    raster.region.neighborhood = Neighborhood::Shared;
+    [every_feature(), raster].map(|config| design(&config, GRID))
+}
+
+/// One clock of a recording, as the contract sees it.
+struct Clock {
+    reset: bool,
+    valid: bool,
+    /// A pixel is taken at the edge of this clock.
+    takes: bool,
+    /// It is the first of a frame.
+    first: bool,
+    thresholds: Vec<u64>,
+    input: Vec<u8>,
+    output: Vec<u8>,
+    /// The outputs of the clock before.
+    before: Vec<u8>,
+    /// A frame was complete before this clock, and the array not yet ready again.
+    at_work: bool,
+    /// Pixels were taken before this clock, and not all of a frame.
+    loading: bool,
+}
+
+/// What happens in a recording; whether a pixel is taken follows from the expected `ready_o`.
+fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let Timing::Serial(timing) = design.timing() else { unreachable!() };
+    let ready = |record: &[u8]| value(outputs, PortRole::Ready, record) == 1;
+    let (mut before, mut taken, mut story) = (outputs.record(), 0, Vec::new());
+    for (input, output) in clocks(recording) {
+        let reset = value(inputs, PortRole::Reset, &input) == 1;
+        let valid = value(inputs, PortRole::Valid, &input) == 1;
+        let takes = valid && ready(&before) && !reset;
+        let at_work = taken == timing.load_pixels() && !ready(&before);
+        let loading = taken > 0 && taken < timing.load_pixels();
+        let first = takes && !loading;
+        taken = match (reset, takes) {
+            (true, _) => 0,
+            (false, true) if first => 1,
+            (false, true) => taken + 1,
+            (false, false) if taken == timing.load_pixels() && ready(&before) => 0,
+            (false, false) => taken,
+        };
+        let is_threshold = |role| {
+            use PortRole::{Level, MinScore, TemporalLevel, TemporalMinCount};
+            matches!(role, Level(_) | MinScore(_) | TemporalLevel | TemporalMinCount)
+        };
+        let fields = inputs.fields().iter().filter(|field| is_threshold(field.port.role));
+        let thresholds = fields.map(|field| field.get(&input, 0)).collect();
+        let last = std::mem::replace(&mut before, output.clone());
+        story.push(Clock {
+            reset,
+            valid,
+            takes,
+            first,
+            thresholds,
+            input,
+            output,
+            before: last,
+            at_work,
+            loading,
+        });
+    }
+    story
+}
+
+#[test]
+fn thresholds_stand_still_while_a_frame_is_under_way_and_only_then() {
+    for design in designs() {
+        let recording = record(&design, &directed(LEVEL, 1));
+        let story = story(&design, &recording);
+        let (mut changes, mut frames) = (0, 0);
+        for pair in story.windows(2) {
+            let [last, now] = pair else { unreachable!() };
+            let changed = last.thresholds != now.thresholds;
+            let under_way = (now.at_work || now.loading) && !now.reset && !last.reset;
+            assert!(!changed || !under_way, "thresholds change while a frame is under way");
+            changes += u32::from(changed);
+            frames += u32::from(now.first);
+        }
+        assert!(frames > 40 && changes > frames, "{changes} changes, {frames} frames");
+    }
+}
+
+#[test]
+fn pixels_are_offered_while_none_is_taken_and_frames_follow_at_once() {
+    for design in designs() {
+        let recording = record(&design, &directed(LEVEL, 1));
+        let story = story(&design, &recording);
+        let pixel = |clock: &Clock| value(recording.inputs(), PortRole::Pixel, &clock.input);
+        let refused: Vec<_> = story.iter().filter(|c| c.valid && !c.takes && !c.reset).collect();
+        let garbage: BTreeSet<u64> = refused.iter().map(|clock| pixel(clock)).collect();
+        assert!(refused.len() > 1000 && garbage.len() > 100, "{} refused", refused.len());
+        let ready = |record: &[u8]| value(recording.outputs(), PortRole::Ready, record) == 1;
+        let at_once = story.windows(2).filter(|pair| {
+            let rises = !ready(&pair[0].before) && ready(&pair[0].output);
+            rises && pair[1].first && !pair[0].reset
+        });
+        assert!(at_once.count() > 5);
+        let gaps = story.iter().filter(|clock| clock.loading && !clock.valid).count();
+        assert!(gaps > 100, "{gaps} gaps");
+    }
+}
+
+#[test]
+fn resets_come_everywhere() {
+    for design in designs() {
+        let recording = record(&design, &directed(LEVEL, 3));
+        let outputs = recording.outputs();
+        let shows = |role: PortRole, clock: &Clock| {
+            let field = common::vectors::field(outputs, role);
+            field.slice(&clock.before).iter().any(|&byte| byte != 0)
+        };
+        let Timing::Serial(timing) = design.timing() else { unreachable!() };
+        let mut found = BTreeSet::new();
+        let mut worked = 0;
+        for clock in story(&design, &recording) {
+            worked = if clock.at_work { worked + 1 } else { 0 };
+            if !clock.reset {
+                continue;
+            }
+            let places = [
+                ("loading", clock.loading),
+                ("at the start", (1..4).contains(&worked)),
+                ("working", clock.at_work && worked > 4),
+                ("rotating", shows(PortRole::ScoreValid, &clock)),
+                ("unloading", shows(PortRole::ForwardValid, &clock)),
+                ("about to be ready", clock.at_work && worked + 3 > timing.steps()),
+                ("ready", !clock.at_work && !clock.loading),
+                ("with a pixel", clock.valid),
+            ];
+            found.extend(places.iter().filter(|(_, here)| *here).map(|(place, _)| *place));
+        }
+        assert_eq!(found.len(), 8, "{found:?}");
+    }
+}
+
+/// What the outputs say about one region of one frame.
+struct Verdict {
+    frame: usize,
+    region: u64,
+    scores: Vec<u64>,
+    minima: Vec<u64>,
+    srs: bool,
+    active: bool,
+}
+
+fn verdicts(design: &Design, recording: &Recording) -> Vec<Verdict> {
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let (mut frame, mut open, mut done) = (0, Vec::new(), Vec::new());
+    let minima = |input: &[u8]| -> Vec<u64> {
+        let features = design.features().iter().map(|f| PortRole::MinScore(f.kind()));
+        let roles = [PortRole::TemporalMinCount].into_iter().chain(features);
+        roles.map(|role| value(inputs, role, input)).collect()
+    };
+    for clock in story(design, recording) {
+        if clock.first {
+            frame += 1;
+            open.clear();
+        }
+        let says = |role| value(outputs, role, &clock.output);
+        if says(PortRole::ScoreValid) == 1 {
+            let (region, index) = (says(PortRole::Region), says(PortRole::ScoreIndex));
+            open.push((region, index, says(PortRole::AnyScore)));
+            if says(PortRole::DecisionValid) == 1 {
+                let own = open.iter().filter(|(r, _, _)| *r == region);
+                done.push(Verdict {
+                    frame,
+                    region,
+                    scores: own.map(|(_, _, score)| *score).collect(),
+                    minima: minima(&clock.input),
+                    srs: says(PortRole::Srs) == 1,
+                    active: says(PortRole::Active) == 1,
+                });
+            }
+        }
+    }
+    done
+}
+
+/// Every threshold of a decision must have been met exactly, missed by one, and passed by one, in more
+/// than one region.
+#[test]
+fn decisions_are_made_on_below_and_above_their_minima() {
+    for design in designs() {
+        let recording = record(&design, &directed(LEVEL, 2));
+        let verdicts = verdicts(&design, &recording);
+        for index in 0..=design.features().len() {
+            for near in [-1, 0, 1] {
+                let distance = |v: &&Verdict| {
+                    i128::from(v.scores[index]) - i128::from(v.minima[index]) == near
+                };
+                let regions: BTreeSet<u64> =
+                    verdicts.iter().filter(distance).map(|verdict| verdict.region).collect();
+                assert!(regions.len() > 1, "score {index}, {near}: regions {regions:?}");
+            }
+        }
+    }
+}
+
+/// Regions of one frame differ in what they are and in what they were: relevant or not, active or
+/// not, with a reference or without; and every region is everything once.
+#[test]
+fn regions_of_a_frame_are_in_different_states() {
+    for design in designs() {
+        let recording = record(&design, &directed(LEVEL, 1));
+        let verdicts = verdicts(&design, &recording);
+        let all = u64::from(design.region_pixels());
+        let frames = verdicts.last().unwrap().frame;
+        let mut mixed = [0; 3];
+        for frame in 1..=frames {
+            let of_frame = || verdicts.iter().filter(|verdict| verdict.frame == frame);
+            let states: [BTreeSet<bool>; 3] = [
+                of_frame().map(|verdict| verdict.active).collect(),
+                of_frame().map(|verdict| verdict.srs).collect(),
+                of_frame().map(|verdict| verdict.scores[0] == all).collect(),
+            ];
+            for (count, states) in mixed.iter_mut().zip(states) {
+                *count += usize::from(states.len() == 2);
+            }
+        }
+        assert!(mixed.iter().all(|&count| count > 8), "{mixed:?} of {frames} frames");
+        for region in 0..u64::from(design.regions()) {
+            let of_region = || verdicts.iter().filter(|verdict| verdict.region == region);
+            let states: BTreeSet<_> = of_region().map(|v| (v.srs, v.active)).collect();
+            assert_eq!(states.len(), 3, "region {region}: {states:?}");
+        }
+    }
+}
+
+#[test]
+fn scores_reach_their_largest_values() {
+    let design = designs()[0].clone();
+    let recording = record(&design, &directed(LEVEL, 2));
+    let verdicts = verdicts(&design, &recording);
+    for (feature, index) in design.features().iter().zip(1..) {
+        let reached = verdicts.iter().map(|verdict| verdict.scores[index]).max().unwrap();
+        if feature.kind() != FeatureKind::Corner {
+            assert_eq!(reached, feature.score_max(), "{}", feature.kind());
+        }
+    }
+}
+
+/// The largest gradient there is, with the level just below it, and on it: one round has both.
+#[test]
+fn the_largest_gradient_meets_its_level() {
+    for bits in [1, 3, 8, 16] {
+        let mut config = config(&[feature(FeatureKind::Edge, 2)]);
+        config.frame.pixel_bits = bits;
+        config.region.size = 4;
+        config.denoise.filter = Filter::None;
+        config.spatial[0].level = Some(1);
+        config.temporal.level = 0;
+        let design = design(&config, GRID);
+        let recording = record(&design, &directed(LEVEL, 1));
+        let largest = 6 * u64::from(design.pixel_max());
+        let mut found = BTreeSet::new();
+        for clock in story(&design, &recording) {
+            let says = |role| value(recording.outputs(), role, &clock.output);
+            if says(PortRole::ScoreValid) == 1 && says(PortRole::ScoreIndex) == 1 {
+                let role = PortRole::Level(FeatureKind::Edge);
+                let level = value(recording.inputs(), role, &clock.input);
+                found.insert((level, says(PortRole::AnyScore) > 0));
+            }
+        }
+        assert!(found.contains(&(largest - 1, true)), "{bits} bits: {found:?}");
+        assert!(found.contains(&(largest, false)), "{bits} bits: {found:?}");
+    }
+}
+
+fn fields_of(layout: &Layout) -> Vec<&str> {
+    layout.fields().iter().map(|field| field.port.name.as_str()).collect()
+}
+
+/// Lane after lane of the frame goes through the one lane, with as many regions as share it.
+#[test]
+fn frames_of_the_caller_are_streamed_lane_by_lane() {
+    let mut config = every_feature();
+    config.hardware.fold = 2;
+    let design = design(&config, (3, 1));
+    let frame = Frame::from_fn(12, 4, 8, |x, y| u16::try_from(x * 4 + y).unwrap()).unwrap();
+    let frames = vec![frame.clone(), frame];
+    let stimulus = Stimulus { rounds: 0, frames, ..Stimulus::default() };
+    let recording = record(&design, &stimulus);
+    assert_eq!((recording.sequences(), recording.frames()), (2, 4));
+    assert_eq!(recording.span(0).unwrap().region, Some(0));
+    assert_eq!(recording.span(recording.clocks()).unwrap().region, Some(2));
+    assert!(fields_of(recording.outputs()).contains(&"forward_slot_o"));
+    let lane = design.one_lane();
+    let taken = story(&lane, &recording).into_iter().filter(|clock| clock.takes);
+    let pixel = |clock: Clock| value(recording.inputs(), PortRole::Pixel, &clock.input);
+    let pixels: Vec<u64> = taken.map(pixel).collect();
+    // Slot 0 shows the first four columns, row by row, then slot 1 the next four.
+    assert_eq!(pixels[..5], [0, 4, 8, 12, 1]);
+    assert_eq!(pixels[16..20], [16, 20, 24, 28]);
+    assert_eq!(pixels[64..68], [32, 36, 40, 44], "the second lane");
+    assert_eq!(pixels.len(), 2 * 2 * 32);
+}

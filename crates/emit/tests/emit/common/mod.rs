@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Designs to emit: every choice of the configuration meets every other at least once.
+
+use foveate_spec::{Config, Design};
+
+pub(crate) fn design(toml: &str) -> Design {
+    Config::from_toml(toml).unwrap().validate().unwrap()
+}
+
+const FEATURES: [&str; 7] = [
+    "[{feature='edge',level=4,min_score=1}]",
+    "[{feature='corner',level=1,min_score=1}]",
+    "[{feature='mad',min_score=0}]",
+    "[{feature='mad',min_score=0,mean_fraction_bits=2}]",
+    "[{feature='variance',min_score=0}]",
+    "[{feature='edge',level=4,min_score=1},{feature='corner',level=1,min_score=1}]",
+    "[{feature='mad',min_score=0},{feature='edge',level=4,min_score=1},\
+      {feature='corner',level=1,min_score=1},{feature='variance',min_score=0}]",
+];
+const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
+const DEPTHS: [u32; 4] = [1, 8, 10, 16];
+
+/// Configurations as TOML.
+pub(crate) fn matrix() -> Vec<String> {
+    let mut list = Vec::new();
+    for (index, features) in FEATURES.iter().enumerate() {
+        for choice in 0..8 {
+            // Sizes and depths have no common period with the choices, so that all pairs occur.
+            let size = SIZES[(index * 3 + choice) % SIZES.len()];
+            let depth = DEPTHS[(index + choice * 3 + choice / 4) % DEPTHS.len()];
+            let pick = |bit: usize, off: &'static str, on: &'static str| {
+                if (choice >> bit) & 1 == 0 { off } else { on }
+            };
+            list.push(format!(
+                "spatial = {features}\n\
+                 [frame]\nwidth = {width}\nheight = {size}\npixel_bits = {depth}\n\
+                 [region]\nsize = {size}\nneighborhood = '{neighborhood}'\n\
+                 [denoise]\nfilter = '{filter}'\n\
+                 [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
+                 [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
+                 [hardware]\nthresholds = '{thresholds}'\n",
+                width = 2 * size,
+                neighborhood = pick(0, "isolated", "shared"),
+                filter = pick(1, "median3x3", "none"),
+                reference = pick(2, "previous", "last-sent"),
+                payload = pick((index + 1) % 3, "denoised", "raw"),
+                irrelevant = pick(index % 3, "zero", "hold"),
+                thresholds = pick((index + 2) % 3, "runtime", "constant"),
+            ));
+        }
+    }
+    list
+}
+
+/// Sizes of regions of the serial organization, and pixel depths.
+const SERIAL_SIZES: [u32; 6] = [4, 5, 8, 6, 64, 16];
+const SERIAL_DEPTHS: [u32; 5] = [8, 1, 16, 2, 10];
+/// Grids and folds: one lane, lanes with one slot, slots that are empty, everything in one lane.
+const SERIAL_GRIDS: [(u32, u32, u32); 5] = [(2, 1, 1), (3, 2, 4), (1, 1, 1), (3, 1, 3), (5, 2, 3)];
+
+/// Configurations of serial designs as TOML.
+pub(crate) fn serial_matrix() -> Vec<String> {
+    let mut list = Vec::new();
+    for (index, features) in FEATURES.iter().enumerate() {
+        for choice in 0..16 {
+            let size = SERIAL_SIZES[(index * 5 + choice) % SERIAL_SIZES.len()];
+            let depth = SERIAL_DEPTHS[(index + choice * 3) % SERIAL_DEPTHS.len()];
+            let (columns, rows, fold) = SERIAL_GRIDS[(index * 2 + choice) % SERIAL_GRIDS.len()];
+            let pick = |bit: usize, off: &'static str, on: &'static str| {
+                if (choice >> bit) & 1 == 0 { off } else { on }
+            };
+            list.push(format!(
+                "spatial = {features}\n\
+                 [frame]\nwidth = {width}\nheight = {height}\npixel_bits = {depth}\n\
+                 [region]\nsize = {size}\nneighborhood = '{neighborhood}'\n\
+                 [denoise]\nfilter = '{filter}'\n\
+                 [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
+                 [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
+                 [hardware]\norganization = 'serial'\nfold = {fold}\nfeed = '{feed}'\n\
+                 thresholds = '{thresholds}'\n",
+                width = columns * size,
+                height = rows * size,
+                neighborhood = pick(0, "isolated", "shared"),
+                filter = pick(1, "median3x3", "none"),
+                reference = pick(2, "previous", "last-sent"),
+                feed = pick(3, "parallel", "raster"),
+                payload = pick((index + 1) % 4, "denoised", "raw"),
+                irrelevant = pick(index % 4, "zero", "hold"),
+                thresholds = pick((index + 2) % 4, "runtime", "constant"),
+            ));
+        }
+    }
+    list
+}

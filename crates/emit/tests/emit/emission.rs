@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is emitted for a design: always the same, the ports of the specification, and only the
+//! modules that the design asks for.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use crate::common::{design, matrix, serial_matrix};
+use foveate_emit::{LEAVES, SourceFile, Top, core, verilog};
+use foveate_spec::Direction;
+
+fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
+    &files.iter().find(|file| file.path == path).unwrap().contents
+}
+
+/// Names of the modules that a file instantiates: `name #(` or `name u_...`.
+fn instantiated(text: &str) -> BTreeSet<&str> {
+    let first_words = text.lines().map(str::trim_start).filter_map(|line| {
+        let (name, rest) = line.split_once(' ')?;
+        (rest.starts_with("#(") || rest.starts_with("u_")).then_some(name)
+    });
+    first_words.filter(|name| *name != "module" && *name != ")").collect()
+}
+
+#[test]
+fn every_leaf_of_the_folder_is_embedded() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl");
+    let in_folder: BTreeSet<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter_map(|name| name.strip_suffix(".v").map(str::to_owned))
+        .collect();
+    let embedded: BTreeSet<String> = LEAVES.iter().map(|leaf| leaf.name.to_owned()).collect();
+    assert_eq!(in_folder, embedded);
+}
+
+#[test]
+fn every_leaf_says_what_it_uses_and_stands_after_it() {
+    for (index, leaf) in LEAVES.iter().enumerate() {
+        assert!(leaf.contents.contains(&format!("\nmodule {} ", leaf.name)), "{}", leaf.name);
+        let uses: BTreeSet<&str> = leaf.uses.iter().copied().collect();
+        assert_eq!(instantiated(leaf.contents), uses, "{}", leaf.name);
+        for used in uses {
+            assert!(LEAVES[..index].iter().any(|earlier| earlier.name == used), "{used}");
+        }
+    }
+}
+
+#[test]
+fn emission_is_deterministic() {
+    for toml in [matrix(), serial_matrix()].concat() {
+        assert_eq!(core(&design(&toml)), core(&design(&toml)), "{toml}");
+    }
+}
+
+#[test]
+fn exactly_the_modules_that_are_used_are_emitted() {
+    for toml in [matrix(), serial_matrix()].concat() {
+        let files = verilog(&design(&toml), Top::Rcm);
+        let emitted: BTreeSet<&str> = files
+            .iter()
+            .map(|file| file.path.strip_prefix("rtl/").unwrap().strip_suffix(".v").unwrap())
+            .collect();
+        let used = files.iter().flat_map(|file| instantiated(&file.contents));
+        let used: BTreeSet<&str> = used.chain(["rcm"]).collect();
+        assert_eq!(emitted, used, "{toml}");
+    }
+}
+
+#[test]
+fn module_headers_are_the_port_lists() {
+    for toml in matrix() {
+        let design = design(&toml);
+        let files = verilog(&design, Top::Rcm);
+        for top in [Top::Rpu, Top::Rcm] {
+            let header = contents(&files, &format!("rtl/{}.v", top.module()));
+            let header = header.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
+            for port in top.ports(&design) {
+                let direction = match port.direction {
+                    Direction::Input => "input",
+                    Direction::Output => "output",
+                };
+                let line = header
+                    .lines()
+                    .find(|line| line.contains(&format!(" {}", port.name)))
+                    .unwrap_or_else(|| panic!("{} is missing: {toml}", port.name));
+                assert!(line.trim_start().starts_with(direction), "{line}");
+                let range = match (port.per_lane, port.width) {
+                    (true, 1) => "[COLUMNS*ROWS-1:0]".to_owned(),
+                    (true, width) => format!("[COLUMNS*ROWS*{width}-1:0]"),
+                    (false, width) => format!("[{}:0]", width - 1),
+                };
+                assert_eq!(line.contains(&range), port.per_lane || port.width > 1, "{line}");
+            }
+        }
+    }
+}
+
+#[test]
+fn serial_headers_are_the_port_lists() {
+    for toml in serial_matrix() {
+        let design = design(&toml);
+        for top in [Top::Rpu, Top::Rcm] {
+            let files = verilog(&design, top);
+            let text = contents(&files, &format!("rtl/{}.v", top.module()));
+            let header = text.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
+            let names: Vec<&str> = header
+                .lines()
+                .filter(|line| line.contains(" wire "))
+                .map(|line| line.split("//").next().unwrap().trim().trim_end_matches(','))
+                .map(|line| line.rsplit(' ').next().unwrap())
+                .collect();
+            let ports = top.ports(&design);
+            let expected: Vec<&str> = ports.iter().map(|port| port.name.as_str()).collect();
+            assert_eq!(names, expected, "{toml}");
+        }
+    }
+}
+
+#[test]
+fn a_serial_core_has_its_array_and_its_lone_lane() {
+    let design = design("[hardware]\norganization = 'serial'\nfold = 4\n");
+    let files = core(&design);
+    let rpu = contents(&files, "rtl/rpu.v");
+    assert!(rpu.contains("parameter COLUMNS = 4,") && rpu.contains("parameter ROWS = 1 "), "{rpu}");
+    let listed = |list: &str, path: &str| contents(&files, list).lines().any(|line| line == path);
+    assert!(listed("rpu.f", "rtl/rpu.v") && !listed("rpu.f", "rtl/rcm.v"));
+    assert!(listed("rcm.f", "rtl/rcm.v") && !listed("rcm.f", "rtl/rpu.v"));
+    assert!(contents(&files, "README.md").contains("196 serial lanes"));
+    assert!(contents(&files, "foveate_rcm.core").contains("toplevel: rpu_replay"));
+}
+
+#[test]
+fn the_array_is_a_loop() {
+    let rcm = verilog(&design(""), Top::Rcm).pop().unwrap();
+    assert_eq!(rcm.path, "rtl/rcm.v");
+    assert_eq!(rcm.contents.matches("rpu u_rpu").count(), 1);
+    assert!(rcm.contents.lines().count() < 100);
+}
+
+#[test]
+fn the_banner_names_the_design_and_nothing_that_changes() {
+    let design = design("");
+    for file in core(&design) {
+        let generated = file.contents.contains("Generated by Foveate");
+        assert!(!generated || file.contents.contains(&design.fingerprint()), "{}", file.path);
+        assert!(!file.contents.contains("{=") && !file.contents.contains("=}"), "{}", file.path);
+        assert!(file.contents.ends_with('\n') && !file.contents.contains('\r'), "{}", file.path);
+    }
+}
+
+#[test]
+fn file_lists_name_every_file_once_in_order() {
+    let files = core(&design(""));
+    let expected: Vec<&str> =
+        files.iter().map(|f| f.path.as_str()).filter(|path| path.ends_with(".v")).collect();
+    let listed: Vec<&str> = contents(&files, "rcm.f").lines().collect();
+    assert_eq!(listed, expected);
+    let fusesoc = contents(&files, "foveate_rcm.core");
+    assert!(expected.iter().all(|path| fusesoc.contains(&format!("- {path}\n"))));
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Emitted Verilog has no warning in Verilator, Icarus and Yosys, over the matrix of designs.
+
+use crate::common::{design, matrix, serial_matrix};
+use foveate_emit::{Top, verilog};
+use foveate_toolchain::iverilog::{self, IverilogJob};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::yosys::{self, YosysJob};
+use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
+use rayon::prelude::*;
+
+/// Every design of both matrices.
+fn every_design() -> Vec<String> {
+    [matrix(), serial_matrix()].concat()
+}
+
+/// Runs `check` on the Verilog of every design and reports every failure.
+fn each_design(designs: &[String], check: impl Fn(&[Source]) -> Result<(), ToolError> + Sync) {
+    let failures: Vec<String> = designs
+        .par_iter()
+        .filter_map(|toml| {
+            let files = verilog(&design(toml), Top::Rcm);
+            let sources: Vec<Source> = files.into_iter().map(|f| (f.path, f.contents)).collect();
+            check(&sources).err().map(|error| format!("{toml}{error}\n"))
+        })
+        .collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn verilator_has_nothing_to_say() {
+    if !require_tools(&[Tool::Verilator]) {
+        return;
+    }
+    let toolchain = Toolchain::system();
+    each_design(&every_design(), |sources| verilator::lint(&toolchain, sources, "rcm", None));
+}
+
+#[test]
+fn icarus_has_nothing_to_say() {
+    if !require_tools(&[Tool::Iverilog]) {
+        return;
+    }
+    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    each_design(&every_design(), |sources| {
+        let job = IverilogJob {
+            sources: sources.to_vec(),
+            top: "rcm".to_owned(),
+            strict: true,
+            ..IverilogJob::default()
+        };
+        iverilog::compile(&toolchain, &cache, &job).map(drop)
+    });
+}
+
+#[test]
+fn yosys_has_nothing_to_say() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    // A serial array takes seconds, with all its memories: every fifth of them, which still meets every
+    // leaf; `scripts/lint.sh` has more.
+    let designs = [matrix(), serial_matrix().into_iter().step_by(5).collect()].concat();
+    each_design(&designs, |sources| {
+        let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
+        let script = format!(
+            "read_verilog {}\nhierarchy -check -top rcm\nproc\nopt_clean\ncheck -assert\n",
+            names.join(" ")
+        );
+        let job = YosysJob { sources: sources.to_vec(), script, outputs: Vec::new() };
+        let run = yosys::run(&toolchain, &cache, &job)?;
+        let warnings: Vec<&str> =
+            run.log.lines().filter(|line| line.starts_with("Warning")).collect();
+        assert!(warnings.is_empty(), "{}", warnings.join("\n"));
+        Ok(())
+    });
+}
+
+/// The check can fail: a width that does not fit is seen by all three.
+#[test]
+fn a_planted_flaw_is_seen() {
+    if !require_tools(&[Tool::Verilator, Tool::Iverilog]) {
+        return;
+    }
+    let files = verilog(&design(""), Top::Rpu);
+    let mut sources: Vec<Source> = files.into_iter().map(|f| (f.path, f.contents)).collect();
+    let rpu = sources.last_mut().unwrap();
+    let flawed =
+        rpu.1.replace("hit_counter #(.WIDTH(7)) u_edge", "hit_counter #(.WIDTH(6)) u_edge");
+    assert_ne!(flawed, rpu.1);
+    rpu.1 = flawed;
+    let toolchain = Toolchain::system();
+    assert!(verilator::lint(&toolchain, &sources, "rpu", None).is_err());
+    let job =
+        IverilogJob { sources, top: "rpu".to_owned(), strict: true, ..IverilogJob::default() };
+    assert!(iverilog::compile(&toolchain, &Cache::throw_away().unwrap(), &job).is_err());
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Explorations over scenes: what is written, what is kept, what is done again.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use foveate_explore::{Exploration, ExploreError, Hooks, Progress, Request, Space, explore};
+use foveate_simulator::InputOptions;
+
+const SPACE: &str = "method = 'each'\n[design]\nframe.width = 48\nframe.height = 32\nregion.neighborhood = 'shared'\n\
+     temporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [8, 6, 3]\nregion.size = [16]\n\
+     temporal.reference = ['previous']\ntemporal.min_count = [5, 10]\nhardware.organization = ['serial']\n";
+
+/// Counts frames, and cancels after so many.
+struct Watch {
+    frames: AtomicUsize,
+    most: usize,
+}
+
+impl Watch {
+    fn new(most: usize) -> Self {
+        Self { frames: AtomicUsize::new(0), most }
+    }
+}
+
+impl Hooks for Watch {
+    fn progress(&self, _: Progress) {
+        self.frames.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.frames.load(Ordering::Relaxed) > self.most
+    }
+}
+
+fn run(
+    text: &str,
+    inputs: &[&str],
+    output: &Path,
+    hooks: &Watch,
+) -> Result<Exploration, ExploreError> {
+    let space = Space::from_toml(text).unwrap();
+    let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
+    let input = InputOptions { frames: Some(12), ..InputOptions::default() };
+    explore(
+        &Request { space: &space, inputs: &inputs, input: &input, synthesizer: None },
+        output,
+        hooks,
+    )
+}
+
+fn lines(file: &Path) -> Vec<String> {
+    fs::read_to_string(file).unwrap().lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn every_figure_is_in_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let found =
+        run(SPACE, &["scene:street", "scene:shake"], &output, &Watch::new(usize::MAX)).unwrap();
+    // The start is also 8 bits and a count of 5; a serial array sees what the start sees.
+    assert_eq!(found.rows.len(), 7);
+    let row = |what: &str| {
+        found.rows.iter().find(|row| row.settings.iter().any(|value| value.contains(what))).unwrap()
+    };
+    let start = &found.rows[0].figures;
+    assert_eq!((start.frames, start.action_flips, start.psnr_ideal), (24, 0.0, None));
+    assert_eq!(row("serial").figures, *start);
+    assert!(row("serial").clocks_per_frame > found.rows[0].clocks_per_frame);
+    for what in ["3", "16", "previous"] {
+        let figures = &row(what).figures;
+        assert!(figures.action_flips > 0.0 && figures.psnr_ideal.is_some(), "{what}: {figures:?}");
+    }
+    assert!(row("6").figures.action_flips <= row("3").figures.action_flips);
+    let points = lines(&output.join("points.csv"));
+    assert_eq!(points.len(), 8);
+    assert!(points[0].starts_with("point,frame.pixel_bits,region.size,"), "{}", points[0]);
+    let columns = points[0].split(',').count();
+    assert!(points.iter().all(|line| line.split(',').count() == columns));
+    assert_eq!(lines(&output.join("clips.csv")).len(), 1 + 2 * 7);
+    assert!(lines(&output.join("pareto.csv")).len() > 1);
+    for row in &found.rows {
+        let toml = fs::read_to_string(output.join(format!("designs/{}.toml", row.number))).unwrap();
+        let design = foveate_spec::Config::from_toml(&toml).unwrap().validate().unwrap();
+        assert_eq!(design.fingerprint(), row.fingerprint);
+    }
+    let parquet = fs::read(output.join("points.parquet")).unwrap();
+    assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
+}
+
+#[test]
+fn a_rerun_does_only_what_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let whole = run(SPACE, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    let again = Watch::new(0);
+    let same = run(SPACE, &["scene:street"], &output, &again).unwrap();
+    assert_eq!(again.frames.load(Ordering::Relaxed), 0);
+    // The speed of the engine is kept with the rest.
+    assert_eq!(serde_json::to_string(&same).unwrap(), serde_json::to_string(&whole).unwrap());
+    let larger = SPACE.replace("[8, 6, 3]", "[8, 7, 6, 3]");
+    let more = Watch::new(usize::MAX);
+    assert_eq!(run(&larger, &["scene:street"], &output, &more).unwrap().rows.len(), 8);
+    assert_eq!(more.frames.load(Ordering::Relaxed), 12);
+}
+
+#[test]
+fn an_interrupted_run_keeps_what_is_finished() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    // All of the first clip and some of the second.
+    let stopped = run(SPACE, &["scene:street", "scene:fade"], &output, &Watch::new(15));
+    assert!(matches!(stopped, Err(ExploreError::Cancelled)), "{stopped:?}");
+    assert_eq!(fs::read_dir(output.join("measured")).unwrap().count(), 6);
+    let rest = Watch::new(usize::MAX);
+    let whole = run(SPACE, &["scene:street", "scene:fade"], &output, &rest).unwrap();
+    assert_eq!((whole.rows.len(), rest.frames.load(Ordering::Relaxed)), (7, 12));
+    let fresh = folder.path().join("fresh");
+    let at_once =
+        run(SPACE, &["scene:street", "scene:fade"], &fresh, &Watch::new(usize::MAX)).unwrap();
+    let figures =
+        |found: &Exploration| found.rows.iter().map(|row| row.figures.clone()).collect::<Vec<_>>();
+    assert_eq!(figures(&whole), figures(&at_once));
+}
+
+#[test]
+fn a_damaged_result_is_done_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let whole = run(SPACE, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    for file in fs::read_dir(output.join("measured")).unwrap() {
+        fs::write(file.unwrap().path(), "{").unwrap();
+    }
+    let again = run(SPACE, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    assert_eq!(whole.rows[3].figures, again.rows[3].figures);
+}
+
+#[test]
+fn what_cannot_be_explored_is_refused_before_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let taken = folder.path().join("taken");
+    fs::create_dir(&taken).unwrap();
+    fs::write(taken.join("mine.txt"), "mine").unwrap();
+    let never = Watch::new(0);
+    let occupied = run(SPACE, &["scene:street"], &taken, &never).unwrap_err();
+    assert!(matches!(occupied, ExploreError::Occupied { .. }), "{occupied}");
+    let none = "[vary]\nregion.size = [1]\n";
+    let output = folder.path().join("out");
+    let refused = run(none, &["scene:street"], &output, &never).unwrap_err();
+    assert!(refused.to_string().contains("region.size = 1"), "{refused}");
+    assert!(!output.exists());
+}

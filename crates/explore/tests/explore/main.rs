@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Explorations and fits over scenes.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod explore;
+mod fit;
+mod space;

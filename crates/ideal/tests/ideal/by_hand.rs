@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scores that a person can check.
+
+use foveate_engine::Raster;
+use foveate_ideal::{Action, IdealCamera, IdealError, IdealOutcome};
+use foveate_spec::{
+    Config, Decimal, Design, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
+};
+
+/// All four features without a filter, in the order of the list of features.
+fn config(width: u32, height: u32, side: u32) -> Config {
+    let mut config = Config::default();
+    (config.frame.width, config.frame.height) = (Some(width), Some(height));
+    config.region.size = side;
+    config.denoise.filter = Filter::None;
+    config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    config
+}
+
+fn frame(design: &Design, pixel: impl Fn(u32, u32) -> u8) -> Raster {
+    let (width, height) = (design.width(), design.height());
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let pixels = pixels.map(|(x, y)| pixel(x, y)).collect();
+    Raster::from_bytes(width, height, 8, pixels).unwrap()
+}
+
+fn seen(config: &Config, pixel: impl Fn(u32, u32) -> u8) -> IdealOutcome {
+    let design = config.validate().unwrap();
+    IdealCamera::new(&design).step(&frame(&design, pixel)).unwrap().clone()
+}
+
+#[test]
+fn a_constant_frame_scores_nothing() {
+    let outcome = seen(&config(20, 13, 8), |_, _| 77);
+    assert_eq!(outcome.scores, vec![vec![0.0; 6]; 4]);
+    assert_eq!(outcome.changed, vec![64.0; 6], "no reference: all pixels");
+    assert_eq!((outcome.srs, outcome.trs), (vec![false; 6], vec![true; 6]));
+    assert_eq!((outcome.denoised, outcome.rendered), (vec![77.0; 260], vec![0.0; 260]));
+}
+
+/// Left half 0, right half 30: at the two columns beside the step |Gx| = 4 * 30 > 100.
+#[test]
+fn a_step_is_an_edge_two_pixels_wide() {
+    let outcome = seen(&config(16, 8, 8), |x, _| if x < 8 { 0 } else { 30 });
+    assert_eq!(outcome.scores[0], [8.0, 8.0], "one column in each region, across their border");
+    assert_eq!(outcome.scores[1], [0.0, 0.0], "three neighbors are no arc");
+    assert_eq!(
+        (&outcome.scores[2][..], &outcome.scores[3][..]),
+        (&[0.0, 0.0][..], &[0.0, 0.0][..])
+    );
+    // Inside of one region: half of the pixels 15 above the mean, half below.
+    let outcome = seen(&config(8, 8, 8), |x, _| if x < 4 { 0 } else { 30 });
+    let scores: Vec<f64> = outcome.scores.iter().map(|scores| scores[0]).collect();
+    assert_eq!(scores, [16.0, 0.0, 15.0, 225.0]);
+}
+
+/// Whatever the neighborhood and the fraction bits of the design say.
+#[test]
+fn hardware_does_not_matter() {
+    let mut isolated = config(24, 16, 8);
+    isolated.region.neighborhood = Neighborhood::Isolated;
+    let mut shared = isolated.clone();
+    shared.region.neighborhood = Neighborhood::Shared;
+    shared.spatial[2].mean_fraction_bits = Some(6);
+    let pixel = |x: u32, y: u32| u8::try_from((x * 37 + y * 101 + x * y * 7) % 256).unwrap();
+    assert_eq!(seen(&isolated, pixel), seen(&shared, pixel));
+}
+
+/// A checkerboard of 0 and 200: mean 100, every pixel 100 from it, variance 10 000.
+#[test]
+fn a_checkerboard_has_the_variance_of_its_swing() {
+    let pixel = |x: u32, y: u32| if (x + y).is_multiple_of(2) { 0 } else { 200 };
+    let outcome = seen(&config(8, 8, 8), pixel);
+    assert_eq!((outcome.scores[2][0], outcome.scores[3][0]), (100.0, 10_000.0));
+    // Inside, Gx and Gy are 0. At the border the window repeats a line: |G| = 0 along a side, too.
+    assert_eq!(outcome.scores[1][0], 0.0, "neighbors alternate");
+    // 3x3 pixels, five of them 0: the mean is 800/9, no binary fraction.
+    let outcome = seen(&config(3, 3, 3), pixel);
+    let (mean, n) = (800.0 / 9.0, 9.0);
+    let mad = (5.0 * mean + 4.0 * (200.0 - mean)) / n;
+    let variance = 4.0 * 200.0 * 200.0 / n - mean * mean;
+    assert!((outcome.scores[2][0] - mad).abs() < 1e-12);
+    assert!((outcome.scores[3][0] - variance).abs() < 1e-10);
+}
+
+#[test]
+fn a_bright_pixel_is_five_of_eight_for_itself_only() {
+    let mut config = config(9, 9, 9);
+    let outcome = seen(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
+    assert_eq!(outcome.scores[1][0], 1.0);
+    assert_eq!(outcome.scores[0][0], 8.0, "the eight around it, |G| = 500; its own is 0");
+    config.denoise.filter = Filter::Median3x3;
+    let outcome = seen(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
+    assert_eq!((outcome.scores[1][0], outcome.denoised), (0.0, vec![0.0; 81]));
+}
+
+/// A decimal minimum is taken as it is written, at the score and just above it.
+#[test]
+fn thresholds_are_those_of_the_configuration() {
+    for (minimum, srs) in [(1.5, true), (1.6, false)] {
+        let mut config = config(4, 2, 2);
+        config.spatial = vec![SpatialConfig::new(FeatureKind::Mad)];
+        config.spatial[0].min_score = Decimal::from_f64(minimum);
+        config.temporal.min_count = 1;
+        let outcome = seen(&config, |x, _| if x < 2 { 9 } else { 3 * u8::from(x == 2) });
+        assert_eq!(outcome.scores, [[0.0, 1.5]]);
+        assert_eq!(outcome.srs, [false, srs]);
+    }
+}
+
+#[test]
+fn a_fade_is_sent_once_it_has_gone_far_enough() {
+    let mut config = config(8, 8, 8);
+    config.spatial = vec![SpatialConfig::new(FeatureKind::Mad)];
+    config.spatial[0].min_score = Some(Decimal::whole(0));
+    config.temporal.reference = Reference::LastSent;
+    config.temporal.level = 2;
+    let design = config.validate().unwrap();
+    let mut camera = IdealCamera::new(&design);
+    let mut sent = Vec::new();
+    for level in 0..7 {
+        let outcome = camera.step(&frame(&design, |_, _| 10 + level)).unwrap();
+        sent.push(outcome.actions[0] == Action::Forward);
+        assert!((outcome.rendered[0] - f64::from(10 + level)).abs() <= 2.0);
+    }
+    assert_eq!(sent, [true, false, false, true, false, false, true]);
+}
+
+#[test]
+fn other_frames_are_refused_and_change_nothing() {
+    let design = config(8, 8, 8).validate().unwrap();
+    let mut camera = IdealCamera::new(&design);
+    let before = camera.step(&frame(&design, |_, _| 9)).unwrap().clone();
+    let other = Raster::from_bytes(8, 7, 8, vec![0; 56]).unwrap();
+    let error = camera.step(&other).unwrap_err();
+    let [given, expected] = ["8x7 pixels of 8 bits", "8x8 pixels of 8 bits"].map(str::to_owned);
+    assert_eq!(error, IdealError::FrameKind { given, expected });
+    assert_eq!(camera.outcome(), &before);
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The simulator: inputs of every kind, outputs against the model, what faults leave behind.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod atomic;
+mod batch;
+mod data_set;
+mod explain;
+mod fuzz;
+mod inputs;
+mod outputs;
+mod pictures;
+mod pixel_events;
+mod seek;
+mod sets;
+mod shown;
+mod support;
+mod tables;
+mod video;
+mod video_faults;

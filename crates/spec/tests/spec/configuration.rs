@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The configuration at its boundary: what is accepted, what it becomes, what is refused and how.
+
+use foveate_spec::{Config, Design, PRESETS, Preset, SpecError};
+
+fn design(toml: &str) -> Design {
+    Config::from_toml(toml).unwrap().validate().unwrap()
+}
+
+fn refusal(toml: &str) -> String {
+    Config::from_toml(toml).and_then(|config| config.validate()).unwrap_err().to_string()
+}
+
+#[test]
+fn the_default_is_the_paper() {
+    let paper = design("");
+    assert_eq!((paper.columns(), paper.rows(), paper.regions()), (28, 28, 784));
+    assert_eq!((paper.region_pixels(), paper.stream_pixels(), paper.pixel_max()), (64, 64, 255));
+    assert_eq!((paper.count_bits(), paper.slot_bits()), (7, 6));
+    assert_eq!(paper.timing().clocks_per_frame(), 64);
+    assert_eq!(paper.pipelined_timing("a test").unwrap().decision_latency, 20);
+}
+
+#[test]
+fn every_preset_is_a_design_and_survives_writing() {
+    for preset in PRESETS {
+        let config = preset.config().unwrap();
+        let design = config.validate().unwrap();
+        let again = Config::from_toml(&design.config().to_toml()).unwrap();
+        assert_eq!(&again, design.config(), "{}", preset.name);
+        assert_eq!(again.validate().unwrap().fingerprint(), design.fingerprint());
+    }
+    assert!(matches!(Preset::find("papre"), Err(SpecError::UnknownPreset { .. })));
+}
+
+#[test]
+fn fingerprints_tell_designs_apart() {
+    let paper = design("").fingerprint();
+    assert_eq!(paper, design("[frame]\nwidth = 224\n").fingerprint());
+    assert_ne!(paper, design("[temporal]\nlevel = 9\n").fingerprint());
+    assert_eq!(paper.len(), 16);
+    // A name that has been written somewhere must go on meaning the same design.
+    assert_eq!(paper, "255bc91bb78cefb8");
+    assert_eq!(paper, design("[hardware]\nfeed = \"parallel\"\n").fingerprint());
+    let serial = |keys: &str| design(&format!("[hardware]\norganization = \"serial\"\n{keys}"));
+    assert_eq!(serial("").fingerprint(), serial("feed = \"parallel\"\n").fingerprint());
+    let names = ["", "fold = 2\n", "feed = \"raster\"\n"].map(|keys| serial(keys).fingerprint());
+    assert!(names[0] != paper && names[0] != names[1] && names[0] != names[2]);
+}
+
+#[test]
+fn who_knows_only_pipelined_says_so() {
+    let serial = design("[hardware]\norganization = \"serial\"\n");
+    let refusal = serial.pipelined_timing("the test").unwrap_err().to_string();
+    assert_eq!(
+        refusal,
+        "`hardware.organization` = \"serial\" cannot be combined with the test of this version; \
+         use \"pipelined\""
+    );
+}
+
+#[test]
+fn frames_that_are_no_multiple_are_padded() {
+    let ragged = design("[frame]\nwidth = 17\nheight = 3\n");
+    assert_eq!((ragged.columns(), ragged.rows()), (3, 1));
+}
+
+#[test]
+fn the_halo_follows_the_windows() {
+    let halo = |filter: &str, feature: &str| {
+        design(&format!(
+            "[region]\nneighborhood = \"shared\"\n[denoise]\nfilter = \"{filter}\"\n[[spatial]]\nfeature = \"{feature}\"\n"
+        ))
+        .halo()
+    };
+    assert_eq!(halo("median3x3", "edge"), 2);
+    assert_eq!(halo("median3x3", "mad"), 1);
+    assert_eq!(halo("none", "corner"), 1);
+    assert_eq!(halo("none", "variance"), 0);
+    assert_eq!(design("").halo(), 0);
+}
+
+#[test]
+fn decimal_thresholds_are_rounded_up_to_score_units() {
+    let mad = design("[[spatial]]\nfeature = \"mad\"\nmin_score = 2.51\nmean_fraction_bits = 1\n");
+    assert_eq!(mad.features()[0].min_score(), 322); // 2.51 * 128 = 321.28
+    let variance = design("[[spatial]]\nfeature = \"variance\"\nmin_score = 0.1\n");
+    assert_eq!(variance.features()[0].min_score(), 410); // 0.1 * 4096 = 409.6
+}
+
+#[test]
+fn unknown_keys_name_the_nearest() {
+    for (toml, key, nearest) in [
+        ("[region]\nsiez = 8\n", "region.siez", "region.size"),
+        ("[temporal]\nmin_conut = 8\n", "temporal.min_conut", "temporal.min_count"),
+        ("[[spatial]]\nfeature = \"edge\"\nlevle = 1\n", "spatial[0].levle", "spatial.level"),
+        ("[frames]\nwidth = 8\n", "frames", "frame"),
+        ("[hardware]\nfede = \"raster\"\n", "hardware.fede", "hardware.feed"),
+        ("[frame]\npayload = \"raw\"\n", "frame.payload", "render.payload"),
+    ] {
+        let expected = format!("unknown key `{key}`; did you mean `{nearest}`?");
+        assert_eq!(refusal(toml), expected);
+    }
+}
+
+#[test]
+fn wrong_types_name_the_key() {
+    for (toml, message) in [
+        (
+            "[region]\nsize = \"big\"\n",
+            "`region.size`: \"big\" is not valid; it takes a whole number, 2..=64",
+        ),
+        (
+            "[region]\nsize = 8.0\n",
+            "`region.size`: 8.0 is not valid; it takes a whole number, 2..=64",
+        ),
+        (
+            "[[spatial]]\nfeature = \"edges\"\n",
+            "`spatial[0].feature`: \"edges\" is not valid; it takes \"edge\", \"corner\", \"mad\" or \"variance\"",
+        ),
+        ("[[spatial]]\nlevel = 3\n", "`spatial[0]`: it lacks `feature`"),
+        ("region = 8\n", "`region`: 8 is not valid; it takes a table"),
+        ("spatial = \"edge\"\n", "`spatial`: \"edge\" is not valid; it takes an array of tables"),
+    ] {
+        assert_eq!(refusal(toml), message);
+    }
+    assert!(refusal("[region\nsize = 8").contains("line 1"));
+    assert!(refusal("[[spatial]]\nfeature = \"mad\"\nmin_score = -1\n").contains("min_score"));
+}
+
+#[test]
+fn ranges_name_key_value_and_range() {
+    for (toml, message) in [
+        ("[region]\nsize = 65\n", "`region.size` = 65 is out of range; valid is 2..=64"),
+        ("[frame]\npixel_bits = 17\n", "`frame.pixel_bits` = 17 is out of range; valid is 1..=16"),
+        ("[frame]\nwidth = 0\n", "`frame.width` = 0 is out of range; valid is 1..=16384"),
+        (
+            "[hardware]\norganization = \"serial\"\nfold = 785\n",
+            "`hardware.fold` = 785 is out of range; valid is 1..=784, the regions of the frame; fold = 784 makes one lane",
+        ),
+        (
+            "[temporal]\nmin_count = 65\n",
+            "`temporal.min_count` = 65 is out of range; valid is 0..=64 for regions of 64 pixels",
+        ),
+        (
+            "[[spatial]]\nfeature = \"edge\"\nlevel = 1531\n",
+            "`spatial[0].level` = 1531 is out of range; valid is 0..=1530 for `edge`",
+        ),
+        (
+            "[[spatial]]\nfeature = \"mad\"\nmin_score = 127.6\n",
+            "`spatial[0].min_score` = 127.6 is out of range; valid is 0..=127.5 for `mad`",
+        ),
+    ] {
+        assert_eq!(refusal(toml), message);
+    }
+}
+
+#[test]
+fn impossible_combinations_say_what_to_do() {
+    for (toml, part) in [
+        ("[[spatial]]\nfeature = \"mad\"\nlevel = 3\n", "leave the key out"),
+        ("[[spatial]]\nfeature = \"edge\"\nmean_fraction_bits = 3\n", "leave the key out"),
+        (
+            "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"edge\"\n",
+            "list each feature once",
+        ),
+        ("[hardware]\nfeed = \"raster\"\n", "leave the key out"),
+        (
+            "[hardware]\norganization = \"serial\"\n[region]\nsize = 3\n",
+            "`region.size` = 3 cannot be combined with organization = \"serial\"; use 4..=64",
+        ),
+        ("[hardware]\nfold = 2\n", "use 1"),
+        ("spatial = []\n", "one to four features"),
+        ("[frame]\nwidth = 16384\nheight = 16384\n[region]\nsize = 2\n", "67108864 regions"),
+    ] {
+        assert!(refusal(toml).contains(part), "{}", refusal(toml));
+    }
+}
+
+#[test]
+fn overrides_reach_every_key() {
+    let with = |overrides: &[&str]| Config::from_toml_with("", overrides);
+    let config = with(&["region.size=16", "temporal.reference=last-sent", "spatial.0.level=50"]);
+    let design = config.unwrap().validate().unwrap();
+    assert_eq!((design.region_size(), design.features()[0].level()), (16, Some(50)));
+    let two = with(&["spatial=[{feature=\"mad\"},{feature=\"corner\"}]"]).unwrap();
+    assert_eq!(two.spatial.len(), 2);
+    for wrong in [
+        "region.size=16\ntemporal=3",
+        "region.size",
+        "=3",
+        "spatial.1.level=3",
+        "region.size.deep=1",
+        "region..size=1",
+    ] {
+        assert!(with(&[wrong]).is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn an_input_gives_its_size_unless_the_file_names_another() {
+    let mut open = Config::default();
+    open.fit_frame(640, 480).unwrap();
+    assert_eq!(open.validate().unwrap().width(), 640);
+    let error = open.fit_frame(320, 480).unwrap_err().to_string();
+    assert!(error.contains("frame.width") && error.contains("640") && error.contains("320x480"));
+}
+
+#[test]
+fn ports_of_the_rcm_are_those_of_the_rpu_times_its_regions() {
+    let paper = design("");
+    let (rpu, rcm) = (paper.rpu_ports(), paper.rcm_ports());
+    assert_eq!(rpu.len(), rcm.len());
+    let pixel = rcm.iter().find(|port| port.name == "pixel_i").unwrap();
+    assert_eq!((pixel.width, pixel.lanes, pixel.bits()), (8, 784, 6272));
+    let constant = design("[hardware]\nthresholds = \"constant\"\n");
+    assert!(constant.rpu_ports().iter().all(|port| !port.name.ends_with("level_i")));
+    let shared = design("[region]\nneighborhood = \"shared\"\n");
+    assert!(shared.rpu_ports().iter().any(|port| port.name == "border_i"));
+    assert!(shared.rcm_ports().iter().all(|port| port.name != "border_i"));
+}

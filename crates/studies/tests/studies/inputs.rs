@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Inputs that do not fit a study, that end early, or that are a sensor's recording.
+
+use std::fs;
+
+use crate::support::{Silent, cells, run};
+use foveate_simulator::{BatchHooks, BatchProgress, FrameRate, ImagesAs, InputOptions};
+use foveate_spec::Config;
+use foveate_studies::{Request, Study, StudyError, analyze};
+
+#[test]
+fn what_cannot_be_studied_is_refused_and_leaves_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = dir.path().join("out");
+    let config = Config::default();
+    let message =
+        |study, inputs: &[&str]| run(study, inputs, &config, &out).unwrap_err().to_string();
+    assert!(message(Study::Temporal, &["scene:zero", "nowhere.mp4"]).contains("nowhere.mp4"));
+    assert!(message(Study::Sensor, &["scene:zero"]).contains("--sensor-events"));
+    assert!(message(Study::Size, &["scene:stret"]).contains("street"));
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn sets_have_no_change_to_study() {
+    let dir = tempfile::tempdir().unwrap();
+    let image = dir.path().join("a.pgm");
+    fs::write(&image, [b"P5 16 16 255\n".as_slice(), &[7; 256]].concat()).unwrap();
+    let input = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
+    let config = Config::default();
+    let request = |study| Request {
+        study,
+        inputs: std::slice::from_ref(&image),
+        input: &input,
+        config: &config,
+        sensor_events: None,
+        sensor_start_us: 0,
+    };
+    let out = dir.path().join("out");
+    let refused = analyze(&request(Study::Temporal), &out, false, &Silent).unwrap_err();
+    assert!(refused.to_string().contains("set of unrelated images"), "{refused}");
+    let report = analyze(&request(Study::Threshold), &out, false, &Silent).unwrap();
+    assert!(report.rows.iter().all(|row| row[1] == "spatial.0.min_score"));
+}
+
+#[test]
+fn a_sensor_that_sees_the_same_correlates_fully() {
+    let dir = tempfile::tempdir().unwrap();
+    // The region on the left changes in every frame, the middle one once, the right one never.
+    for (frame, values) in [[0, 0, 0], [200, 200, 0], [0, 200, 0], [200, 200, 0]].iter().enumerate()
+    {
+        let row: Vec<u8> = values.iter().flat_map(|&value| [value; 8]).collect();
+        let image = [b"P5 24 8 255\n".to_vec(), row.repeat(8)].concat();
+        fs::write(dir.path().join(format!("{frame}.pgm")), image).unwrap();
+    }
+    let events = dir.path().join("events.csv");
+    let csv = "t_us,x,y,on\n500,1,1,1\n1001,1,1,1\n1002,3,7,0\n90000,9,0,1\n900000,23,0,1\n";
+    fs::write(&events, csv).unwrap();
+    let input = InputOptions { frame_rate: FrameRate::default(), ..InputOptions::default() };
+    let request = Request {
+        study: Study::Sensor,
+        inputs: &[dir.path().join("*.pgm")],
+        input: &input,
+        config: &Config::default(),
+        sensor_events: Some(&events),
+        sensor_start_us: 1000,
+    };
+    let out = dir.path().join("out");
+    let report = analyze(&request, &out, true, &Silent).unwrap();
+    // What comes before the first frame and after the last is left out.
+    assert_eq!(cells(&report, "sensor_events"), ["3"; 3]);
+    assert_eq!(cells(&report, "spearman"), ["undefined", "1.0000", "1.0000"]);
+    fs::write(&events, "t_us,x,y\n1,2\n").unwrap();
+    let refused = analyze(&request, &out, true, &Silent).unwrap_err().to_string();
+    assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");
+}
+
+/// Stops at once.
+struct Stopped;
+
+impl BatchHooks for Stopped {
+    fn progress(&self, _: BatchProgress) {}
+
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn a_cut_clip_is_marked_and_a_stopped_study_leaves_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let clip = dir.path().join("cut.y4m");
+    let frame = [b"FRAME\n".as_slice(), &[9; 256]].concat();
+    let header = b"YUV4MPEG2 W16 H16 F25:1 Cmono\n".as_slice();
+    fs::write(&clip, [header, &frame, &frame, &frame[..99]].concat()).unwrap();
+    let (input, config) = (InputOptions::default(), Config::default());
+    let request = Request {
+        study: Study::Temporal,
+        inputs: &[clip],
+        input: &input,
+        config: &config,
+        sensor_events: None,
+        sensor_start_us: 0,
+    };
+    let out = dir.path().join("out");
+    let stopped = analyze(&request, &out, false, &Stopped).unwrap_err();
+    assert!(matches!(stopped, StudyError::Cancelled) && !out.exists());
+    let report = analyze(&request, &out, false, &Silent).unwrap();
+    assert_eq!((cells(&report, "frames")[0], report.problems.len()), ("2", 1));
+    for file in ["temporal.csv", "temporal.svg"] {
+        let text = fs::read_to_string(out.join(file)).unwrap();
+        assert!(text.contains("NOT COMPLETE: cut: "), "{file}: {text}");
+    }
+}

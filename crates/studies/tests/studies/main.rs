@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Studies over scenes whose answers are known.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod inputs;
+mod studies;
+mod support;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs studies of scenes.
+
+use std::path::{Path, PathBuf};
+
+use foveate_simulator::{BatchHooks, BatchProgress, InputOptions};
+use foveate_spec::Config;
+use foveate_studies::{Report, Request, Study, StudyError, analyze};
+
+pub(crate) struct Silent;
+
+impl BatchHooks for Silent {
+    fn progress(&self, _: BatchProgress) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+pub(crate) fn config(text: &str) -> Config {
+    Config::from_toml_with("frame.width = 32\nframe.height = 16", &[text]).unwrap()
+}
+
+pub(crate) fn run(
+    study: Study,
+    inputs: &[&str],
+    config: &Config,
+    output: &Path,
+) -> Result<Report, StudyError> {
+    let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
+    let input = InputOptions { frames: Some(5), ..InputOptions::default() };
+    let request = Request {
+        study,
+        inputs: &inputs,
+        input: &input,
+        config,
+        sensor_events: None,
+        sensor_start_us: 0,
+    };
+    analyze(&request, output, true, &Silent)
+}
+
+pub(crate) fn cells<'a>(report: &'a Report, column: &str) -> Vec<&'a str> {
+    let at = report.columns.iter().position(|name| *name == column).unwrap();
+    report.rows.iter().map(|row| row[at].as_str()).collect()
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Executables that pretend to be Yosys: their results are not taken for those of another.
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
+use std::path::Path;
+
+use foveate_toolchain::yosys::{self, YosysJob};
+use foveate_toolchain::{Cache, Host, Invocation, Output, SystemHost, ToolError, Toolchain};
+
+/// A machine whose Yosys is one script.
+struct Only(String);
+
+impl Host for Only {
+    fn variable(&self, name: &str) -> Option<std::ffi::OsString> {
+        (name == "FOVEATE_YOSYS").then(|| self.0.clone().into())
+    }
+
+    fn is_executable(&self, path: &Path) -> bool {
+        SystemHost.is_executable(path)
+    }
+
+    fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
+        SystemHost.run(invocation)
+    }
+}
+
+/// A Yosys that writes this as its result.
+fn fake(dir: &Path, name: &str, result: &str) -> Toolchain {
+    let path = dir.join(name);
+    let script = format!(
+        "#!/bin/sh\n[ \"$1\" = -V ] && echo 'Yosys 0.99' && exit\nprintf '{result}' > out.json\n"
+    );
+    fs::write(&path, script).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    Toolchain::with_host(Only(path.to_str().unwrap().to_owned()))
+}
+
+/// One test, because a script that is just being written cannot be run, and another thread that
+/// starts a process keeps it open for a moment.
+#[test]
+fn what_a_pretender_wrote_is_not_taken_for_more() {
+    results_belong_to_the_executable_that_wrote_them();
+    what_is_no_result_is_not_kept();
+}
+
+fn results_belong_to_the_executable_that_wrote_them() {
+    let dir = tempfile::tempdir().unwrap();
+    let cache = Cache::at(&dir.path().join("cache")).unwrap();
+    let job = YosysJob { outputs: vec!["out.json".to_owned()], ..YosysJob::default() };
+    let run = |toolchain: &Toolchain| yosys::run(toolchain, &cache, &job);
+    let first = run(&fake(dir.path(), "first", "{\"a\": 1}")).unwrap();
+    assert_eq!(first.files["out.json"], b"{\"a\": 1}");
+    let second = run(&fake(dir.path(), "second", "{\"a\": 2}")).unwrap();
+    assert_eq!(second.files["out.json"], b"{\"a\": 2}");
+    let replaced = run(&fake(dir.path(), "first", "{\"a\": 333}")).unwrap();
+    assert_eq!(replaced.files["out.json"], b"{\"a\": 333}");
+}
+
+fn what_is_no_result_is_not_kept() {
+    let dir = tempfile::tempdir().unwrap();
+    let cache = Cache::at(&dir.path().join("cache")).unwrap();
+    let job = YosysJob { outputs: vec!["out.json".to_owned()], ..YosysJob::default() };
+    for (name, result) in [("empty", "{}"), ("cut", "{\"a\": "), ("nothing", "")] {
+        let error = yosys::run(&fake(dir.path(), name, result), &cache, &job).unwrap_err();
+        assert!(matches!(error, ToolError::Unusable { .. }), "{error}");
+        assert!(error.to_string().contains("FOVEATE_CACHE=off"), "{error}");
+        assert_eq!(fs::read_dir(cache.root()).unwrap().count(), 0, "{name}");
+    }
+}
