@@ -14,29 +14,11 @@ case ${1:-} in
 *) echo "coverage: unknown option $1; see scripts/coverage.sh --help" >&2 && exit 2 ;;
 esac
 scripts/install_tools.sh
-cargo build --locked --quiet --package foveate  # what the tests build as well
+foveate=$(scripts/foveate.sh)
 target=$(realpath "${CARGO_TARGET_DIR:-target}")
-foveate=$target/debug/foveate
 work=$target/coverage
 rm -rf "$work"
 mkdir -p "$work"
-
-# What stands between Foveate and Icarus keeps the sources and the vectors.
-cat >"$work/iverilog" <<'END'
-#!/usr/bin/env bash
-for word in "$@"; do
-    [[ $word != *.v ]] || cp --parents "$word" "$KEEP"
-done
-exec iverilog "$@"
-END
-cat >"$work/vvp" <<'END'
-#!/usr/bin/env bash
-for word in "$@"; do
-    [[ $word != +vectors=* ]] || cp "${word#+vectors=}" "$KEEP/vectors.hex"
-done
-exec vvp "$@"
-END
-chmod +x "$work/iverilog" "$work/vvp"
 
 # Verilator's own main does not write coverage in every version.
 cat >"$work/main.cpp" <<'END'
@@ -86,7 +68,7 @@ for index in "${!names[@]}"; do
     export KEEP=$work/$name
     mkdir -p "$KEEP"
     echo "$name: foveate cosim --preset ${words[*]}"
-    FOVEATE_CACHE=off FOVEATE_IVERILOG=$work/iverilog FOVEATE_VVP=$work/vvp \
+    FOVEATE_CACHE=off FOVEATE_IVERILOG=$PWD/scripts/keeping/iverilog FOVEATE_VVP=$PWD/scripts/keeping/vvp \
         "$foveate" cosim --simulator iverilog --preset "${words[@]}" --replay "$work/replay" --quiet | sed -n 1p
     (
         cd "$KEEP"

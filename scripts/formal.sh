@@ -8,18 +8,20 @@
 #   scripts/formal.sh NAME...     some of formal/NAME.sby
 #   scripts/formal.sh --list      what there is
 #
-# JOBS   how many at a time (default: number of processors)
+# FOVEATE   an executable to use instead of the debug build
+# JOBS      how many at a time (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 set=()
 for option in "$@"; do
     case $option in
-    -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
+    -h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exit 0 ;;
     --quick) set=(--quick) ;;
     --list) exec python3 scripts/formal.py "$@" ;;
     esac
 done
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh "${set[@]}")
-cargo build --locked --quiet --package foveate  # what the tests build as well
+FOVEATE=$(scripts/foveate.sh)
+export FOVEATE
 exec env PATH="$tools:$PATH" python3 scripts/formal.py "$@"

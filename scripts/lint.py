@@ -11,7 +11,7 @@ import time
 
 TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
 WORK = os.path.join(TARGET, "lint")
-FOVEATE = os.path.join(TARGET, "debug", "foveate")
+FOVEATE = os.environ.get("FOVEATE", "foveate")
 VERILATOR = os.environ.get("FOVEATE_VERILATOR", "verilator")
 YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
 WAIVERS = "lint/waivers.txt"

@@ -6,16 +6,18 @@
 #   scripts/lint.sh             every design of the matrix
 #   scripts/lint.sh --quick     every seventh
 #
+# FOVEATE                            an executable to use instead of the debug build
 # FOVEATE_VERILATOR, FOVEATE_YOSYS   other executables than those in PATH
 # JOBS                               how many at a time (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
--h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
+-h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exit 0 ;;
 '' | --quick) ;;
 *) echo "lint: unknown option $1; see scripts/lint.sh --help" >&2 && exit 2 ;;
 esac
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh --quick)
-cargo build --locked --quiet --package foveate  # what the tests build as well
+FOVEATE=$(scripts/foveate.sh)
+export FOVEATE
 exec "$tools/python" scripts/lint.py "$@"

@@ -29,7 +29,7 @@ import mutation_proof
 
 TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
 WORK = os.path.join(TARGET, "mutation")
-FOVEATE = os.path.join(TARGET, "debug", "foveate")
+FOVEATE = os.environ.get("FOVEATE", "foveate")
 YOSYS = mutation_proof.YOSYS
 REASONS = "mutation/survivors.txt"
 DESIGNS = "mutation/designs.txt"
@@ -40,7 +40,8 @@ LATER = 1
 SLOWER = 12
 # After so many of the smallest designs it is asked whether the mutant makes another netlist at all.
 QUICK = 3
-WRAPPERS_AT = os.path.join(WORK, "wrappers")
+# What stands between Foveate and Icarus.
+KEEPING = os.path.abspath("scripts/keeping")
 
 # ---------------------------------------------------------------------------------------------------------------- designs
 
@@ -79,8 +80,8 @@ class Design:
 
     def simulate(self, keep, rounds, seed):
         """Co-simulates without a mutant and keeps what is needed to do so again."""
-        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(WRAPPERS_AT, "iverilog"),
-                   FOVEATE_VVP=os.path.join(WRAPPERS_AT, "vvp"))
+        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(KEEPING, "iverilog"),
+                   FOVEATE_VVP=os.path.join(KEEPING, "vvp"))
         command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
                    "--replay", os.path.join(keep, "replay"), *self.options]
         if "--rounds" not in self.options:
@@ -206,22 +207,8 @@ def designs(organization):
             yield Design(organization, words[1], options)
 
 
-WRAPPERS = {
-    "iverilog": 'for word in "$@"; do\n    [[ $word != *.v ]] || { cp --parents "$word" "$KEEP"; echo "$word" >>"$KEEP/files"; }\n'
-                'done\nexec iverilog "$@"\n',
-    "vvp": 'for word in "$@"; do\n    [[ $word != +vectors=* ]] || cp "${word#+vectors=}" "$KEEP/vectors.hex"\ndone\ncode=0\nvvp "$@" || code=$?\n'
-           'times >"$KEEP/times"\nexit $code\n',
-}
-
-
 def recorded(organization, jobs, sample):
     """The designs of an organization with their vectors, the shortest first; of a sample only those."""
-    os.makedirs(WRAPPERS_AT, exist_ok=True)
-    for name, body in WRAPPERS.items():
-        path = os.path.join(WRAPPERS_AT, name)
-        with open(path, "w") as out:
-            out.write("#!/usr/bin/env bash\n" + body)
-        os.chmod(path, 0o755)
     found = [design for design in designs(organization) if design.starred or not sample]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         list(pool.map(lambda design: design.record(LATER if design.late else 0), found))

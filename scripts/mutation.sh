@@ -8,13 +8,15 @@
 #   scripts/mutation.sh --sample 20  20 mutants of each organization, short vectors
 #   scripts/mutation.sh --help       all options
 #
+# FOVEATE         an executable to use instead of the debug build
 # FOVEATE_YOSYS   another executable than the one in PATH
 # JOBS            how many at a time (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
--h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exec python3 scripts/mutation.py --help ;;
+-h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0" && exec python3 scripts/mutation.py --help ;;
 esac
 scripts/install_tools.sh
-cargo build --locked --quiet --package foveate  # what the tests build as well
+FOVEATE=$(scripts/foveate.sh)
+export FOVEATE
 exec python3 scripts/mutation.py "$@"

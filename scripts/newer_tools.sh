@@ -15,9 +15,8 @@ case ${1:-} in
 esac
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh)
-cargo build --locked --quiet --package foveate  # what the tests build as well
+foveate=$(scripts/foveate.sh)
 target=$(realpath "${CARGO_TARGET_DIR:-target}")
-foveate=$target/debug/foveate
 work=$target/newer_tools
 mkdir -p "$work"
 
@@ -37,7 +36,7 @@ END
 chmod +x "$work/verilator" "$work/yosys"
 
 step() { printf '\n== %s\n' "$*"; }
-both() { FOVEATE_VERILATOR=$work/verilator FOVEATE_YOSYS=$work/yosys "$@"; }
+both() { FOVEATE=$foveate FOVEATE_VERILATOR=$work/verilator FOVEATE_YOSYS=$work/yosys "$@"; }
 
 step "versions"
 "$work/verilator" --version

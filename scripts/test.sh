@@ -20,6 +20,8 @@ step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
 step "build of the tests"
 cargo test --workspace --locked --quiet --no-run
+FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
+export FOVEATE
 step "samples of proofs, lint matrix and mutants (scripts/formal.sh, lint.sh and mutation.sh are the whole)"
 beside=$(mktemp)
 log=$(mktemp)
