@@ -87,7 +87,8 @@ pub(super) fn build(
         others.sort_by(|one, other| one.excess().total_cmp(&other.excess()));
         others.truncate(NEAREST);
         for (looks, max_clocks) in [(&others, max_clocks), (&looks, None)] {
-            let (built, left) = in_batches(looks, max_clocks, BATCH, request, hooks)?;
+            let most = request.most.min(BATCH);
+            let (built, left) = in_batches(looks, max_clocks, most, request, hooks)?;
             candidates.extend(built);
             left_out += left;
         }
