@@ -13,6 +13,7 @@
 import argparse
 import collections
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -55,7 +56,7 @@ class Design:
         self.options = options
         self.folder = os.path.join(WORK, "designs", organization, self.name)
         self.lock, self.modules, self.netlists, self.program = threading.Lock(), None, {}, None
-        self.vectors, self.seconds = {}, {}
+        self.vectors, self.seconds, self.digests = {}, {}, {}
 
     def record(self, stage):
         """Keeps the sources and the vectors of a stage, and how long they take; once."""
@@ -66,10 +67,13 @@ class Design:
             rounds, seed = STAGES[0 if self.late else stage]
             keep = os.path.join(self.folder, f"stage{stage}")
             done_at = os.path.join(keep, "seconds")
-            if not os.path.exists(done_at):
+            made_of_at, made_of = os.path.join(keep, "made_of"), json.dumps([executable(), self.options, rounds, seed])
+            if not os.path.exists(made_of_at) or open(made_of_at).read() != made_of:
                 shutil.rmtree(keep, ignore_errors=True)
                 os.makedirs(keep)
                 self.simulate(keep, rounds, seed)
+                with open(made_of_at, "w") as out:
+                    out.write(made_of)
             self.vectors[stage] = os.path.join(keep, "vectors.hex")
             self.sources = keep
             self.files = open(os.path.join(keep, "files")).read().split()
@@ -98,10 +102,15 @@ class Design:
         """A measure of the length of the vectors."""
         return os.path.getsize(self.vectors[stage])
 
-    def digest(self):
-        """Changes with the sources and the vectors that were recorded first."""
-        stage = LATER if self.late else 0
-        return hashlib.sha256(json.dumps([self.texts, self.clocks(stage), STAGES], sort_keys=True).encode()).hexdigest()
+    def digest(self, phase):
+        """Changes with the sources and, where a phase replays them, with the vectors that were recorded first."""
+        with self.lock:
+            if phase not in self.digests:
+                replayed = phase == "long" or phase == "short" and not self.late
+                vectors = open(self.vectors[LATER if self.late else 0], "rb").read() if replayed else b""
+                texts = json.dumps([self.texts, STAGES], sort_keys=True).encode()
+                self.digests[phase] = hashlib.sha256(texts + vectors).hexdigest()
+            return self.digests[phase]
 
     def has(self, module):
         return f"rtl/{module}.v" in self.files
@@ -190,6 +199,12 @@ class Design:
     def equal(self, module, text, inside=None):
         """Whether the design with another text of a module is proven to be the design; or the module of that name alone."""
         return mutation_proof.equal(self, WORK, module, text, inside)
+
+
+@functools.cache
+def executable():
+    """Tells one Foveate from another."""
+    return hashlib.sha256(open(FOVEATE, "rb").read()).hexdigest()
 
 
 def designs(organization):
@@ -517,14 +532,14 @@ class Journal:
     """What has been found of each mutant, so that an interrupted run can go on."""
 
     def __init__(self, all_of):
-        self.of = hashlib.sha256("".join(sorted(design.digest() for design in all_of)).encode()).hexdigest()
-        self.lock, self.path, self.found = threading.Lock(), os.path.join(WORK, "journal"), {}
+        self.all_of, self.lock, self.path, self.found = all_of, threading.Lock(), os.path.join(WORK, "journal"), {}
         for line in open(self.path) if os.path.exists(self.path) else ():
             key, *verdict = json.loads(line)
             self.found[key] = verdict
 
     def key(self, mutant, phase):
-        return hashlib.sha256(json.dumps([self.of, mutant.place(), mutant.text, phase]).encode()).hexdigest()
+        of = [design.digest(phase) for design in containing(mutant, self.all_of)]
+        return hashlib.sha256(json.dumps([sorted(of), mutant.place(), mutant.text, phase]).encode()).hexdigest()
 
     def ask(self, phase, mutant, find):
         """Sets the verdict: what is known, or what `find` says."""
@@ -678,6 +693,8 @@ def examine(organization, options, excuses, used):
             wrong = pool.map(lambda mutant: everywhere(mutant, all_of, proven[mutant.place()]), controls)
             for mutant in [mutant for mutant, claim in zip(controls, wrong) if claim]:
                 sys.exit(f"mutation: proven equal is what the vectors tell apart: {mutant}")
+    # Another design may show that a mutant is none: it does not elaborate there.
+    mutants, survivors = ([mutant for mutant in of if mutant.verdict != "refused"] for of in (mutants, survivors))
     open_ones = 0
     for mutant in survivors:
         if mutant.verdict == "survived" and mutant.key() in excuses:
@@ -714,7 +731,7 @@ def main():
     parser.add_argument("--verbose", action="store_true", help="print the survivors that are proven or excused, too")
     parser.add_argument("--no-proofs", dest="prove", action="store_false", help="do not try to prove survivors equivalent")
     parser.add_argument("--no-longer", dest="longer", action="store_false", help="leave survivors of the short vectors open")
-    parser.add_argument("--resume", action="store_true", help="go on where a run was ended, if neither this script nor the designs have changed")
+    parser.add_argument("--resume", action="store_true", help="go on where a run was ended; what other designs or vectors touch is found anew")
     options = parser.parse_args()
     organizations = options.organizations or ["pipelined", "serial"]
     if set(organizations) - {"pipelined", "serial"}:

@@ -4,6 +4,9 @@
 `same`   Yosys makes the same netlist of both, down to the last cell: nothing in it comes from what has been changed.
 `equal`  ABC proves that no sequence of inputs tells the two netlists apart: registers that are always equal are found by
          induction, what is left by PDR. Registers and memories are 0 at the start; resets may come at any clock.
+         First the memories are cut out: both sides read the same words, whatever these are, and every address, word and enable
+         that goes to a memory must be the same, too. So the contents are the same at every clock, and no memory is too large.
+         Where that finds a difference, which may be in a word that is not used, small memories become registers.
 """
 import os
 import re
@@ -16,12 +19,18 @@ YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
 # Memories stay as they are where netlists are only compared.
 READ = ["proc", "setattr -mod -unset keep_hierarchy *", "flatten", "memory -nomap", "opt -full"]
 SMALL = ["wreduce", "opt -full", "wreduce -memx", "opt -full", "opt_clean -purge"]
+# Memories with a name; those without one are constants, and stay inside.
+CUT = ["expose -evert t:$mem_v2"]
 BITS = ["memory_map", "opt -full", "splitnets -ports", "opt_clean -purge"]
 MITER = ["miter -equiv -flatten gold gate miter", "hierarchy -top miter", "opt -full", "techmap", "opt -full", "dffunmap",
          "setundef -undriven -zero", "setundef -init -zero", "zinit -all", "opt -full", "dffunmap", "abc -g AND", "opt_clean"]
-ABC = "strash; scorr; scorr -F 2; dc2; scorr; dprove; pdr"
+# Random inputs from reset, for a few seconds: most of what is not equal ends here.
+REFUTE = "strash; sim3 -F 2000 -W 4 -T 5"
+PROVE = "strash; scorr; scorr -F 2; dc2; scorr; dprove; pdr"
 # Seconds of processor time, so that a busy machine finds the same.
-READING, PROVING = 60, 40
+READING, PROVING = 60, 90
+# Bits of memory that become registers.
+REGISTERS = 2048
 
 
 def folder(work):
@@ -75,15 +84,42 @@ def netlist(design, work, module=None, text=None, inside=None):
 
 def equal(design, work, module, text, inside=None):
     """Whether no sequence of inputs tells the design, or the module of that name, from the one with another text."""
+    sides = {"gold": sources(design, work), "gate": sources(design, work, module, text)}
+    if proven(design, work, sides, inside, cut=True):
+        return True
+    bits = [sum(size * width for size, width, *_ in memories(work, side).values()) for side in sides]
+    return 0 < max(bits) <= REGISTERS and proven(design, work, sides, inside, cut=False)
+
+
+def proven(design, work, sides, inside, cut):
+    """Whether ABC finds the two sides equal, their memories cut out or as registers."""
     out = os.path.join(folder(work), "miter.aig")
     script = []
-    for side, change in (("gold", ()), ("gate", (module, text))):
-        script += load(design, sources(design, work, *change), inside) + READ + BITS + [f"rename -top {side}", f"design -stash {side}"]
-    script += [f"design -copy-from {side} -as {side} {side}" for side in ("gold", "gate")] + MITER + [f"write_aiger -zinit {out}"]
+    for side, paths in sides.items():
+        script += load(design, paths, inside) + READ + ["opt_clean -purge", f"tee -q -o {out}.{side} dump t:$mem_v2"]
+        script += (CUT if cut else []) + BITS + [f"rename -top {side}", f"design -stash {side}"]
+    script += [f"design -copy-from {side} -as {side} {side}" for side in sides] + MITER + [f"write_aiger -zinit {out}"]
     if run([YOSYS, "-q", "-p", "; ".join(script)]) is None:
         return False
-    said = run([abc(), "-c", f"read {out}; {ABC}"], PROVING) or ""
+    # Only memories of one shape have the same words if their ports have.
+    if cut and memories(work, "gold") != memories(work, "gate"):
+        return False
+    if "was asserted" in (run([abc(), "-c", f"read {out}; {REFUTE}"], PROVING) or ""):
+        return False
+    said = run([abc(), "-c", f"read {out}; {PROVE}"], PROVING) or ""
     return bool(re.search(r"UNSATISFIABLE|Property proved|Networks are equivalent", said)) and "was asserted" not in said
+
+
+def memories(work, side):
+    """Words, bits of a word and all other parameters of each memory with a name, as `proven` saw it last."""
+    path = os.path.join(folder(work), f"miter.aig.{side}")
+    found = {}
+    for cell in re.split(r"^  cell ", open(path).read(), flags=re.M)[1:] if os.path.exists(path) else ():
+        name = cell.split()[1]
+        if name.startswith("\\"):
+            parameters = dict(re.findall(r"^    parameter (\S+) (.*)$", cell, re.M))
+            found[name] = int(parameters["\\SIZE"]), int(parameters["\\WIDTH"]), sorted(parameters.items())
+    return found
 
 
 def abc():

@@ -59,7 +59,7 @@ fn arrays_agree_on_three_grids() {
 }
 
 /// The paper's 28x28 regions, on the street:
-/// `cargo test -p foveate-cosim --test designs -- --ignored`. Its C++ takes 100 s of processor time to
+/// `cargo test -p foveate-cosim --test cosim whole_array -- --ignored`. Its C++ takes 100 s of processor time to
 /// build, the model and the simulation a few seconds each, so that it is not part of the normal run.
 #[test]
 #[ignore = "takes minutes to build"]
