@@ -28,7 +28,7 @@ log=$(mktemp)
 trap 'rm -f "$beside" "$log"' EXIT
 # One of two processors for each.
 (JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick) >"$beside" 2>&1 &
-JOBS=1 scripts/mutation.sh --sample 10
+JOBS=1 scripts/mutation.sh --sample 8
 wait $! || { cat "$beside" && exit 1; }
 cat "$beside"
 step "tests"
