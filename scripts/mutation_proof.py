@@ -63,9 +63,9 @@ def limited(command, seconds, **options):
     return subprocess.run(command, capture_output=True, text=True, errors="replace", preexec_fn=limit, **options)
 
 
-def run(command, seconds=READING):
+def run(command, seconds=READING, **options):
     """What it says, if it ends well and in time."""
-    done = limited(command, seconds)
+    done = limited(command, seconds, **options)
     return done.stdout if done.returncode == 0 else None
 
 
@@ -104,9 +104,11 @@ def proven(design, work, sides, inside, cut):
     # Only memories of one shape have the same words if their ports have.
     if cut and memories(work, "gold") != memories(work, "gate"):
         return False
-    if "was asserted" in (run([abc(), "-c", f"read {out}; {REFUTE}"], PROVING) or ""):
+    # ABC leaves files where it stands.
+    ask = lambda commands: run([abc(), "-c", f"read {out}; {commands}"], PROVING, cwd=folder(work)) or ""
+    if "was asserted" in ask(REFUTE):
         return False
-    said = run([abc(), "-c", f"read {out}; {PROVE}"], PROVING) or ""
+    said = ask(PROVE)
     return bool(re.search(r"UNSATISFIABLE|Property proved|Networks are equivalent", said)) and "was asserted" not in said
 
 
