@@ -2,28 +2,19 @@
 //! Model against emitted RTL for a few designs at every level, in both simulators.
 #![allow(clippy::print_stdout, reason = "helpers of tests")]
 
-use foveate_cosim::{Job, Level, Simulator, Stimulus};
+use crate::common::{cosimulate, design};
+use foveate_cosim::{Level, Simulator, Stimulus};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_spec::{Config, Design, PRESETS};
 use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Cache, Toolchain};
-
-fn small(config: &Config, regions: (u32, u32)) -> Design {
-    let mut config = config.clone();
-    let side = config.region.size;
-    (config.frame.width, config.frame.height) = (Some(regions.0 * side), Some(regions.1 * side));
-    config.validate().unwrap()
-}
 
 fn agrees(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str) {
     if !require_tools(simulator.tools()) {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let mut job = Job::new(design, stimulus, &output.path().join("replay")).unwrap();
-    job.simulator = simulator;
-    let cache = Cache::from_env().unwrap();
-    let report = job.run(&Toolchain::system(), &cache, &mut |_| {}).unwrap();
+    let replay = output.path().join("replay");
+    let report = cosimulate(design, simulator, stimulus, &replay, |_| {}).unwrap();
     assert!(report.passed(), "{what}: {report}");
     println!("{what}: {report}; seconds: {:?}", report.seconds);
 }
@@ -31,7 +22,7 @@ fn agrees(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str)
 #[test]
 fn every_preset_agrees_at_rpu_level_in_both_simulators() {
     for preset in PRESETS {
-        let design = small(&preset.config().unwrap(), (3, 2));
+        let design = design(&preset.config().unwrap(), (3, 2));
         for simulator in Simulator::ALL {
             let scene = Scene::find("street").unwrap();
             let size = SceneSize { width: 24, height: 16, bits: 8, region_size: 8, frames: 4 };
@@ -49,7 +40,7 @@ fn arrays_agree_on_three_grids() {
         ("mad", Simulator::Verilator),
     ] {
         let preset = PRESETS.iter().find(|p| p.name == preset).unwrap();
-        let design = small(&preset.config().unwrap(), (4, 3));
+        let design = design(&preset.config().unwrap(), (4, 3));
         for (columns, rows) in [(2, 2), (3, 1), (1, 1)] {
             let level = Level::Rcm { columns, rows };
             let stimulus = Stimulus { level, rounds: 1, ..Stimulus::default() };

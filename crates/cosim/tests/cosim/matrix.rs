@@ -2,13 +2,12 @@
 //! Model against emitted RTL at RPU level: every feature x region size x filter x neighborhood x
 //! reference, with the other keys sampled along the way, and what lies beyond at the edges.
 
-use crate::common::{cosimulate, design, directed, in_parallel};
+use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_spec::{
     Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
-    SpatialConfig, Thresholds,
+    Thresholds,
 };
-use foveate_toolchain::testing::require_tools;
 
 /// From this many pixels per region on, the time to build with Verilator is won back.
 const COMPILED_FROM: u32 = 32 * 32;
@@ -21,31 +20,8 @@ fn simulator(config: &Config) -> Simulator {
     }
 }
 
-fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConfig {
-    let mut feature = SpatialConfig::new(kind);
-    feature.mean_fraction_bits = (kind == FeatureKind::Mad).then_some(mean_fraction_bits);
-    feature
-}
-
-fn name(config: &Config) -> String {
-    let kinds: Vec<_> = config.spatial.iter().map(|s| s.feature.name()).collect();
-    format!(
-        "{} N={} P={} {} {} {} {} {} {} {}",
-        kinds.join("+"),
-        config.region.size,
-        config.frame.pixel_bits,
-        config.denoise.filter,
-        config.region.neighborhood,
-        config.temporal.reference,
-        config.render.irrelevant,
-        config.render.payload,
-        config.decision.combine,
-        config.hardware.thresholds,
-    )
-}
-
 fn check_all(configs: &[Config]) {
-    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+    if !simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -53,11 +29,7 @@ fn check_all(configs: &[Config]) {
         let (name, design) = (name(config), design(config, (1, 1)));
         let folder = output.path().join(design.fingerprint());
         let stimulus = directed(Level::Rpu, 1);
-        match cosimulate(&design, simulator(config), stimulus, &folder, |_| {}) {
-            Ok(report) if report.passed() => Ok(()),
-            Ok(report) => Err(format!("{name}: {report}")),
-            Err(error) => Err(format!("{name}: {error}")),
-        }
+        agrees(&name, &design, simulator(config), stimulus, &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }

@@ -4,9 +4,9 @@
 //! scores, decisions and pixels.
 
 use crate::common;
-use crate::common::serial::{config, feature};
+use crate::common::serial::config;
 use crate::common::vectors::{clocks, value};
-use crate::common::{cosimulate, in_parallel};
+use crate::common::{cosimulate, feature, in_parallel};
 use foveate_cosim::{Level, Recording, Simulator, Stimulus};
 use foveate_model::{Camera, Frame, region_pixels};
 use foveate_scenes::{Scene, SceneSize};

@@ -2,14 +2,13 @@
 //! Model against emitted RTL for serial designs: one lane and small arrays. Frames take thousands of
 //! clocks, so that the keys are not crossed but take turns, each at a pace of its own.
 
-use crate::common::serial::{config, feature, name};
-use crate::common::{cosimulate, design, directed, in_parallel};
+use crate::common::serial::{config, name};
+use crate::common::{agrees, design, directed, feature, in_parallel, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_spec::{
     Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Payload,
     Reference, Thresholds,
 };
-use foveate_toolchain::testing::require_tools;
 
 use FeatureKind::{Corner, Edge, Mad, Variance};
 
@@ -48,7 +47,7 @@ impl Case {
 }
 
 fn check_all(cases: &[Case]) {
-    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+    if !simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -56,11 +55,7 @@ fn check_all(cases: &[Case]) {
         let (name, design) = (name(&case.config, case.grid), case.design());
         let folder = output.path().join(format!("{}-{}", design.fingerprint(), case.level));
         let stimulus = directed(case.level, 1);
-        match cosimulate(&design, case.simulator(), stimulus, &folder, |_| {}) {
-            Ok(report) if report.passed() => Ok(()),
-            Ok(report) => Err(format!("{name}: {report}")),
-            Err(error) => Err(format!("{name}: {error}")),
-        }
+        agrees(&name, &design, case.simulator(), stimulus, &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }

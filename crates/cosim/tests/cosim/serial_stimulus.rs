@@ -3,9 +3,9 @@
 //! they offer; no tool is needed for that.
 
 use crate::common;
-use crate::common::serial::{config, feature};
+use crate::common::serial::config;
 use crate::common::vectors::{clocks, value};
-use crate::common::{design, directed};
+use crate::common::{design, directed, feature};
 use foveate_cosim::{Layout, Level, Recording, Stimulus};
 use foveate_model::Frame;
 use foveate_spec::{

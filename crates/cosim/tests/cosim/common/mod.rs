@@ -5,12 +5,37 @@ pub(crate) mod serial;
 pub(crate) mod vectors;
 
 use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator, Stimulus};
-use foveate_spec::{Config, Design};
+use foveate_spec::{Config, Design, FeatureKind, SpatialConfig};
+use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Toolchain};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
+
+pub(crate) fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConfig {
+    let mut feature = SpatialConfig::new(kind);
+    feature.mean_fraction_bits = (kind == FeatureKind::Mad).then_some(mean_fraction_bits);
+    feature
+}
+
+/// What tells a configuration from others, but for what is of one organization alone.
+pub(crate) fn name(config: &Config) -> String {
+    let kinds: Vec<_> = config.spatial.iter().map(|s| s.feature.name()).collect();
+    format!(
+        "{} N={} P={} {} {} {} {} {} {} {}",
+        kinds.join("+"),
+        config.region.size,
+        config.frame.pixel_bits,
+        config.denoise.filter,
+        config.region.neighborhood,
+        config.temporal.reference,
+        config.render.irrelevant,
+        config.render.payload,
+        config.decision.combine,
+        config.hardware.thresholds,
+    )
+}
 
 /// The design of a configuration for a frame of that many regions.
 pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
@@ -18,6 +43,11 @@ pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
     let side = config.region.size;
     (config.frame.width, config.frame.height) = (Some(regions.0 * side), Some(regions.1 * side));
     config.validate().unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Whether every simulator is there.
+pub(crate) fn simulators() -> bool {
+    Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools()))
 }
 
 /// Vectors without frames of the caller.
@@ -37,6 +67,21 @@ pub(crate) fn cosimulate(
     job.simulator = simulator;
     edit(&mut job);
     job.run(&Toolchain::system(), &Cache::from_env()?, &mut |_| {})
+}
+
+/// That a co-simulation finds no mismatch, or what it says.
+pub(crate) fn agrees(
+    what: &str,
+    design: &Design,
+    simulator: Simulator,
+    stimulus: Stimulus,
+    output: &Path,
+) -> Result<(), String> {
+    match cosimulate(design, simulator, stimulus, output, |_| {}) {
+        Ok(report) if report.passed() => Ok(()),
+        Ok(report) => Err(format!("{what}: {report}")),
+        Err(error) => Err(format!("{what}: {error}")),
+    }
 }
 
 /// Does `work` for every item on every core; failures come back together.

@@ -6,7 +6,7 @@ mod faults;
 mod planted;
 mod serial_faults;
 
-use crate::common::{cosimulate, directed, in_parallel};
+use crate::common::{agrees, cosimulate, directed, in_parallel, simulators};
 use faults::Fault;
 use foveate_cosim::{CosimReport, Level, Simulator};
 use foveate_toolchain::testing::require_tools;
@@ -39,7 +39,7 @@ fn plant(fault: &Fault, output: &Path) -> Result<CosimReport, String> {
 }
 
 fn all_are_caught(faults: &[Fault]) {
-    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+    if !simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -76,7 +76,7 @@ fn every_planted_fault_of_the_serial_organization_is_caught() {
 /// Else a fault would be caught that is none.
 #[test]
 fn every_design_passes_without_a_fault() {
-    if !Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools())) {
+    if !simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -89,11 +89,8 @@ fn every_design_passes_without_a_fault() {
     let failures = in_parallel(&designs, |planted| {
         let folder = output.path().join(format!("{planted:?}"));
         let stimulus = directed(planted.level(""), 1);
-        match cosimulate(&planted.design(), planted.simulator(), stimulus, &folder, |_| {}) {
-            Ok(report) if report.passed() => Ok(()),
-            Ok(report) => Err(format!("{planted:?}: {report}")),
-            Err(error) => Err(format!("{planted:?}: {error}")),
-        }
+        let name = format!("{planted:?}");
+        agrees(&name, &planted.design(), planted.simulator(), stimulus, &folder)
     });
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
