@@ -4,9 +4,9 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use foveate_array::PipelinedArray;
+use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
 use foveate_lanes::Level;
 use foveate_model::{PipelinedRcm, Thresholds};
-use foveate_spec::{Config, Design, FeatureKind, SpatialConfig};
 
 fn main() {
     divan::main();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array as its callers see it.
 
+use foveate_design::{Design, bits_for};
 use foveate_lanes::Level;
 use foveate_model::Thresholds;
-use foveate_spec::{Design, bits_for};
 
 use crate::core::{Clock, Core, Edge};
 use crate::plan::index;

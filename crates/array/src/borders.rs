@@ -2,9 +2,9 @@
 //! The frame's border: RPUs whose second window repeats their region's own denoised pixels, where
 //! their neighbors' shows halo.
 
+use foveate_design::Design;
 use foveate_lanes::{BLOCK, Block, Lane};
 use foveate_model::region_border;
-use foveate_spec::Design;
 
 use crate::plan::index;
 use crate::rows::{Memory, Row, row};

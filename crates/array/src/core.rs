@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! All RPUs of an array: the stages in a row, for one set of lane types.
 
+use foveate_design::{Design, FeatureKind};
 use foveate_lanes::{Lane, Task, threshold};
 use foveate_model::Thresholds;
-use foveate_spec::{Design, FeatureKind};
 
 use crate::borders::Borders;
 use crate::kernel;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sums over the regions, for `mad` and `variance`, a row of lanes each.
 
+use foveate_design::FeatureKind;
 use foveate_lanes::{BLOCK, Block, Lane};
-use foveate_spec::FeatureKind;
 
 use crate::plan::Plan;
 use crate::rows::{Row, row};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the blocks of an array need to know of the design, taken from it once.
 
-use foveate_model::Thresholds;
-use foveate_spec::{
+use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
     Thresholds as Source,
 };
+use foveate_model::Thresholds;
 
 /// Parameters of every RPU.
 #[derive(Clone, Debug)]

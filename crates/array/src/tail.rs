@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The tails of all RPUs: positions, scores, decision, forwarding.
 
+use foveate_design::{Combine, FeatureKind};
 use foveate_lanes::{BLOCK, Block, Lane};
 use foveate_model::Thresholds;
-use foveate_spec::{Combine, FeatureKind};
 
 use crate::counts::{add_hits, reach};
 use crate::moments::Moments;

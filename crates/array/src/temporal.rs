@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The temporal score against the references that may count; which they are is in the model.
 
+use foveate_design::{Irrelevant, Reference};
 use foveate_lanes::{Lane, threshold};
-use foveate_spec::{Irrelevant, Reference};
 
 use crate::counts::{add_all, add_changes};
 use crate::plan::Plan;

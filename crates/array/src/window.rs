@@ -5,8 +5,8 @@
 //! Pixels lie in a ring, in the order in which they come, frame after frame. It is as long as a window
 //! reaches back: two rows and three pixels, as in the hardware.
 
+use foveate_design::Neighborhood;
 use foveate_lanes::{Block, Lane};
-use foveate_spec::Neighborhood;
 
 use crate::borders::Borders;
 use crate::plan::Plan;

@@ -3,12 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use foveate_array::PipelinedArray;
-use foveate_lanes::Level;
-use foveate_model::{PipelinedRcm, RpuOutput, Thresholds};
-use foveate_spec::{
+use foveate_design::{
     Combine, Config, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
     SpatialConfig, Thresholds as Source,
 };
+use foveate_lanes::Level;
+use foveate_model::{PipelinedRcm, RpuOutput, Thresholds};
 use proptest::prelude::*;
 use proptest::sample::select;
 

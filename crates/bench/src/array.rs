@@ -5,8 +5,8 @@ use std::hint::black_box;
 
 use foveate_array::PipelinedArray;
 use foveate_cosim::{Agreement, PipelinedCodec, Recording};
+use foveate_design::Design;
 use foveate_model::RpuOutput;
-use foveate_spec::Design;
 
 use crate::clear::per_clock;
 use crate::error::BenchError;

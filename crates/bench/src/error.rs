@@ -2,9 +2,9 @@
 //! Why there is no result; a missing tool is a row that says so, and a difference is a result.
 
 use foveate_cosim::CosimError;
+use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_model::ModelError;
-use foveate_spec::SpecError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
@@ -23,7 +23,7 @@ pub enum BenchError {
     Engine(#[from] EngineError),
     /// The part of the design that goes into the netlist is none.
     #[error(transparent)]
-    Spec(#[from] SpecError),
+    Spec(#[from] DesignError),
     /// The vectors could not be read back.
     #[error("cannot read `{path}`: {source}")]
     Vectors {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames of random pixels: no level can take a short cut on them.
 
+use foveate_design::Design;
 use foveate_model::{Frame, ModelError};
-use foveate_spec::Design;
 
 /// `count` frames of the design's kind, every pixel random; equal seeds give equal frames.
 ///

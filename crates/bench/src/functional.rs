@@ -4,9 +4,9 @@
 use std::hint::black_box;
 
 use foveate_cosim::Agreement;
+use foveate_design::Design;
 use foveate_engine::{Engine, Level as Instructions, Options};
 use foveate_model::{Camera, Frame};
-use foveate_spec::Design;
 
 use crate::error::BenchError;
 use crate::memory::Before;
@@ -91,7 +91,7 @@ fn per_frame(design: &Design, frames: &[Frame], time: Time) -> Measured {
 mod tests {
     use super::*;
     use crate::frames::random_frames;
-    use foveate_spec::Config;
+    use foveate_design::Config;
 
     #[test]
     fn an_engine_that_sees_something_else_is_noticed() {

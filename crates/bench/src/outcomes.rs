@@ -3,8 +3,8 @@
 //! decisions of every region of every frame, whenever they come.
 
 use foveate_cosim::{Agreement, Layout, Recording};
+use foveate_design::{Design, Organization, PortRole};
 use foveate_model::{Camera, Frame, Outcome};
-use foveate_spec::{Design, Organization, PortRole};
 
 use crate::error::BenchError;
 use crate::vectors::{each_clock, field};

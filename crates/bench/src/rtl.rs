@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use foveate_cosim::{Job, Level as Simulated, Recording, Run, Simulator, Stimulus};
-use foveate_spec::Design;
+use foveate_design::Design;
 use foveate_toolchain::verilator::Optimize;
 
 use crate::bench::Tools;

@@ -6,8 +6,8 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 use foveate_cosim::{Agreement, Field, Layout, Recording};
+use foveate_design::{Design, PortRole, Timing};
 use foveate_model::Thresholds;
-use foveate_spec::{Design, PortRole, Timing};
 
 use crate::error::BenchError;
 

@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
-use foveate_spec::{Config, Design, Preset, SpecError};
+use foveate_design::{Config, Design, DesignError, Preset};
 
 use self::input::InputArgs;
 use crate::error::CliError;
@@ -101,7 +101,7 @@ impl DesignArgs {
     }
 
     /// Names the file if it is wrong without the overrides, too.
-    fn blame(&self, text: &str, error: SpecError) -> CliError {
+    fn blame(&self, text: &str, error: DesignError) -> CliError {
         let alone = Config::from_toml(text).and_then(|config| config.validate());
         CliError::Spec { file: self.config.clone().filter(|_| alone.is_err()), error }
     }

@@ -6,10 +6,10 @@ use std::process::ExitCode;
 
 use foveate_bench::BenchError;
 use foveate_cosim::CosimError;
+use foveate_design::DesignError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
 use foveate_simulator::SimulatorError;
-use foveate_spec::SpecError;
 use foveate_staging::StagingError;
 use foveate_studies::StudyError;
 use foveate_toolchain::ToolError;
@@ -22,7 +22,7 @@ use crate::interrupt;
 pub(crate) enum CliError {
     /// A configuration that is no design, from a file or from the command line.
     #[error("{}{error}", origin(file.as_deref()))]
-    Spec { file: Option<PathBuf>, error: SpecError },
+    Spec { file: Option<PathBuf>, error: DesignError },
     #[error(transparent)]
     Tool(#[from] ToolError),
     #[error(transparent)]
@@ -147,8 +147,8 @@ impl From<BenchError> for CliError {
     }
 }
 
-impl From<SpecError> for CliError {
-    fn from(error: SpecError) -> Self {
+impl From<DesignError> for CliError {
+    fn from(error: DesignError) -> Self {
         Self::Spec { file: None, error }
     }
 }

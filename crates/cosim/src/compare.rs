@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use crate::recording::Recorder;
     use crate::testing::port;
-    use foveate_spec::Direction;
+    use foveate_design::Direction;
 
     #[test]
     fn lines_of_the_bench_are_read() {

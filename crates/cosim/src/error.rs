@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What can go wrong beside a mismatch, which is a result and no error.
 
+use foveate_design::DesignError;
 use foveate_estimate::EstimateError;
-use foveate_spec::SpecError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub enum CosimError {
 
     /// The design does not allow what was asked for.
     #[error(transparent)]
-    Spec(#[from] SpecError),
+    Spec(#[from] DesignError),
 
     /// The Verilog has no module of the name that is to be simulated.
     #[error("no module `{top}` in the Verilog ({files}); give the sources of the whole core")]

@@ -2,7 +2,7 @@
 //! One port in a record.
 
 use crate::gate::Gate;
-use foveate_spec::Port;
+use foveate_design::Port;
 use std::fmt::Write as _;
 
 /// Where one port lies in a record.

@@ -5,8 +5,8 @@ use crate::field::Field;
 use crate::gate::Gate;
 use crate::layout::Layout;
 use askama::Template;
+use foveate_design::{Direction, Port, PortRole};
 use foveate_emit::Parameter;
-use foveate_spec::{Direction, Port, PortRole};
 
 /// The C++ main that clocks module `top` with packed records; see [`Layout`] for their bytes.
 #[must_use]
@@ -147,7 +147,7 @@ pub(crate) fn rendered(template: &impl Template) -> String {
 mod tests {
     use super::*;
     use crate::testing::port;
-    use foveate_spec::Qualifier;
+    use foveate_design::Qualifier;
 
     #[test]
     fn ports_of_every_width_are_named_once_per_use() {

@@ -11,8 +11,8 @@ use crate::replay::{self, About};
 use crate::report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
+use foveate_design::{Design, DesignError, Organization};
 use foveate_emit::{SourceFile, verilog};
-use foveate_spec::{Design, Organization, SpecError};
 use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
 use std::path::{Path, PathBuf};
@@ -65,7 +65,7 @@ impl Job {
     ///
     /// # Errors
     /// When the level's grid makes a frame that no design can have.
-    pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, SpecError> {
+    pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, DesignError> {
         let simulated = stimulus.level.design(design)?;
         Ok(Self {
             sources: verilog(&simulated, stimulus.level.top()),

@@ -8,7 +8,7 @@
 
 use crate::field::Field;
 use crate::gate::Gate;
-use foveate_spec::{Direction, Port, PortRole, Qualifier};
+use foveate_design::{Direction, Port, PortRole, Qualifier};
 
 /// The layout of a record.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How much of the hardware is simulated.
 
+use foveate_design::{Design, DesignError, Organization};
 use foveate_emit::Top;
-use foveate_spec::{Design, Organization, SpecError};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -39,7 +39,7 @@ impl Level {
     ///
     /// # Errors
     /// When the grid makes a frame that no design can have.
-    pub fn design(self, design: &Design) -> Result<Design, SpecError> {
+    pub fn design(self, design: &Design) -> Result<Design, DesignError> {
         match self {
             Self::Full => Ok(design.clone()),
             Self::Rpu => match design.organization() {
@@ -52,7 +52,7 @@ impl Level {
 }
 
 /// The design for a frame of so many regions.
-fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, SpecError> {
+fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, DesignError> {
     let mut config = design.config().clone();
     let side = design.region_size();
     config.frame.width = Some(columns.saturating_mul(side));

@@ -5,7 +5,7 @@ use crate::compare::Difference;
 use crate::field::Field;
 use crate::layout::Layout;
 use crate::level::Level;
-use foveate_spec::{Design, Feed, Organization, PortRole};
+use foveate_design::{Design, Feed, Organization, PortRole};
 
 /// The region of a difference, as far as the expected outputs of that clock tell. `first` is the region of
 /// the frame that goes through the only RPU, or lane, if it is one of a frame of the caller.
@@ -60,7 +60,7 @@ fn in_serial_array(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_spec::Config;
+    use foveate_design::Config;
 
     fn design(hardware: &str) -> Design {
         let toml = format!(

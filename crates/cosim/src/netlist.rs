@@ -7,9 +7,9 @@
 
 use crate::error::CosimError;
 use crate::job::Job;
+use foveate_design::{Design, Organization};
 use foveate_emit::{SourceFile, Top};
 use foveate_estimate::{EstimateJob, ToolRecord};
-use foveate_spec::{Design, Organization};
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256, yosys};
 use serde::{Deserialize, Serialize};
 

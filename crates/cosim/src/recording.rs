@@ -6,7 +6,7 @@
 
 use crate::error::CosimError;
 use crate::layout::Layout;
-use foveate_spec::Port;
+use foveate_design::Port;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};

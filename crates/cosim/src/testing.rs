@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A small hand-made module and a matching closure, to test the machinery without model and RTL.
 
-use foveate_spec::{Direction, Port, PortRole, Qualifier};
+use foveate_design::{Direction, Port, PortRole, Qualifier};
 
 /// A port of any name and shape; the role is the clock's for `clk_i` and of no meaning otherwise.
 pub(crate) fn port(name: &str, direction: Direction, width: u32, lanes: u32) -> Port {

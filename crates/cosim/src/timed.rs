@@ -150,7 +150,7 @@ mod tests {
     use super::*;
     use crate::recording::Recorder;
     use crate::testing::port;
-    use foveate_spec::Direction;
+    use foveate_design::Direction;
 
     #[test]
     fn the_line_of_the_harness_is_read() {

@@ -4,7 +4,7 @@
 use crate::verilog::text_of;
 use crate::{SourceFile, Top, banner, latency, verilog};
 use askama::Template;
-use foveate_spec::{
+use foveate_design::{
     Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, PortRole, SerialTiming, Thresholds,
     Timing,
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
-use foveate_spec::{Design, FeatureKind, Filter, Neighborhood, Organization, Reference};
+use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Organization, Reference};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

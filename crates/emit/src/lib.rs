@@ -17,7 +17,7 @@ pub use crate::core::core;
 pub use leaf::{LEAVES, Leaf};
 pub use verilog::{Parameter, Top, verilog};
 
-use foveate_spec::{Design, PipelinedTiming};
+use foveate_design::{Design, PipelinedTiming};
 
 /// One file of generated text.
 #[derive(Clone, Debug, PartialEq, Eq)]

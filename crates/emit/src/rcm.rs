@@ -4,7 +4,7 @@
 use crate::banner;
 use crate::verilog::{PortLine, text_of};
 use askama::Template;
-use foveate_spec::{Design, Port, PortRole};
+use foveate_design::{Design, Port, PortRole};
 
 #[derive(Template)]
 #[template(path = "rcm.v")]

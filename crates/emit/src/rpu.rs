@@ -5,7 +5,7 @@ use crate::thresholds::{Constant, constants, signal, summary};
 use crate::verilog::{PortLine, text_of};
 use crate::{banner, latency, pipelined};
 use askama::Template;
-use foveate_spec::{
+use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PortRole, Reference,
     SpatialFeature, bits_for, index_bits,
 };

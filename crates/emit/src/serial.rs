@@ -5,7 +5,7 @@ use crate::banner;
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::verilog::{PortLine, Top, text_of};
 use askama::Template;
-use foveate_spec::{
+use foveate_design::{
     AreaKind, Combine, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
     Port, PortRole, Reference, SpatialFeature, Thresholds, Timing,
 };

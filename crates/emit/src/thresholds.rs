@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds as inputs or constants, and scores in words: the same for every organization.
 
-use foveate_spec::{Design, FeatureKind, PortRole, Thresholds};
+use foveate_design::{Design, FeatureKind, PortRole, Thresholds};
 
 /// A threshold that is built in.
 pub(crate) struct Constant {

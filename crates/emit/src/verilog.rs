@@ -3,7 +3,7 @@
 
 use crate::{SourceFile, leaf, rcm, rpu, serial};
 use askama::Template;
-use foveate_spec::{Design, Direction, Organization, Port};
+use foveate_design::{Design, Direction, Organization, Port};
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);

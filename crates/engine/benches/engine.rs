@@ -3,8 +3,8 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use foveate_design::{Config, FeatureKind, Neighborhood, SpatialConfig};
 use foveate_engine::{Engine, Level, Options, Screens};
-use foveate_spec::{Config, FeatureKind, Neighborhood, SpatialConfig};
 
 fn main() {
     divan::main();

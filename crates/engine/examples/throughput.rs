@@ -10,8 +10,8 @@
 use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
+use foveate_design::{Config, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
 use foveate_engine::{Engine, Level, Options, Outcome, Screens};
-use foveate_spec::{Config, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
 
 type Failure = Box<dyn std::error::Error>;
 

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_spec::Reference;
+use foveate_design::Reference;
 
 use crate::denoised::Denoiser;
 use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};

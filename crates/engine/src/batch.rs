@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Several frames at once: the same results as one by one, handed to the threads once.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::core::{Core, Keep};
 use crate::engine::{Engine, Lanes};

@@ -136,7 +136,7 @@ pub(crate) fn runs<T: Lane>(plan: &Plan<T>, affected: &[bool], runs: &mut Vec<Ra
 
 #[cfg(test)]
 mod tests {
-    use foveate_spec::{Config, Neighborhood};
+    use foveate_design::{Config, Neighborhood};
 
     use super::*;
 

@@ -4,7 +4,7 @@
 use std::iter;
 use std::ops::Range;
 
-use foveate_spec::Reference;
+use foveate_design::Reference;
 
 use crate::change;
 use crate::look::{Changes, Look};

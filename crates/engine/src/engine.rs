@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The engine as its callers see it.
 
+use foveate_design::Design;
 use foveate_model::Frame;
-use foveate_spec::Design;
 
 use crate::core::{Core, Keep};
 use crate::pixels::Pixels;

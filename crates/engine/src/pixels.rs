@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pixels of one frame as their source holds them: rows some stride apart, nothing copied.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::EngineError;
 use crate::plan::index;

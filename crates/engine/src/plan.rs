@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A design as the kernels need it: geometry in indices, thresholds in lanes.
 
-use foveate_spec::{
+use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
 };
 

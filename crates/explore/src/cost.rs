@@ -4,9 +4,9 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{Area, EstimateJob, estimate};
-use foveate_spec::Design;
 use foveate_toolchain::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

@@ -3,12 +3,12 @@
 
 use std::path::PathBuf;
 
+use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
 use foveate_ideal::IdealError;
 use foveate_simulator::SimulatorError;
-use foveate_spec::SpecError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -28,7 +28,7 @@ pub enum ExploreError {
         /// The table of the file.
         section: &'static str,
         /// What is wrong.
-        error: SpecError,
+        error: DesignError,
     },
     /// No point of the space can be built.
     #[error("no point of the space is a design; the first, {settings}: {reason}")]
@@ -99,7 +99,7 @@ pub enum ExploreError {
     Simulator(Box<SimulatorError>),
     /// A configuration that is no design.
     #[error(transparent)]
-    Spec(#[from] SpecError),
+    Spec(#[from] DesignError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

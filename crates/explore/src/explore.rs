@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use foveate_design::{Config, Design};
 use foveate_simulator::InputOptions;
-use foveate_spec::{Config, Design};
 use foveate_staging::write_file;
 use serde::Serialize;
 

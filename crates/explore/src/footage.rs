@@ -5,9 +5,9 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use foveate_design::{Config, Design};
 use foveate_fidelity::{Figures, Tally};
 use foveate_simulator::{InputOptions, Source, Subject, is_read_once, open, subjects};
-use foveate_spec::{Config, Design};
 
 use crate::measure::{Clip, Measured};
 use crate::store::{Store, identity, key};

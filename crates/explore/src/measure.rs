@@ -7,11 +7,11 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use foveate_design::{Config, Design};
 use foveate_engine::{Engine, Raster};
 use foveate_fidelity::{Fidelity, Tally};
 use foveate_ideal::{IdealCamera, IdealOutcome};
 use foveate_simulator::{InputOptions, Kind, SimulatorError, Source, Subject, convert_depth, open};
-use foveate_spec::{Config, Design};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use foveate_spec::{Config, Design};
+use foveate_design::{Config, Design};
 use serde::{Deserialize, Serialize};
 
 use crate::scale::at_depth;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A point with everything that is known of it.
 
+use foveate_design::{Config, Design};
 use foveate_fidelity::{Figures, Tally};
-use foveate_spec::{Config, Design};
 use serde::Serialize;
 
 use crate::cost::{Silicon, speed};

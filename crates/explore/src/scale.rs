@@ -6,7 +6,7 @@
 //! are divided and rounded down. `min_score` of `mad` is a mean of differences, divided by 2^k; that of
 //! `variance` is a mean of their squares, divided by 4^k. Counts stay as they are.
 
-use foveate_spec::{Config, Decimal, FeatureKind};
+use foveate_design::{Config, Decimal, FeatureKind};
 
 /// `config`, whose thresholds are in grey levels of `bits` bits, with those of its own depth.
 pub(crate) fn at_depth(config: &Config, bits: u32) -> Config {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A space of designs as a file says it: where they start, what they are compared with, what varies.
 
-use foveate_spec::{Config, Preset, SpecError};
+use foveate_design::{Config, DesignError, Preset};
 use serde::Deserialize;
 use toml::{Table, Value};
 
@@ -42,7 +42,7 @@ pub(crate) struct Start {
 
 impl Start {
     /// The configuration with more overrides, each `key=TOML_VALUE`.
-    pub(crate) fn with(&self, more: &[String]) -> Result<Config, SpecError> {
+    pub(crate) fn with(&self, more: &[String]) -> Result<Config, DesignError> {
         let overrides: Vec<&String> = self.overrides.iter().chain(more).collect();
         Config::from_toml_with(self.preset, &overrides)
     }
@@ -133,7 +133,7 @@ impl Axis {
     fn check(&self, start: &Start) -> Result<(), ExploreError> {
         let first = self.values.first().map(String::as_str).unwrap_or_default();
         match start.with(&[format!("{}={first}", self.key)]) {
-            Err(error @ SpecError::UnknownKey { .. }) => {
+            Err(error @ DesignError::UnknownKey { .. }) => {
                 Err(ExploreError::Section { section: "vary", error })
             }
             _ => Ok(()),

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
+use foveate_design::{Config, HardwareConfig};
 use foveate_simulator::{InputOptions, Subject};
-use foveate_spec::{Config, HardwareConfig};
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 

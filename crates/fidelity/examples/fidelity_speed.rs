@@ -4,11 +4,11 @@
 
 use std::time::Instant;
 
+use foveate_design::Config;
 use foveate_engine::{Engine, Raster};
 use foveate_fidelity::Fidelity;
 use foveate_ideal::IdealCamera;
 use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::Config;
 
 fn main() {
     for (width, height) in [(1280, 720), (1920, 1080)] {

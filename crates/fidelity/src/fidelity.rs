@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compares a candidate with the ideal, frame by frame.
 
+use foveate_design::Design;
 use foveate_engine::{Outcome, Plane, Raster};
 use foveate_ideal::IdealOutcome;
-use foveate_spec::Design;
 
 use crate::areas::{EMPTY, state};
 use crate::overlap::Cells;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Two grids of regions over one frame: the cells that the lines of both cut it into.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::areas::{Table, place};
 

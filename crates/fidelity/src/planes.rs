@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The pictures of one frame in one pixel type, at the depth of the ideal.
 
+use foveate_design::Design;
 use foveate_engine::{Plane, convert_depth};
 use foveate_ideal::IdealOutcome;
-use foveate_spec::Design;
 
 use crate::sample::Sample;
 

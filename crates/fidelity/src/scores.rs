@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Errors of the scores that both designs have, region by region; only where regions are the same.
 
+use foveate_design::{Design, FeatureKind};
 use foveate_engine::Outcome;
 use foveate_ideal::IdealOutcome;
-use foveate_spec::{Design, FeatureKind};
 use serde::{Deserialize, Serialize};
 
 use crate::exact::{Exact, real};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How old the candidate's screen is, in the regions that the ideal finds relevant.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 use serde::{Deserialize, Serialize};
 
 use crate::sample::Sample;

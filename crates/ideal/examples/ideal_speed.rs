@@ -4,9 +4,9 @@
 
 use std::time::Instant;
 
+use foveate_design::{Config, FeatureKind, SpatialConfig};
 use foveate_engine::Raster;
 use foveate_ideal::IdealCamera;
-use foveate_spec::{Config, FeatureKind, SpatialConfig};
 
 fn main() {
     for (width, height) in [(1280_u32, 720_u32), (1920, 1080)] {

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 /// Sizes in pixels and numbers of regions.
 #[derive(Clone, Copy, Debug)]

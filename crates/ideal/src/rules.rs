@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds and decisions, as the configuration writes them.
 
+use foveate_design::{Combine, Decimal, Design, FeatureKind, Irrelevant};
 use foveate_model::Action;
-use foveate_spec::{Combine, Decimal, Design, FeatureKind, Irrelevant};
 
 /// One feature.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub(crate) struct Rules {
 
 impl Rules {
     pub(crate) fn of(design: &Design) -> Self {
-        let feature = |entry: &foveate_spec::SpatialConfig| Feature {
+        let feature = |entry: &foveate_design::SpatialConfig| Feature {
             kind: entry.feature,
             level: f64::from(entry.level.unwrap_or_default()),
             min_score: entry.min_score.map_or(0.0, real),

@@ -6,8 +6,8 @@
 
 use std::time::{Duration, Instant};
 
+use foveate_design::{Config, Design};
 use foveate_model::{SerialInput, SerialRcm, Thresholds};
-use foveate_spec::{Config, Design};
 
 /// How long each way is measured for.
 const LASTS: Duration = Duration::from_secs(3);

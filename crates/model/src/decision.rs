@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How votes become SRS, and what SRS and TRS do to a region.
 
-use foveate_spec::{Combine, Design, Irrelevant};
+use foveate_design::{Combine, Design, Irrelevant};
 
 /// SRS from the votes of the features.
 pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) -> bool {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The filter in front of every score.
 
-use foveate_spec::{Design, Filter};
+use foveate_design::{Design, Filter};
 
 use crate::Frame;
 use crate::number::index;

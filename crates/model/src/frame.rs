@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame: width x height luma pixels of some bits, row by row.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::ModelError;
 use crate::number::index;

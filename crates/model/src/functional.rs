@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functional reference: an RCM and its renderer, one whole frame at a time.
 
-use foveate_spec::{Design, Payload};
+use foveate_design::{Design, Payload};
 
 use crate::decision::combined;
 use crate::denoise::denoise_into;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where a region lies in the padded frame, and the padding itself.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::number::index;
 use crate::{Frame, ModelError};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The screen: what remains of each region after its action.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::region::{Area, crop_into};
 use crate::{Action, Frame};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a region feeds to its RPU: the pixels with their halo, and its place in the frame.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::Frame;
 use crate::region::Area;

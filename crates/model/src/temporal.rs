@@ -2,7 +2,7 @@
 //! The temporal score: how many pixels differ from the region's reference, and what the reference
 //! is.
 
-use foveate_spec::{Design, Reference};
+use foveate_design::{Design, Reference};
 
 use crate::number::{count, index};
 use crate::region::Area;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The threshold inputs of a core; every organization has the same.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 /// What is applied to the threshold inputs in one clock. Features are numbered in the order of the
 /// design; places that it does not use are ignored.
@@ -39,8 +39,8 @@ impl Thresholds {
     /// Those of a core that has them built in; `None` where they are inputs.
     pub(crate) fn constants(design: &Design) -> Option<Self> {
         match design.thresholds() {
-            foveate_spec::Thresholds::Runtime => None,
-            foveate_spec::Thresholds::Constant => Some(Self::of(design)),
+            foveate_design::Thresholds::Runtime => None,
+            foveate_design::Thresholds::Constant => Some(Self::of(design)),
         }
     }
 }

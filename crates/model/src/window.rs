@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! 3x3 windows, and what they see beyond the border of their region.
 
-use foveate_spec::{Design, Neighborhood};
+use foveate_design::{Design, Neighborhood};
 
 use crate::Frame;
 use crate::number::index;

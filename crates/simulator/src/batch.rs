@@ -12,7 +12,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use foveate_spec::Config;
+use foveate_design::Config;
 use foveate_staging::StagedFolder;
 
 use crate::simulation::{INTERRUPTED, SIMULATION};

@@ -4,10 +4,10 @@
 use std::io;
 use std::path::PathBuf;
 
+use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_model::ModelError;
 use foveate_scenes::SceneError;
-use foveate_spec::SpecError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
@@ -271,7 +271,7 @@ pub enum SimulatorError {
     Cancelled,
     /// The configuration does not fit.
     #[error(transparent)]
-    Spec(#[from] SpecError),
+    Spec(#[from] DesignError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

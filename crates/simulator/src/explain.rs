@@ -8,8 +8,8 @@
 mod gather;
 mod text;
 
+use foveate_design::{Config, FeatureKind, Filter};
 use foveate_model::Camera;
-use foveate_spec::{Config, FeatureKind, Filter};
 use serde::Serialize;
 
 use crate::{Kind, SimulatorError, Source};

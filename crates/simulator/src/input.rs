@@ -12,8 +12,8 @@ pub(crate) use find::{VIDEO_EXTENSIONS, entries, extension_in, is_image_name};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use foveate_design::Config;
 use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::Config;
 
 use crate::sets::cifar::{Batch, Sheet};
 use crate::sets::idx::Idx;

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
+use foveate_design::{Config, Design};
 use foveate_engine::Engine;
-use foveate_spec::{Config, Design};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 
 use crate::output::{DISK_FULL, Recorder};

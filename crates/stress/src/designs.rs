@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The designs that the cases run on.
 
-use foveate_spec::{
+use foveate_design::{
     Config, Decimal, Design, FeatureKind, Filter, Neighborhood, Payload, Reference, SpatialConfig,
 };
 

@@ -2,9 +2,9 @@
 //! The same frames through the functional model, the engine and the cycle-level array.
 
 use foveate_array::PipelinedArray;
+use foveate_design::Design;
 use foveate_engine::Engine;
 use foveate_model::{Camera, Frame, RpuOutput, Thresholds, region_stream};
-use foveate_spec::Design;
 
 use crate::pixels::Random;
 
@@ -150,7 +150,7 @@ impl<'a> Clocks<'a> {
 mod tests {
     use super::*;
     use crate::designs::{config, design};
-    use foveate_spec::FeatureKind;
+    use foveate_design::FeatureKind;
 
     #[test]
     fn frames_of_another_design_are_noticed() {

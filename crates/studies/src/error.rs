@@ -3,9 +3,9 @@
 
 use std::path::PathBuf;
 
+use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_simulator::SimulatorError;
-use foveate_spec::SpecError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -18,7 +18,7 @@ pub enum StudyError {
     Simulator(Box<SimulatorError>),
     /// A point of the study is no design.
     #[error(transparent)]
-    Spec(#[from] SpecError),
+    Spec(#[from] DesignError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use foveate_design::Config;
 use foveate_simulator::{BatchHooks, InputOptions, subjects};
-use foveate_spec::Config;
 use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
 

@@ -5,11 +5,11 @@
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use foveate_design::{Config, Design};
 use foveate_engine::{Engine, Outcome};
 use foveate_simulator::{
     BatchHooks, BatchProgress, InputOptions, Kind, SimulatorError, Subject, open,
 };
-use foveate_spec::{Config, Design};
 use rayon::prelude::*;
 
 use crate::StudyError;

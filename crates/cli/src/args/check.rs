@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use clap::Args;
-use foveate_spec::Decimal;
+use foveate_design::Decimal;
 
 use super::DesignArgs;
 

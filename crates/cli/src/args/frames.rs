@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames of the inputs, for the commands that hold all of them in memory.
 
+use foveate_design::Design;
 use foveate_model::Frame;
 use foveate_simulator::{InputOptions, Simulation, SimulatorError, open};
-use foveate_spec::Design;
 
 use super::DesignArgs;
 use crate::error::CliError;

@@ -2,8 +2,8 @@
 //! The options of `simulate` that say what is written.
 
 use clap::{Args, ValueEnum};
+use foveate_design::Decimal;
 use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
-use foveate_spec::Decimal;
 
 /// What `simulate` writes beside arrays, frames.csv and summary.json.
 #[derive(Args, Debug)]

@@ -6,9 +6,9 @@ mod table;
 use std::time::Duration;
 
 use foveate_bench::{Bench, Report, Tools, random_frames};
+use foveate_design::Design;
 use foveate_model::Frame;
 use foveate_simulator::SimulatorError;
-use foveate_spec::Design;
 use foveate_toolchain::Cache;
 
 use crate::args::BenchArgs;

@@ -3,9 +3,9 @@
 
 mod compare;
 
+use foveate_design::{Design, Organization};
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, Report, estimate, render_markdown, render_text};
-use foveate_spec::{Design, Organization};
 use foveate_toolchain::{Cache, Toolchain};
 
 use crate::args::EstimateArgs;

@@ -3,9 +3,9 @@
 
 use std::fmt::Write as _;
 
+use foveate_design::Organization;
 use foveate_explore::{ExploreError, Figures, Fit, FitRequest, FittedDesign, Held, fit};
 use foveate_simulator::ImagesAs;
-use foveate_spec::Organization;
 use foveate_staging::{check_file, write_file};
 
 use super::explore::Terminal;

@@ -3,9 +3,9 @@
 
 use foveate_bench::random_frames;
 use foveate_cosim::{Level, Stimulus, replay_bench, vectors_hex};
+use foveate_design::{Design, Timing};
 use foveate_emit::{SourceFile, Top};
 use foveate_simulator::SimulatorError;
-use foveate_spec::{Design, Timing};
 use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate presets`: what there is to start from.
 
+use foveate_design::{Config, PRESETS, Preset};
 use foveate_scenes::Scene;
-use foveate_spec::{Config, PRESETS, Preset};
 use serde::Serialize;
 
 use crate::args::PresetsArgs;

@@ -5,11 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use foveate_design::Config;
 use foveate_simulator::{
     Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, ImagesAs, InputOptions,
     Plan, Progress, RunOptions, Simulation, Summary, Traffic, open, plan, run_batch,
 };
-use foveate_spec::Config;
 use indicatif::ProgressBar;
 
 use crate::args::SimulateArgs;

@@ -3,10 +3,10 @@
 
 use super::gauge::{filtered, window};
 use super::random::Random;
+use foveate_design::{Design, FeatureKind, Filter};
 use foveate_model::Thresholds;
 use foveate_model::feature::{corner::strength, edge::magnitude};
 use foveate_model::window::Window;
-use foveate_spec::{Design, FeatureKind, Filter};
 
 /// The largest value of every threshold port.
 #[derive(Clone, Debug)]

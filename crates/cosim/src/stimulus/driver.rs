@@ -7,8 +7,8 @@ use super::random::Random;
 use super::sequence::{Aim, Gaps};
 use crate::error::CosimError;
 use crate::recording::Recorder;
+use foveate_design::{Design, Thresholds as Mode};
 use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
-use foveate_spec::{Design, Thresholds as Mode};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -2,10 +2,10 @@
 //! Scores of a square of pixels under the configured thresholds, to draw squares that meet a
 //! minimum exactly. Only the choice of vectors depends on it: the model says what is right.
 
+use foveate_design::{Design, FeatureKind, Filter};
 use foveate_model::denoise::median;
 use foveate_model::feature::{is_hit, mad, variance};
 use foveate_model::window::Window;
-use foveate_spec::{Design, FeatureKind, Filter};
 
 /// Reads the scores of squares of one size.
 #[derive(Clone, Debug)]

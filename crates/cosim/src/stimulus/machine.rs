@@ -2,8 +2,8 @@
 //! The cycle-level model behind one interface, and its values in records.
 
 use crate::layout::Layout;
+use foveate_design::{Design, FeatureKind, PortRole};
 use foveate_model::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput, Thresholds};
-use foveate_spec::{Design, FeatureKind, PortRole};
 
 /// What is applied at one edge.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@
 use super::brush::moved;
 use super::gauge::Gauge;
 use super::random::Random;
-use foveate_spec::Design;
+use foveate_design::Design;
 
 /// One way to fill a square, some of them from what it held before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,7 +182,7 @@ impl Artist {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_spec::Config;
+    use foveate_design::Config;
 
     const ALL: [Motif; 20] = [
         Motif::Zero,

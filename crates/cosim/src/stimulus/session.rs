@@ -7,8 +7,8 @@ use super::random::Random;
 use super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
+use foveate_design::{Design, PipelinedTiming};
 use foveate_model::{Frame, region_border, region_stream};
-use foveate_spec::{Design, PipelinedTiming};
 
 /// A recording under way.
 pub(super) struct Session<'a> {

@@ -4,8 +4,8 @@
 
 use crate::common::{cosimulate, design};
 use foveate_cosim::{Level, Simulator, Stimulus};
+use foveate_design::{Config, Design, PRESETS};
 use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::{Config, Design, PRESETS};
 use foveate_toolchain::testing::require_tools;
 
 fn agrees(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str) {

@@ -3,7 +3,7 @@
 
 use crate::common::{cosimulate, design, directed};
 use foveate_cosim::{CosimError, CosimReport, Job, Level, Progress, Simulator};
-use foveate_spec::Config;
+use foveate_design::Config;
 use foveate_staging::StagingError;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Toolchain};

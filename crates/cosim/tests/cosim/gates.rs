@@ -3,7 +3,7 @@
 //! without it must not matter, and with it must.
 
 use foveate_cosim::{Difference, Dut, Recorder, Recording, Run, Simulator};
-use foveate_spec::{Direction, Port, PortRole, Qualifier};
+use foveate_design::{Direction, Port, PortRole, Qualifier};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Toolchain};

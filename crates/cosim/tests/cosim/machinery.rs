@@ -6,7 +6,7 @@ use foveate_cosim::{
     CosimError, Dut, Outcome, Recorder, Recording, Run, Simulator, bench_name, replay_bench,
     vectors_hex,
 };
-use foveate_spec::{Direction, Port, PortRole, Qualifier};
+use foveate_design::{Direction, Port, PortRole, Qualifier};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Invocation, Tool, Toolchain};

@@ -4,7 +4,7 @@
 
 use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
 use foveate_cosim::{Level, Simulator};
-use foveate_spec::{
+use foveate_design::{
     Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
     Thresholds,
 };

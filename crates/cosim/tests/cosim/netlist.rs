@@ -3,7 +3,7 @@
 
 use crate::common::{design, directed, in_parallel};
 use foveate_cosim::{CosimReport, Job, Level, Netlist, Simulator};
-use foveate_spec::Config;
+use foveate_design::Config;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 use std::path::Path;

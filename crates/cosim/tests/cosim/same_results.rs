@@ -8,12 +8,12 @@ use crate::common::serial::config;
 use crate::common::vectors::{clocks, value};
 use crate::common::{cosimulate, feature, in_parallel};
 use foveate_cosim::{Level, Recording, Simulator, Stimulus};
-use foveate_model::{Camera, Frame, region_pixels};
-use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::{
+use foveate_design::{
     Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization,
     Payload, PortRole, Reference,
 };
+use foveate_model::{Camera, Frame, region_pixels};
+use foveate_scenes::{Scene, SceneSize};
 use foveate_toolchain::testing::require_tools;
 
 /// What became of one region of one frame.

@@ -5,7 +5,7 @@
 use crate::common::serial::{config, name};
 use crate::common::{agrees, design, directed, feature, in_parallel, simulators};
 use foveate_cosim::{Level, Simulator};
-use foveate_spec::{
+use foveate_design::{
     Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Payload,
     Reference, Thresholds,
 };

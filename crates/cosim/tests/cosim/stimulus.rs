@@ -4,8 +4,8 @@
 use crate::common::vectors::{clocks, field};
 use crate::common::{design, directed};
 use foveate_cosim::{Level, Recording, Stimulus, vectors_hex};
+use foveate_design::{Config, Design, FeatureKind, PortRole};
 use foveate_model::Frame;
-use foveate_spec::{Config, Design, FeatureKind, PortRole};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 

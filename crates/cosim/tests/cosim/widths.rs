@@ -4,7 +4,7 @@
 
 use crate::common::{cosimulate, design, directed};
 use foveate_cosim::{CosimError, Level, Simulator};
-use foveate_spec::Config;
+use foveate_design::Config;
 use foveate_toolchain::testing::require_tools;
 
 /// File, text that is there once, what takes its place, port, bits then, bits of the design.

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{design, matrix, serial_matrix};
+use foveate_design::Direction;
 use foveate_emit::{LEAVES, SourceFile, Top, core, verilog};
-use foveate_spec::Direction;
 
 fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
     &files.iter().find(|file| file.path == path).unwrap().contents

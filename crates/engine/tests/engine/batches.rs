@@ -2,9 +2,9 @@
 //! Several frames at once give what they give one by one, for every design, film, division into
 //! batches, number of threads and instruction set.
 
+use foveate_design::{Design, FeatureKind, Neighborhood, Reference, SpatialConfig};
 use foveate_engine::{Engine, Level, Options, Outcome, Plane, Screens};
 use foveate_model::{Camera, Frame};
-use foveate_spec::{Design, FeatureKind, Neighborhood, Reference, SpatialConfig};
 use proptest::prelude::*;
 
 use crate::film::{Change, film, scripts};

@@ -2,8 +2,8 @@
 //! Films with everything that matters between two frames: noise, stillness, small changes, flat
 //! and stepped areas.
 
+use foveate_design::Design;
 use foveate_model::Frame;
-use foveate_spec::Design;
 use proptest::prelude::*;
 
 /// How a frame comes from the one before.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Cases that random designs would meet too seldom.
 
-use foveate_engine::Options;
-use foveate_model::Frame;
-use foveate_spec::{
+use foveate_design::{
     Config, Design, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
 };
+use foveate_engine::Options;
+use foveate_model::Frame;
 
 use crate::film::{Change, film};
 use crate::properties::check;

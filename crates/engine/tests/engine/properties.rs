@@ -2,9 +2,9 @@
 //! Engine and model give the same results for every design, film, instruction set and number of
 //! threads, whether regions are skipped or not.
 
+use foveate_design::Design;
 use foveate_engine::{Engine, Level, Options, Outcome, Plane};
 use foveate_model::{Camera, Frame};
-use foveate_spec::Design;
 use proptest::prelude::*;
 
 use crate::film::{film, scripts};

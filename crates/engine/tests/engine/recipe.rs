@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random designs that the engine and the model are both given.
 
-use foveate_spec::{
+use foveate_design::{
     Combine, Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
     Reference, SpatialConfig,
 };

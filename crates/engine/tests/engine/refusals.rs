@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What is no frame of the design is refused by name, and changes nothing.
 
+use foveate_design::{Config, Design};
 use foveate_engine::{Engine, EngineError, Outcome, Screens};
 use foveate_model::Frame;
-use foveate_spec::{Config, Design};
 
 fn design(bits: u32) -> Design {
     let mut config = Config::default();

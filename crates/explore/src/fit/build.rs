@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Looks as silicon: what could be built of them, what it costs, which is cheapest.
 
-use foveate_estimate::Device;
-use foveate_spec::{
+use foveate_design::{
     Config, Design, FeatureKind, Feed, Filter, Neighborhood, Organization, Reference,
 };
+use foveate_estimate::Device;
 
 use super::FitRequest;
 use super::constraints::{Held, all_hold, excess};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a design must hold, and how far it is from it.
 
+use foveate_design::Design;
 use foveate_fidelity::Figures;
-use foveate_spec::Design;
 use serde::Serialize;
 
 use crate::cost::Silicon;

@@ -3,11 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use foveate_fidelity::Figures;
-use foveate_spec::{
-    Config, Decimal, FeatureKind, Filter, HardwareConfig, Neighborhood, Reference, SpatialConfig,
-    SpecError,
+use foveate_design::{
+    Config, Decimal, DesignError, FeatureKind, Filter, HardwareConfig, Neighborhood, Reference,
+    SpatialConfig,
 };
+use foveate_fidelity::Figures;
 
 use super::constraints::{Constraints, Held, all_hold, excess};
 use super::held_out::Halves;
@@ -202,7 +202,7 @@ impl<'a> Search<'a> {
         }
         let all: Vec<_> = measured.iter().collect();
         let figures = together(&all).map(|tally| tally.figures());
-        let figures = figures.ok_or(SpecError::Syntax("no clip".to_owned()))?;
+        let figures = figures.ok_or(DesignError::Syntax("no clip".to_owned()))?;
         let held = self.constraints.on_figures(&design, &figures);
         Ok((figures, held))
     }

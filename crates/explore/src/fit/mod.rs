@@ -21,8 +21,8 @@ mod why;
 
 use std::path::PathBuf;
 
+use foveate_design::{Config, HardwareConfig};
 use foveate_simulator::InputOptions;
-use foveate_spec::{Config, HardwareConfig};
 
 use crate::cost::Synthesizer;
 use crate::footage::Footage;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What came out of a fit, for people and programs.
 
+use foveate_design::Config;
 use foveate_fidelity::Figures;
-use foveate_spec::Config;
 use serde::Serialize;
 
 use super::build::{Built, Candidate};

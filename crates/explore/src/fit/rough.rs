@@ -2,8 +2,8 @@
 //! A rough cost of a design before it is synthesized, only to try the promising ones first. What is
 //! chosen is chosen by what Yosys counts.
 
+use foveate_design::{Design, FeatureKind, Filter, MemoryKind, Organization};
 use foveate_estimate::Device;
-use foveate_spec::{Design, FeatureKind, Filter, MemoryKind, Organization};
 
 use crate::row::real;
 

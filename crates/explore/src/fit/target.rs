@@ -5,7 +5,7 @@
 //! that goes from nearly all regions to none in small steps. Then `temporal.min_count` is set for what
 //! whole grey levels cannot say.
 
-use foveate_spec::{Config, Decimal, Neighborhood};
+use foveate_design::{Config, Decimal, Neighborhood};
 
 use super::FitRequest;
 use super::held_out::Halves;
@@ -80,7 +80,7 @@ fn scaled(task: &Config, octaves: f64) -> Config {
         if in_levels {
             // Mean deviations scale with contrast, variances with its square.
             let factor = match entry.feature {
-                foveate_spec::FeatureKind::Variance => factor * factor,
+                foveate_design::FeatureKind::Variance => factor * factor,
                 _ => factor,
             };
             let scale = |score: Decimal| {

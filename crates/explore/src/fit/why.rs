@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Why a design was chosen: what one step to something simpler would do.
 
-use foveate_spec::{Config, Filter, Neighborhood, Organization, Reference};
+use foveate_design::{Config, Filter, Neighborhood, Organization, Reference};
 
 use super::FitRequest;
 use super::build::{Built, Candidate};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The settings of points as people read them.
 
-use foveate_spec::Config;
+use foveate_design::Config;
 use toml::{Table, Value};
 
 use crate::point::START;

@@ -83,7 +83,7 @@ fn every_figure_is_in_its_file() {
     assert!(lines(&output.join("pareto.csv")).len() > 1);
     for row in &found.rows {
         let toml = fs::read_to_string(output.join(format!("designs/{}.toml", row.number))).unwrap();
-        let design = foveate_spec::Config::from_toml(&toml).unwrap().validate().unwrap();
+        let design = foveate_design::Config::from_toml(&toml).unwrap().validate().unwrap();
         assert_eq!(design.fingerprint(), row.fingerprint);
     }
     let parquet = fs::read(output.join("points.parquet")).unwrap();

@@ -3,11 +3,11 @@
 
 use std::path::PathBuf;
 
+use foveate_design::Config;
 use foveate_explore::{
     Constraints, ExploreError, Fit, FitRequest, Hooks, Progress, Synthesizer, fit,
 };
 use foveate_simulator::InputOptions;
-use foveate_spec::Config;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spaces as files say them.
 
+use foveate_design::{Config, Decimal};
 use foveate_explore::{BUILT_IN, Space};
-use foveate_spec::{Config, Decimal};
 
 fn points(text: &str) -> (Vec<Config>, Vec<String>) {
     let (points, refused) = Space::from_toml(text).unwrap().points(64, 48);
@@ -48,7 +48,7 @@ fn thresholds_are_in_grey_levels_of_the_ideal() {
     let (configs, _) = points(text);
     let of = |config: &Config| {
         let [edge, mad, variance] = config.spatial.as_slice() else { panic!("three features") };
-        let score = |entry: &foveate_spec::SpatialConfig| entry.min_score.unwrap();
+        let score = |entry: &foveate_design::SpatialConfig| entry.min_score.unwrap();
         (edge.level.unwrap(), config.temporal.level, score(edge), score(mad), score(variance))
     };
     let whole = Decimal::whole;

@@ -5,10 +5,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use foveate_design::Design;
 use foveate_engine::{Plane, Raster};
 use foveate_fidelity::{Fidelity, Figures};
 use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::Design;
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! PSNR and SSIM from their definitions, pixel by pixel.
 
+use foveate_design::Design;
 use foveate_fidelity::Figures;
-use foveate_spec::Design;
 
 use crate::made::greys;
 use crate::naive::Frame;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Results as cameras would give them, real or made up.
 
+use foveate_design::{Config, Design};
 use foveate_engine::{Engine, Outcome, Raster};
 use foveate_fidelity::{Fidelity, Tally};
 use foveate_ideal::{Action, IdealCamera, IdealOutcome};
-use foveate_spec::{Config, Design};
 
 /// A design for frames of some size with regions of some side and pixels of some bits; otherwise the
 /// defaults, with a minimum that fits into the smallest regions.
@@ -13,7 +13,7 @@ pub(crate) fn config((width, height): (u32, u32), side: u32, bits: u32) -> Confi
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
     (config.region.size, config.frame.pixel_bits) = (side, bits);
     config.spatial[0].level = Some(1 << (bits - 1));
-    config.spatial[0].min_score = Some(foveate_spec::Decimal::whole(2));
+    config.spatial[0].min_score = Some(foveate_design::Decimal::whole(2));
     (config.temporal.level, config.temporal.min_count) = ((1 << bits) / 32, 2);
     config
 }

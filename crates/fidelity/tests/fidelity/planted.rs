@@ -2,10 +2,10 @@
 //! A candidate that is the ideal, and then one fault at a time: the figure it is for sees it, with the
 //! number that follows.
 
+use foveate_design::Design;
 use foveate_engine::{Outcome, Raster};
 use foveate_fidelity::{Fidelity, Figures};
 use foveate_ideal::{Action, IdealOutcome};
-use foveate_spec::Design;
 
 use crate::made::{blank, blank_ideal, config, greys, pixels, raster};
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How old a screen is: exact numbers by hand.
 
+use foveate_design::{Config, Decimal, Design, Reference};
 use foveate_engine::Raster;
 use foveate_fidelity::{Fidelity, Staleness};
-use foveate_spec::{Config, Decimal, Design, Reference};
 
 use crate::made::{blank, blank_ideal, config, pixels, raster, tally};
 

@@ -6,7 +6,7 @@ mod edge;
 mod mad;
 mod variance;
 
-use foveate_spec::FeatureKind;
+use foveate_design::FeatureKind;
 
 use crate::grid::Grid;
 use crate::plane::Plane;

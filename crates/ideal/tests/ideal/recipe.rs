@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random designs and films.
 
-use foveate_model::Frame;
-use foveate_spec::{
+use foveate_design::{
     Combine, Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
     Reference, SpatialConfig,
 };
+use foveate_model::Frame;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `corner`: FAST 5/8, pixels with five contiguous neighbors all brighter or all darker.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::Frame;
 use crate::window::{CENTER, RegionView, Window};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `edge`: pixels whose 3x3 Sobel magnitude `|Gx| + |Gy|` is above a level.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::Frame;
 use crate::window::{RegionView, Window};

@@ -6,7 +6,7 @@ pub mod edge;
 pub mod mad;
 pub mod variance;
 
-use foveate_spec::{Design, FeatureKind, SpatialFeature};
+use foveate_design::{Design, FeatureKind, SpatialFeature};
 
 use crate::Frame;
 use crate::window::{RegionView, Window};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The parameters of the blocks, taken from the design once.
 
-use foveate_spec::{
+use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
     Reference,
 };

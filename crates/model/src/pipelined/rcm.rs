@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The RCM: one RPU per region, all in step.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use super::{PipelinedRpu, RpuInput, RpuOutput};
 use crate::Thresholds;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One RPU: the stages in a row.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use super::median::MedianStage;
 use super::pixel::{Pixel, Step};
@@ -66,8 +66,8 @@ impl PipelinedRpu {
     pub fn new(design: &Design) -> Self {
         let plan = Plan::of(design);
         let denoises = match plan.filter {
-            foveate_spec::Filter::None => false,
-            foveate_spec::Filter::Median3x3 => true,
+            foveate_design::Filter::None => false,
+            foveate_design::Filter::Median3x3 => true,
         };
         // A shared median window gives a square that is smaller by its own halo.
         let feature_side = plan.side + (plan.stream_side - plan.side).min(2);

@@ -8,7 +8,7 @@
 //! mad accumulator   ..      -     |x-mu(t)| ..  mad(t)    |x-mu(t+1)| ..
 //! ```
 
-use foveate_spec::FeatureKind;
+use foveate_design::FeatureKind;
 
 use super::moments::Moments;
 use super::pixel::Step;

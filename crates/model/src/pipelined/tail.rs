@@ -13,7 +13,7 @@
 //!
 //! With `mad` the decision after edge 8 is that of frame a, and its pixels leave with frame c.
 
-use foveate_spec::Payload;
+use foveate_design::Payload;
 
 use super::RpuOutput;
 use super::decide::Decision;

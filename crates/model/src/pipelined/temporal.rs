@@ -11,7 +11,7 @@
 //! Without `mad` the answer is known at the first tail step of frame t. With `mad` it is known when
 //! frame t is done, so both counts run.
 
-use foveate_spec::{Irrelevant, Reference};
+use foveate_design::{Irrelevant, Reference};
 
 use super::decide::Decision;
 use super::plan::Plan;

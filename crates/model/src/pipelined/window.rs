@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A window stage of either kind, and how a window is taken out of the pixels that a stage keeps.
 
-use foveate_spec::Neighborhood;
+use foveate_design::Neighborhood;
 
 use super::isolated::IsolatedWindow;
 use super::pixel::Pixel;

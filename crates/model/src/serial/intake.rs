@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The pixels of a frame as they come in, and the stream that each region makes of them.
 
-use foveate_spec::{Design, Feed};
+use foveate_design::{Design, Feed};
 
 use super::raster::Raster;
 use super::streams::Streams;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `feed = "raster"`: the padded frame, pixel by pixel; the array finds the regions that want each.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::number::index;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array: where in a frame it is, and what its outputs show there.
 
-use foveate_spec::{Design, Payload};
+use foveate_design::{Design, Payload};
 
 use super::intake::Intake;
 use super::ports::{SerialInput, SerialOutput};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the array keeps of every region from frame to frame, and what it thinks of it.
 
-use foveate_spec::{Design, Reference};
+use foveate_design::{Design, Reference};
 
 use super::scorer::RegionScorer;
 use crate::decision::combined;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which step of its work the array is at, and what is seen of it.
 
-use foveate_spec::{Design, Feed, Phase, Timing};
+use foveate_design::{Design, Feed, Phase, Timing};
 
 /// What the outputs show in a step, if anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What one region scores, from its stream alone.
 
-use foveate_spec::{Design, FeatureKind, Filter, SpatialFeature};
+use foveate_design::{Design, FeatureKind, Filter, SpatialFeature};
 
 use super::square::Square;
 use crate::Thresholds;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `feed = "parallel"`: every lane is given the streams of its regions, one after the other.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use crate::number::index;
 

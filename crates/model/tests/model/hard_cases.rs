@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Cases at the edge of a range, with the expected numbers written out.
 
+use foveate_design::{Config, Design};
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
     Camera, Frame, ModelError, PipelinedRcm, denoise::denoise, pad, region_border, region_stream,
     temporal_differences,
 };
-use foveate_spec::{Config, Design};
 
 use crate::recipe::{FeatureRecipe, Recipe};
 use crate::{functional_properties, pipelined_properties};

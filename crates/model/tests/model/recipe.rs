@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_spec::{Config, Design};
+use foveate_design::{Config, Design};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the two references do over time: the first frame, drift, blanked regions, long silence.
 
+use foveate_design::{Config, Design};
 use foveate_model::{Camera, Frame, Outcome, PipelinedRpu, RpuInput, Thresholds};
-use foveate_spec::{Config, Design};
 
 use crate::frames::Random;
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds that change at any clock: which clock's value counts for what.
 
+use foveate_design::Design;
 use foveate_model::denoise::denoise;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
     Frame, PipelinedRpu, RpuInput, Thresholds, pad, region_border, region_stream,
     temporal_differences,
 };
-use foveate_spec::Design;
 use proptest::prelude::*;
 
 use crate::frames::{Random, film, scripts};

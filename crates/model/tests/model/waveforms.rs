@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Waveforms written by hand from `docs/timing.md`, the first one being its own.
 
+use foveate_design::{Config, Design};
 use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
-use foveate_spec::{Config, Design};
 
 fn tiny(toml: &str) -> Design {
     let head = "[frame]\nwidth = 2\nheight = 2\n[region]\nsize = 2\n[denoise]\nfilter = \"none\"\n";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The integer scores against the textbook formulas in floating point.
 
+use foveate_design::Config;
 use foveate_model::{Camera, Frame};
-use foveate_spec::Config;
 
 use crate::frames::Random;
 

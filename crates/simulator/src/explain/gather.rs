@@ -2,9 +2,9 @@
 //! Takes an explanation from the outcome of a frame, and the hits of single pixels from the model's
 //! arithmetic.
 
+use foveate_design::{Design, FeatureKind, Irrelevant, SpatialFeature};
 use foveate_model::feature::{corner_strengths, edge_magnitudes, mad};
 use foveate_model::{Frame, Outcome, region_pixels};
-use foveate_spec::{Design, FeatureKind, Irrelevant, SpatialFeature};
 
 use super::{Change, Explanation, Place, Rows, Spatial};
 use crate::SourceFrame;

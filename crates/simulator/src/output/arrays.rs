@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use super::npy::NpyWriter;
 use super::sink::{Sink, Step};

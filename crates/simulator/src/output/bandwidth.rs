@@ -10,7 +10,7 @@
 //! Bits are summed over the run and rounded up to bytes once. All that a receiver needs is counted:
 //! the two bits say what becomes of every region, so no addresses are sent.
 
-use foveate_spec::Design;
+use foveate_design::Design;
 use serde::Serialize;
 
 /// Bytes of one event of a pixel.

@@ -6,7 +6,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use super::EventTables;
 use super::csv::Csv;

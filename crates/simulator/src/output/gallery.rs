@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use foveate_design::Design;
 use foveate_engine::Plane;
-use foveate_spec::Design;
 
 use super::Medium;
 use super::canvas::Canvas;

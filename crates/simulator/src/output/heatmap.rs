@@ -5,7 +5,7 @@
 //! standard deviation. The bar below has a tick at the threshold.
 
 use colorous::VIRIDIS;
-use foveate_spec::{Design, FeatureKind, SpatialFeature};
+use foveate_design::{Design, FeatureKind, SpatialFeature};
 
 use super::canvas::{Canvas, Colour, Layout, TEXT};
 use super::font;

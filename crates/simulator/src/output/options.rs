@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a run is asked to write.
 
-use foveate_spec::Decimal;
+use foveate_design::Decimal;
 
 /// How a series of pictures is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

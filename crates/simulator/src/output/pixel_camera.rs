@@ -7,8 +7,8 @@
 //! between frames, and nothing is made up. Without noise, in integers (millionths), so that the same
 //! frames give the same events everywhere.
 
+use foveate_design::{Decimal, Design};
 use foveate_model::Frame;
-use foveate_spec::{Decimal, Design};
 
 use super::PixelEvents;
 use crate::SimulatorError;

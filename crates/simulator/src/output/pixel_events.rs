@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use super::csv::Csv;
 use super::growing::GrowingFile;

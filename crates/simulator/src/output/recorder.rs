@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
+use foveate_design::Design;
 use foveate_engine::{Engine, Outcome};
-use foveate_spec::Design;
 use foveate_staging::Reserve;
 use rayon::prelude::*;
 

@@ -3,8 +3,8 @@
 
 use std::path::PathBuf;
 
+use foveate_design::Design;
 use foveate_engine::{Engine, Outcome, Plane};
-use foveate_spec::Design;
 
 use crate::{SimulatorError, SourceFrame};
 

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_spec::{Config, Design};
+use foveate_design::{Config, Design};
 use serde::Serialize;
 
 use super::bandwidth::{Bandwidth, Sums};

@@ -5,12 +5,12 @@ use std::fs;
 use std::path::Path;
 
 use crate::support::{Npy, grey, names, run};
+use foveate_design::Config;
 use foveate_model::Frame;
 use foveate_simulator::{
     Hooks, InputOptions, Progress, RunOptions, Silent, Simulation, SimulatorError, Source,
     SourceFrame, open,
 };
-use foveate_spec::Config;
 use foveate_staging::StagingError;
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use crate::support::{grey, names};
+use foveate_design::Config;
 use foveate_simulator::{
     BatchHooks, BatchProgress, Clip, ImagesAs, InputOptions, Plan, RunOptions, SimulatorError,
     plan, run_batch,
 };
-use foveate_spec::Config;
 
 /// A stream of `frames` frames of 16x16 pixels.
 fn y4m(path: &Path, frames: u8) -> PathBuf {

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::support::{grey, run};
+use foveate_design::Config;
 use foveate_simulator::{InputOptions, RunOptions, SimulatorError, open};
-use foveate_spec::Config;
 
 fn level(frame: usize) -> u8 {
     u8::try_from(frame).unwrap()

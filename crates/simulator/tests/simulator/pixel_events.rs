@@ -7,11 +7,11 @@ use std::fs;
 use std::path::Path;
 
 use crate::support::{Npy, STREET, design, frames, names, street};
+use foveate_design::Decimal;
 use foveate_model::Frame;
 use foveate_simulator::{
     FrameRate, PIXEL_EVENT_BYTES, PixelCamera, PixelEvents, RunOptions, SimulatorError, Summary,
 };
-use foveate_spec::Decimal;
 
 /// x, y, t, p.
 type Event = (u32, u32, u64, u8);

@@ -8,11 +8,11 @@ use std::path::Path;
 use crate::support::{Npy, grey, run};
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use foveate_design::Config;
 use foveate_simulator::{
     ImagesAs, InputOptions, Kind, RunOptions, Selection, Silent, Simulation, SimulatorError,
     SourceFrame, luma, open,
 };
-use foveate_spec::Config;
 
 fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, SimulatorError> {
     let mut source = open(&[path], &Config::default(), options)?;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functional model, the engine and the cycle-level array say the same.
 
+use foveate_design::Design;
 use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::Design;
 use rayon::prelude::*;
 
 use crate::designs::matrix;

@@ -2,8 +2,8 @@
 //! Variance of data with a large mean and a small spread: where the sum of squares and the square of
 //! the sum agree in all their leading digits.
 
+use foveate_design::{FeatureKind, bits_for};
 use foveate_model::{Camera, Frame};
-use foveate_spec::{FeatureKind, bits_for};
 
 use crate::designs::{config, design};
 use crate::pixels::Random;
@@ -17,7 +17,7 @@ pub(crate) fn variance(depth: Depth) -> Vec<Row> {
 
 fn pair((side, bits): (u32, u32), regions: u32) -> [Row; 2] {
     let mut config = config((side, side), side, bits, &[FeatureKind::Variance]);
-    config.denoise.filter = foveate_spec::Filter::None;
+    config.denoise.filter = foveate_design::Filter::None;
     let design = design(&config);
     let mut random = Random::new(u64::from(side));
     let base = design.pixel_max() - 4;

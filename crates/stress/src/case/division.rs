@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Division by a reciprocal equals floor division, for every input.
 
-use foveate_spec::FeatureKind;
+use foveate_design::FeatureKind;
 use rayon::prelude::*;
 
 use crate::designs::{config, design};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Accumulators reach their derived maximum, and are not one bit short, nor one bit too wide.
 
+use foveate_design::{FeatureKind, bits_for};
 use foveate_engine::Engine;
 use foveate_model::Camera;
-use foveate_spec::{FeatureKind, bits_for};
 
 use crate::designs::{config, design};
 use crate::pixels::frame;
@@ -18,7 +18,7 @@ pub(crate) fn largest_scores(_: Depth) -> Vec<Row> {
 
 fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> Row {
     let mut config = config((side, side), side, bits, &[kind]);
-    config.denoise.filter = foveate_spec::Filter::None;
+    config.denoise.filter = foveate_design::Filter::None;
     let design = design(&config);
     let max = design.pixel_max();
     let n = design.region_pixels();
@@ -45,7 +45,7 @@ pub(crate) fn counts(_: Depth) -> Vec<Row> {
     let edge = |(side, bits): (u32, u32)| {
         let mut config = config((side, side), side, bits, &[FeatureKind::Edge]);
         config.spatial[0].level = Some(0);
-        config.denoise.filter = foveate_spec::Filter::None;
+        config.denoise.filter = foveate_design::Filter::None;
         let design = design(&config);
         // A slope has a gradient everywhere, in the clamped windows of the border too.
         let slope = frame((side, side), bits, |x, _| x * design.pixel_max() / (side - 1));

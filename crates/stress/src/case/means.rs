@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Means that end in exactly one half, one pixel less and one more.
 
+use foveate_design::FeatureKind;
 use foveate_model::Camera;
-use foveate_spec::FeatureKind;
 
 use crate::designs::{config, design};
 use crate::pixels::frame;
@@ -16,7 +16,7 @@ pub(crate) fn halves(_: Depth) -> Vec<Row> {
 
 fn around_halves(side: u32) -> Row {
     let mut config = config((side, side), side, 8, &[FeatureKind::Mad]);
-    config.denoise.filter = foveate_spec::Filter::None;
+    config.denoise.filter = foveate_design::Filter::None;
     config.spatial[0].mean_fraction_bits = Some(0);
     let design = design(&config);
     let n = design.region_pixels();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What is on the screen beside what is in front of the camera, over long runs.
 
+use foveate_design::{Config, Design, FeatureKind, Filter, Reference};
 use foveate_model::{Camera, Frame, Outcome};
 use foveate_scenes::{Scene, SceneSize};
-use foveate_spec::{Config, Design, FeatureKind, Filter, Reference};
 
 use crate::designs::{config, design};
 use crate::pixels::frame;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds exactly on what is measured, one below and one above.
 
+use foveate_design::{Config, Decimal, FeatureKind, Filter};
 use foveate_engine::Engine;
 use foveate_model::{Camera, Frame};
-use foveate_spec::{Config, Decimal, FeatureKind, Filter};
 
 use crate::designs::{config, design};
 use crate::pixels::Random;

@@ -2,7 +2,7 @@
 //! How the mean absolute deviation of regions is distributed, in 128 bins from 0 to half of full scale,
 //! which is its largest value; at 8 bits a bin is one grey level.
 
-use foveate_spec::{Config, Design, FeatureKind, SpatialConfig};
+use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
 
 use super::Study;
 use crate::StudyError;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spatial redundancy: the share of regions that a feature by itself calls irrelevant.
 
-use foveate_spec::{Config, FeatureKind, SpatialConfig};
+use foveate_design::{Config, FeatureKind, SpatialConfig};
 
 use super::Study;
 use crate::StudyError;

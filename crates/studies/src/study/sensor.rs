@@ -8,7 +8,7 @@ use std::path::Path;
 use std::slice::from_ref;
 
 use flate2::read::MultiGzDecoder;
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use super::{Study, clips_only};
 use crate::StudyError;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Active share against one number of the design: region size, and each threshold by itself.
 
+use foveate_design::{Config, Decimal, FeatureKind};
 use foveate_simulator::Kind;
-use foveate_spec::{Config, Decimal, FeatureKind};
 
 use super::Study;
 use crate::StudyError;

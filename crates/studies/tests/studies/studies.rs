@@ -4,7 +4,7 @@
 use std::fs;
 
 use crate::support::{cells, config, run};
-use foveate_spec::Config;
+use foveate_design::Config;
 use foveate_studies::Study;
 
 #[test]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card that is about silicon against speed: lanes, memory, frames per second, folds.
 
-use foveate_spec::{Area, Design, Organization};
+use foveate_design::{Area, Design, Organization};
 use serde::Serialize;
 
 use crate::args::{Clock, Rate};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The card: everything that follows from a configuration, in the form of its JSON.
 
-use foveate_spec::{Config, Design, Direction, Organization, Phase, Port, SerialTiming, Timing};
+use foveate_design::{Config, Design, Direction, Organization, Phase, Port, SerialTiming, Timing};
 use serde::Serialize;
 
 use super::array::{Array, FrameRate, Proposal};
@@ -153,7 +153,7 @@ impl Steps {
 }
 
 impl Feature {
-    fn of(feature: &foveate_spec::SpatialFeature) -> Self {
+    fn of(feature: &foveate_design::SpatialFeature) -> Self {
         Self {
             feature: feature.kind().name(),
             level: feature.level(),

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_spec::{Design, Neighborhood};
+use foveate_design::{Design, Neighborhood};
 
 use super::array::{Array, Memory};
 use super::card::{Card, Clocks, Feature, Latencies, PortRow, Steps};

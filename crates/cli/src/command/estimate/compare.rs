@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate estimate --compare`: which designs stand in the table.
 
+use foveate_design::{
+    Config, Design, DesignError, FeatureKind, Filter, Organization, SpatialConfig,
+};
 use foveate_estimate::{Comparison, Skipped};
-use foveate_spec::{Config, Design, FeatureKind, Filter, Organization, SpatialConfig, SpecError};
 
 use super::Flow;
 use crate::args::EstimateArgs;
@@ -17,7 +19,7 @@ struct Wanted {
     name: String,
     /// What is said together with others if the design is refused.
     family: String,
-    design: Result<Design, SpecError>,
+    design: Result<Design, DesignError>,
 }
 
 pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {

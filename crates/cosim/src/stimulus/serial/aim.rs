@@ -4,8 +4,8 @@
 use super::super::aim::Ranges;
 use super::super::random::Random;
 use super::feed::Feed;
+use foveate_design::Design;
 use foveate_model::{RegionScorer, SerialRcm, Thresholds, region_border};
-use foveate_spec::Design;
 
 /// How the thresholds of a frame are chosen, where they are ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

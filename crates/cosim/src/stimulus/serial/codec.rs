@@ -2,8 +2,8 @@
 //! What goes into the model of an array, and what comes out, in records.
 
 use crate::layout::Layout;
+use foveate_design::{Design, FeatureKind, PortRole};
 use foveate_model::{SerialInput, SerialOutput};
-use foveate_spec::{Design, FeatureKind, PortRole};
 
 /// Puts values of serial models into records.
 #[derive(Clone, Debug)]

@@ -8,8 +8,8 @@ use super::codec::SerialCodec;
 use super::feed::Feed;
 use crate::error::CosimError;
 use crate::recording::Recorder;
+use foveate_design::{Design, Thresholds as Mode};
 use foveate_model::{SerialInput, SerialOutput, SerialRcm, Thresholds};
-use foveate_spec::{Design, Thresholds as Mode};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -2,8 +2,8 @@
 //! A frame as the pixel port takes it.
 
 use super::super::random::Random;
+use foveate_design::{Design, Feed as Order};
 use foveate_model::{Frame, region_stream};
-use foveate_spec::{Design, Feed as Order};
 
 /// A frame as the pixel port takes it, and the streams of its regions.
 pub(super) struct Feed {

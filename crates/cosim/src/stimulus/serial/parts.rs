@@ -2,8 +2,8 @@
 //! The caller's frames, as the simulated array sees them.
 
 use crate::error::CosimError;
+use foveate_design::Design;
 use foveate_model::Frame;
-use foveate_spec::Design;
 
 /// Clocks of all the parts that go through a single lane, at most; they are spread over the frame.
 const MAX_CLOCKS: u64 = 1 << 21;

@@ -5,7 +5,7 @@ pub(crate) mod serial;
 pub(crate) mod vectors;
 
 use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator, Stimulus};
-use foveate_spec::{Config, Design, FeatureKind, SpatialConfig};
+use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Toolchain};
 use std::path::Path;

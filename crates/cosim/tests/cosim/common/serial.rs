@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Configurations of serial designs.
 
-use foveate_spec::{Config, Organization, SpatialConfig};
+use foveate_design::{Config, Organization, SpatialConfig};
 
 /// A serial design with these features; everything else is the paper's.
 pub(crate) fn config(features: &[SpatialConfig]) -> Config {

@@ -2,7 +2,7 @@
 //! Reads a recording back.
 
 use foveate_cosim::{Field, Layout, Recording};
-use foveate_spec::PortRole;
+use foveate_design::PortRole;
 
 pub(crate) fn field(layout: &Layout, role: PortRole) -> &Field {
     layout.fields().iter().find(|field| field.port.role == role).unwrap()

@@ -3,7 +3,7 @@
 
 use crate::common::design;
 use foveate_cosim::{Level, Simulator};
-use foveate_spec::{Config, Design};
+use foveate_design::{Config, Design};
 
 /// A design to plant faults in.
 #[derive(Clone, Copy, Debug, PartialEq)]

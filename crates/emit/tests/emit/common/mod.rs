@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Designs to emit: every choice of the configuration meets every other at least once.
 
-use foveate_spec::{Config, Design};
+use foveate_design::{Config, Design};
 
 pub(crate) fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()

@@ -2,11 +2,11 @@
 //! Whole films: scores, decisions and the rendered frame, against the functional camera, over a
 //! matrix of designs that has every value of every choice beside every other.
 
+use foveate_design::Design;
 use foveate_model::{
     Action, Camera, Frame, Outcome, RegionScorer, SerialInput, SerialRcm, Thresholds,
     region_border, region_stream,
 };
-use foveate_spec::Design;
 
 use super::bench::applied;
 use super::recipe::SerialRecipe;

@@ -4,8 +4,8 @@
 
 use std::ops::RangeInclusive;
 
+use foveate_design::{Config, Design};
 use foveate_model::{SerialInput, SerialOutput, SerialRcm, Thresholds};
-use foveate_spec::{Config, Design};
 
 fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow.
 
-use foveate_spec::{Design, Feed, Organization};
+use foveate_design::{Design, Feed, Organization};
 use proptest::prelude::*;
 use proptest::sample::select;
 

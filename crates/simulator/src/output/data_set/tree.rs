@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
-use foveate_spec::Design;
+use foveate_design::Design;
 
 use super::super::cannot_write;
 use super::super::crew::Crew;

@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use foveate_design::Config;
 use foveate_simulator::{InputOptions, SimulatorError, Source, SourceFrame, open};
-use foveate_spec::Config;
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 

@@ -8,12 +8,12 @@ use std::path::Path;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
+use foveate_design::Config;
 use foveate_model::{Camera, Frame};
 use foveate_simulator::{
     Hooks, ImagesAs, InputOptions, RunOptions, Simulation, SimulatorError, Summary, convert_depth,
     open,
 };
-use foveate_spec::Config;
 
 pub(crate) fn made<P: AsRef<Path>>(
     inputs: &[P],

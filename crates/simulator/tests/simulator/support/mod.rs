@@ -7,12 +7,12 @@ pub(crate) mod made;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use foveate_design::{Config, Design};
 use foveate_model::{Camera, Frame, Outcome};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_simulator::{
     InputOptions, RunOptions, Silent, Simulation, SimulatorError, Summary, open,
 };
-use foveate_spec::{Config, Design};
 
 /// Runs `inputs` with a configuration of default values and `overrides`.
 pub(crate) fn run<P: AsRef<Path>>(

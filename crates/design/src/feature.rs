@@ -4,7 +4,9 @@
 use std::fmt::Display;
 
 use crate::width::{edge_magnitude_max, variance_score_max};
-use crate::{Decimal, FeatureKind, Reciprocal, SpatialConfig, SpecError, bits_for, mad_score_max};
+use crate::{
+    Decimal, DesignError, FeatureKind, Reciprocal, SpatialConfig, bits_for, mad_score_max,
+};
 
 /// One feature of a design.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,7 +51,7 @@ impl SpatialFeature {
         index: usize,
         n: u64,
         pixel_max: u32,
-    ) -> Result<Self, SpecError> {
+    ) -> Result<Self, DesignError> {
         let entry = Entry { config, index };
         let max = u64::from(pixel_max);
         let fraction_bits = entry.fraction_bits(n)?;
@@ -186,7 +188,7 @@ impl Entry<'_> {
         format!("spatial[{}].{name}", self.index)
     }
 
-    fn level(&self, max: Option<u64>) -> Result<Option<u32>, SpecError> {
+    fn level(&self, max: Option<u64>) -> Result<Option<u32>, DesignError> {
         match (self.config.level, max) {
             (None, _) => Ok(None),
             (Some(level), None) => Err(self.does_not_apply("level", level)),
@@ -197,7 +199,7 @@ impl Entry<'_> {
         }
     }
 
-    fn fraction_bits(&self, n: u64) -> Result<u32, SpecError> {
+    fn fraction_bits(&self, n: u64) -> Result<u32, DesignError> {
         let max = crate::width::index_bits(n);
         match (self.config.mean_fraction_bits, self.config.feature) {
             (None, _) => Ok(0),
@@ -212,11 +214,11 @@ impl Entry<'_> {
     }
 
     /// The integer threshold; `unit` score units are one unit of the configuration.
-    fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, SpecError> {
+    fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, DesignError> {
         let minimum = self.config.min_score.unwrap_or(Decimal::whole(0));
         let counts = self.config.feature.has_window();
         if counts && minimum.as_whole().is_none() {
-            return Err(SpecError::Type {
+            return Err(DesignError::Type {
                 key: self.key("min_score"),
                 problem: format!("{minimum} is no whole number; it counts pixels"),
             });
@@ -229,17 +231,17 @@ impl Entry<'_> {
         )
     }
 
-    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str) -> SpecError {
+    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str) -> DesignError {
         let feature = self.config.feature;
-        SpecError::Range {
+        DesignError::Range {
             key: self.key(key),
             value: value.to_string(),
             valid: format!("{valid} for `{feature}`"),
         }
     }
 
-    fn does_not_apply(&self, key: &str, value: u32) -> SpecError {
-        SpecError::Combination {
+    fn does_not_apply(&self, key: &str, value: u32) -> DesignError {
+        DesignError::Combination {
             key: self.key(key),
             value: value.to_string(),
             with: format!("feature = \"{}\"", self.config.feature),

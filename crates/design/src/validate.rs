@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 
 use crate::{
-    Config, Design, Feed, HardwareConfig, Organization, SpatialConfig, SpatialFeature, SpecError,
+    Config, Design, DesignError, Feed, HardwareConfig, Organization, SpatialConfig, SpatialFeature,
     Temporal,
 };
 
@@ -23,7 +23,7 @@ impl Config {
     ///
     /// # Errors
     /// Names the key, its value and what would be valid.
-    pub fn validate(&self) -> Result<Design, SpecError> {
+    pub fn validate(&self) -> Result<Design, DesignError> {
         let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
         let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
         in_range("frame.width", width, 1..=MAX_SIDE, "")?;
@@ -60,7 +60,7 @@ impl Config {
     ///
     /// # Errors
     /// When the configuration names another size.
-    pub fn fit_frame(&mut self, width: u32, height: u32) -> Result<(), SpecError> {
+    pub fn fit_frame(&mut self, width: u32, height: u32) -> Result<(), DesignError> {
         let frame = &mut self.frame;
         for (key, own, given) in
             [("width", &mut frame.width, width), ("height", &mut frame.height, height)]
@@ -68,7 +68,7 @@ impl Config {
             if let Some(own) = *own
                 && own != given
             {
-                return Err(SpecError::Combination {
+                return Err(DesignError::Combination {
                     key: format!("frame.{key}"),
                     value: own.to_string(),
                     with: format!("an input of {width}x{height} pixels"),
@@ -81,13 +81,13 @@ impl Config {
     }
 
     /// The regions of the frame.
-    fn check_regions(&self, width: u32, height: u32) -> Result<u32, SpecError> {
+    fn check_regions(&self, width: u32, height: u32) -> Result<u32, DesignError> {
         let size = self.region.size;
         let regions = width.div_ceil(size) * height.div_ceil(size);
         if regions <= MAX_REGIONS {
             return Ok(regions);
         }
-        Err(SpecError::Combination {
+        Err(DesignError::Combination {
             key: "region.size".to_owned(),
             value: size.to_string(),
             with: format!("a frame of {width}x{height} pixels, which has {regions} regions"),
@@ -95,9 +95,9 @@ impl Config {
         })
     }
 
-    fn check_features(&self) -> Result<(), SpecError> {
+    fn check_features(&self) -> Result<(), DesignError> {
         if self.spatial.is_empty() {
-            return Err(SpecError::Range {
+            return Err(DesignError::Range {
                 key: "spatial".to_owned(),
                 value: "[]".to_owned(),
                 valid: "one to four features".to_owned(),
@@ -105,7 +105,7 @@ impl Config {
         }
         for (index, entry) in self.spatial.iter().enumerate() {
             if self.spatial.iter().take(index).any(|earlier| earlier.feature == entry.feature) {
-                return Err(SpecError::Combination {
+                return Err(DesignError::Combination {
                     key: format!("spatial[{index}].feature"),
                     value: format!("\"{}\"", entry.feature),
                     with: "another entry for the same feature".to_owned(),
@@ -116,8 +116,8 @@ impl Config {
         Ok(())
     }
 
-    fn check_hardware(&self, regions: u32) -> Result<(), SpecError> {
-        let clash = |key: &str, value: String, remedy: &str| SpecError::Combination {
+    fn check_hardware(&self, regions: u32) -> Result<(), DesignError> {
+        let clash = |key: &str, value: String, remedy: &str| DesignError::Combination {
             key: key.to_owned(),
             value,
             with: format!("organization = \"{}\"", self.hardware.organization),
@@ -153,11 +153,16 @@ impl Config {
 }
 
 /// `why` follows the range in the message.
-fn in_range(key: &str, value: u32, range: RangeInclusive<u32>, why: &str) -> Result<(), SpecError> {
+fn in_range(
+    key: &str,
+    value: u32,
+    range: RangeInclusive<u32>,
+    why: &str,
+) -> Result<(), DesignError> {
     if range.contains(&value) {
         return Ok(());
     }
-    Err(SpecError::Range {
+    Err(DesignError::Range {
         key: key.to_owned(),
         value: value.to_string(),
         valid: format!("{}..={}{why}", range.start(), range.end()),

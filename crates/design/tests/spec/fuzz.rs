@@ -2,7 +2,7 @@
 //! No configuration, however broken, makes the parser or the validation panic, and every error is one
 //! line. `FOVEATE_FUZZ_CASES` sets the number of cases.
 
-use foveate_spec::{Config, PRESETS};
+use foveate_design::{Config, PRESETS};
 
 /// Splitmix64: the same cases on every machine.
 struct Random(u64);

@@ -2,7 +2,7 @@
 //! When a design says what, and of `pipelined` the numbers behind `docs/timing.md`; those of `serial`
 //! are in [`crate::serial`].
 
-use crate::{Design, Filter, Neighborhood, Organization, SerialTiming, SpecError};
+use crate::{Design, DesignError, Filter, Neighborhood, Organization, SerialTiming};
 
 /// Registers between a median window and the stream that follows it: window, result.
 const MEDIAN_REGISTERS: u32 = 2;
@@ -41,10 +41,10 @@ impl Design {
     ///
     /// # Errors
     /// When the design is serial; the message names `user`.
-    pub fn pipelined_timing(&self, user: &str) -> Result<PipelinedTiming, SpecError> {
+    pub fn pipelined_timing(&self, user: &str) -> Result<PipelinedTiming, DesignError> {
         match self.organization() {
             Organization::Pipelined => Ok(PipelinedTiming::of(self)),
-            Organization::Serial => Err(SpecError::Combination {
+            Organization::Serial => Err(DesignError::Combination {
                 key: "hardware.organization".to_owned(),
                 value: format!("\"{}\"", Organization::Serial),
                 with: format!("{user} of this version"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Named configurations to start from.
 
-use crate::{Config, SpecError};
+use crate::{Config, DesignError};
 
 /// A named configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,10 +58,12 @@ impl Preset {
     ///
     /// # Errors
     /// When there is none; the message lists those that exist.
-    pub fn find(name: &str) -> Result<&'static Self, SpecError> {
-        PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| SpecError::UnknownPreset {
-            name: name.to_owned(),
-            known: PRESETS.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
+    pub fn find(name: &str) -> Result<&'static Self, DesignError> {
+        PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
+            DesignError::UnknownPreset {
+                name: name.to_owned(),
+                known: PRESETS.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
+            }
         })
     }
 
@@ -69,7 +71,7 @@ impl Preset {
     ///
     /// # Errors
     /// Never for the presets of this crate, which a test proves.
-    pub fn config(&self) -> Result<Config, SpecError> {
+    pub fn config(&self) -> Result<Config, DesignError> {
         Config::from_toml(self.toml)
     }
 }

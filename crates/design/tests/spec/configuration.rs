@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The configuration at its boundary: what is accepted, what it becomes, what is refused and how.
 
-use foveate_spec::{Config, Design, PRESETS, Preset, SpecError};
+use foveate_design::{Config, Design, DesignError, PRESETS, Preset};
 
 fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()
@@ -30,7 +30,7 @@ fn every_preset_is_a_design_and_survives_writing() {
         assert_eq!(&again, design.config(), "{}", preset.name);
         assert_eq!(again.validate().unwrap().fingerprint(), design.fingerprint());
     }
-    assert!(matches!(Preset::find("papre"), Err(SpecError::UnknownPreset { .. })));
+    assert!(matches!(Preset::find("papre"), Err(DesignError::UnknownPreset { .. })));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The keys of a configuration, to refuse unknown ones by name and with the nearest known one.
 
-use crate::SpecError;
+use crate::DesignError;
 use toml::{Table, Value};
 
 /// Every key, dotted, and what it takes; `spatial` is an array of tables.
@@ -46,7 +46,7 @@ pub(crate) fn takes(path: &str) -> &'static str {
 }
 
 /// Refuses the first key of `table` that is not one of [`KEYS`].
-pub(crate) fn refuse_unknown(table: &Table) -> Result<(), SpecError> {
+pub(crate) fn refuse_unknown(table: &Table) -> Result<(), DesignError> {
     for (section, value) in table {
         if !sections().any(|known| known == section) {
             return Err(unknown(section, section, sections().map(str::to_owned)));
@@ -66,7 +66,7 @@ pub(crate) fn refuse_unknown(table: &Table) -> Result<(), SpecError> {
     Ok(())
 }
 
-fn refuse_unknown_in(section: &str, path: &str, keys: &Table) -> Result<(), SpecError> {
+fn refuse_unknown_in(section: &str, path: &str, keys: &Table) -> Result<(), DesignError> {
     match keys.keys().find(|key| !all_keys().any(|known| known == format!("{section}.{key}"))) {
         None => Ok(()),
         Some(key) => {
@@ -84,7 +84,7 @@ fn all_keys() -> impl Iterator<Item = String> {
 }
 
 /// The error for `shown`; the nearest key is looked for under the name `plain`.
-fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -> SpecError {
+fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -> DesignError {
     /// Below this similarity a suggestion would only confuse.
     const SIMILAR: f64 = 0.6;
     let nearest = candidates
@@ -92,7 +92,7 @@ fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -
         .filter(|(similarity, _)| *similarity >= SIMILAR)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, key)| key);
-    SpecError::UnknownKey { key: shown.to_owned(), nearest }
+    DesignError::UnknownKey { key: shown.to_owned(), nearest }
 }
 
 /// A key that stands in the wrong table is nearest to the key of that name.

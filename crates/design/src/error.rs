@@ -7,7 +7,7 @@ use thiserror::Error;
 /// A configuration that is no design.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum SpecError {
+pub enum DesignError {
     /// The text is not TOML.
     #[error("the configuration is not valid TOML: {}", printable(.0))]
     Syntax(String),

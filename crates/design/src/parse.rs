@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Reads a configuration from TOML text and `KEY=VALUE` overrides.
 
-use crate::{Config, SpecError, keys};
+use crate::{Config, DesignError, keys};
 use serde::Deserialize;
 use serde_path_to_error::{Path, Segment};
 use toml::{Table, Value};
@@ -12,7 +12,7 @@ impl Config {
     /// # Errors
     /// When the text is no TOML, has an unknown key, or a value of the wrong type. Ranges are
     /// checked by [`Config::validate`].
-    pub fn from_toml(text: &str) -> Result<Self, SpecError> {
+    pub fn from_toml(text: &str) -> Result<Self, DesignError> {
         Self::from_toml_with(text, &[] as &[&str])
     }
 
@@ -22,9 +22,9 @@ impl Config {
     ///
     /// # Errors
     /// As [`Config::from_toml`]; also for an override that is not of that form.
-    pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, SpecError> {
+    pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, DesignError> {
         let mut table: Table =
-            text.parse().map_err(|e: toml::de::Error| SpecError::Syntax(one_line(&e)))?;
+            text.parse().map_err(|e: toml::de::Error| DesignError::Syntax(one_line(&e)))?;
         for text in overrides {
             apply(&mut table, text.as_ref())?;
         }
@@ -33,7 +33,7 @@ impl Config {
         serde_path_to_error::deserialize(value.clone()).map_err(|e| {
             let key = e.path().to_string();
             let problem = problem(&key, at(&value, e.path()), e.inner().message());
-            SpecError::Type { key, problem }
+            DesignError::Type { key, problem }
         })
     }
 
@@ -78,8 +78,8 @@ fn one_line(error: &toml::de::Error) -> String {
     format!("{} ({place})", error.message().replace('\n', "; "))
 }
 
-fn apply(table: &mut Table, text: &str) -> Result<(), SpecError> {
-    let problem = |problem: String| SpecError::Override { text: text.to_owned(), problem };
+fn apply(table: &mut Table, text: &str) -> Result<(), DesignError> {
+    let problem = |problem: String| DesignError::Override { text: text.to_owned(), problem };
     let (path, value) = text
         .split_once('=')
         .ok_or_else(|| problem("expected KEY=VALUE, for example region.size=16".to_owned()))?;

@@ -35,7 +35,7 @@ pub use config::{
 };
 pub use decimal::Decimal;
 pub use design::{Design, Temporal};
-pub use error::SpecError;
+pub use error::DesignError;
 pub use feature::{Mean, SpatialFeature, Variance};
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
