@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use foveate_cosim::{CosimError, Level as Simulated, Recording, Stimulus};
 use foveate_design::{Design, Organization};
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
 use crate::error::BenchError;

@@ -5,7 +5,8 @@ use std::hint::black_box;
 
 use foveate_cosim::{Agreement, PipelinedCodec, Recording, SerialCodec};
 use foveate_design::{Design, Organization};
-use foveate_model::{Frame, PipelinedRcm, SerialInput, SerialRcm};
+use foveate_frame::Frame;
+use foveate_model::{PipelinedRcm, SerialInput, SerialRcm};
 
 use crate::error::BenchError;
 use crate::memory::Before;

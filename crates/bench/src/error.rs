@@ -4,6 +4,7 @@
 use foveate_cosim::CosimError;
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
+use foveate_frame::FrameError;
 use foveate_model::ModelError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
@@ -15,6 +16,9 @@ pub enum BenchError {
     /// Vectors could not be made, or a simulator failed.
     #[error(transparent)]
     Cosim(#[from] CosimError),
+    /// Pixels are no frame.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
     /// A frame is not of the design's kind.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -23,7 +27,7 @@ pub enum BenchError {
     Engine(#[from] EngineError),
     /// The part of the design that goes into the netlist is none.
     #[error(transparent)]
-    Spec(#[from] DesignError),
+    Design(#[from] DesignError),
     /// The vectors could not be read back.
     #[error("cannot read `{path}`: {source}")]
     Vectors {

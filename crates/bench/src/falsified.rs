@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use foveate_cosim::{Level as Simulated, Recording, Stimulus};
 use foveate_design::{Config, Design, Preset};
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 

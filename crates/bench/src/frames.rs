@@ -2,19 +2,19 @@
 //! Frames of random pixels: no level can take a short cut on them.
 
 use foveate_design::Design;
-use foveate_model::{Frame, ModelError};
+use foveate_frame::{Frame, FrameError};
 
 /// `count` frames of the design's kind, every pixel random; equal seeds give equal frames.
 ///
 /// # Errors
 /// None for a valid design.
-pub fn random_frames(design: &Design, seed: u64, count: u32) -> Result<Vec<Frame>, ModelError> {
+pub fn random_frames(design: &Design, seed: u64, count: u32) -> Result<Vec<Frame>, FrameError> {
     let mut state = seed ^ 0x9E37_79B9_7F4A_7C15;
     let mut pixel = |_, _| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         let mixed = (state ^ (state >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let value = (mixed ^ (mixed >> 32)) & u64::from(design.pixel_max());
-        u16::try_from(value).unwrap_or(u16::MAX)
+        u16::try_from(value).expect("masked to the pixel's bits")
     };
     let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
     (0..count).map(|_| Frame::from_fn(width, height, bits, &mut pixel)).collect()

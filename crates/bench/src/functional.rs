@@ -6,7 +6,8 @@ use std::hint::black_box;
 use foveate_cosim::Agreement;
 use foveate_design::Design;
 use foveate_engine::{Engine, Level as Instructions, Options};
-use foveate_model::{Camera, Frame};
+use foveate_frame::Frame;
+use foveate_model::Camera;
 
 use crate::error::BenchError;
 use crate::memory::Before;

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use foveate_cosim::{Agreement, Job, Level as Simulated, Netlist, Simulator, Stimulus};
 use foveate_design::{Design, Organization};
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 use crate::bench::Tools;
 use crate::error::BenchError;

@@ -4,7 +4,8 @@
 
 use foveate_cosim::{Agreement, Layout, Recording};
 use foveate_design::{Design, Organization, PortRole};
-use foveate_model::{Camera, Frame, Outcome};
+use foveate_frame::Frame;
+use foveate_model::{Camera, Outcome};
 
 use crate::error::BenchError;
 use crate::vectors::{each_clock, field};

@@ -140,7 +140,7 @@ impl From<BenchError> for CliError {
     fn from(error: BenchError) -> Self {
         match error {
             BenchError::Cosim(error) => error.into(),
-            BenchError::Spec(error) => error.into(),
+            BenchError::Design(error) => error.into(),
             error if error.is_interrupted() => Self::Cosim(ToolError::Interrupted.into()),
             error => Self::Usage(error.to_string()),
         }

@@ -31,7 +31,7 @@ pub enum CosimError {
 
     /// The design does not allow what was asked for.
     #[error(transparent)]
-    Spec(#[from] DesignError),
+    Design(#[from] DesignError),
 
     /// The Verilog has no module of the name that is to be simulated.
     #[error("no module `{top}` in the Verilog ({files}); give the sources of the whole core")]

@@ -6,6 +6,7 @@
 //! fingerprint. Nothing downstream validates again or derives a width again. This crate does no
 //! I/O.
 
+mod action;
 mod choice;
 mod config;
 mod decimal;
@@ -25,6 +26,7 @@ mod timing;
 mod validate;
 mod width;
 
+pub use action::Action;
 pub use choice::{
     Combine, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
     Thresholds,

@@ -2,14 +2,14 @@
 //! The engine as its callers see it.
 
 use foveate_design::Design;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 use crate::core::{Core, Keep};
 use crate::pixels::Pixels;
 use crate::plan::{Plan, index};
-use crate::raster::{Plane, Raster};
 use crate::workers::Workers;
 use crate::{EngineError, Level, Outcome};
+use foveate_frame::{Plane, Raster};
 
 /// How an engine runs; what it computes does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub(crate) enum Lanes {
     Words(Core<u16>),
 }
 
-/// An RCM with its renderer: what [`foveate_model::Camera`] computes, fast.
+/// An RCM with its renderer: what the model's `Camera` computes, fast.
 #[derive(Debug)]
 pub struct Engine {
     pub(crate) design: Design,

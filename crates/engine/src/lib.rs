@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functional model's integers at billions of pixels a second.
 //!
-//! [`Engine`] computes what [`foveate_model::Camera`] computes, bit for bit, for every design. The
+//! [`Engine`] computes what the model's `Camera` computes, bit for bit, for every design. The
 //! model says what; this crate only makes it fast:
 //! - one fused pass over a band of regions while it is in the cache, where a chain of whole-frame
 //!   operations would go through memory once per step;
@@ -17,7 +17,6 @@ mod change;
 mod core;
 mod decide;
 mod denoised;
-mod depth;
 mod engine;
 mod error;
 mod kernel;
@@ -26,17 +25,14 @@ mod outcome;
 mod pixels;
 mod plan;
 mod policy;
-mod raster;
 mod render;
 mod scratch;
 mod screens;
 mod strip;
 mod workers;
 
-pub use depth::convert_depth;
 pub use engine::{Engine, Options};
 pub use error::EngineError;
 pub use foveate_lanes::Level;
 pub use outcome::Outcome;
-pub use raster::{Plane, Raster};
 pub use screens::Screens;

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_model::Action;
+use foveate_design::Action;
 
 use crate::plan::FEATURES;
 

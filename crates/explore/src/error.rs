@@ -99,7 +99,7 @@ pub enum ExploreError {
     Simulator(Box<SimulatorError>),
     /// A configuration that is no design.
     #[error(transparent)]
-    Spec(#[from] DesignError),
+    Design(#[from] DesignError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

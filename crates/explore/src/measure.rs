@@ -8,10 +8,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use foveate_design::{Config, Design};
-use foveate_engine::{Engine, Raster};
+use foveate_engine::Engine;
 use foveate_fidelity::{Fidelity, Tally};
+use foveate_frame::{Raster, convert_depth};
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_simulator::{InputOptions, Kind, SimulatorError, Source, Subject, convert_depth, open};
+use foveate_simulator::{InputOptions, Kind, SimulatorError, Source, Subject, open};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -5,8 +5,9 @@
 use std::time::Instant;
 
 use foveate_design::Config;
-use foveate_engine::{Engine, Raster};
+use foveate_engine::Engine;
 use foveate_fidelity::Fidelity;
+use foveate_frame::Raster;
 use foveate_ideal::IdealCamera;
 use foveate_scenes::{Scene, SceneSize};
 

@@ -2,7 +2,7 @@
 //! Where two cameras decide otherwise, as areas in pixels, so that regions of different sizes can be
 //! compared.
 
-use foveate_model::Action;
+use foveate_design::Action;
 use serde::{Deserialize, Serialize};
 
 /// Every combination of two states, `ideal << STATE_BITS | candidate`.

@@ -2,7 +2,8 @@
 //! Compares a candidate with the ideal, frame by frame.
 
 use foveate_design::Design;
-use foveate_engine::{Outcome, Plane, Raster};
+use foveate_engine::Outcome;
+use foveate_frame::{Plane, Raster};
 use foveate_ideal::IdealOutcome;
 
 use crate::areas::{EMPTY, state};

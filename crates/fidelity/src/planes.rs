@@ -2,7 +2,7 @@
 //! The pictures of one frame in one pixel type, at the depth of the ideal.
 
 use foveate_design::Design;
-use foveate_engine::{Plane, convert_depth};
+use foveate_frame::{Plane, convert_depth};
 use foveate_ideal::IdealOutcome;
 
 use crate::sample::Sample;

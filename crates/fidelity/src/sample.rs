@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pixels in the narrowest type that holds them.
 
-use foveate_engine::Plane;
+use foveate_frame::Plane;
 
 /// A pixel: a byte up to 8 bits, a word above.
 pub(crate) trait Sample: Copy + Default + Ord + Into<u32> {

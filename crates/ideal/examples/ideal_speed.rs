@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use foveate_design::{Config, FeatureKind, SpatialConfig};
-use foveate_engine::Raster;
+use foveate_frame::Raster;
 use foveate_ideal::IdealCamera;
 
 fn main() {

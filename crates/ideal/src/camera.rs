@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ideal camera: one whole frame at a time.
 
+use foveate_design::Action;
 use foveate_design::{Design, Filter, Payload};
-use foveate_engine::Raster;
-use foveate_model::Action;
+use foveate_frame::Raster;
 
 use crate::feature::{Scratch, score};
 use crate::grid::Grid;

@@ -19,5 +19,4 @@ mod rules;
 
 pub use camera::IdealCamera;
 pub use error::IdealError;
-pub use foveate_model::Action;
 pub use outcome::IdealOutcome;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a frame is compared with: the denoised pixels of every region as they once were.
 
+use foveate_design::Action;
 use foveate_design::{Design, Reference};
-use foveate_model::Action;
 
 use crate::feature::add_up;
 use crate::grid::Grid;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What one frame leads to.
 
-use foveate_model::Action;
+use foveate_design::Action;
 
 use crate::grid::Grid;
 

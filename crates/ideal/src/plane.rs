@@ -2,7 +2,7 @@
 //! A padded frame of real numbers with a border of one pixel around it that repeats its last pixels,
 //! so that a 3x3 window is nine plain reads everywhere.
 
-use foveate_engine::Plane as Pixels;
+use foveate_frame::Plane as Pixels;
 
 use crate::grid::Grid;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds and decisions, as the configuration writes them.
 
+use foveate_design::Action;
 use foveate_design::{Combine, Decimal, Design, FeatureKind, Irrelevant};
-use foveate_model::Action;
 
 /// One feature.
 #[derive(Clone, Copy, Debug)]

@@ -3,10 +3,9 @@
 
 use foveate_design::{Design, Filter};
 
-use crate::Frame;
-use crate::number::index;
-use crate::region::Area;
+use crate::region::{Area, black_padded};
 use crate::window::{RegionView, Window};
+use foveate_frame::Frame;
 
 /// The fifth of the nine sorted values.
 #[must_use]
@@ -34,7 +33,7 @@ fn sorted(a: u16, b: u16, c: u16) -> [u16; 3] {
 /// When the frame is not as large as the design's padded frame.
 #[must_use]
 pub fn denoise(design: &Design, padded: &Frame) -> Frame {
-    let mut denoised = Frame::black_padded(design);
+    let mut denoised = black_padded(design);
     denoise_into(design, padded, &mut denoised);
     denoised
 }
@@ -46,8 +45,10 @@ pub(crate) fn denoise_into(design: &Design, padded: &Frame, denoised: &mut Frame
         Filter::Median3x3 => {
             for region in 0..design.regions() {
                 let view = RegionView::new(design, padded, region);
-                for (x, y) in Area::of(design, region).positions() {
-                    denoised.row_mut(y)[index(x)] = median(&view.window(x, y));
+                let area = Area::of(design, region);
+                for y in area.rows() {
+                    let row: Vec<_> = area.columns().map(|x| median(&view.window(x, y))).collect();
+                    denoised.write(area.left, y, &row);
                 }
             }
         }

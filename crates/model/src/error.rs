@@ -3,50 +3,10 @@
 
 use thiserror::Error;
 
-/// A frame that is none, or that does not belong to the design.
+/// A frame that does not belong to the design.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// A side of the frame is zero.
-    #[error("a frame of {width}x{height} pixels is empty; both sides must be at least 1")]
-    EmptyFrame {
-        /// Width as given.
-        width: u32,
-        /// Height as given.
-        height: u32,
-    },
-    /// Bits per pixel outside of what a pixel holds.
-    #[error("{bits} bits per pixel are not possible; valid is 1..=16")]
-    PixelBits {
-        /// Bits as given.
-        bits: u32,
-    },
-    /// Too few or too many pixels for the size.
-    #[error("a frame of {width}x{height} needs {needed} pixels, {given} were given")]
-    FrameLength {
-        /// Width as given.
-        width: u32,
-        /// Height as given.
-        height: u32,
-        /// Pixels that size needs.
-        needed: u64,
-        /// Pixels that came.
-        given: usize,
-    },
-    /// A pixel that does not fit into its bits.
-    #[error("pixel ({x}, {y}) is {value}; the largest value of {bits} bits is {max}")]
-    PixelRange {
-        /// Column of the pixel.
-        x: u32,
-        /// Row of the pixel.
-        y: u32,
-        /// Its value.
-        value: u16,
-        /// Bits per pixel.
-        bits: u32,
-        /// Largest value of these bits.
-        max: u16,
-    },
     /// A frame of another size or depth than the design's.
     #[error("a frame of {given} was given to a design for {expected}; give it frames of that kind")]
     FrameKind {

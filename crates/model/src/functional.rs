@@ -3,13 +3,15 @@
 
 use foveate_design::{Design, Payload};
 
-use crate::decision::combined;
+use crate::decision::{action, combined};
 use crate::denoise::denoise_into;
 use crate::number::index;
-use crate::region::{Area, check_kind, pad_into};
+use crate::region::{Area, black, black_padded, check_kind, pad_into};
 use crate::render::Screen;
 use crate::temporal::References;
-use crate::{Action, Frame, ModelError, feature};
+use crate::{ModelError, feature};
+use foveate_design::Action;
+use foveate_frame::Frame;
 
 /// Everything that one frame leads to. Regions are numbered row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,9 +46,9 @@ impl Outcome {
             actions: vec![Action::Hold; regions],
             temporal_count: vec![0; regions],
             scores: vec![vec![0; regions]; design.features().len()],
-            padded: Frame::black_padded(design),
-            denoised: Frame::black_padded(design),
-            rendered: Frame::black(design.width(), design.height(), design.pixel_bits()),
+            padded: black_padded(design),
+            denoised: black_padded(design),
+            rendered: black(design),
         }
     }
 
@@ -144,7 +146,7 @@ impl Camera {
     fn act(&mut self, region: u32) {
         let Self { design, references, screen, outcome } = self;
         let at = index(region);
-        let action = Action::of(design, outcome.srs[at], outcome.trs[at]);
+        let action = action(design, outcome.srs[at], outcome.trs[at]);
         outcome.actions[at] = action;
         screen.show(Area::of(design, region), action, outcome.payload(design));
         references.update(design, &outcome.denoised, region, action);

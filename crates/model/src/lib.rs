@@ -13,7 +13,6 @@ mod decision;
 pub mod denoise;
 mod error;
 pub mod feature;
-mod frame;
 pub mod functional;
 mod number;
 pub mod pipelined;
@@ -25,9 +24,8 @@ mod temporal;
 mod thresholds;
 pub mod window;
 
-pub use decision::Action;
+pub use decision::action;
 pub use error::ModelError;
-pub use frame::Frame;
 pub use functional::{Camera, Outcome};
 pub use pipelined::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput};
 pub use region::{pad, region_pixels};

@@ -3,8 +3,9 @@
 
 use foveate_design::Design;
 
+use crate::ModelError;
 use crate::number::index;
-use crate::{Frame, ModelError};
+use foveate_frame::Frame;
 
 /// The square of pixels of one region, in coordinates of the padded frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,20 +51,32 @@ impl Area {
     /// Copies the region from one frame to another of the same size.
     pub(crate) fn copy(self, from: &Frame, to: &mut Frame) {
         for y in self.rows() {
-            self.row_mut(to, y).copy_from_slice(self.row(from, y));
+            to.write(self.left, y, self.row(from, y));
         }
     }
 
     /// Makes the region black.
     pub(crate) fn blank(self, frame: &mut Frame) {
+        let black = vec![0; index(self.side)];
         for y in self.rows() {
-            self.row_mut(frame, y).fill(0);
+            frame.write(self.left, y, &black);
         }
     }
+}
 
-    fn row_mut(self, frame: &mut Frame, y: u32) -> &mut [u16] {
-        &mut frame.row_mut(y)[index(self.left)..][..index(self.side)]
-    }
+/// A black frame of the design's size.
+pub(crate) fn black(design: &Design) -> Frame {
+    filled(design, design.width(), design.height())
+}
+
+/// A black frame as large as a whole number of the design's regions.
+pub(crate) fn black_padded(design: &Design) -> Frame {
+    let side = design.region_size();
+    filled(design, design.columns() * side, design.rows() * side)
+}
+
+fn filled(design: &Design, width: u32, height: u32) -> Frame {
+    Frame::filled(width, height, design.pixel_bits(), 0).expect("a design has a size and a depth")
 }
 
 /// The pixels of one region of a padded frame, row by row, appended to `out`.
@@ -80,7 +93,7 @@ pub fn region_pixels(design: &Design, padded: &Frame, region: u32, out: &mut Vec
 /// When the frame is not of the design's size and depth.
 pub fn pad(design: &Design, frame: &Frame) -> Result<Frame, ModelError> {
     check_kind(design, frame)?;
-    let mut padded = Frame::black_padded(design);
+    let mut padded = black_padded(design);
     pad_into(frame, &mut padded);
     Ok(padded)
 }
@@ -99,18 +112,16 @@ pub(crate) fn check_kind(design: &Design, frame: &Frame) -> Result<(), ModelErro
 /// Fills a padded frame.
 pub(crate) fn pad_into(frame: &Frame, padded: &mut Frame) {
     for y in 0..padded.height() {
-        let source = frame.row(y.min(frame.height() - 1));
-        let (own, padding) = padded.row_mut(y).split_at_mut(source.len());
-        own.copy_from_slice(source);
-        padding.fill(source.last().copied().unwrap_or_default());
+        let own = frame.row(y.min(frame.height() - 1));
+        padded.write(0, y, own);
+        let last = frame.get(frame.width() - 1, y.min(frame.height() - 1));
+        padded.write(frame.width(), y, &vec![last; index(padded.width()) - own.len()]);
     }
 }
 
 /// Cuts the padding off again.
 pub(crate) fn crop_into(padded: &Frame, frame: &mut Frame) {
     for y in 0..frame.height() {
-        let row = frame.row_mut(y);
-        let width = row.len();
-        row.copy_from_slice(&padded.row(y)[..width]);
+        frame.write(0, y, &padded.row(y)[..index(frame.width())]);
     }
 }

@@ -3,8 +3,9 @@
 
 use foveate_design::Design;
 
-use crate::region::{Area, crop_into};
-use crate::{Action, Frame};
+use crate::region::{Area, black_padded, crop_into};
+use foveate_design::Action;
+use foveate_frame::Frame;
 
 /// The rendered regions, padding included; black before the first frame.
 #[derive(Clone, Debug)]
@@ -13,7 +14,7 @@ pub(crate) struct Screen(Frame);
 impl Screen {
     /// A black screen.
     pub(crate) fn black(design: &Design) -> Self {
-        Self(Frame::black_padded(design))
+        Self(black_padded(design))
     }
 
     /// Renders one region of a frame whose pixels are `payload`.

@@ -3,8 +3,8 @@
 
 use foveate_design::Design;
 
-use crate::Frame;
 use crate::region::Area;
+use foveate_frame::Frame;
 
 /// Appends the raw pixels that region `region` of a frame feeds to its RPU: a square of
 /// `design.stream_side()`, row by row. A position outside of the frame holds the nearest pixel,

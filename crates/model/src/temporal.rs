@@ -5,8 +5,9 @@
 use foveate_design::{Design, Reference};
 
 use crate::number::{count, index};
-use crate::region::Area;
-use crate::{Action, Frame};
+use crate::region::{Area, black_padded};
+use foveate_design::Action;
+use foveate_frame::Frame;
 
 /// `|now - reference|` of every pixel of a region of two padded frames, row by row; a pixel has
 /// changed when this is above the level.
@@ -38,7 +39,7 @@ pub(crate) struct References {
 impl References {
     /// No region has a reference yet.
     pub(crate) fn none(design: &Design) -> Self {
-        Self { frame: Frame::black_padded(design), valid: vec![false; index(design.regions())] }
+        Self { frame: black_padded(design), valid: vec![false; index(design.regions())] }
     }
 
     /// The reference of a region, row by row, if it is valid.

@@ -3,9 +3,9 @@
 
 use foveate_design::{Design, Neighborhood};
 
-use crate::Frame;
 use crate::number::index;
 use crate::region::Area;
+use foveate_frame::Frame;
 
 /// Nine pixels, row by row; the center is number 4.
 pub type Window = [u16; 9];

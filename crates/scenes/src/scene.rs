@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 use crate::patterns;
 use crate::street::{Mood, Street};

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
+use foveate_frame::FrameError;
 use foveate_model::ModelError;
 use foveate_scenes::SceneError;
 use foveate_staging::StagingError;
@@ -271,10 +272,13 @@ pub enum SimulatorError {
     Cancelled,
     /// The configuration does not fit.
     #[error(transparent)]
-    Spec(#[from] DesignError),
+    Design(#[from] DesignError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// Pixels are no frame.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
     /// The model refused a frame.
     #[error(transparent)]
     Model(#[from] ModelError),

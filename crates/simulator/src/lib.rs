@@ -8,7 +8,6 @@
 //! never prints: progress and cancellation go through [`Hooks`].
 
 mod batch;
-mod depth;
 mod error;
 mod explain;
 mod input;
@@ -26,10 +25,8 @@ mod y4m;
 pub use batch::{
     BatchHooks, BatchProgress, BatchSummary, Clip, ClipSummary, Plan, plan, run_batch,
 };
-pub use depth::display_depth;
 pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
-pub use foveate_engine::convert_depth;
 pub use input::{ImagesAs, InputOptions, is_read_once, open};
 pub use natural::natural_order;
 pub use output::{

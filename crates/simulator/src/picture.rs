@@ -14,11 +14,12 @@ use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
-use crate::{SimulatorError, convert_depth};
+use crate::SimulatorError;
+use foveate_frame::convert_depth;
 
 /// Largest width and height of an image, in pixels.
 pub const MAX_SIDE: u32 = 16_384;

@@ -2,10 +2,11 @@
 //! From samples as they lie in a pipe or a file to a frame: 8-bit luma for a design of 8 bits stays
 //! where it is, everything else is converted in one pass.
 
-use foveate_engine::Raster;
-use foveate_model::ModelError;
+use foveate_frame::FrameError;
+use foveate_frame::Raster;
 
-use crate::{convert_depth, luma};
+use crate::luma;
+use foveate_frame::convert_depth;
 
 /// How samples lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +27,7 @@ impl Layout {
     }
 
     /// The frame of `bits` bits per pixel; samples beyond their depth count as its largest value.
-    pub(crate) fn raster(self, bytes: Vec<u8>, bits: u32) -> Result<Raster, ModelError> {
+    pub(crate) fn raster(self, bytes: Vec<u8>, bits: u32) -> Result<Raster, FrameError> {
         let Self { width, height, depth, colour } = self;
         if depth == bits && depth == 8 && !colour {
             return Raster::from_bytes(width, height, bits, bytes);

@@ -8,7 +8,7 @@ pub(crate) mod form;
 pub(crate) mod resize;
 pub(crate) mod select;
 
-use foveate_engine::Raster;
+use foveate_frame::Raster;
 
 use crate::SimulatorError;
 use form::SetForm;

@@ -17,7 +17,7 @@ mod truncated;
 
 use std::path::{Path, PathBuf};
 
-use foveate_engine::Raster;
+use foveate_frame::Raster;
 use foveate_toolchain::{Tool, Toolchain};
 
 use self::decoder::{Decoder, Ffmpeg, Start};

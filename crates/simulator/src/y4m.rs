@@ -7,7 +7,7 @@ mod header;
 
 use std::io::{self, BufRead, Read};
 
-use foveate_engine::Raster;
+use foveate_frame::Raster;
 
 use self::header::{Header, line};
 use crate::samples::Layout;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames made for one case, and random numbers that are the same on every machine.
 
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 /// A frame of the design's kind, from a function of column and row.
 pub(crate) fn frame(size: (u32, u32), bits: u32, pixel: impl Fn(u32, u32) -> u32) -> Frame {

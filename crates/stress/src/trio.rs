@@ -4,7 +4,8 @@
 use foveate_array::PipelinedArray;
 use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_model::{Camera, Frame, RpuOutput, Thresholds, region_stream};
+use foveate_frame::Frame;
+use foveate_model::{Camera, RpuOutput, Thresholds, region_stream};
 
 use crate::pixels::Random;
 

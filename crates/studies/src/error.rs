@@ -18,7 +18,7 @@ pub enum StudyError {
     Simulator(Box<SimulatorError>),
     /// A point of the study is no design.
     #[error(transparent)]
-    Spec(#[from] DesignError),
+    Design(#[from] DesignError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

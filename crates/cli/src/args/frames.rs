@@ -2,7 +2,7 @@
 //! Frames of the inputs, for the commands that hold all of them in memory.
 
 use foveate_design::Design;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_simulator::{InputOptions, Simulation, SimulatorError, open};
 
 use super::DesignArgs;

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use foveate_bench::{Bench, Report, Tools, random_frames};
 use foveate_design::Design;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_simulator::SimulatorError;
 use foveate_toolchain::Cache;
 

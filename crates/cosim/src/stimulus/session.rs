@@ -8,7 +8,8 @@ use super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
 use foveate_design::{Design, PipelinedTiming};
-use foveate_model::{Frame, region_border, region_stream};
+use foveate_frame::Frame;
+use foveate_model::{region_border, region_stream};
 
 /// A recording under way.
 pub(super) struct Session<'a> {

@@ -12,7 +12,8 @@ use foveate_design::{
     Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization,
     Payload, PortRole, Reference,
 };
-use foveate_model::{Camera, Frame, region_pixels};
+use foveate_frame::Frame;
+use foveate_model::{Camera, region_pixels};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_toolchain::testing::require_tools;
 

@@ -10,7 +10,7 @@ use foveate_cosim::{Layout, Level, Recording, Stimulus};
 use foveate_design::{
     Config, Design, FeatureKind, Feed, Filter, Neighborhood, PortRole, Reference, Timing,
 };
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use std::collections::BTreeSet;
 
 const GRID: (u32, u32) = (3, 2);

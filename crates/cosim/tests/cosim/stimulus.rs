@@ -5,7 +5,7 @@ use crate::common::vectors::{clocks, field};
 use crate::common::{design, directed};
 use foveate_cosim::{Level, Recording, Stimulus, vectors_hex};
 use foveate_design::{Config, Design, FeatureKind, PortRole};
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 

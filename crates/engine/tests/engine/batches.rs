@@ -3,8 +3,10 @@
 //! batches, number of threads and instruction set.
 
 use foveate_design::{Design, FeatureKind, Neighborhood, Reference, SpatialConfig};
-use foveate_engine::{Engine, Level, Options, Outcome, Plane, Screens};
-use foveate_model::{Camera, Frame};
+use foveate_engine::{Engine, Level, Options, Outcome, Screens};
+use foveate_frame::Frame;
+use foveate_frame::Plane;
+use foveate_model::Camera;
 use proptest::prelude::*;
 
 use crate::film::{Change, film, scripts};

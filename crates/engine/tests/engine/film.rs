@@ -3,7 +3,7 @@
 //! and stepped areas.
 
 use foveate_design::Design;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use proptest::prelude::*;
 
 /// How a frame comes from the one before.

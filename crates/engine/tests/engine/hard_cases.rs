@@ -5,7 +5,7 @@ use foveate_design::{
     Config, Design, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
 };
 use foveate_engine::Options;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 use crate::film::{Change, film};
 use crate::properties::check;

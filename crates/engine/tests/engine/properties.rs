@@ -3,8 +3,10 @@
 //! threads, whether regions are skipped or not.
 
 use foveate_design::Design;
-use foveate_engine::{Engine, Level, Options, Outcome, Plane};
-use foveate_model::{Camera, Frame};
+use foveate_engine::{Engine, Level, Options, Outcome};
+use foveate_frame::Frame;
+use foveate_frame::Plane;
+use foveate_model::Camera;
 use proptest::prelude::*;
 
 use crate::film::{film, scripts};

@@ -3,7 +3,7 @@
 
 use foveate_design::{Config, Design};
 use foveate_engine::{Engine, EngineError, Outcome, Screens};
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 fn design(bits: u32) -> Design {
     let mut config = Config::default();

@@ -2,8 +2,8 @@
 //! Real cameras on scenes, tallies that add up, units of scores, and what is refused.
 
 use foveate_design::{Config, Decimal, Design, FeatureKind, Neighborhood, SpatialConfig};
-use foveate_engine::{Plane, Raster};
 use foveate_fidelity::{Fidelity, FidelityError, Tally};
+use foveate_frame::{Plane, Raster};
 use foveate_scenes::{Scene, SceneSize};
 
 use crate::made::{blank, blank_ideal, config, pixels, raster, run, tally};

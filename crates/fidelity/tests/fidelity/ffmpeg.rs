@@ -6,8 +6,8 @@ use std::path::Path;
 use std::process::Command;
 
 use foveate_design::Design;
-use foveate_engine::{Plane, Raster};
 use foveate_fidelity::{Fidelity, Figures};
+use foveate_frame::{Plane, Raster};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;

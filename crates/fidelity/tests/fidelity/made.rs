@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Results as cameras would give them, real or made up.
 
+use foveate_design::Action;
 use foveate_design::{Config, Design};
-use foveate_engine::{Engine, Outcome, Raster};
+use foveate_engine::{Engine, Outcome};
 use foveate_fidelity::{Fidelity, Tally};
-use foveate_ideal::{Action, IdealCamera, IdealOutcome};
+use foveate_frame::Raster;
+use foveate_ideal::{IdealCamera, IdealOutcome};
 
 /// A design for frames of some size with regions of some side and pixels of some bits; otherwise the
 /// defaults, with a minimum that fits into the smallest regions.

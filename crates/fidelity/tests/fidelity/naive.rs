@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every figure against a count pixel by pixel, for made-up results of any two designs.
 
+use foveate_design::Action;
 use foveate_design::Design;
-use foveate_engine::{Outcome, Raster, convert_depth};
+use foveate_engine::Outcome;
 use foveate_fidelity::{Fidelity, Figures};
-use foveate_ideal::{Action, IdealOutcome};
+use foveate_frame::{Raster, convert_depth};
+use foveate_ideal::IdealOutcome;
 use proptest::prelude::*;
 
 use crate::likeness::{check_pictures, mean};

@@ -2,10 +2,12 @@
 //! A candidate that is the ideal, and then one fault at a time: the figure it is for sees it, with the
 //! number that follows.
 
+use foveate_design::Action;
 use foveate_design::Design;
-use foveate_engine::{Outcome, Raster};
+use foveate_engine::Outcome;
 use foveate_fidelity::{Fidelity, Figures};
-use foveate_ideal::{Action, IdealOutcome};
+use foveate_frame::Raster;
+use foveate_ideal::IdealOutcome;
 
 use crate::made::{blank, blank_ideal, config, greys, pixels, raster};
 

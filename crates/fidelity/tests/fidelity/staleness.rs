@@ -2,8 +2,8 @@
 //! How old a screen is: exact numbers by hand.
 
 use foveate_design::{Config, Decimal, Design, Reference};
-use foveate_engine::Raster;
 use foveate_fidelity::{Fidelity, Staleness};
+use foveate_frame::Raster;
 
 use crate::made::{blank, blank_ideal, config, pixels, raster, tally};
 

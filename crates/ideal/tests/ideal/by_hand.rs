@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scores that a person can check.
 
+use foveate_design::Action;
 use foveate_design::{
     Config, Decimal, Design, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
 };
-use foveate_engine::Raster;
-use foveate_ideal::{Action, IdealCamera, IdealError, IdealOutcome};
+use foveate_frame::Raster;
+use foveate_ideal::{IdealCamera, IdealError, IdealOutcome};
 
 /// All four features without a filter, in the order of the list of features.
 fn config(width: u32, height: u32, side: u32) -> Config {

@@ -5,9 +5,10 @@
 use crate::recipe;
 use crate::recipe::{Script, designs, film};
 use foveate_design::{Design, FeatureKind};
-use foveate_engine::Raster;
+use foveate_frame::Frame;
+use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_model::{Camera, Frame, Outcome};
+use foveate_model::{Camera, Outcome};
 use proptest::prelude::*;
 
 /// A score of the model in the unit of the ideal camera.

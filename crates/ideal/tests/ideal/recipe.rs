@@ -5,7 +5,7 @@ use foveate_design::{
     Combine, Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
     Reference, SpatialConfig,
 };
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 

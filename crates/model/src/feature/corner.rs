@@ -3,8 +3,8 @@
 
 use foveate_design::Design;
 
-use crate::Frame;
 use crate::window::{CENTER, RegionView, Window};
+use foveate_frame::Frame;
 
 /// The neighbors of the center, clockwise from the upper left.
 const RING: [usize; 8] = [0, 1, 2, 5, 8, 7, 6, 3];

@@ -3,8 +3,8 @@
 
 use foveate_design::Design;
 
-use crate::Frame;
 use crate::window::{RegionView, Window};
+use foveate_frame::Frame;
 
 /// `|Gx| + |Gy|` of the center.
 ///

@@ -8,8 +8,8 @@ pub mod variance;
 
 use foveate_design::{Design, FeatureKind, SpatialFeature};
 
-use crate::Frame;
 use crate::window::{RegionView, Window};
+use foveate_frame::Frame;
 
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;

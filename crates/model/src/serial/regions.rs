@@ -4,9 +4,10 @@
 use foveate_design::{Design, Reference};
 
 use super::scorer::RegionScorer;
-use crate::decision::combined;
+use crate::Thresholds;
+use crate::decision::{action, combined};
 use crate::number::index;
-use crate::{Action, Thresholds};
+use foveate_design::Action;
 
 /// Scores and decision of a region, for the last frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -129,6 +130,6 @@ impl Regions {
     }
 
     fn action(&self, verdict: &Verdict) -> Action {
-        Action::of(&self.design, verdict.srs, verdict.trs)
+        action(&self.design, verdict.srs, verdict.trs)
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sequences of frames that make regions come and go.
 
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use proptest::prelude::*;
 
 use crate::recipe::Recipe;

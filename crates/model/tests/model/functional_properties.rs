@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functional model equals the oracle, for every kind of design.
 
-use foveate_model::{Camera, Frame, Outcome};
+use foveate_frame::Frame;
+use foveate_model::{Camera, Outcome};
 use proptest::prelude::*;
 
 use crate::frames::{film, scripts};

@@ -2,9 +2,10 @@
 //! Cases at the edge of a range, with the expected numbers written out.
 
 use foveate_design::{Config, Design};
+use foveate_frame::Frame;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
-    Camera, Frame, ModelError, PipelinedRcm, denoise::denoise, pad, region_border, region_stream,
+    Camera, ModelError, PipelinedRcm, denoise::denoise, pad, region_border, region_stream,
     temporal_differences,
 };
 

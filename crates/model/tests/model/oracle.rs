@@ -2,7 +2,7 @@
 //! The contract, computed naively: whole frames, nothing incremental, everything looked up in the
 //! complete history. Shares nothing with the library but the type that carries a frame.
 
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 use crate::recipe::{FeatureRecipe, Recipe};
 

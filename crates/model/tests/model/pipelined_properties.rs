@@ -2,9 +2,8 @@
 //! The cycle-level model shows, after every edge, what the schedule and the oracle say; and its
 //! decisions are those of the functional model.
 
-use foveate_model::{
-    Camera, Frame, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream,
-};
+use foveate_frame::Frame;
+use foveate_model::{Camera, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream};
 use proptest::prelude::*;
 
 use crate::frames::{Random, film, scripts};

@@ -2,7 +2,8 @@
 //! What the two references do over time: the first frame, drift, blanked regions, long silence.
 
 use foveate_design::{Config, Design};
-use foveate_model::{Camera, Frame, Outcome, PipelinedRpu, RpuInput, Thresholds};
+use foveate_frame::Frame;
+use foveate_model::{Camera, Outcome, PipelinedRpu, RpuInput, Thresholds};
 
 use crate::frames::Random;
 

@@ -2,11 +2,11 @@
 //! Thresholds that change at any clock: which clock's value counts for what.
 
 use foveate_design::Design;
+use foveate_frame::Frame;
 use foveate_model::denoise::denoise;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
-    Frame, PipelinedRpu, RpuInput, Thresholds, pad, region_border, region_stream,
-    temporal_differences,
+    PipelinedRpu, RpuInput, Thresholds, pad, region_border, region_stream, temporal_differences,
 };
 use proptest::prelude::*;
 

@@ -2,7 +2,8 @@
 //! The integer scores against the textbook formulas in floating point.
 
 use foveate_design::Config;
-use foveate_model::{Camera, Frame};
+use foveate_frame::Frame;
+use foveate_model::Camera;
 
 use crate::frames::Random;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every scene shows the case that it is named after.
 
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_scenes::{Scene, SceneSize};
 
 fn frames(scene: Scene, frames: u32) -> Vec<Frame> {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_scenes::{Scene, SceneError, SceneSize};
 
 fn size(width: u32, height: u32, bits: u32, region_size: u32, frames: u32) -> SceneSize {

@@ -3,8 +3,9 @@
 //! arithmetic.
 
 use foveate_design::{Design, FeatureKind, Irrelevant, SpatialFeature};
+use foveate_frame::Frame;
 use foveate_model::feature::{corner_strengths, edge_magnitudes, mad};
-use foveate_model::{Frame, Outcome, region_pixels};
+use foveate_model::{Outcome, region_pixels};
 
 use super::{Change, Explanation, Place, Rows, Spatial};
 use crate::SourceFrame;

@@ -4,14 +4,15 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::Design;
-use foveate_engine::Plane;
+use foveate_frame::Plane;
 
 use super::Medium;
 use super::canvas::Canvas;
 use super::png::{self, PngSeries, low_byte};
 use super::sink::{Sink, Step};
 use super::video::VideoFile;
-use crate::{SimulatorError, convert_depth, display_depth};
+use crate::SimulatorError;
+use foveate_frame::{convert_depth, display_depth};
 
 /// Draws a picture of a frame and what came of it.
 pub(super) trait Painter: Send {

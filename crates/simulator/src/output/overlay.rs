@@ -5,7 +5,7 @@
 //! The colours are of the Okabe-Ito palette, made to be told apart with any colour vision; active
 //! regions have an outline besides.
 
-use foveate_engine::Raster;
+use foveate_frame::Raster;
 
 use super::canvas::{Canvas, Colour, Layout};
 use super::font;
@@ -13,7 +13,7 @@ use super::gallery::Painter;
 use super::png::low_byte;
 use super::sink::Step;
 use super::strip::Strip;
-use crate::convert_depth;
+use foveate_frame::convert_depth;
 
 /// A region with SRS and TRS: bluish green.
 const ACTIVE: Colour = [0, 158, 115];

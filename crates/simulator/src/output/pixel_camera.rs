@@ -8,7 +8,7 @@
 //! frames give the same events everywhere.
 
 use foveate_design::{Decimal, Design};
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 use super::PixelEvents;
 use crate::SimulatorError;

@@ -4,7 +4,8 @@
 use std::path::PathBuf;
 
 use foveate_design::Design;
-use foveate_engine::{Engine, Outcome, Plane};
+use foveate_engine::{Engine, Outcome};
+use foveate_frame::Plane;
 
 use crate::{SimulatorError, SourceFrame};
 

@@ -7,13 +7,14 @@ use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use foveate_engine::Raster;
-use foveate_model::Frame;
+use foveate_frame::Frame;
+use foveate_frame::Raster;
 
 use super::{damaged, unreadable};
 use crate::source::feed::Feed;
 use crate::source::form::{Labels, SetFiles, SetForm};
-use crate::{Kind, SimulatorError, SourceFrame, convert_depth, luma, picture};
+use crate::{Kind, SimulatorError, SourceFrame, luma, picture};
+use foveate_frame::convert_depth;
 
 const SIDE: u32 = 32;
 const AREA: usize = 1024;

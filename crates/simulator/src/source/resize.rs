@@ -5,7 +5,7 @@
 //! proportion, rounded to the nearest (halves up). Going down this is box filtering, going up it is
 //! nearest-neighbor with blended seams.
 
-use foveate_engine::{Plane, Raster};
+use foveate_frame::{Plane, Raster};
 
 use crate::SimulatorError;
 

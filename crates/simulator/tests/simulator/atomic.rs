@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::support::{Npy, grey, names, run};
 use foveate_design::Config;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_simulator::{
     Hooks, InputOptions, Progress, RunOptions, Silent, Simulation, SimulatorError, Source,
     SourceFrame, open,

@@ -5,9 +5,10 @@ use crate::support;
 use std::fs;
 
 use crate::support::{Npy, STREET, names, outcomes, run, street};
+use foveate_frame::convert_depth;
 use foveate_model::Outcome;
 use foveate_scenes::Scene;
-use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions, convert_depth};
+use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
 
 fn little_endian<const SIZE: usize>(values: impl Iterator<Item = [u8; SIZE]>) -> Vec<u8> {
     values.flatten().collect()

@@ -5,7 +5,8 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
-use foveate_simulator::{SimulatorError, convert_depth, decode, luma, read};
+use foveate_frame::convert_depth;
+use foveate_simulator::{SimulatorError, decode, luma, read};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, Rgba};
 
 fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {

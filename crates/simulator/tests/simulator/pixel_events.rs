@@ -8,7 +8,7 @@ use std::path::Path;
 
 use crate::support::{Npy, STREET, design, frames, names, street};
 use foveate_design::Decimal;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 use foveate_simulator::{
     FrameRate, PIXEL_EVENT_BYTES, PixelCamera, PixelEvents, RunOptions, SimulatorError, Summary,
 };

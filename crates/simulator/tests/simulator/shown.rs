@@ -8,7 +8,8 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::support::{STREET, frames, names, outcomes, street};
-use foveate_simulator::{Medium, RunOptions, convert_depth};
+use foveate_frame::convert_depth;
+use foveate_simulator::{Medium, RunOptions};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use image::RgbImage;

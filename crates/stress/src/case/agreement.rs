@@ -76,7 +76,7 @@ pub(crate) fn unrest(depth: Depth) -> Vec<Row> {
 }
 
 /// Random frames of which every second repeats half of the one before.
-fn random(size: (u32, u32), bits: u32, frames: u64) -> impl Iterator<Item = foveate_model::Frame> {
+fn random(size: (u32, u32), bits: u32, frames: u64) -> impl Iterator<Item = foveate_frame::Frame> {
     (0..frames).map(move |t| {
         let now = Random::new(t).frame(size, bits);
         let before = Random::new(t.saturating_sub(1)).frame(size, bits);

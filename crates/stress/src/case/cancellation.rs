@@ -3,7 +3,8 @@
 //! the sum agree in all their leading digits.
 
 use foveate_design::{FeatureKind, bits_for};
-use foveate_model::{Camera, Frame};
+use foveate_frame::Frame;
+use foveate_model::Camera;
 
 use crate::designs::{config, design};
 use crate::pixels::Random;

@@ -2,7 +2,8 @@
 //! What is on the screen beside what is in front of the camera, over long runs.
 
 use foveate_design::{Config, Design, FeatureKind, Filter, Reference};
-use foveate_model::{Camera, Frame, Outcome};
+use foveate_frame::Frame;
+use foveate_model::{Camera, Outcome};
 use foveate_scenes::{Scene, SceneSize};
 
 use crate::designs::{config, design};

@@ -3,7 +3,8 @@
 
 use foveate_design::{Config, Decimal, FeatureKind, Filter};
 use foveate_engine::Engine;
-use foveate_model::{Camera, Frame};
+use foveate_frame::Frame;
+use foveate_model::Camera;
 
 use crate::designs::{config, design};
 use crate::pixels::Random;

@@ -3,7 +3,8 @@
 
 use super::super::random::Random;
 use foveate_design::{Design, Feed as Order};
-use foveate_model::{Frame, region_stream};
+use foveate_frame::Frame;
+use foveate_model::region_stream;
 
 /// A frame as the pixel port takes it, and the streams of its regions.
 pub(super) struct Feed {

@@ -3,7 +3,7 @@
 
 use crate::error::CosimError;
 use foveate_design::Design;
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 /// Clocks of all the parts that go through a single lane, at most; they are spread over the frame.
 const MAX_CLOCKS: u64 = 1 << 21;

@@ -12,7 +12,7 @@ use super::sequence::{End, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
 use foveate_design::{Design, Phase, SerialTiming};
-use foveate_model::Frame;
+use foveate_frame::Frame;
 
 /// Clocks that are simulated after the last frame of a sequence has left.
 const SILENCE: u64 = 5;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Applies frames to an array and compares every port after every edge.
 
-use foveate_model::{Frame, SerialInput, SerialRcm, Thresholds, pad, region_stream};
+use foveate_frame::Frame;
+use foveate_model::{SerialInput, SerialRcm, Thresholds, pad, region_stream};
 
 use super::recipe::SerialRecipe;
 use super::waveform::{Facts, Shown, Timeline};

@@ -2,10 +2,11 @@
 //! Whole films: scores, decisions and the rendered frame, against the functional camera, over a
 //! matrix of designs that has every value of every choice beside every other.
 
+use foveate_design::Action;
 use foveate_design::Design;
+use foveate_frame::Frame;
 use foveate_model::{
-    Action, Camera, Frame, Outcome, RegionScorer, SerialInput, SerialRcm, Thresholds,
-    region_border, region_stream,
+    Camera, Outcome, RegionScorer, SerialInput, SerialRcm, Thresholds, region_border, region_stream,
 };
 
 use super::bench::applied;
@@ -29,7 +30,7 @@ impl Screen {
 
     fn act(&mut self, region: u32, srs: bool, trs: bool) {
         // A pixel that the array does not send must not look like the one before.
-        let value = match Action::of(&self.design, srs, trs) {
+        let value = match foveate_model::action(&self.design, srs, trs) {
             Action::Hold => return,
             Action::Blank => 0,
             Action::Forward => u16::MAX,

@@ -5,13 +5,14 @@
 
 use std::path::Path;
 
-use foveate_engine::Plane;
+use foveate_frame::Plane;
 
 use super::super::headed::HeadedFile;
 use super::super::png::low_byte;
 use super::super::sink::{Sink, Step};
+use crate::SimulatorError;
 use crate::source::form::IdxFile;
-use crate::{SimulatorError, convert_depth};
+use foveate_frame::convert_depth;
 
 const BITS: u32 = 8;
 

@@ -9,10 +9,10 @@ use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use foveate_design::Config;
-use foveate_model::{Camera, Frame};
+use foveate_frame::{Frame, convert_depth};
+use foveate_model::Camera;
 use foveate_simulator::{
-    Hooks, ImagesAs, InputOptions, RunOptions, Simulation, SimulatorError, Summary, convert_depth,
-    open,
+    Hooks, ImagesAs, InputOptions, RunOptions, Simulation, SimulatorError, Summary, open,
 };
 
 pub(crate) fn made<P: AsRef<Path>>(

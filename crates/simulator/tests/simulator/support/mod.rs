@@ -8,7 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, Design};
-use foveate_model::{Camera, Frame, Outcome};
+use foveate_frame::Frame;
+use foveate_model::{Camera, Outcome};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_simulator::{
     InputOptions, RunOptions, Silent, Simulation, SimulatorError, Summary, open,

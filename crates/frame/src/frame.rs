@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame: width x height luma pixels of some bits, row by row.
 
-use foveate_design::Design;
-
-use crate::ModelError;
-use crate::number::index;
+use crate::{FrameError, index};
 
 /// Pixels of one frame; every value is known to fit into the frame's bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,22 +18,22 @@ impl Frame {
     /// # Errors
     /// When a side is zero, `bits` is not in `1..=16`, the number of pixels is not
     /// `width * height`, or a pixel does not fit into `bits` bits.
-    pub fn new(width: u32, height: u32, bits: u32, pixels: Vec<u16>) -> Result<Self, ModelError> {
+    pub fn new(width: u32, height: u32, bits: u32, pixels: Vec<u16>) -> Result<Self, FrameError> {
         if width == 0 || height == 0 {
-            return Err(ModelError::EmptyFrame { width, height });
+            return Err(FrameError::EmptyFrame { width, height });
         }
         if !(1..=16).contains(&bits) {
-            return Err(ModelError::PixelBits { bits });
+            return Err(FrameError::PixelBits { bits });
         }
         let needed = u64::from(width) * u64::from(height);
         if u64::try_from(pixels.len()) != Ok(needed) {
             let given = pixels.len();
-            return Err(ModelError::FrameLength { width, height, needed, given });
+            return Err(FrameError::FrameLength { width, height, needed, given });
         }
         let frame = Self { width, height, bits, pixels };
         match frame.first_too_large() {
             None => Ok(frame),
-            Some((x, y, value, max)) => Err(ModelError::PixelRange { x, y, value, bits, max }),
+            Some((x, y, value, max)) => Err(FrameError::PixelRange { x, y, value, bits, max }),
         }
     }
 
@@ -44,7 +41,7 @@ impl Frame {
     ///
     /// # Errors
     /// As [`Frame::new`].
-    pub fn filled(width: u32, height: u32, bits: u32, value: u16) -> Result<Self, ModelError> {
+    pub fn filled(width: u32, height: u32, bits: u32, value: u16) -> Result<Self, FrameError> {
         Self::from_fn(width, height, bits, |_, _| value)
     }
 
@@ -57,23 +54,12 @@ impl Frame {
         height: u32,
         bits: u32,
         mut f: impl FnMut(u32, u32) -> u16,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, FrameError> {
         let mut pixels = Vec::new();
         for y in 0..height {
             pixels.extend((0..width).map(|x| f(x, y)));
         }
         Self::new(width, height, bits, pixels)
-    }
-
-    /// A black frame as large as a whole number of the design's regions.
-    pub(crate) fn black_padded(design: &Design) -> Self {
-        let side = design.region_size();
-        Self::black(design.columns() * side, design.rows() * side, design.pixel_bits())
-    }
-
-    /// A black frame of a size that a design has vouched for.
-    pub(crate) fn black(width: u32, height: u32, bits: u32) -> Self {
-        Self { width, height, bits, pixels: vec![0; index(width) * index(height)] }
     }
 
     /// Width in pixels.
@@ -113,7 +99,7 @@ impl Frame {
     #[must_use]
     pub fn clamped(&self, x: i64, y: i64) -> u16 {
         let nearest = |at: i64, size: u32| {
-            u32::try_from(at.clamp(0, i64::from(size) - 1)).unwrap_or_default()
+            u32::try_from(at.clamp(0, i64::from(size) - 1)).expect("clamped to the frame")
         };
         self.get(nearest(x, self.width), nearest(y, self.height))
     }
@@ -127,13 +113,21 @@ impl Frame {
         &self.pixels[index(y) * index(self.width)..][..index(self.width)]
     }
 
-    /// One row, to be written by code that keeps to the frame's bits.
-    pub(crate) fn row_mut(&mut self, y: u32) -> &mut [u16] {
-        &mut self.pixels[index(y) * index(self.width)..][..index(self.width)]
+    /// Writes pixels into row `y` from column `x` on.
+    ///
+    /// # Panics
+    /// When they reach beyond the frame, or one does not fit into its bits.
+    pub fn write(&mut self, x: u32, y: u32, pixels: &[u16]) {
+        let max = u16::MAX >> (16 - self.bits);
+        assert!(pixels.iter().all(|&pixel| pixel <= max), "a pixel above {max} in row {y}");
+        let from = index(y) * index(self.width);
+        let row = &mut self.pixels[from..from + index(self.width)];
+        row[index(x)..][..pixels.len()].copy_from_slice(pixels);
     }
 
     /// Size and depth as an error message names them.
-    pub(crate) fn kind(&self) -> String {
+    #[must_use]
+    pub fn kind(&self) -> String {
         format!("{}x{} pixels of {} bits", self.width, self.height, self.bits)
     }
 
@@ -153,15 +147,34 @@ mod tests {
 
     #[test]
     fn what_is_no_frame_is_refused_by_name() {
-        assert_eq!(Frame::filled(0, 3, 8, 0), Err(ModelError::EmptyFrame { width: 0, height: 3 }));
-        assert_eq!(Frame::filled(1, 1, 17, 0), Err(ModelError::PixelBits { bits: 17 }));
-        assert_eq!(Frame::filled(1, 1, 0, 0), Err(ModelError::PixelBits { bits: 0 }));
+        assert_eq!(Frame::filled(0, 3, 8, 0), Err(FrameError::EmptyFrame { width: 0, height: 3 }));
+        assert_eq!(Frame::filled(1, 1, 17, 0), Err(FrameError::PixelBits { bits: 17 }));
+        assert_eq!(Frame::filled(1, 1, 0, 0), Err(FrameError::PixelBits { bits: 0 }));
         let message = Frame::new(3, 2, 8, vec![0; 5]).unwrap_err().to_string();
         assert_eq!(message, "a frame of 3x2 needs 6 pixels, 5 were given");
         let message = Frame::new(2, 2, 3, vec![7, 0, 8, 0]).unwrap_err().to_string();
         assert_eq!(message, "pixel (0, 1) is 8; the largest value of 3 bits is 7");
         assert!(Frame::filled(2, 2, 16, u16::MAX).is_ok());
         assert!(Frame::filled(2, 2, 1, 1).is_ok());
+    }
+
+    #[test]
+    fn written_pixels_stay_in_their_row() {
+        let mut frame = Frame::filled(3, 2, 4, 0).unwrap();
+        frame.write(1, 1, &[15, 7]);
+        assert_eq!(frame.pixels(), [0, 0, 0, 0, 15, 7]);
+    }
+
+    #[test]
+    #[should_panic(expected = "a pixel above 15 in row 0")]
+    fn a_value_of_too_many_bits_is_not_written() {
+        Frame::filled(3, 2, 4, 0).unwrap().write(0, 0, &[16]);
+    }
+
+    #[test]
+    #[should_panic(expected = "out of range")]
+    fn no_pixel_is_written_beyond_its_row() {
+        Frame::filled(3, 2, 4, 0).unwrap().write(2, 0, &[1, 1]);
     }
 
     #[test]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Conversion between numbers of bits per pixel.
+//! Numbers of bits per pixel: conversion between them, and what is shown of them.
 //!
 //! To fewer bits: the low bits are dropped. To more bits: the bits are repeated below themselves as
 //! often as needed, so that zero stays zero, full scale becomes full scale, and going back gives the
@@ -17,7 +17,13 @@ pub fn convert_depth(value: u16, from: u32, to: u32) -> u16 {
         repeated = repeated << from | u32::from(value);
         bits += from;
     }
-    u16::try_from(repeated >> (bits - to)).unwrap_or(u16::MAX)
+    u16::try_from(repeated >> (bits - to)).expect("at most 16 bits remain")
+}
+
+/// Bits per pixel of the PNG that shows pixels of `bits` bits: 8 up to 8, else 16.
+#[must_use]
+pub fn display_depth(bits: u32) -> u32 {
+    if bits <= 8 { 8 } else { 16 }
 }
 
 #[cfg(test)]

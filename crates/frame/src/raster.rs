@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as the engine takes it: a byte per pixel up to 8 bits, a word above, so that video goes
+//! A frame as video has it: a byte per pixel up to 8 bits, a word above, so that video goes
 //! from a pipe into the engine without being widened, narrowed or copied on the way.
 
-use foveate_model::{Frame, ModelError};
-
-use crate::plan::index;
+use crate::{Frame, FrameError, index};
 
 /// Pixels row by row with nothing between: a frame, or what is on the screen, without padding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,10 +49,10 @@ impl Raster {
         height: u32,
         bits: u32,
         pixels: Vec<u8>,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, FrameError> {
         check_size(width, height, pixels.len())?;
         if !(1..=8).contains(&bits) {
-            return Err(ModelError::PixelBits { bits });
+            return Err(FrameError::PixelBits { bits });
         }
         // Where the type holds no more than the bits, there is nothing to look for.
         if bits < 8 {
@@ -72,10 +70,10 @@ impl Raster {
         height: u32,
         bits: u32,
         pixels: Vec<u16>,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, FrameError> {
         check_size(width, height, pixels.len())?;
         if !(1..=16).contains(&bits) {
-            return Err(ModelError::PixelBits { bits });
+            return Err(FrameError::PixelBits { bits });
         }
         check_values(width, bits, &pixels)?;
         Ok(Self { width, height, bits, held: hold(bits, pixels) })
@@ -126,7 +124,7 @@ impl Raster {
     ///
     /// # Errors
     /// As [`Frame::new`]: never for a frame that is one.
-    pub fn to_frame(&self) -> Result<Frame, ModelError> {
+    pub fn to_frame(&self) -> Result<Frame, FrameError> {
         Frame::new(self.width, self.height, self.bits, self.plane().to_words())
     }
 
@@ -152,16 +150,18 @@ fn hold(bits: u32, pixels: Vec<u16>) -> Held {
     if bits > 8 {
         return Held::Words(pixels);
     }
-    Held::Bytes(pixels.into_iter().map(|pixel| u8::try_from(pixel).unwrap_or(u8::MAX)).collect())
+    Held::Bytes(
+        pixels.into_iter().map(|pixel| u8::try_from(pixel).expect("up to 8 bits")).collect(),
+    )
 }
 
-fn check_size(width: u32, height: u32, given: usize) -> Result<(), ModelError> {
+fn check_size(width: u32, height: u32, given: usize) -> Result<(), FrameError> {
     if width == 0 || height == 0 {
-        return Err(ModelError::EmptyFrame { width, height });
+        return Err(FrameError::EmptyFrame { width, height });
     }
     let needed = u64::from(width) * u64::from(height);
     if u64::try_from(given) != Ok(needed) {
-        return Err(ModelError::FrameLength { width, height, needed, given });
+        return Err(FrameError::FrameLength { width, height, needed, given });
     }
     Ok(())
 }
@@ -170,16 +170,16 @@ fn check_values<T: Copy + Ord + Into<u16>>(
     width: u32,
     bits: u32,
     pixels: &[T],
-) -> Result<(), ModelError> {
+) -> Result<(), FrameError> {
     let max = u16::MAX >> (16 - bits);
     let largest = pixels.iter().copied().max().map_or(0, Into::into);
     if largest <= max {
         return Ok(());
     }
-    let place = pixels.iter().position(|&pixel| pixel.into() > max).unwrap_or_default();
+    let place = pixels.iter().position(|&pixel| pixel.into() > max).expect("the largest is above");
     let at = |place: usize| u32::try_from(place).unwrap_or(u32::MAX);
     let (x, y) = (at(place % index(width)), at(place / index(width)));
-    Err(ModelError::PixelRange { x, y, value: pixels[place].into(), bits, max })
+    Err(FrameError::PixelRange { x, y, value: pixels[place].into(), bits, max })
 }
 
 #[cfg(test)]
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_frame_is_refused_as_the_model_does() {
+    fn both_types_refuse_the_same() {
         for (width, height, bits, pixels) in [
             (0, 3, 8, vec![]),
             (1, 1, 0, vec![0]),
@@ -215,6 +215,6 @@ mod tests {
             assert_eq!(Raster::from_words(width, height, bits, pixels), Err(expected));
         }
         let deep = Raster::from_bytes(1, 1, 9, vec![0]);
-        assert_eq!(deep, Err(ModelError::PixelBits { bits: 9 }));
+        assert_eq!(deep, Err(FrameError::PixelBits { bits: 9 }));
     }
 }

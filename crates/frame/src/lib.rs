@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A frame: width x height luma pixels of 1 to 16 bits, row by row, every value checked once.
+//!
+//! [`Frame`] holds words and is what the models compute on. [`Raster`] holds bytes up to 8 bits and
+//! words above, so that video is neither widened nor copied on its way to the engine. Both are
+//! refused with the same [`FrameError`]. This crate knows no design.
+
+mod depth;
+mod error;
+mod frame;
+mod raster;
+
+pub use depth::{convert_depth, display_depth};
+pub use error::FrameError;
+pub use frame::Frame;
+pub use raster::{Plane, Raster};
+
+/// A size or coordinate as an index. Lossless: `usize` has 32 bits or more on every platform that
+/// can hold a frame.
+const fn index(value: u32) -> usize {
+    value as usize
+}
