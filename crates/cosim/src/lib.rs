@@ -36,7 +36,7 @@ pub use job::{Job, Progress};
 pub use junit::{junit_error, junit_xml};
 pub use layout::Layout;
 pub use level::Level;
-pub use netlist::{Netlist, NetlistRecord, synthesis, synthesis_of};
+pub use netlist::{Netlist, NetlistRecord};
 pub use recording::{Recorder, Recording, Span, vectors_hex};
 pub use report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
 pub use simulate::{Dut, Outcome, Run, Simulator};

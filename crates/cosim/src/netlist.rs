@@ -7,9 +7,9 @@
 
 use crate::error::CosimError;
 use crate::job::Job;
-use foveate_design::{Design, Organization};
-use foveate_emit::{SourceFile, Top};
-use foveate_estimate::{EstimateJob, ToolRecord};
+use foveate_design::Organization;
+use foveate_emit::Top;
+use foveate_estimate::{EstimateJob, ToolRecord, sources};
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256, yosys};
 use serde::{Deserialize, Serialize};
 
@@ -36,47 +36,6 @@ pub struct NetlistRecord {
     pub sha256: String,
 }
 
-/// A lane of the serial organization.
-const LANE: &str = "serial_lane";
-
-/// The synthesis of a design from its Verilog, for the area estimate and for [`Netlist`]. A serial
-/// array and its lone lane have each a module of their own; a pipelined one is made of RPUs.
-#[must_use]
-pub fn synthesis(design: &Design, top: Top, sources: Vec<Source>) -> EstimateJob {
-    let (unit, array, units) = match (design.organization(), top) {
-        (Organization::Pipelined, _) => (Top::Rpu.module(), Top::Rcm, design.regions()),
-        (Organization::Serial, Top::Rcm) => (LANE, Top::Rcm, design.lanes()),
-        (Organization::Serial, Top::Rpu) => (LANE, Top::Rpu, 1),
-    };
-    let parameters = array.parameters(design).into_iter();
-    let unit_name = match design.organization() {
-        Organization::Pipelined => "RPU",
-        Organization::Serial => "lane",
-    };
-    EstimateJob {
-        sources,
-        unit: unit.to_owned(),
-        unit_name: unit_name.to_owned(),
-        units: units.into(),
-        array: array.module().to_owned(),
-        parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
-        regions: design.regions().into(),
-        rpu_sha256: sources_sha256(&named(foveate_emit::verilog(design, Top::Rpu))),
-        leaves_of: None,
-    }
-}
-
-/// The same of freshly generated Verilog.
-#[must_use]
-pub fn synthesis_of(design: &Design, top: Top) -> EstimateJob {
-    synthesis(design, top, named(foveate_emit::verilog(design, top)))
-}
-
-/// Verilog as the tools take it.
-fn named(files: Vec<SourceFile>) -> Vec<Source> {
-    files.into_iter().map(|file| (file.path, file.contents)).collect()
-}
-
 impl Netlist {
     /// Synthesizes what a job would simulate. At the level of one RPU it is that of the array of the
     /// design, as in the estimate.
@@ -86,14 +45,15 @@ impl Netlist {
     pub fn of(job: &Job, toolchain: &Toolchain, cache: &Cache) -> Result<Self, CosimError> {
         let design = job.stimulus.level.design(&job.design)?;
         let top = job.stimulus.level.top();
-        let mut sources = job.named_sources();
+        let mut verilog = job.named_sources();
         if design.organization() == Organization::Pipelined {
             // Verilog of one RPU lacks the array around it, which comes last.
-            let array = named(foveate_emit::verilog(&design, Top::Rcm)).pop();
-            let is_new = |array: &Source| sources.iter().all(|(name, _)| *name != array.0);
-            sources.extend(array.filter(is_new));
+            let array = sources(foveate_emit::verilog(&design, Top::Rcm)).pop();
+            let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
+            verilog.extend(array.filter(is_new));
         }
-        let synthesis = synthesis(&design, top, sources).synthesize(toolchain, cache)?;
+        let synthesis =
+            EstimateJob::with_sources(&design, top, verilog).synthesize(toolchain, cache)?;
         let library = yosys::cell_models(toolchain, cache, "xilinx/cells_sim.v")?;
         let models = models(&library, synthesis.cells()?)?;
         let sources =

@@ -20,6 +20,7 @@ mod netlist;
 mod paper;
 mod render;
 mod report;
+mod synthesis;
 mod table;
 
 pub use area::Area;
@@ -32,4 +33,5 @@ pub use levels::LogicPath;
 pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
 pub use render::{render_markdown, render_text};
 pub use report::{FORMAT_VERSION, LeafArea, Paths, Report, ToolRecord};
+pub use synthesis::sources;
 pub use table::grouped;

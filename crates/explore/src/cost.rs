@@ -77,7 +77,7 @@ impl Synthesizer {
     ) -> Result<Areas, ExploreError> {
         let mut jobs = BTreeMap::new();
         let keys = designs.map(|design| {
-            let job = foveate_cosim::synthesis_of(design, Top::Rcm);
+            let job = EstimateJob::of(design, Top::Rcm);
             let key = format!("{} {:?}", sources_sha256(&job.sources), job.parameters);
             jobs.entry(key.clone()).or_insert(job);
             key

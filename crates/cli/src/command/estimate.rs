@@ -27,7 +27,7 @@ impl Flow {
     fn estimate(&self, design: &Design, leaves: bool) -> Result<Report, CliError> {
         let job = EstimateJob {
             leaves_of: leaves.then(|| leaves_of(design).to_owned()),
-            ..foveate_cosim::synthesis_of(design, Top::Rcm)
+            ..EstimateJob::of(design, Top::Rcm)
         };
         Ok(estimate(&self.toolchain, &self.cache, &job)?)
     }
