@@ -12,10 +12,10 @@ use serde::Serialize;
 
 use crate::cost::Silicon;
 use crate::footage::Footage;
-use crate::front::front;
 use crate::measure::Measured;
+use crate::objective::mark_fronts;
 use crate::point::described;
-use crate::row::{Fronts, Row, real};
+use crate::row::Row;
 use crate::store::{Store, functional};
 use crate::table::{Table, errors, point};
 use crate::{ExploreError, Hooks, Point, Refused, Space, Synthesizer};
@@ -182,20 +182,6 @@ fn silicon(
         areas.iter().enumerate().filter_map(|(index, area)| Some((index + 1, area.err()?)));
     let problems = failed.map(|(point, error)| format!("point {point}: {error}")).collect();
     Ok((areas.iter().map(|area| area.ok().cloned()).collect(), problems))
-}
-
-fn mark_fronts(rows: &mut [Row]) {
-    let error = |row: &Row| Some(row.figures.action_flips);
-    let clocks = |row: &Row| Some(real(row.clocks_per_frame));
-    let speed: Vec<_> = rows.iter().map(|row| [error(row), clocks(row)]).collect();
-    let area: Vec<_> = rows.iter().map(|row| [error(row), row.luts()]).collect();
-    let all: Vec<_> = rows.iter().map(|row| [error(row), clocks(row), row.luts()]).collect();
-    let (speed, area, all) = (front(&speed), front(&area), front(&all));
-    let synthesized = rows.iter().any(|row| row.silicon.is_some());
-    for (index, row) in rows.iter_mut().enumerate() {
-        let all = if synthesized { all[index] } else { speed[index] };
-        row.front = Fronts { speed: speed[index], area: area[index], all };
-    }
 }
 
 fn write(

@@ -1,21 +1,77 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pareto fronts: points that no other point beats.
+//! Pareto fronts: points that no other point beats, in O(n log n) for two or three costs.
 
-/// Whether each point is on the front of its objectives, all of which are to be small: no other point
-/// is as good in all and better in one. A point without a figure is on none.
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// Whether each point is on the front of its costs: no other point is at most as high in all and lower in
+/// one. A point that lacks a cost, or has NaN for one, is on no front and beats none.
 pub(crate) fn front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
-    let known = |point: &[Option<f64>; N]| -> Option<[f64; N]> {
-        let values = point.map(|value| value.unwrap_or(f64::NAN));
-        values.iter().all(|value| !value.is_nan()).then_some(values)
+    const { assert!(1 <= N && N <= 3, "the sweep is for one to three costs") };
+    let known = |(index, point): (usize, &[Option<f64>; N])| {
+        let mut costs = [Cost(0.0); 3];
+        for (cost, value) in costs.iter_mut().zip(point) {
+            // Adding zero makes one zero of the two.
+            *cost = Cost(value.filter(|value| !value.is_nan())? + 0.0);
+        }
+        Some((costs, index))
     };
-    let known: Vec<_> = points.iter().map(known).collect();
-    let beaten = |point: &[f64; N]| known.iter().flatten().any(|other| beats(other, point));
-    known.iter().map(|point| point.as_ref().is_some_and(|point| !beaten(point))).collect()
+    let mut known: Vec<([Cost; 3], usize)> = points.iter().enumerate().filter_map(known).collect();
+    known.sort_unstable();
+    let mut on_front = vec![false; points.len()];
+    let mut stairs = Stairs::default();
+    // What beats a point comes before it; equal points do not beat each other.
+    for equal in known.chunk_by(|one, other| one.0 == other.0) {
+        let [_, second, third] = equal[0].0;
+        if stairs.add(second, third) {
+            equal.iter().for_each(|(_, index)| on_front[*index] = true);
+        }
+    }
+    on_front
 }
 
-fn beats<const N: usize>(one: &[f64; N], other: &[f64; N]) -> bool {
-    let mut pairs = one.iter().zip(other);
-    pairs.clone().all(|(one, other)| one <= other) && pairs.any(|(one, other)| one < other)
+/// Pairs of costs that no earlier pair is at most as high as: the second falls as the first rises.
+#[derive(Default)]
+struct Stairs(BTreeMap<Cost, Cost>);
+
+impl Stairs {
+    /// Adds a pair unless one that is there is at most as high in both; says whether it was added.
+    fn add(&mut self, first: Cost, second: Cost) -> bool {
+        if self.0.range(..=first).next_back().is_some_and(|(_, below)| *below <= second) {
+            return false;
+        }
+        while let Some((&next, _)) =
+            self.0.range(first..).next().filter(|(_, beaten)| **beaten >= second)
+        {
+            self.0.remove(&next);
+        }
+        self.0.insert(first, second);
+        true
+    }
+}
+
+/// A cost that can be sorted: no NaN, one zero.
+#[derive(Clone, Copy, Debug)]
+struct Cost(f64);
+
+impl PartialEq for Cost {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Cost {}
+
+impl PartialOrd for Cost {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Cost {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
 }
 
 #[cfg(test)]
@@ -31,8 +87,60 @@ mod tests {
             [Some(9.0), Some(1.0)],
             [Some(9.0), Some(1.0)],
             [Some(0.0), None],
+            [Some(f64::NAN), Some(0.0)],
+            [Some(f64::NEG_INFINITY), Some(f64::INFINITY)],
         ];
-        assert_eq!(front(&points), [true, true, false, true, true, false]);
+        assert_eq!(front(&points), [true, true, false, true, true, false, false, true]);
         assert_eq!(front::<2>(&[]), [false; 0]);
+        assert_eq!(front(&[[Some(0.0)], [Some(-0.0)], [Some(1.0)]]), [true, true, false]);
+    }
+
+    /// The definition, pair by pair.
+    fn naive<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
+        let beats = |one: &[Option<f64>; N], other: &[Option<f64>; N]| {
+            let mut better = false;
+            for (one, other) in one.iter().zip(other) {
+                let (Some(one), Some(other)) = (one, other) else { return false };
+                if one > other {
+                    return false;
+                }
+                better |= one < other;
+            }
+            better
+        };
+        let known = |point: &[Option<f64>; N]| point.iter().all(Option::is_some);
+        let on = |point| known(point) && !points.iter().any(|other| beats(other, point));
+        points.iter().map(on).collect()
+    }
+
+    fn agree<const N: usize>(seed: u64) {
+        let mut chance = fastrand::Rng::with_seed(seed);
+        let (count, values) = (chance.usize(0..40), chance.i32(1..30));
+        let mut cost = || {
+            let value = f64::from(chance.i32(-values..=values)) / 4.0;
+            (chance.u8(..) > 8).then_some(value)
+        };
+        let points: Vec<[Option<f64>; N]> =
+            (0..count).map(|_| std::array::from_fn(|_| cost())).collect();
+        assert_eq!(front(&points), naive(&points), "seed {seed}: {points:?}");
+    }
+
+    #[test]
+    fn the_sweep_is_the_definition() {
+        for seed in 0..3000 {
+            agree::<1>(seed);
+            agree::<2>(seed);
+            agree::<3>(seed);
+        }
+    }
+
+    #[test]
+    fn many_points_take_no_time() {
+        // All on the front: the worst case. Comparing every pair takes 10^10 steps.
+        let count = 100_000;
+        let points: Vec<[Option<f64>; 3]> = (0..count)
+            .map(|x| [Some(f64::from(x)), Some(f64::from(count - x)), Some(0.0)])
+            .collect();
+        assert!(front(&points).iter().all(|on| *on));
     }
 }

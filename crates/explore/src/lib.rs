@@ -15,6 +15,7 @@ mod footage;
 mod front;
 mod measure;
 mod method;
+mod objective;
 mod point;
 mod report;
 mod row;
@@ -29,8 +30,9 @@ pub use explore::{ClipRow, Exploration, Request, explore};
 pub use fit::{Constraints, Design as FittedDesign, Fit, FitRequest, Held, Target, fit};
 pub use foveate_fidelity::{Figures, ScoreError};
 pub use method::Method;
+pub use objective::Fronts;
 pub use point::{Point, Refused};
-pub use row::{Fronts, Row};
+pub use row::Row;
 pub use space::{Axis, BUILT_IN, BuiltIn, Space};
 
 /// How far an exploration is.

@@ -13,7 +13,7 @@ mod table;
 mod threshold;
 
 #[cfg(test)]
-mod sample;
+pub(crate) mod sample;
 #[cfg(test)]
 mod tests;
 

@@ -5,6 +5,7 @@ use foveate_design::{Config, Design};
 use foveate_fidelity::{Figures, Tally};
 use serde::Serialize;
 
+use crate::Fronts;
 use crate::cost::{Silicon, speed};
 use crate::measure::Measured;
 
@@ -13,7 +14,7 @@ use crate::measure::Measured;
 pub struct Row {
     /// Its number, from 1, in the order of the space.
     pub number: usize,
-    /// The value of every axis; empty where it is that of the start.
+    /// The value of every axis, a string without its quotes; empty where it is that of the start.
     pub settings: Vec<String>,
     /// The configuration, with every default filled in.
     #[serde(skip)]
@@ -34,17 +35,6 @@ pub struct Row {
     pub simulated_per_second: f64,
     /// The fronts that it is on.
     pub front: Fronts,
-}
-
-/// Which fronts a point is on. The error is the share of flipped actions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Fronts {
-    /// Of error and clocks per frame.
-    pub speed: bool,
-    /// Of error and LUTs of the array.
-    pub area: bool,
-    /// Of error, clocks per frame and LUTs of the array; without areas, as `speed`.
-    pub all: bool,
 }
 
 impl Row {

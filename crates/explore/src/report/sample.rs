@@ -4,9 +4,9 @@
 use foveate_estimate::Area;
 use foveate_fidelity::{Figures, ScoreError, Staleness};
 
-use crate::front::front;
-use crate::row::{Fronts, real};
-use crate::{ClipRow, Exploration, Refused, Row, Silicon, Space};
+use crate::objective::mark_fronts;
+use crate::row::real;
+use crate::{ClipRow, Exploration, Fronts, Refused, Row, Silicon, Space};
 
 /// Every design of a space with figures that follow from its settings.
 pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
@@ -81,19 +81,6 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
         rows,
         refused: refused.into_iter().chain([refused_sample()]).collect(),
         problems: vec!["hall.mp4: frame 300 of 450 is damaged".to_owned()],
-    }
-}
-
-/// As an exploration marks them.
-pub(crate) fn mark_fronts(rows: &mut [Row]) {
-    let error = |row: &Row| Some(row.figures.action_flips);
-    let clocks = |row: &Row| Some(real(row.clocks_per_frame));
-    let speed: Vec<_> = rows.iter().map(|row| [error(row), clocks(row)]).collect();
-    let area: Vec<_> = rows.iter().map(|row| [error(row), row.luts()]).collect();
-    let (speed, area) = (front(&speed), front(&area));
-    for (index, row) in rows.iter_mut().enumerate() {
-        row.front =
-            Fronts { speed: speed[index], area: area[index], all: speed[index] || area[index] };
     }
 }
 

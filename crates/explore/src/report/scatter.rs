@@ -6,40 +6,56 @@ use std::collections::BTreeMap;
 use super::axis::Axis;
 use super::colour::Grouping;
 use super::plot::{Field, Line, Mark, Plot, staircase, text};
-use crate::front::front;
-use crate::row::real;
+use crate::objective::{Better, Objective, unbeaten};
 use crate::{Exploration, Row};
 
-/// What a plot shows.
+/// What a plot shows: two objectives, and the front of both.
 struct Scatter {
     id: &'static str,
     title: &'static str,
     x: Measure,
     y: Measure,
-    /// The fronts that are known; otherwise that of the two measures.
-    known: Option<fn(&Row) -> bool>,
 }
 
-type Of = Box<dyn Fn(&Row) -> Option<f64>>;
-
-/// A figure of a point.
+/// An objective as an axis.
 struct Measure {
+    objective: Objective,
     title: String,
-    of: Of,
-    /// Whether small is good.
-    low: bool,
-    /// Whether the axis starts at zero.
-    zero: bool,
+    /// From the unit of the objective to that of the axis; positive, so that the order stays.
+    scale: f64,
 }
 
 impl Measure {
-    fn new(title: &str, low: bool, zero: bool, of: impl Fn(&Row) -> Option<f64> + 'static) -> Self {
-        Self { title: title.to_owned(), of: Box::new(of), low, zero }
+    /// An objective as the axis of a plot, in a unit that people use.
+    fn of(objective: Objective, clock_mhz: u32) -> Self {
+        let (title, scale) = match objective {
+            Objective::Error => ("flipped actions, %".to_owned(), 100.0),
+            Objective::Speed => {
+                (format!("frames/s at {clock_mhz} MHz"), f64::from(clock_mhz) * 1e6)
+            }
+            Objective::Luts => ("LUTs of the array".to_owned(), 1.0),
+            Objective::Stale => ("stale relevant regions, %".to_owned(), 100.0),
+            Objective::Bytes => ("bytes per frame".to_owned(), 1.0),
+            Objective::Likeness => ("SSIM to the ideal's screen".to_owned(), 1.0),
+        };
+        Self { objective, title, scale }
+    }
+
+    fn value(&self, row: &Row) -> Option<f64> {
+        self.objective.of(row).map(|value| value * self.scale)
     }
 
     fn axis(&self, rows: &[&Row]) -> Axis {
-        let values = rows.iter().filter_map(|row| (self.of)(row));
-        if self.zero { Axis::from_zero(values) } else { Axis::free(values) }
+        let values = rows.iter().filter_map(|row| self.value(row));
+        match self.objective {
+            Objective::Error | Objective::Stale => Axis::from_zero(values),
+            _ => Axis::free(values),
+        }
+    }
+
+    /// Whether the better end of the axis is its low one.
+    fn low(&self) -> bool {
+        self.objective.better() == Better::Smaller
     }
 }
 
@@ -50,55 +66,28 @@ pub(crate) fn plots(
     groupings: &[Grouping],
     titles: &[String],
 ) -> Vec<Plot> {
-    let flips = || {
-        Measure::new("flipped actions, %", true, true, |row| Some(100.0 * row.figures.action_flips))
+    use Objective::{Bytes, Error, Likeness, Luts, Speed, Stale};
+    let scatter = |id, title, x, y| {
+        let [x, y] = [x, y].map(|objective| Measure::of(objective, exploration.clock_mhz));
+        Scatter { id, title, x, y }
     };
-    let bytes = || Measure::new("bytes per frame", true, false, |row| Some(row.bytes_per_frame));
-    let mhz = exploration.clock_mhz;
-    let rate = move |row: &Row| Some(f64::from(mhz) * 1e6 / real(row.clocks_per_frame));
-    let mut scatters = vec![Scatter {
-        id: "speed",
-        title: "Error against speed",
-        x: Measure::new(&format!("frames/s at {mhz} MHz"), false, false, rate),
-        y: flips(),
-        known: Some(|row| row.front.speed),
-    }];
+    let mut scatters = vec![scatter("speed", "Error against speed", Speed, Error)];
     if rows.iter().any(|row| row.silicon.is_some()) {
-        scatters.push(Scatter {
-            id: "area",
-            title: "Error against area",
-            x: Measure::new("LUTs of the array", true, false, Row::luts),
-            y: flips(),
-            known: Some(|row| row.front.area),
-        });
+        scatters.push(scatter("area", "Error against area", Luts, Error));
     }
-    let stale = |row: &Row| Some(100.0 * row.figures.staleness.share);
-    scatters.push(Scatter {
-        id: "stale",
-        title: "Staleness against bytes",
-        x: bytes(),
-        y: Measure::new("stale relevant regions, %", true, true, stale),
-        known: None,
-    });
-    let likeness = |row: &Row| Some(row.figures.ssim_ideal);
-    scatters.push(Scatter {
-        id: "picture",
-        title: "Picture against bytes",
-        x: bytes(),
-        y: Measure::new("SSIM to the ideal's screen", false, false, likeness),
-        known: None,
-    });
+    scatters.push(scatter("stale", "Staleness against bytes", Bytes, Stale));
+    scatters.push(scatter("picture", "Picture against bytes", Bytes, Likeness));
     scatters.iter().map(|scatter| scatter.plot(rows, groupings, titles)).collect()
 }
 
 impl Scatter {
     fn plot(&self, rows: &[&Row], groupings: &[Grouping], titles: &[String]) -> Plot {
         let field = Field { x: self.x.axis(rows), y: self.y.axis(rows) };
-        let on_front = self.on_front(rows);
+        let on_front = unbeaten(rows, [self.x.objective, self.y.objective]);
         let mut marks = Vec::new();
         let mut steps = Vec::new();
         for (index, row) in rows.iter().enumerate() {
-            let Some((x, y)) = (self.x.of)(row).zip((self.y.of)(row)) else { continue };
+            let Some((x, y)) = self.x.value(row).zip(self.y.value(row)) else { continue };
             let Some((x, y)) = field.place(x, y) else { continue };
             if on_front[index] {
                 steps.push((x, y));
@@ -109,7 +98,7 @@ impl Scatter {
         // What is drawn later lies above.
         marks.sort_by_key(|mark| mark.front);
         stack(&mut marks);
-        let path = staircase(&steps, self.x.low, self.y.low);
+        let path = staircase(&steps, self.x.low(), self.y.low());
         let logarithmic = |axis: Axis, measure: &Measure| {
             let scale = if axis.logarithmic() { " (log)" } else { "" };
             format!("{}{scale}", measure.title)
@@ -126,17 +115,6 @@ impl Scatter {
             by_axis: true,
             ..Plot::default()
         }
-    }
-
-    fn on_front(&self, rows: &[&Row]) -> Vec<bool> {
-        if let Some(known) = self.known {
-            return rows.iter().map(|row| known(row)).collect();
-        }
-        let small = |measure: &Measure, row: &Row| {
-            (measure.of)(row).map(|value| if measure.low { value } else { -value })
-        };
-        let both = |row: &&Row| [small(&self.x, row), small(&self.y, row)];
-        front(&rows.iter().map(both).collect::<Vec<_>>())
     }
 }
 

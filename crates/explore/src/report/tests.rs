@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::sample::{exploration, mark_fronts};
+use super::sample::exploration;
 use super::*;
+use crate::objective::mark_fronts;
 
 /// Two organizations, folds, bits and a threshold.
 const GRID: &str = r#"
@@ -170,6 +171,60 @@ fn pictures_have_numbers_whatever_the_data() {
         let areas = sample.rows.iter().any(|row| row.silicon.is_some());
         assert_eq!(page.contains("There are no areas"), !areas, "{name}");
     }
+}
+
+/// Where the better corner of each plot is: right or left, and down or up, as a reader sees it.
+const BETTER: [(&str, f64, f64); 4] = [
+    ("plot-speed", 1.0, 1.0),
+    ("plot-area", -1.0, 1.0),
+    ("plot-stale", -1.0, 1.0),
+    ("plot-picture", -1.0, -1.0),
+];
+
+#[test]
+fn large_marks_are_those_that_no_mark_beats_on_the_picture() {
+    let page = page(&exploration(GRID, true)).unwrap();
+    let document = tree(&page);
+    for (id, right, down) in BETTER {
+        let figure = document.descendants().find(|node| node.attribute("id") == Some(id)).unwrap();
+        let marks = figure
+            .descendants()
+            .filter(|node| node.attribute("class").is_some_and(|class| class.starts_with("mark")));
+        let marks: Vec<(f64, f64, bool)> = marks
+            .map(|mark| {
+                let of = |name| mark.attribute(name).unwrap().parse::<f64>().unwrap();
+                let best = mark.attribute("class").unwrap().contains("best");
+                (of("x") * right, of("y") * down, best)
+            })
+            .collect();
+        let best = marks.iter().filter(|mark| mark.2).count();
+        assert!(best > 1 && best < marks.len(), "{id}: {best} of {}", marks.len());
+        for (x, y, on_front) in &marks {
+            // Places are rounded to tenths, and may be equal though the figures are not.
+            let beaten = marks.iter().any(|(a, b, _)| *a > x + 0.11 && *b > y + 0.11);
+            let not_above =
+                marks.iter().any(|(a, b, best)| *best && *a >= x - 0.11 && *b >= y - 0.11);
+            assert!(!(*on_front && beaten), "{id}: a large mark at {x}, {y} is beaten");
+            assert!(not_above, "{id}: no large mark is as good as that at {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn the_table_of_the_front_has_the_points_of_the_files() {
+    let sample = exploration(GRID, true);
+    let page = page(&sample).unwrap();
+    let document = tree(&page);
+    let rows = document.descendants().filter_map(|node| node.attribute("id"));
+    let shown: Vec<String> = rows
+        .filter_map(|id| id.strip_prefix('f'))
+        .filter(|id| id.parse::<u64>().is_ok())
+        .map(str::to_owned)
+        .collect();
+    let expected: Vec<String> =
+        sample.rows.iter().filter(|row| row.front.all).map(|row| row.number.to_string()).collect();
+    assert!(expected.len() > 1 && expected.len() < sample.rows.len());
+    assert_eq!(shown, expected);
 }
 
 #[test]

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What points are judged by, and in which direction each figure is better. Tables, plots and the page take
+//! both from here; nothing else says which way is up.
+
+use serde::Serialize;
+
+use crate::Row;
+use crate::front::front;
+use crate::row::real;
+
+/// A figure of a point by which points beat each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Objective {
+    /// Share of flipped actions, 0..=1: the error.
+    Error,
+    /// Frames per clock.
+    Speed,
+    /// LUTs of the array, those used as memory included.
+    Luts,
+    /// Share of the relevant regions that are stale, 0..=1.
+    Stale,
+    /// Bytes per frame that leave the array.
+    Bytes,
+    /// SSIM of the screen to the ideal's, at most 1.
+    Likeness,
+}
+
+/// The direction in which a figure is better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Better {
+    Smaller,
+    Larger,
+}
+
+impl Objective {
+    pub(crate) fn better(self) -> Better {
+        match self {
+            Self::Error | Self::Luts | Self::Stale | Self::Bytes => Better::Smaller,
+            Self::Speed | Self::Likeness => Better::Larger,
+        }
+    }
+
+    /// The figure of a point; none where it is not known.
+    pub(crate) fn of(self, row: &Row) -> Option<f64> {
+        match self {
+            Self::Error => Some(row.figures.action_flips),
+            Self::Speed => Some(1.0 / real(row.clocks_per_frame)),
+            Self::Luts => row.luts(),
+            Self::Stale => Some(row.figures.staleness.share),
+            Self::Bytes => Some(row.bytes_per_frame),
+            Self::Likeness => Some(row.figures.ssim_ideal),
+        }
+    }
+
+    /// The figure as a cost, which is better the smaller it is.
+    fn cost(self, row: &Row) -> Option<f64> {
+        self.of(row).map(|value| match self.better() {
+            Better::Smaller => value,
+            Better::Larger => -value,
+        })
+    }
+}
+
+/// Which fronts a point is on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Fronts {
+    /// Of error and speed.
+    pub speed: bool,
+    /// Of error and LUTs of the array.
+    pub area: bool,
+    /// Of error, speed and LUTs of the array; without areas, as `speed`.
+    pub all: bool,
+}
+
+/// Which of some points no other beats: none is as good in all objectives and better in one.
+pub(crate) fn unbeaten<const N: usize>(rows: &[&Row], objectives: [Objective; N]) -> Vec<bool> {
+    let costs = |row: &&Row| objectives.map(|objective| objective.cost(row));
+    front(&rows.iter().map(costs).collect::<Vec<_>>())
+}
+
+/// Marks the fronts of an exploration.
+pub(crate) fn mark_fronts(rows: &mut [Row]) {
+    use Objective::{Error, Luts, Speed};
+    let all: Vec<&Row> = rows.iter().collect();
+    let speed = unbeaten(&all, [Error, Speed]);
+    let area = unbeaten(&all, [Error, Luts]);
+    let synthesized = rows.iter().any(|row| row.silicon.is_some());
+    let both = if synthesized { unbeaten(&all, [Error, Speed, Luts]) } else { speed.clone() };
+    for (row, ((speed, area), all)) in rows.iter_mut().zip(speed.into_iter().zip(area).zip(both)) {
+        row.front = Fronts { speed, area, all };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample::exploration;
+
+    /// Points with figures of few values, so that many are equal; some have no area.
+    fn points(seed: u64) -> Vec<Row> {
+        let row = exploration("", true).rows.remove(0);
+        let mut chance = fastrand::Rng::with_seed(seed);
+        let mut point = || {
+            let mut row = row.clone();
+            row.figures.action_flips = f64::from(chance.u32(0..6)) / 10.0;
+            row.clocks_per_frame = chance.u64(1..12);
+            match &mut row.silicon {
+                Some(silicon) if chance.u8(0..5) > 0 => {
+                    silicon.array.lut_total_packed = chance.u64(1..12);
+                }
+                silicon => *silicon = None,
+            }
+            row
+        };
+        (0..60).map(|_| point()).collect()
+    }
+
+    /// The definition, read off the figures of the table: lower error, fewer clocks, fewer LUTs.
+    fn beats(one: &Row, other: &Row, clocks: bool, luts: bool) -> bool {
+        let lut = |row: &Row| row.silicon.as_ref().map(|silicon| silicon.array.lut_total_packed);
+        let mut pairs = vec![one.figures.action_flips.total_cmp(&other.figures.action_flips)];
+        if clocks {
+            pairs.push(one.clocks_per_frame.cmp(&other.clocks_per_frame));
+        }
+        if luts {
+            let (Some(one), Some(other)) = (lut(one), lut(other)) else { return false };
+            pairs.push(one.cmp(&other));
+        }
+        pairs.iter().all(|order| order.is_le()) && pairs.iter().any(|order| order.is_lt())
+    }
+
+    #[test]
+    fn every_front_is_that_of_its_own_figures() {
+        let (mut told_apart, mut without_area) = (0, 0);
+        for seed in 0..200 {
+            let mut rows = points(seed);
+            mark_fronts(&mut rows);
+            for row in &rows {
+                let on = |clocks: bool, luts: bool| {
+                    let known = !luts || row.silicon.is_some();
+                    known && !rows.iter().any(|other| beats(other, row, clocks, luts))
+                };
+                let expected =
+                    Fronts { speed: on(true, false), area: on(false, true), all: on(true, true) };
+                assert_eq!(row.front, expected, "seed {seed}, {row:?}");
+                told_apart += usize::from(row.front.speed != row.front.area);
+                without_area += usize::from(row.silicon.is_none() && row.front.speed);
+            }
+        }
+        // Otherwise a swap of speed and area would not be seen.
+        assert!(told_apart > 500 && without_area > 0, "{told_apart}, {without_area}");
+    }
+
+    #[test]
+    fn without_areas_the_front_is_that_of_speed() {
+        let mut rows = points(1);
+        rows.iter_mut().for_each(|row| row.silicon = None);
+        mark_fronts(&mut rows);
+        assert!(rows.iter().any(|row| row.front.speed));
+        assert!(rows.iter().all(|row| row.front.all == row.front.speed && !row.front.area));
+    }
+}
