@@ -122,7 +122,7 @@ pub fn explore(
         problem.map(|problem| format!("{}: {problem}", subject.name))
     };
     let exploration = Exploration {
-        format_version: 1,
+        format_version: 2,
         program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
         clips: footage.subjects.iter().zip(&measured).map(of_clip).collect(),
         size: footage.size,

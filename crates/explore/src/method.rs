@@ -116,12 +116,14 @@ fn sample(all: usize, points: usize, seed: u64) -> BTreeSet<usize> {
 
 #[cfg(test)]
 mod tests {
+    use toml::Value;
+
     use super::*;
 
     fn axes(sizes: &[usize]) -> Vec<Axis> {
         let axis = |&size: &usize| Axis {
             key: "key".to_owned(),
-            values: (0..size).map(|value| value.to_string()).collect(),
+            values: (0..i64::try_from(size).unwrap()).map(Value::Integer).collect(),
         };
         sizes.iter().map(axis).collect()
     }

@@ -5,14 +5,15 @@ use std::collections::BTreeSet;
 
 use foveate_design::{Config, Design};
 use serde::{Deserialize, Serialize};
+use toml::Value;
 
 use crate::scale::at_depth;
-use crate::space::Space;
+use crate::space::{Space, plain};
 
 /// A design of a space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// The value of every axis, as TOML; empty where it is that of the start.
+    /// The value of every axis, a string without its quotes; empty where it is that of the start.
     pub settings: Vec<String>,
     /// Its configuration.
     pub config: Config,
@@ -33,11 +34,12 @@ impl Space {
     pub fn points(&self, width: u32, height: u32) -> (Vec<Point>, Vec<Refused>) {
         let (mut points, mut refused, mut seen) = (Vec::new(), Vec::new(), BTreeSet::new());
         for combination in self.method.combinations(&self.axes) {
-            let value = |(axis, index): (&crate::space::Axis, &Option<usize>)| {
-                index.and_then(|index| axis.values.get(index).cloned()).unwrap_or_default()
-            };
-            let settings: Vec<String> = self.axes.iter().zip(&combination).map(value).collect();
-            match self.point(&settings, width, height) {
+            let values: Vec<Option<&Value>> = std::iter::zip(&self.axes, combination)
+                .map(|(axis, index)| index.and_then(|index| axis.values.get(index)))
+                .collect();
+            let settings: Vec<String> =
+                values.iter().map(|value| value.map(plain).unwrap_or_default()).collect();
+            match self.point(&values, width, height) {
                 Ok(config) => {
                     // Of designs that are equal the first has the fewest settings.
                     if seen.insert(config.to_toml()) {
@@ -58,10 +60,11 @@ impl Space {
         described(self.axes.iter().map(|axis| axis.key.as_str()), settings)
     }
 
-    fn point(&self, settings: &[String], width: u32, height: u32) -> Result<Config, String> {
-        let set = self.axes.iter().zip(settings).filter(|(_, value)| !value.is_empty());
-        let overrides: Vec<String> =
-            set.map(|(axis, value)| format!("{}={value}", axis.key)).collect();
+    fn point(&self, values: &[Option<&Value>], width: u32, height: u32) -> Result<Config, String> {
+        let set = self.axes.iter().zip(values);
+        let overrides: Vec<String> = set
+            .filter_map(|(axis, value)| value.map(|value| format!("{}={value}", axis.key)))
+            .collect();
         let config = self.start.with(&overrides).map_err(|error| error.to_string())?;
         let mut config = at_depth(&config, self.ideal.frame.pixel_bits);
         config.fit_frame(width, height).map_err(|error| error.to_string())?;

@@ -25,12 +25,12 @@ pub struct Space {
 }
 
 /// A key of the configuration and the values it takes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Dotted, for example `region.size` or `spatial.0.level`.
     pub key: String,
-    /// As they are written in TOML.
-    pub values: Vec<String>,
+    /// As the file has them.
+    pub values: Vec<Value>,
 }
 
 /// A configuration before it is read, so that a point can add to it.
@@ -104,7 +104,8 @@ impl Space {
         let preset = Preset::find(file.preset.as_deref().unwrap_or("paper"))?.toml;
         let start = Start { preset, overrides: overrides(&file.design) };
         let section = |name| move |error| ExploreError::Section { section: name, error };
-        start.with(&[]).and_then(|config| config.validate()).map_err(section("design"))?;
+        // Whether it is a design depends on the size of the clips and on what varies.
+        start.with(&[]).map_err(section("design"))?;
         // What the ideal sees does not depend on how an array is built.
         let ideal = start.with(&overrides(&file.ideal)).map_err(section("ideal"))?;
         let ideal = functional(&ideal);
@@ -131,14 +132,19 @@ impl Space {
 impl Axis {
     /// Refuses a key that is none: every point with it would be refused for the same reason.
     fn check(&self, start: &Start) -> Result<(), ExploreError> {
-        let first = self.values.first().map(String::as_str).unwrap_or_default();
-        match start.with(&[format!("{}={first}", self.key)]) {
+        let first = self.values.first().map(|value| format!("{}={value}", self.key));
+        match start.with(first.as_slice()) {
             Err(error @ DesignError::UnknownKey { .. }) => {
                 Err(ExploreError::Section { section: "vary", error })
             }
             _ => Ok(()),
         }
     }
+}
+
+/// A value as people read it and as tables have it: a string without quotes, anything else as in TOML.
+pub(crate) fn plain(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
 /// A problem of the file that is not one of a configuration.
@@ -169,8 +175,7 @@ fn axes(above: &str, table: &Table) -> Result<Vec<Axis>, ExploreError> {
     let mut problem = None;
     leaves(above, table, &mut |key, value| match value {
         Value::Array(values) if !values.is_empty() => {
-            let values = values.iter().map(Value::to_string).collect();
-            found.push(Axis { key, values });
+            found.push(Axis { key, values: values.clone() });
         }
         other => {
             problem.get_or_insert(format!(

@@ -5,6 +5,7 @@ use foveate_design::Config;
 use toml::{Table, Value};
 
 use crate::point::START;
+use crate::space::plain;
 use crate::{Exploration, Row};
 
 /// The axes of an exploration and the values of the start, as far as they can be known.
@@ -36,7 +37,7 @@ impl Settings {
 
     /// The value of an axis; that of the start where the point does not set it, empty if nobody knows.
     pub(crate) fn value(&self, row: &Row, axis: usize) -> String {
-        let set = row.settings.get(axis).map(|text| bare(text)).filter(|text| !text.is_empty());
+        let set = row.settings.get(axis).filter(|text| !text.is_empty()).cloned();
         set.or_else(|| self.start.get(axis).cloned()).unwrap_or_default()
     }
 
@@ -49,9 +50,8 @@ impl Settings {
     pub(crate) fn described(&self, row: &Row, without: Option<usize>) -> String {
         let set = row.settings.iter().enumerate();
         let set = set.filter(|(axis, text)| !text.is_empty() && Some(*axis) != without);
-        let words = set.filter_map(|(axis, text)| {
-            self.names.get(axis).map(|name| format!("{name} {}", bare(text)))
-        });
+        let words = set
+            .filter_map(|(axis, text)| self.names.get(axis).map(|name| format!("{name} {text}")));
         let words: Vec<String> = words.collect();
         if words.is_empty() { START.to_owned() } else { words.join(" · ") }
     }
@@ -61,12 +61,6 @@ impl Settings {
         let set = row.settings.iter().enumerate().filter(|(_, text)| !text.is_empty());
         set.map(|(axis, _)| axis)
     }
-}
-
-/// A value of TOML without the quotes of a text.
-fn bare(text: &str) -> String {
-    let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
-    inner.unwrap_or(text).to_owned()
 }
 
 /// The last part of a key, if no other key has it.
@@ -89,7 +83,7 @@ fn value(table: &Table, key: &str) -> Option<String> {
             _ => return None,
         };
     }
-    Some(bare(&found.to_string()))
+    Some(plain(found))
 }
 
 /// A configuration with every default filled in; as it is if it is none.

@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_explore::{Exploration, ExploreError, Hooks, Progress, Request, Space, explore};
 use foveate_simulator::InputOptions;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 
 const SPACE: &str = "method = 'each'\n[design]\nframe.width = 48\nframe.height = 32\nregion.neighborhood = 'shared'\n\
      temporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [8, 6, 3]\nregion.size = [16]\n\
@@ -88,6 +90,40 @@ fn every_figure_is_in_its_file() {
     }
     let parquet = fs::read(output.join("points.parquet")).unwrap();
     assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
+}
+
+/// Every cell of a column of `points.parquet` as text.
+fn parquet_column(file: &Path, name: &str) -> Vec<String> {
+    let reader = SerializedFileReader::new(fs::File::open(file).unwrap()).unwrap();
+    let of = |row: parquet::record::Row| {
+        let (_, field) = row.get_column_iter().find(|(column, _)| *column == name).unwrap();
+        match field {
+            Field::Str(text) => text.clone(),
+            other => panic!("{name} is no string: {other:?}"),
+        }
+    };
+    reader.get_row_iter(None).unwrap().map(|row| of(row.unwrap())).collect()
+}
+
+#[test]
+fn strings_are_plain_in_every_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let space = "[design]\nframe.width = 48\nframe.height = 32\n[vary]\nhardware.organization = ['pipelined', 'serial']\n";
+    let found = run(space, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    let expected = ["pipelined", "serial"];
+    for table in ["points.csv", "pareto.csv"] {
+        let lines = lines(&output.join(table));
+        let column = lines[0].split(',').position(|name| name == "hardware.organization").unwrap();
+        let cells: Vec<&str> =
+            lines[1..].iter().map(|line| line.split(',').nth(column).unwrap()).collect();
+        assert_eq!(cells, &expected[..cells.len()], "{table}");
+    }
+    let cells = parquet_column(&output.join("points.parquet"), "hardware_organization");
+    assert_eq!(cells, expected);
+    let settings: Vec<&[String]> = found.rows.iter().map(|row| row.settings.as_slice()).collect();
+    assert_eq!(settings, [["pipelined"], ["serial"]]);
+    assert_eq!(found.described(&found.rows[1]), "hardware.organization = serial");
 }
 
 #[test]

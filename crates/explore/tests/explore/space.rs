@@ -24,9 +24,20 @@ fn a_grid_has_every_combination_that_is_a_design() {
     );
     assert_eq!(configs.len(), 3);
     assert_eq!(refused.len(), 1);
-    let of = "hardware.organization = 'pipelined', hardware.fold = 2, region.size = 8: ";
-    assert!(refused[0].replace('"', "'").starts_with(of), "{refused:?}");
+    let of = "hardware.organization = pipelined, hardware.fold = 2, region.size = 8: ";
+    assert!(refused[0].starts_with(of), "{refused:?}");
     assert!(configs.iter().all(|config| config.frame.width == Some(64)));
+}
+
+/// 1,200 regions of 8x8 in a frame of 320x240, where the default frame has 784.
+#[test]
+fn the_start_is_judged_with_the_size_of_the_clips() {
+    let text = "[design]\nhardware.organization = 'serial'\nhardware.fold = 1200\n[vary]\nframe.pixel_bits = [8, 6]\n";
+    let (points, refused) = Space::from_toml(text).unwrap().points(320, 240);
+    assert_eq!((points.len(), refused.len()), (2, 0));
+    let (points, refused) = Space::from_toml(text).unwrap().points(224, 224);
+    assert_eq!((points.len(), refused.len()), (0, 2));
+    assert!(refused[0].reason.contains("1..=784"), "{refused:?}");
 }
 
 #[test]
