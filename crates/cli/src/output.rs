@@ -19,6 +19,11 @@ pub(crate) fn text(text: &str) -> Result<(), CliError> {
     }
 }
 
+/// Says on standard error what the user should know although the command goes on.
+pub(crate) fn warn(text: &str) {
+    eprintln!("foveate: warning: {text}");
+}
+
 /// Prints `value` as indented JSON.
 pub(crate) fn json(value: &impl Serialize) -> Result<(), CliError> {
     let rendered = serde_json::to_string_pretty(value)

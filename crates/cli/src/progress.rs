@@ -1,62 +1,108 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Progress on standard error, where a terminal is there to see it.
+//! Progress on standard error: a bar where a terminal is there to draw it, a line now and then where a log
+//! is written.
 
+mod lines;
+
+use std::io::IsTerminal as _;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-const SPINNER: &str = "{spinner} {msg} [{elapsed}]";
-const BAR: &str = "{msg} {wide_bar} {pos}/{len} [{elapsed}, {eta} left]";
-const FRAMES_ONLY: &str = "{spinner} {pos} frames [{elapsed}, {per_sec:.1}] {msg}";
+use lines::Lines;
+
+const WORK: &str = "{spinner} {msg} [{elapsed}]";
+const STEPS: &str = "{msg} {wide_bar} {pos}/{len} [{elapsed}, {eta} left]";
+const FRAMES: &str = "{spinner} {pos} frames [{elapsed}, {per_sec:.1}] {msg}";
 const FRAMES_OF_ALL: &str =
     "{wide_bar} {pos}/{len} frames [{elapsed}, {per_sec:.1}, {eta} left] {msg}";
 
-/// A spinner with a message, hidden when quiet or when there is no terminal.
-pub(crate) fn spinner(quiet: bool, message: &str) -> ProgressBar {
-    let bar = shown(quiet, ProgressBar::new_spinner());
-    become_spinner(&bar, message);
-    bar
+/// What a command is about. Nothing is shown before it says so, nothing when quiet, and nothing remains on
+/// a terminal when it is dropped.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    stage: Arc<Mutex<Stage>>,
+    /// Where standard error is no terminal, until the end.
+    lines: Mutex<Option<Lines>>,
 }
 
-/// Turns a bar into a spinner, for work of unknown length that follows.
-pub(crate) fn become_spinner(bar: &ProgressBar, message: &str) {
-    set_style(bar, SPINNER);
-    bar.set_message(message.to_owned());
+/// What goes on.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Stage {
+    style: Option<&'static str>,
+    what: String,
 }
 
-/// Frames with rate and time left; the time left needs a total.
-pub(crate) fn frames(quiet: bool) -> ProgressBar {
-    let bar = shown(quiet, ProgressBar::new_spinner());
-    set_style(&bar, FRAMES_ONLY);
-    bar
-}
+impl Progress {
+    pub(crate) fn new(quiet: bool) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let bar = ProgressBar::new_spinner();
+        bar.set_draw_target(if quiet || !terminal {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        });
+        let stage = Arc::new(Mutex::new(Stage::default()));
+        let lines = !quiet && !terminal;
+        let lines = lines.then(|| Lines::start(bar.clone(), Arc::clone(&stage))).flatten();
+        Self { bar, stage, lines: Mutex::new(lines) }
+    }
 
-/// Tells a bar of [`frames`] how many there will be.
-pub(crate) fn set_total(bar: &ProgressBar, total: u64) {
-    if bar.length() != Some(total) {
-        bar.set_length(total);
-        set_style(bar, FRAMES_OF_ALL);
+    /// Work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
+    pub(crate) fn work(&self, what: &str) {
+        self.enter(WORK, what);
+    }
+
+    /// So many of all steps are done: `designs over clips`. While there is none to do it is [`Progress::work`].
+    pub(crate) fn steps(&self, what: &str, done: u64, all: u64) {
+        if all == 0 {
+            return self.work(what);
+        }
+        self.enter(STEPS, what);
+        self.bar.set_length(all);
+        self.bar.set_position(done);
+    }
+
+    /// So many frames are done, of so many if that is known; `note` stands beside it.
+    pub(crate) fn frames(&self, done: u64, all: Option<u64>, note: &str) {
+        self.enter(if all.is_some() { FRAMES_OF_ALL } else { FRAMES }, note);
+        if let Some(all) = all {
+            self.bar.set_length(all.max(done));
+        }
+        self.bar.set_position(done);
+    }
+
+    /// Clears the line of the terminal and is silent from then on: before results are printed.
+    pub(crate) fn finish(&self) {
+        drop(self.lines.lock().unwrap_or_else(PoisonError::into_inner).take());
+        self.bar.finish_and_clear();
+    }
+
+    fn enter(&self, style: &'static str, what: &str) {
+        let mut stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+        if stage.style == Some(style) && stage.what == what {
+            return;
+        }
+        if stage.style != Some(style) {
+            // Only a program fault makes a template that cannot be read; the bar is then the plain one.
+            if let Ok(template) = ProgressStyle::with_template(style) {
+                self.bar.set_style(template);
+            }
+            if !self.bar.is_hidden() {
+                self.bar.enable_steady_tick(Duration::from_millis(120));
+            }
+        }
+        if style == STEPS || stage.style != Some(style) {
+            self.bar.reset_eta();
+        }
+        self.bar.set_message(what.to_owned());
+        *stage = Stage { style: Some(style), what: what.to_owned() };
     }
 }
 
-/// A bar over a known number of steps.
-pub(crate) fn bar(quiet: bool, length: u64, message: &str) -> ProgressBar {
-    let bar = shown(quiet, ProgressBar::new(length));
-    set_style(&bar, BAR);
-    bar.set_message(message.to_owned());
-    bar
-}
-
-fn shown(quiet: bool, bar: ProgressBar) -> ProgressBar {
-    // indicatif itself hides what is drawn to something that is no terminal.
-    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    bar.set_draw_target(target);
-    bar.enable_steady_tick(Duration::from_millis(120));
-    bar
-}
-
-fn set_style(bar: &ProgressBar, template: &str) {
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.finish();
     }
 }

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
     };
     let hooks = Terminal::new(args.quiet)?;
     let report = analyze(&request, &args.output, args.force, &hooks);
-    hooks.bar.finish_and_clear();
+    hooks.shown.finish();
     let report = report?;
     if args.json {
         output::json(&report)?;

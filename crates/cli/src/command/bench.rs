@@ -13,7 +13,8 @@ use foveate_toolchain::Cache;
 
 use crate::args::BenchArgs;
 use crate::error::CliError;
-use crate::{interrupt, output, progress};
+use crate::progress::Progress;
+use crate::{interrupt, output};
 
 pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let (design, frames) = design_and_frames(args)?;
@@ -25,10 +26,10 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
         at_least: Duration::from_secs_f64(args.seconds),
         netlist: args.netlist,
     };
-    let spinner = progress::spinner(args.quiet, "");
+    let progress = Progress::new(args.quiet);
     let tools = Tools { toolchain: &toolchain, cache: &cache };
-    let report = bench.run(tools, &mut |level| spinner.set_message(level.to_owned()));
-    spinner.finish_and_clear();
+    let report = bench.run(tools, &mut |level| progress.work(level));
+    progress.finish();
     let report = report?;
     tell(args, &report)?;
     match report.differing() {

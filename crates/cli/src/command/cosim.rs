@@ -11,11 +11,11 @@ use foveate_cosim::{
 use foveate_emit::SourceFile;
 use foveate_staging::{check_file, write_file};
 use foveate_toolchain::Cache;
-use indicatif::ProgressBar;
 
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
-use crate::{interrupt, output, progress};
+use crate::progress::Progress as Shown;
+use crate::{interrupt, output};
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     let (design, frames) = args.design.with_frames(&args.inputs, args.frames)?;
@@ -39,17 +39,15 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
         check_file(file)?;
     }
     let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
+    let shown = Shown::new(args.quiet);
     if args.netlist {
-        let spinner = progress::spinner(args.quiet, "synthesizing with Yosys");
-        let netlist = Netlist::of(&job, &toolchain, &cache);
-        spinner.finish_and_clear();
-        job.netlist = Some(netlist?);
+        shown.work("synthesizing with Yosys");
+        job.netlist = Some(Netlist::of(&job, &toolchain, &cache)?);
         job.simulator = Simulator::Iverilog;
     }
 
-    let bar = progress::bar(args.quiet, 0, "vectors");
-    let report = job.run(&toolchain, &cache, &mut |step| show(&bar, step));
-    bar.finish_and_clear();
+    let report = job.run(&toolchain, &cache, &mut |step| show(&shown, step));
+    shown.finish();
     let written = write_junit(args, &job, &report);
     let report = report?;
     tell(args, &report)?;
@@ -135,14 +133,11 @@ fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
     Ok(files)
 }
 
-fn show(bar: &ProgressBar, step: Progress) {
+fn show(shown: &Shown, step: Progress) {
     match step {
-        Progress::Vectors { done, total } => {
-            bar.set_length(total);
-            bar.set_position(done);
-        }
+        Progress::Vectors { done, total } => shown.steps("vectors", done, total),
         Progress::Simulation { clocks } => {
-            progress::become_spinner(bar, &format!("building and simulating {clocks} clocks"));
+            shown.work(&format!("building and simulating {clocks} clocks"));
         }
     }
 }

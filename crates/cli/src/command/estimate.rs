@@ -10,7 +10,8 @@ use foveate_toolchain::{Cache, Toolchain};
 
 use crate::args::EstimateArgs;
 use crate::error::CliError;
-use crate::{interrupt, output, progress};
+use crate::progress::Progress;
+use crate::{interrupt, output};
 
 pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
     let flow = Flow { toolchain: interrupt::toolchain()?, cache: Cache::from_env()? };
@@ -35,9 +36,10 @@ impl Flow {
 
 fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     let design = args.design.design()?;
-    let spinner = progress::spinner(args.quiet, "synthesizing with Yosys");
+    let progress = Progress::new(args.quiet);
+    progress.work("synthesizing with Yosys");
     let report = flow.estimate(&design, true);
-    spinner.finish_and_clear();
+    progress.finish();
     let report = report?;
     if args.json {
         output::json(&report)

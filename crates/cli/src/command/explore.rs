@@ -13,11 +13,11 @@ use foveate_explore::{
 };
 use foveate_simulator::ImagesAs;
 use foveate_toolchain::{Cache, Toolchain};
-use indicatif::ProgressBar;
 
 use crate::args::ExploreArgs;
 use crate::error::CliError;
-use crate::{interrupt, output, progress};
+use crate::progress::Progress as Shown;
+use crate::{interrupt, output};
 
 pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     if args.list {
@@ -40,7 +40,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
         synthesizer: synthesizer.as_ref(),
     };
     let found = explore(&request, folder, &terminal);
-    terminal.bar.finish_and_clear();
+    terminal.shown.finish();
     let found = match found {
         Err(ExploreError::Cancelled) => {
             return Err(CliError::Interrupted { path: folder.to_owned() });
@@ -88,13 +88,13 @@ fn blame(file: &Path, error: &ExploreError) -> CliError {
 
 /// Draws progress and listens for Ctrl-C.
 pub(super) struct Terminal {
-    pub(super) bar: ProgressBar,
+    pub(super) shown: Shown,
     interrupted: Arc<AtomicBool>,
 }
 
 impl Terminal {
     pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
-        Ok(Self { bar: progress::bar(quiet, 0, ""), interrupted: interrupt::flag()? })
+        Ok(Self { shown: Shown::new(quiet), interrupted: interrupt::flag()? })
     }
 
     /// The tools of this machine, stopped by the same Ctrl-C.
@@ -112,10 +112,7 @@ impl Hooks for Terminal {
             Progress::Measuring { done, all } => ("designs over clips", done, all),
             Progress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
         };
-        let count = |number: usize| u64::try_from(number).unwrap_or(u64::MAX);
-        self.bar.set_message(what);
-        self.bar.set_length(count(all));
-        self.bar.set_position(count(done));
+        self.shown.steps(what, done as u64, all as u64);
     }
 
     fn cancelled(&self) -> bool {

@@ -31,7 +31,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         most: usize::try_from(args.max_syntheses).unwrap_or(usize::MAX),
     };
     let found = fit(&request, &terminal);
-    terminal.bar.finish_and_clear();
+    terminal.shown.finish();
     let found = match found {
         Err(ExploreError::Cancelled) => {
             return Err(CliError::Stopped { done: "some of the designs".to_owned() });

@@ -10,11 +10,11 @@ use foveate_simulator::{
     Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, ImagesAs, InputOptions,
     Plan, Progress, RunOptions, Simulation, Summary, Traffic, open, plan, run_batch,
 };
-use indicatif::ProgressBar;
 
 use crate::args::SimulateArgs;
 use crate::error::CliError;
-use crate::{interrupt, output, progress};
+use crate::progress::Progress as Shown;
+use crate::{interrupt, output};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     run_job(&Job {
@@ -49,7 +49,7 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
             let source = open(inputs, config, input)?;
             let simulation = Simulation::new(config, source)?;
             let summary = simulation.run(folder, options, &mut hooks);
-            hooks.bar.finish_and_clear();
+            hooks.shown.finish();
             let summary = summary?;
             let printed =
                 if *json { output::json(&summary) } else { output::text(&text(folder, &summary)) };
@@ -57,7 +57,7 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
         }
         Plan::Batch(clips) => {
             let summary = run_batch(&clips, config, input, folder, options, &hooks);
-            hooks.bar.finish_and_clear();
+            hooks.shown.finish();
             let summary = summary?;
             let printed = if *json {
                 output::json(&summary)
@@ -71,13 +71,13 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
 
 /// Draws progress and listens for Ctrl-C.
 pub(super) struct Terminal {
-    pub(super) bar: ProgressBar,
+    pub(super) shown: Shown,
     interrupted: Arc<AtomicBool>,
 }
 
 impl Terminal {
     pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
-        Ok(Self { bar: progress::frames(quiet), interrupted: interrupt::flag()? })
+        Ok(Self { shown: Shown::new(quiet), interrupted: interrupt::flag()? })
     }
 
     /// What a result that is there, but not complete, means for the exit code.
@@ -93,10 +93,7 @@ impl Terminal {
 
 impl Hooks for Terminal {
     fn progress(&mut self, progress: Progress) {
-        if let Some(total) = progress.total {
-            progress::set_total(&self.bar, total.max(progress.done));
-        }
-        self.bar.set_position(progress.done);
+        self.shown.frames(progress.done, progress.total, "");
     }
 
     fn cancelled(&self) -> bool {
@@ -106,8 +103,8 @@ impl Hooks for Terminal {
 
 impl BatchHooks for Terminal {
     fn progress(&self, progress: BatchProgress) {
-        self.bar.set_position(progress.frames);
-        self.bar.set_message(format!("{}/{} clips", progress.clips, progress.all));
+        let clips = format!("{}/{} clips", progress.clips, progress.all);
+        self.shown.frames(progress.frames, None, &clips);
     }
 
     fn cancelled(&self) -> bool {

@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use crate::args::StressArgs;
 use crate::error::CliError;
-use crate::{interrupt, output, progress};
+use crate::progress::Progress;
+use crate::{interrupt, output};
 
 #[derive(Serialize)]
 struct Report<'a> {
@@ -19,14 +20,11 @@ struct Report<'a> {
 
 pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
     let interrupted = interrupt::flag()?;
-    let bar = progress::bar(args.quiet, 1, "cases");
-    let done = |done: usize, all: usize| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-    };
+    let progress = Progress::new(args.quiet);
+    let done = |done: usize, all: usize| progress.steps("cases", done as u64, all as u64);
     let depth = if args.short { Depth::Short } else { Depth::Full };
     let rows = foveate_stress::run(depth, &done, &|| interrupted.load(Ordering::Relaxed));
-    bar.finish_and_clear();
+    progress.finish();
     let broken = rows.iter().filter(|row| !row.holds).count();
     let holds = broken == 0 && !interrupted.load(Ordering::Relaxed);
     if args.json {

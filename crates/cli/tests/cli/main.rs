@@ -12,6 +12,7 @@ mod full_disk;
 mod hardware;
 mod inputs;
 mod outputs;
+mod progress;
 mod serial;
 mod simulation;
 mod stress;

@@ -9,7 +9,8 @@ use foveate_estimate::{Comparison, Skipped};
 use super::Flow;
 use crate::args::EstimateArgs;
 use crate::error::CliError;
-use crate::{output, progress};
+use crate::output;
+use crate::progress::Progress;
 
 /// Frames per second of the folded arrays, the fewer the more regions share a lane.
 const FOLDED_RATES: [u64; 2] = [1000, 30];
@@ -28,8 +29,10 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     let mut comparison = Comparison::new(args.clock);
     let mut wanted = organizations(&base);
     wanted.extend(FOLDED_RATES.map(|rate| folded(&base, rate, &comparison)));
-    let bar = progress::bar(args.quiet, wanted.len() as u64, "synthesizing with Yosys");
-    for Wanted { name, family, design } in wanted {
+    let progress = Progress::new(args.quiet);
+    let all = wanted.len() as u64;
+    for (done, Wanted { name, family, design }) in (0..).zip(wanted) {
+        progress.steps("synthesizing with Yosys", done, all);
         match design {
             Ok(design) => {
                 let report = flow.estimate(&design, false)?;
@@ -42,9 +45,8 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
                 }
             }
         }
-        bar.inc(1);
     }
-    bar.finish_and_clear();
+    progress.finish();
     if args.json {
         output::json(&comparison)
     } else if args.markdown {

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A line of progress now and then, for logs: the first after five seconds, then ever more rarely, once a
+//! minute at last.
+
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use indicatif::{HumanDuration, ProgressBar};
+
+use super::{FRAMES, FRAMES_OF_ALL, STEPS, Stage};
+use crate::output;
+
+/// Seconds between lines; `0` for none.
+const VARIABLE: &str = "FOVEATE_PROGRESS";
+const FIRST: Duration = Duration::from_secs(5);
+const LAST: Duration = Duration::from_secs(60);
+const LONGEST: u64 = 86_400;
+
+/// A thread that prints. It ends when this is dropped.
+pub(super) struct Lines {
+    /// None once it is to end.
+    alive: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Lines {
+    /// Nothing where the user wants no lines.
+    pub(super) fn start(bar: ProgressBar, stage: Arc<Mutex<Stage>>) -> Option<Self> {
+        let asked = std::env::var(VARIABLE).ok().filter(|text| !text.is_empty());
+        let interval = match asked.as_deref().map(parse) {
+            Some(Some(Duration::ZERO)) => return None,
+            Some(Some(interval)) => Some(interval),
+            None => None,
+            Some(None) => {
+                let asked = asked.unwrap_or_default();
+                output::warn(&format!(
+                    "{VARIABLE} is `{asked}`; expected seconds between lines of progress, 0 (none) to {LONGEST}"
+                ));
+                None
+            }
+        };
+        let (alive, end) = mpsc::channel::<()>();
+        let start = Instant::now();
+        let tell = move || {
+            loop {
+                let pause = interval.unwrap_or_else(|| pause(start.elapsed()));
+                if end.recv_timeout(pause) != Err(RecvTimeoutError::Timeout) {
+                    return;
+                }
+                let stage = stage.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                if let Some(line) = line(&bar, &stage, start.elapsed()) {
+                    eprintln!("foveate: {line}");
+                }
+            }
+        };
+        // Without a thread there are no lines, which is no reason to stop.
+        let thread = std::thread::Builder::new().name("progress".to_owned()).spawn(tell).ok();
+        Some(Self { alive: Some(alive), thread })
+    }
+}
+
+impl Drop for Lines {
+    fn drop(&mut self) {
+        drop(self.alive.take());
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// As long again as it has taken, within bounds.
+fn pause(elapsed: Duration) -> Duration {
+    elapsed.clamp(FIRST, LAST)
+}
+
+fn parse(text: &str) -> Option<Duration> {
+    let seconds = text.trim().parse::<u64>().ok().filter(|&seconds| seconds <= LONGEST)?;
+    Some(Duration::from_secs(seconds))
+}
+
+/// What goes on, in words; nothing before the command has said so.
+fn line(bar: &ProgressBar, stage: &Stage, elapsed: Duration) -> Option<String> {
+    let style = stage.style?;
+    let (done, what, elapsed) = (bar.position(), &stage.what, HumanDuration(elapsed));
+    let left = || match bar.eta() {
+        Duration::ZERO => String::new(),
+        left => format!(", about {} left", HumanDuration(left)),
+    };
+    let note = if what.is_empty() { String::new() } else { format!(" ({what})") };
+    let all = bar.length().unwrap_or(done);
+    Some(match style {
+        STEPS => format!("{what}: {done} of {all} after {elapsed}{}", left()),
+        FRAMES_OF_ALL => format!("{done} of {all} frames after {elapsed}{}{note}", left()),
+        FRAMES => format!("{done} frames after {elapsed}{note}"),
+        _ => format!("{what}, {elapsed} so far"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::WORK;
+    use super::*;
+
+    #[test]
+    fn lines_come_ever_more_rarely() {
+        let mut at = Duration::ZERO;
+        let mut seconds = Vec::new();
+        for _ in 0..7 {
+            at += pause(at);
+            seconds.push(at.as_secs());
+        }
+        assert_eq!(seconds, [5, 10, 20, 40, 80, 140, 200]);
+    }
+
+    #[test]
+    fn the_variable_is_whole_seconds_up_to_a_day() {
+        assert_eq!(parse(" 30"), Some(Duration::from_secs(30)));
+        assert_eq!(parse("0"), Some(Duration::ZERO));
+        for text in ["off", "-1", "1.5", "86401", "5s"] {
+            assert_eq!(parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn lines_say_what_goes_on() {
+        let bar = ProgressBar::hidden();
+        bar.set_length(40);
+        bar.set_position(12);
+        let told = |style, what: &str| {
+            let stage = Stage { style, what: what.to_owned() };
+            let line = line(&bar, &stage, Duration::from_secs(65))?;
+            // How much is left depends on how fast the test is.
+            Some(line.split(", about").next()?.to_owned())
+        };
+        assert_eq!(told(None, ""), None);
+        assert_eq!(told(Some(WORK), "compiling").unwrap(), "compiling, 65 seconds so far");
+        assert_eq!(told(Some(STEPS), "designs").unwrap(), "designs: 12 of 40 after 65 seconds");
+        assert_eq!(told(Some(FRAMES_OF_ALL), "").unwrap(), "12 of 40 frames after 65 seconds");
+        assert_eq!(
+            told(Some(FRAMES), "1/2 clips").unwrap(),
+            "12 frames after 65 seconds (1/2 clips)"
+        );
+    }
+}
