@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use foveate_cosim::{CosimError, Level as Simulated, Recording, Stimulus};
-use foveate_design::{Design, Organization};
+use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
@@ -12,7 +12,7 @@ use crate::error::BenchError;
 use crate::report::{FORMAT_VERSION, Level, Report, Row};
 use crate::timer::Timer;
 use crate::vectors::Vectors;
-use crate::{array, clear, functional, netlist, rtl};
+use crate::{clear, functional, netlist, rtl};
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -63,9 +63,7 @@ impl Bench {
         let vectors = Vectors::read(design, &recording)?;
         progress("cycle-level models");
         rows.push(clear::clear(design, frames, &recording, &vectors, timer)?);
-        if design.organization() == Organization::Pipelined {
-            rows.push(array::fast(design, &recording, &vectors, timer)?);
-        }
+        rows.extend(clear::fast(design, &recording, &vectors, timer)?);
         progress("RTL: building and running Verilator's model");
         rows.push(match missing(tools.toolchain, &[Tool::Verilator, Tool::Cxx])? {
             Some(why) => Row::missing(Level::Rtl, "Verilator", why),
@@ -96,10 +94,7 @@ impl Bench {
         Report {
             format_version: FORMAT_VERSION,
             design: design.fingerprint(),
-            organization: match design.organization() {
-                Organization::Pipelined => "pipelined",
-                Organization::Serial => "serial",
-            },
+            organization: design.organization().name(),
             regions: design.regions(),
             size: (design.width(), design.height()),
             frames: self.frames.len() as u64,

@@ -10,10 +10,10 @@ use foveate_model::{PipelinedRcm, SerialInput, SerialRcm};
 
 use crate::error::BenchError;
 use crate::memory::Before;
-use crate::outcomes;
 use crate::report::{Level, Measured, Row};
 use crate::timer::{Time, Timer};
 use crate::vectors::{Control, Vectors, compare};
+use crate::{array, outcomes};
 
 /// Compares what they decide with the functional model, and what they show when the vectors come again
 /// with the recording; then times them.
@@ -58,6 +58,19 @@ pub(crate) fn clear(
     };
     let measured = Measured { peak_bytes, ..per_clock(design, vectors, time) };
     Ok(Row::of(Level::CycleClear, name, measured.agrees(Level::FunctionalClear, agreement)))
+}
+
+/// The fast cycle-level model, in an organization that has one.
+pub(crate) fn fast(
+    design: &Design,
+    recording: &Recording,
+    vectors: &Vectors,
+    timer: Timer<'_>,
+) -> Result<Option<Row>, BenchError> {
+    match design.organization() {
+        Organization::Pipelined => array::fast(design, recording, vectors, timer).map(Some),
+        Organization::Serial => Ok(None),
+    }
 }
 
 fn pipelined_agreement(

@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use foveate_cosim::{Agreement, Job, Level as Simulated, Netlist, Simulator, Stimulus};
-use foveate_design::{Design, Organization};
+use foveate_design::Design;
 use foveate_frame::Frame;
 
 use crate::bench::Tools;
@@ -57,14 +57,10 @@ pub(crate) fn netlist(
     Ok(Row::of(Level::Netlist, NAME, measured.agrees(Level::CycleClear, agreement)))
 }
 
-/// The design for a frame of one region, or of those that share a serial lane.
+/// The design for a frame of the regions of one unit.
 fn part(design: &Design) -> Result<Design, BenchError> {
     let (side, mut config) = (design.region_size(), design.config().clone());
-    let columns = match design.organization() {
-        Organization::Pipelined => 1,
-        Organization::Serial => design.fold(),
-    };
-    config.frame.width = Some(columns * side);
+    config.frame.width = Some(design.unit().regions * side);
     config.frame.height = Some(side);
     Ok(config.validate()?)
 }

@@ -3,7 +3,7 @@
 //! decisions of every region of every frame, whenever they come.
 
 use foveate_cosim::{Agreement, Layout, Recording};
-use foveate_design::{Design, Organization, PortRole};
+use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
 use foveate_model::{Camera, Outcome};
 
@@ -46,9 +46,9 @@ impl<'a> Judge<'a> {
     }
 
     fn look(&mut self, record: &[u8]) {
-        match self.design.organization() {
-            Organization::Pipelined => self.look_at_all(record),
-            Organization::Serial => self.look_at_one(record),
+        match field(self.layout, PortRole::Region) {
+            None => self.look_at_all(record),
+            Some(_) => self.look_at_one(record),
         }
     }
 

@@ -6,7 +6,7 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 use foveate_cosim::{Agreement, Field, Layout, Recording};
-use foveate_design::{Design, PortRole, Timing};
+use foveate_design::{Design, PortRole};
 use foveate_model::Thresholds;
 
 use crate::error::BenchError;
@@ -52,7 +52,7 @@ impl Vectors {
         Ok(Self {
             width: pixels.len() / controls.len().max(1),
             narrow: if design.pixel_bits() <= 8 { bytes.collect() } else { Vec::new() },
-            streamed: taken / beats_per_frame(design).max(1),
+            streamed: taken / design.timing().pixels_per_frame(),
             controls,
             pixels,
         })
@@ -102,14 +102,6 @@ impl Control {
             }
         }
         Self { reset, valid, thresholds }
-    }
-}
-
-/// How often the pixel port takes something for a frame.
-fn beats_per_frame(design: &Design) -> u64 {
-    match design.timing() {
-        Timing::Pipelined(_) => design.stream_pixels().into(),
-        Timing::Serial(timing) => timing.load_pixels(),
     }
 }
 

@@ -11,7 +11,7 @@ use crate::replay::{self, About};
 use crate::report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
-use foveate_design::{Design, DesignError, Organization};
+use foveate_design::{Design, DesignError};
 use foveate_emit::{SourceFile, verilog};
 use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
@@ -146,16 +146,12 @@ impl Job {
     pub fn dut(&self, design: &Design) -> Dut {
         let top = self.stimulus.level.top();
         let array = self.stimulus.level != Level::Rpu && design.regions() > INLINED_REGIONS;
-        let repeated = match design.organization() {
-            Organization::Pipelined => "rpu",
-            Organization::Serial => "serial_lane",
-        };
         let dut = Dut {
             top: top.module().to_owned(),
             ports: top.ports(design),
             parameters: top.parameters(design),
             sources: self.named_sources(),
-            no_inline: if array { vec![repeated.to_owned()] } else { Vec::new() },
+            no_inline: if array { vec![design.unit().module.to_owned()] } else { Vec::new() },
         };
         match &self.netlist {
             None => dut,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How much of the hardware is simulated.
 
-use foveate_design::{Design, DesignError, Organization};
+use foveate_design::{Design, DesignError};
 use foveate_emit::Top;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -42,10 +42,7 @@ impl Level {
     pub fn design(self, design: &Design) -> Result<Design, DesignError> {
         match self {
             Self::Full => Ok(design.clone()),
-            Self::Rpu => match design.organization() {
-                Organization::Pipelined => Ok(design.clone()),
-                Organization::Serial => Ok(design.one_lane()),
-            },
+            Self::Rpu => Ok(design.lone_unit()),
             Self::Rcm { columns, rows } => with_grid(design, columns, rows),
         }
     }

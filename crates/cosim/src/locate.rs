@@ -5,7 +5,7 @@ use crate::compare::Difference;
 use crate::field::Field;
 use crate::layout::Layout;
 use crate::level::Level;
-use foveate_design::{Design, Feed, Organization, PortRole};
+use foveate_design::{Design, PortRole};
 
 /// The region of a difference, as far as the expected outputs of that clock tell. `first` is the region of
 /// the frame that goes through the only RPU, or lane, if it is one of a frame of the caller.
@@ -17,18 +17,15 @@ pub(crate) fn region(
     difference: &Difference,
     first: Option<u32>,
 ) -> Option<u32> {
-    let in_array = match design.organization() {
-        Organization::Pipelined => Some(difference.lane),
-        Organization::Serial => in_serial_array(design, layout, expected, difference),
-    };
+    let in_array = in_array(design, layout, expected, difference);
     match level {
         Level::Rpu => first.map(|first| first + in_array.unwrap_or(0)),
         Level::Rcm { .. } | Level::Full => in_array,
     }
 }
 
-/// The lanes of a serial array take turns with their regions.
-fn in_serial_array(
+/// The ports tell: those that number regions, else the lane of the port.
+fn in_array(
     design: &Design,
     layout: &Layout,
     expected: &[u8],
@@ -42,18 +39,21 @@ fn in_serial_array(
         let value = field.get(expected, lanes.next()?);
         u32::try_from(value).ok()
     };
+    let has = |role| of_role(role).is_some();
     let role = fields.iter().find(|field| field.port.name == difference.port)?.port.role;
     match role {
-        PortRole::ForwardValid | PortRole::ForwardPixel => match design.feed() {
-            Feed::Raster => says(PortRole::ForwardRegion),
-            Feed::Parallel if design.fold() == 1 => Some(difference.lane),
-            Feed::Parallel => {
-                let slot = says(PortRole::ForwardSlot)?;
-                Some(difference.lane * design.fold() + slot)
-            }
-        },
-        PortRole::ForwardPosition | PortRole::ForwardRegion => says(PortRole::ForwardRegion),
-        _ => says(PortRole::Region),
+        PortRole::ForwardPosition | PortRole::ForwardSlot | PortRole::ForwardRegion => {
+            says(PortRole::ForwardRegion)
+        }
+        PortRole::ForwardValid | PortRole::ForwardPixel if has(PortRole::ForwardRegion) => {
+            says(PortRole::ForwardRegion)
+        }
+        PortRole::ForwardValid | PortRole::ForwardPixel if has(PortRole::ForwardSlot) => {
+            Some(difference.lane * design.fold() + says(PortRole::ForwardSlot)?)
+        }
+        PortRole::ForwardValid | PortRole::ForwardPixel => Some(difference.lane),
+        _ if has(PortRole::Region) => says(PortRole::Region),
+        _ => Some(difference.lane),
     }
 }
 

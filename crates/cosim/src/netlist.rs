@@ -7,7 +7,6 @@
 
 use crate::error::CosimError;
 use crate::job::Job;
-use foveate_design::Organization;
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, ToolRecord, sources};
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256, yosys};
@@ -46,7 +45,7 @@ impl Netlist {
         let design = job.stimulus.level.design(&job.design)?;
         let top = job.stimulus.level.top();
         let mut verilog = job.named_sources();
-        if design.organization() == Organization::Pipelined {
+        if design.unit().rpu_in_rcm {
             // Verilog of one RPU lacks the array around it, which comes last.
             let array = sources(foveate_emit::verilog(&design, Top::Rcm)).pop();
             let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);

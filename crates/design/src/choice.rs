@@ -3,6 +3,16 @@
 
 use serde::{Deserialize, Serialize};
 
+/// `"a", "b" or "c"`.
+fn listed(names: &[&str]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    match quoted.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
 /// A key whose value is one of a few names.
 macro_rules! choice {
     ($(#[$outer:meta])* $name:ident { $($(#[$inner:meta])* $variant:ident = $text:literal),+ $(,)? }) => {
@@ -18,6 +28,11 @@ macro_rules! choice {
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $text),+ }
+            }
+
+            /// Every value as a message lists them.
+            pub(crate) fn one_of() -> String {
+                listed(&[$($text),+])
             }
         }
 
@@ -106,8 +121,10 @@ choice! {
 }
 choice! {
     /// The structure of the array.
+    #[derive(Default)]
     Organization {
         /// One RPU per region, one pixel per clock.
+        #[default]
         Pipelined = "pipelined",
         /// Small lanes under one sequencer.
         Serial = "serial",

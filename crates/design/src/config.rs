@@ -189,7 +189,7 @@ pub struct HardwareConfig {
 impl Default for HardwareConfig {
     fn default() -> Self {
         Self {
-            organization: Organization::Pipelined,
+            organization: Organization::default(),
             fold: 1,
             feed: None,
             thresholds: Thresholds::Runtime,

@@ -1,35 +1,47 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The keys of a configuration, to refuse unknown ones by name and with the nearest known one.
 
-use crate::DesignError;
+use crate::{
+    Combine, DesignError, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization,
+    Payload, Reference, Thresholds,
+};
+use Takes::{Names, Text};
 use toml::{Table, Value};
 
+/// What a key takes.
+enum Takes {
+    /// In these words.
+    Text(&'static str),
+    /// One of the names that this lists.
+    Names(fn() -> String),
+}
+
 /// Every key, dotted, and what it takes; `spatial` is an array of tables.
-const KEYS: &[(&str, &str)] = &[
-    ("frame.width", "a whole number, 1..=16384"),
-    ("frame.height", "a whole number, 1..=16384"),
-    ("frame.pixel_bits", "a whole number, 1..=16"),
-    ("region.size", "a whole number, 2..=64"),
-    ("region.neighborhood", "\"isolated\" or \"shared\""),
-    ("denoise.filter", "\"none\" or \"median3x3\""),
-    ("spatial.feature", "\"edge\", \"corner\", \"mad\" or \"variance\""),
-    ("spatial.level", "a whole number >= 0, in grey levels"),
-    ("spatial.min_score", "a number >= 0 with at most nine digits after the point"),
-    ("spatial.mean_fraction_bits", "a whole number, 0..=12"),
-    ("decision.combine", "\"any\" or \"all\""),
-    ("temporal.level", "a whole number >= 0, in grey levels"),
-    ("temporal.min_count", "a whole number >= 0, in pixels"),
-    ("temporal.reference", "\"previous\" or \"last-sent\""),
-    ("render.irrelevant", "\"zero\" or \"hold\""),
-    ("render.payload", "\"denoised\" or \"raw\""),
-    ("hardware.organization", "\"pipelined\" or \"serial\""),
-    ("hardware.fold", "a whole number >= 1"),
-    ("hardware.feed", "\"parallel\" or \"raster\""),
-    ("hardware.thresholds", "\"runtime\" or \"constant\""),
+const KEYS: &[(&str, Takes)] = &[
+    ("frame.width", Text("a whole number, 1..=16384")),
+    ("frame.height", Text("a whole number, 1..=16384")),
+    ("frame.pixel_bits", Text("a whole number, 1..=16")),
+    ("region.size", Text("a whole number, 2..=64")),
+    ("region.neighborhood", Names(Neighborhood::one_of)),
+    ("denoise.filter", Names(Filter::one_of)),
+    ("spatial.feature", Names(FeatureKind::one_of)),
+    ("spatial.level", Text("a whole number >= 0, in grey levels")),
+    ("spatial.min_score", Text("a number >= 0 with at most nine digits after the point")),
+    ("spatial.mean_fraction_bits", Text("a whole number, 0..=12")),
+    ("decision.combine", Names(Combine::one_of)),
+    ("temporal.level", Text("a whole number >= 0, in grey levels")),
+    ("temporal.min_count", Text("a whole number >= 0, in pixels")),
+    ("temporal.reference", Names(Reference::one_of)),
+    ("render.irrelevant", Names(Irrelevant::one_of)),
+    ("render.payload", Names(Payload::one_of)),
+    ("hardware.organization", Names(Organization::one_of)),
+    ("hardware.fold", Text("a whole number >= 1")),
+    ("hardware.feed", Names(Feed::one_of)),
+    ("hardware.thresholds", Names(Thresholds::one_of)),
 ];
 
 /// What the key at `path`, such as `spatial[0].level`, takes.
-pub(crate) fn takes(path: &str) -> &'static str {
+pub(crate) fn takes(path: &str) -> String {
     let dotted: String = path
         .split('[')
         .enumerate()
@@ -38,11 +50,12 @@ pub(crate) fn takes(path: &str) -> &'static str {
             _ => text.split_once(']').map_or("", |(_, rest)| rest),
         })
         .collect();
-    let key = KEYS.iter().find(|(key, _)| *key == dotted);
-    key.map_or_else(
-        || if path == "spatial" { "an array of tables" } else { "a table" },
-        |(_, takes)| takes,
-    )
+    match KEYS.iter().find(|(key, _)| *key == dotted) {
+        Some((_, Text(text))) => (*text).to_owned(),
+        Some((_, Names(names))) => names(),
+        None if path == "spatial" => "an array of tables".to_owned(),
+        None => "a table".to_owned(),
+    }
 }
 
 /// Refuses the first key of `table` that is not one of [`KEYS`].

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of an RPU and of an RCM. Module headers, harnesses, vectors and benches all follow
-//! from these lists. Those of `pipelined` are in [`crate::pipelined_ports`], those of `serial` in
-//! [`crate::serial`].
+//! from these lists. Each organization makes its own, from what is here.
 
-use crate::{Design, FeatureKind, Organization, Thresholds, pipelined_ports, serial};
+use crate::{Design, FeatureKind, Thresholds};
 
 /// Direction of a port, seen from the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,27 +117,6 @@ impl Port {
             per_lane: false,
             qualifier: Qualifier::Always,
             doc: doc.to_owned(),
-        }
-    }
-}
-
-impl Design {
-    /// The ports of one RPU, inputs first. The RPU of a serial design is the array of
-    /// [`Design::one_lane`].
-    #[must_use]
-    pub fn rpu_ports(&self) -> Vec<Port> {
-        match self.organization() {
-            Organization::Pipelined => pipelined_ports::rpu(self),
-            Organization::Serial => serial::ports(&self.one_lane()),
-        }
-    }
-
-    /// The ports of the RCM, inputs first.
-    #[must_use]
-    pub fn rcm_ports(&self) -> Vec<Port> {
-        match self.organization() {
-            Organization::Pipelined => pipelined_ports::rcm(self),
-            Organization::Serial => serial::ports(self),
         }
     }
 }

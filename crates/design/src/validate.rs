@@ -3,10 +3,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::{
-    Config, Design, DesignError, Feed, HardwareConfig, Organization, SpatialConfig, SpatialFeature,
-    Temporal,
-};
+use crate::{Config, Design, DesignError, HardwareConfig, SpatialConfig, SpatialFeature, Temporal};
 
 /// Frame size where the configuration leaves it out.
 const DEFAULT_SIDE: u32 = 224;
@@ -15,8 +12,6 @@ const MAX_SIDE: u32 = 16_384;
 /// Most regions of a frame: those of the largest frame at 8x8 pixels. What a model keeps per region
 /// then stays within memory.
 const MAX_REGIONS: u32 = 1 << 22;
-/// Smallest side of a region in the serial organization.
-const MIN_SERIAL_SIDE: u32 = 4;
 
 impl Config {
     /// Checks every range and combination.
@@ -24,14 +19,20 @@ impl Config {
     /// # Errors
     /// Names the key, its value and what would be valid.
     pub fn validate(&self) -> Result<Design, DesignError> {
+        self.validate_up_to(MAX_SIDE)
+    }
+
+    /// As [`Config::validate`], for frames with sides up to `max_side`.
+    pub(crate) fn validate_up_to(&self, max_side: u32) -> Result<Design, DesignError> {
         let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
         let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
-        in_range("frame.width", width, 1..=MAX_SIDE, "")?;
-        in_range("frame.height", height, 1..=MAX_SIDE, "")?;
+        in_range("frame.width", width, 1..=max_side, "")?;
+        in_range("frame.height", height, 1..=max_side, "")?;
         in_range("frame.pixel_bits", self.frame.pixel_bits, 1..=16, "")?;
         in_range("region.size", self.region.size, 2..=64, "")?;
         let regions = self.check_regions(width, height)?;
-        self.check_hardware(regions)?;
+        let rules = self.hardware.organization.rules();
+        let hardware = rules.hardware(&self.hardware, self.region.size, regions)?;
         let n = self.region.size * self.region.size;
         let pixel_max = (1 << self.frame.pixel_bits) - 1;
         let pixels = format!(" for pixels of {} bits", self.frame.pixel_bits);
@@ -43,10 +44,7 @@ impl Config {
         config.spatial = self.spatial.iter().map(SpatialConfig::with_defaults).collect();
         let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), pixel_max);
         let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
-        config.hardware.feed = match config.hardware.organization {
-            Organization::Pipelined => None,
-            Organization::Serial => Some(config.hardware.feed.unwrap_or_default()),
-        };
+        config.hardware = hardware;
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
         let temporal = Temporal {
             level: self.temporal.level,
@@ -115,45 +113,22 @@ impl Config {
         }
         Ok(())
     }
+}
 
-    fn check_hardware(&self, regions: u32) -> Result<(), DesignError> {
-        let clash = |key: &str, value: String, remedy: &str| DesignError::Combination {
+impl HardwareConfig {
+    /// The error for a `key` whose value the organization does not take.
+    pub(crate) fn clash(&self, key: &str, value: String, remedy: &str) -> DesignError {
+        DesignError::Combination {
             key: key.to_owned(),
             value,
-            with: format!("organization = \"{}\"", self.hardware.organization),
+            with: format!("organization = \"{}\"", self.organization),
             remedy: remedy.to_owned(),
-        };
-        let HardwareConfig { organization, fold, feed, thresholds: _ } = self.hardware;
-        match organization {
-            Organization::Pipelined => {
-                if fold != 1 {
-                    let remedy = "only the serial organization folds; use 1";
-                    return Err(clash("hardware.fold", fold.to_string(), remedy));
-                }
-                match feed {
-                    None | Some(Feed::Parallel) => Ok(()),
-                    Some(Feed::Raster) => {
-                        let remedy = "only the serial organization takes the frame row by row; \
-                                      leave the key out";
-                        Err(clash("hardware.feed", format!("\"{}\"", Feed::Raster), remedy))
-                    }
-                }
-            }
-            Organization::Serial => {
-                let size = self.region.size;
-                if size < MIN_SERIAL_SIDE {
-                    let remedy = format!("use {MIN_SERIAL_SIDE}..=64, or \"pipelined\"");
-                    return Err(clash("region.size", size.to_string(), &remedy));
-                }
-                let why = format!(", the regions of the frame; fold = {regions} makes one lane");
-                in_range("hardware.fold", fold, 1..=regions, &why)
-            }
         }
     }
 }
 
 /// `why` follows the range in the message.
-fn in_range(
+pub(crate) fn in_range(
     key: &str,
     value: u32,
     range: RangeInclusive<u32>,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The files of a core beside its Verilog: file lists, FuseSoC, constraints, Vivado, README.
 
+use crate::organization::Emitter;
 use crate::verilog::text_of;
 use crate::{SourceFile, Top, banner, latency, verilog};
 use askama::Template;
 use foveate_design::{
     Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, PortRole, SerialTiming, Thresholds,
-    Timing,
 };
 
 #[derive(Template)]
@@ -109,7 +109,7 @@ pub fn core(design: &Design) -> Vec<SourceFile> {
         ("constraints/ooc.xdc", include_str!("../../../constraints/ooc.xdc").to_owned()),
         ("vivado_ooc.tcl", include_str!("../../../scripts/vivado_ooc.tcl").to_owned()),
         ("design.toml", design_toml(design)),
-        ("README.md", readme_text(design)),
+        ("README.md", (Emitter::of(design).readme)(design)),
     ];
     files.extend(beside.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }));
     files
@@ -134,11 +134,12 @@ fn fusesoc<'a>(design: &Design, files: Vec<&'a str>) -> FuseSoc<'a> {
     }
 }
 
-fn readme_text(design: &Design) -> String {
-    match design.timing() {
-        Timing::Pipelined(timing) => text_of(&readme(design, timing)),
-        Timing::Serial(timing) => text_of(&serial_readme(design, &timing)),
-    }
+pub(crate) fn pipelined_readme(design: &Design) -> String {
+    text_of(&pipelined_view(design, PipelinedTiming::of(design)))
+}
+
+pub(crate) fn serial_readme(design: &Design) -> String {
+    text_of(&serial_view(design, &SerialTiming::of(design)))
 }
 
 fn score_names(design: &Design) -> String {
@@ -146,7 +147,7 @@ fn score_names(design: &Design) -> String {
     names.join(", ")
 }
 
-fn serial_readme(design: &Design, timing: &SerialTiming) -> SerialReadme {
+fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
     let memory = design.lane_memory();
     SerialReadme {
         banner: banner(design),
@@ -183,7 +184,7 @@ fn serial_readme(design: &Design, timing: &SerialTiming) -> SerialReadme {
     }
 }
 
-fn readme(design: &Design, timing: PipelinedTiming) -> Readme {
+fn pipelined_view(design: &Design, timing: PipelinedTiming) -> Readme {
     Readme {
         banner: banner(design),
         width: design.width(),

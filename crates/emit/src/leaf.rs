@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
-use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Organization, Reference};
+use crate::organization::Emitter;
+use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Reference};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,10 +72,7 @@ leaves! {
 
 /// The leaves that `design` is made of, in compile order.
 pub(crate) fn of(design: &Design) -> impl Iterator<Item = &'static Leaf> {
-    let mut names = match design.organization() {
-        Organization::Pipelined => instantiated(design),
-        Organization::Serial => vec!["serial_array"],
-    };
+    let mut names = (Emitter::of(design).leaves)(design);
     // Every leaf stands after those that it instantiates.
     for leaf in LEAVES.iter().rev() {
         if names.contains(&leaf.name) {
@@ -85,7 +83,7 @@ pub(crate) fn of(design: &Design) -> impl Iterator<Item = &'static Leaf> {
 }
 
 /// The leaves that a pipelined `rpu.v` instantiates itself.
-fn instantiated(design: &Design) -> Vec<&'static str> {
+pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
     let mut names = vec![
         "frame_progress",
         "frame_store",

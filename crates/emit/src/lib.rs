@@ -7,6 +7,7 @@
 
 mod core;
 mod leaf;
+mod organization;
 mod rcm;
 mod rpu;
 mod serial;
@@ -28,17 +29,9 @@ pub struct SourceFile {
     pub contents: String,
 }
 
-/// The timing of a pipelined design; only its modules ask.
-///
-/// # Panics
-/// When the design is serial.
-fn pipelined(design: &Design) -> PipelinedTiming {
-    design.pipelined_timing("the emitter").unwrap_or_else(|refusal| panic!("{refusal}"))
-}
-
-/// The latency of a decision, in words.
+/// The latency of a decision of a pipelined design, in words.
 fn latency(design: &Design) -> String {
-    let timing = pipelined(design);
+    let timing = PipelinedTiming::of(design);
     let last = if timing.decision_frames == 0 { "" } else { " of the following frame" };
     format!(
         "a decision is valid {} clocks after the edge that takes the last pixel{last}",

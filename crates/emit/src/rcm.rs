@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fills `rcm.v`.
+//! The modules of a pipelined design; fills `rcm.v`.
 
-use crate::banner;
-use crate::verilog::{PortLine, text_of};
+use crate::verilog::{PortLine, Top, file, text_of};
+use crate::{SourceFile, banner, rpu};
 use askama::Template;
 use foveate_design::{Design, Port, PortRole};
 
@@ -22,7 +22,25 @@ struct Pin {
     connection: String,
 }
 
-pub(crate) fn render(design: &Design) -> String {
+/// The array is made of RPUs.
+pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
+    let rpu = file(Top::Rpu.module(), rpu::render(design));
+    match top {
+        Top::Rpu => vec![rpu],
+        Top::Rcm => vec![rpu, file(top.module(), render(design))],
+    }
+}
+
+/// The range of a port that has a value per region.
+pub(crate) fn range(port: &Port, _: &Design) -> Option<String> {
+    match (port.per_lane, port.width) {
+        (true, 1) => Some("[COLUMNS*ROWS-1:0]".to_owned()),
+        (true, width) => Some(format!("[COLUMNS*ROWS*{width}-1:0]")),
+        (false, _) => None,
+    }
+}
+
+fn render(design: &Design) -> String {
     let ports = design.rcm_ports();
     let pins = design.rpu_ports().iter().map(|port| pin(port, &ports)).collect();
     let view = Rcm {

@@ -3,11 +3,11 @@
 
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::verilog::{PortLine, text_of};
-use crate::{banner, latency, pipelined};
+use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PortRole, Reference,
-    SpatialFeature, bits_for, index_bits,
+    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PipelinedTiming, PortRole,
+    Reference, SpatialFeature, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -132,7 +132,7 @@ fn view(design: &Design) -> Rpu {
         window: design.has_feature_window(),
         keeps_raw,
         keeps_second: second_pass && (last_sent || !keeps_raw),
-        tail_delay: pipelined(design).tail_delay > 0,
+        tail_delay: PipelinedTiming::of(design).tail_delay > 0,
         second_pass,
         last_sent,
         blanks: u32::from(design.irrelevant() == Irrelevant::Zero),

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
 
-use crate::banner;
 use crate::thresholds::{Constant, constants, signal, summary};
-use crate::verilog::{PortLine, Top, text_of};
+use crate::verilog::{PortLine, Top, file, text_of};
+use crate::{SourceFile, banner};
 use askama::Template;
 use foveate_design::{
     AreaKind, Combine, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
-    Port, PortRole, Reference, SpatialFeature, Thresholds, Timing,
+    Port, PortRole, Reference, SerialTiming, SpatialFeature, Thresholds,
 };
 
 #[derive(Template)]
@@ -46,11 +46,13 @@ struct Serial {
 /// The highest bit of the number of a region, in terms of the grid.
 const REGION_RANGE: &str = "(COLUMNS*ROWS > 1 ? $clog2(COLUMNS*ROWS) : 1)-1";
 
-pub(crate) fn render(design: &Design, top: Top) -> String {
-    match top {
-        Top::Rpu => text_of(&view(&design.one_lane(), design, top)),
-        Top::Rcm => text_of(&view(design, design, top)),
-    }
+/// The array, or that of a lone lane beside it.
+pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
+    let view = match top {
+        Top::Rpu => view(&design.one_lane(), design, top),
+        Top::Rcm => view(design, design, top),
+    };
+    vec![file(top.module(), text_of(&view))]
 }
 
 /// The range of a port whose width depends on the grid.
@@ -125,14 +127,12 @@ fn what(design: &Design, top: Top) -> String {
 }
 
 fn clocks(design: &Design) -> String {
-    match design.timing() {
-        Timing::Pipelined(_) => String::new(),
-        Timing::Serial(timing) => format!(
-            "{} clocks to take it and {} steps, with the grid above",
-            timing.load_clocks(),
-            timing.steps()
-        ),
-    }
+    let timing = SerialTiming::of(design);
+    format!(
+        "{} clocks to take it and {} steps, with the grid above",
+        timing.load_clocks(),
+        timing.steps()
+    )
 }
 
 fn parameters(design: &Design) -> Vec<(&'static str, String)> {

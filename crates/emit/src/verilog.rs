@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The Verilog of a design, in compile order.
 
-use crate::{SourceFile, leaf, rcm, rpu, serial};
+use crate::organization::Emitter;
+use crate::{SourceFile, leaf};
 use askama::Template;
-use foveate_design::{Design, Direction, Organization, Port};
+use foveate_design::{Design, Direction, Port};
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
@@ -48,22 +49,15 @@ impl Top {
 }
 
 /// The modules that `top` is made of, each after those it instantiates.
-/// A pipelined array is made of RPUs; a serial one is a module beside that of its lone lane.
 #[must_use]
 pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
-    let file =
-        |name: &str, contents: String| SourceFile { path: format!("rtl/{name}.v"), contents };
-    let mut files: Vec<_> =
-        leaf::of(design).map(|leaf| file(leaf.name, leaf.contents.to_owned())).collect();
-    match (design.organization(), top) {
-        (Organization::Pipelined, Top::Rpu) => files.push(file("rpu", rpu::render(design))),
-        (Organization::Pipelined, Top::Rcm) => {
-            files.push(file("rpu", rpu::render(design)));
-            files.push(file("rcm", rcm::render(design)));
-        }
-        (Organization::Serial, _) => files.push(file(top.module(), serial::render(design, top))),
-    }
-    files
+    let leaves = leaf::of(design).map(|leaf| file(leaf.name, leaf.contents.to_owned()));
+    leaves.chain((Emitter::of(design).modules)(design, top)).collect()
+}
+
+/// The file of a module.
+pub(crate) fn file(module: &str, contents: String) -> SourceFile {
+    SourceFile { path: format!("rtl/{module}.v"), contents }
 }
 
 /// A filled template, ending in the newline that askama drops.
@@ -108,15 +102,7 @@ fn direction(port: &Port) -> &'static str {
 
 /// `[7:0]`, nothing for a single bit; in the array with its parameters.
 fn range(port: &Port, design: &Design) -> String {
-    let by_grid = match design.organization() {
-        Organization::Serial => serial::range(port, design),
-        Organization::Pipelined => match (port.per_lane, port.width) {
-            (true, 1) => Some("[COLUMNS*ROWS-1:0]".to_owned()),
-            (true, width) => Some(format!("[COLUMNS*ROWS*{width}-1:0]")),
-            (false, _) => None,
-        },
-    };
-    by_grid.unwrap_or_else(|| match port.width {
+    (Emitter::of(design).range)(port, design).unwrap_or_else(|| match port.width {
         1 => String::new(),
         width => format!("[{}:0]", width - 1),
     })

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which synthesis a design asks for: its unit, the array around it, and their Verilog.
 
-use foveate_design::{Design, Organization};
+use foveate_design::Design;
 use foveate_emit::{SourceFile, Top};
 use foveate_toolchain::{Source, sources_sha256};
 
 use crate::EstimateJob;
-
-/// A lane of the serial organization.
-const LANE: &str = "serial_lane";
 
 impl EstimateJob {
     /// The synthesis of a design's freshly generated Verilog.
@@ -17,24 +14,20 @@ impl EstimateJob {
         Self::with_sources(design, top, sources(foveate_emit::verilog(design, top)))
     }
 
-    /// The synthesis of a design from this Verilog. A serial array and its lone lane have each a
-    /// module of their own; a pipelined one is made of RPUs.
+    /// The synthesis of a design from this Verilog. Where the array is not made of modules
+    /// `rpu`, that is an array of its own.
     #[must_use]
     pub fn with_sources(design: &Design, top: Top, verilog: Vec<Source>) -> Self {
-        let (unit, array, units) = match (design.organization(), top) {
-            (Organization::Pipelined, _) => (Top::Rpu.module(), Top::Rcm, design.regions()),
-            (Organization::Serial, Top::Rcm) => (LANE, Top::Rcm, design.lanes()),
-            (Organization::Serial, Top::Rpu) => (LANE, Top::Rpu, 1),
-        };
-        let unit_name = match design.organization() {
-            Organization::Pipelined => "RPU",
-            Organization::Serial => "lane",
+        let unit = design.unit();
+        let (array, units) = match top {
+            Top::Rpu if !unit.rpu_in_rcm => (Top::Rpu, 1),
+            Top::Rpu | Top::Rcm => (Top::Rcm, unit.count),
         };
         let parameters = array.parameters(design).into_iter();
         Self {
             sources: verilog,
-            unit: unit.to_owned(),
-            unit_name: unit_name.to_owned(),
+            unit: unit.module.to_owned(),
+            unit_name: unit.name.to_owned(),
             units: units.into(),
             array: array.module().to_owned(),
             parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),

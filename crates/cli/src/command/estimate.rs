@@ -3,7 +3,7 @@
 
 mod compare;
 
-use foveate_design::{Design, Organization};
+use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, Report, estimate, render_markdown, render_text};
 use foveate_toolchain::{Cache, Toolchain};
@@ -27,7 +27,7 @@ struct Flow {
 impl Flow {
     fn estimate(&self, design: &Design, leaves: bool) -> Result<Report, CliError> {
         let job = EstimateJob {
-            leaves_of: leaves.then(|| leaves_of(design).to_owned()),
+            leaves_of: leaves.then(|| design.unit().split.to_owned()),
             ..EstimateJob::of(design, Top::Rcm)
         };
         Ok(estimate(&self.toolchain, &self.cache, &job)?)
@@ -47,14 +47,5 @@ fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
         output::text(&render_markdown(&report))
     } else {
         output::text(&render_text(&report, output::width()))
-    }
-}
-
-/// The module whose leaves say where the area goes: of a serial array its sequencer is as much of it as
-/// its lanes.
-fn leaves_of(design: &Design) -> &'static str {
-    match design.organization() {
-        Organization::Pipelined => Top::Rpu.module(),
-        Organization::Serial => Top::Rcm.module(),
     }
 }

@@ -3,7 +3,6 @@
 
 use std::fmt::Write as _;
 
-use foveate_design::Organization;
 use foveate_explore::{ExploreError, Figures, Fit, FitRequest, FittedDesign, Held, fit};
 use foveate_simulator::ImagesAs;
 use foveate_staging::{check_file, write_file};
@@ -147,10 +146,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
 
 /// How many RPUs or lanes there are.
 fn units(design: &FittedDesign) -> String {
-    let name = match design.config.hardware.organization {
-        Organization::Pipelined => "RPU",
-        Organization::Serial => "lane",
-    };
+    let name = design.config.hardware.organization.unit_name();
     let plural = if design.silicon.units == 1 { "" } else { "s" };
     format!("{} {name}{plural}", design.silicon.units)
 }

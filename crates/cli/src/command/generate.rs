@@ -3,7 +3,7 @@
 
 use foveate_bench::random_frames;
 use foveate_cosim::{Level, Stimulus, replay_bench, vectors_hex};
-use foveate_design::{Design, Timing};
+use foveate_design::Design;
 use foveate_emit::{SourceFile, Top};
 use foveate_simulator::SimulatorError;
 use foveate_staging::{Kind, StagedFolder};
@@ -79,14 +79,13 @@ fn files(design: &Design) -> Result<Vec<SourceFile>, CliError> {
 
 /// What the bench of an RPU or lane replays, and for how many clocks.
 fn stimulus(lane: &Design) -> Result<(Stimulus, u64), CliError> {
-    match lane.timing() {
-        Timing::Pipelined(_) => Ok((Stimulus { rounds: 1, ..Stimulus::default() }, BENCH_CLOCKS)),
-        Timing::Serial(timing) => {
-            let count = (SERIAL_CLOCKS / timing.clocks_per_frame()).clamp(1, SERIAL_FRAMES);
-            let mut frames = random_frames(lane, 1, 2).map_err(SimulatorError::from)?;
-            frames.insert(1, frames[0].clone());
-            frames.truncate(usize::try_from(count).unwrap_or(1));
-            Ok((Stimulus { rounds: 0, frames, ..Stimulus::default() }, SERIAL_LIMIT))
-        }
+    let timing = lane.timing();
+    if timing.phases().is_empty() {
+        return Ok((Stimulus { rounds: 1, ..Stimulus::default() }, BENCH_CLOCKS));
     }
+    let count = (SERIAL_CLOCKS / timing.clocks_per_frame()).clamp(1, SERIAL_FRAMES);
+    let mut frames = random_frames(lane, 1, 2).map_err(SimulatorError::from)?;
+    frames.insert(1, frames[0].clone());
+    frames.truncate(usize::try_from(count).unwrap_or(1));
+    Ok((Stimulus { rounds: 0, frames, ..Stimulus::default() }, SERIAL_LIMIT))
 }

@@ -8,27 +8,20 @@
 
 mod aim;
 mod brush;
-mod driver;
 mod gauge;
-mod machine;
 mod motif;
+mod pipelined;
 mod random;
 mod sequence;
 mod serial;
-mod session;
 
 use crate::error::CosimError;
 use crate::level::Level;
 use crate::recording::{Recorder, Recording};
-use driver::Driver;
-use foveate_design::{Design, Organization, PipelinedTiming, Timing};
+use foveate_design::{Design, Organization};
 use foveate_frame::Frame;
-use foveate_model::{PipelinedRcm, PipelinedRpu};
-use machine::Machine;
-pub use machine::PipelinedCodec;
-use random::Random;
+pub use pipelined::PipelinedCodec;
 pub use serial::SerialCodec;
-use session::Session;
 use std::sync::atomic::AtomicBool;
 
 /// Regions of the largest array: each is an RPU of the model, with buffers of its own.
@@ -49,6 +42,27 @@ pub struct Stimulus {
     pub rounds: u32,
     /// Frames of the caller, of the size and depth of the design.
     pub frames: Vec<Frame>,
+}
+
+/// What the driver of an organization is given.
+struct Run<'a> {
+    stimulus: &'a Stimulus,
+    /// The design of the caller's frames.
+    design: &'a Design,
+    /// The design that is simulated, at the level of the stimulus.
+    simulated: &'a Design,
+    recorder: &'a mut Recorder,
+    cancel: &'a AtomicBool,
+    /// Hears how many sequences of how many are done.
+    progress: &'a mut dyn FnMut(u64, u64),
+}
+
+/// Runs the model of an organization and records; the only place that lists them here.
+fn driver(organization: Organization) -> fn(Run<'_>) -> Result<(), CosimError> {
+    match organization {
+        Organization::Pipelined => pipelined::record,
+        Organization::Serial => serial::record,
+    }
 }
 
 impl Default for Stimulus {
@@ -84,55 +98,23 @@ impl Stimulus {
         let simulated = self.level.design(design)?;
         self.check_size(&simulated)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&simulated))?;
-        match simulated.timing() {
-            Timing::Pipelined(timing) => {
-                self.run_pipelined(&simulated, timing, &mut recorder, cancel, progress)?;
-            }
-            Timing::Serial(timing) => {
-                let mut random = Random::new(self.seed);
-                let driver = serial::Driver::new(&simulated, &mut recorder, random.fork(), cancel);
-                let level = self.level;
-                serial::Session::new(design, &simulated, level, &timing, driver, random).run(
-                    self.rounds,
-                    &self.frames,
-                    progress,
-                )?;
-            }
-        }
-        recorder.finish()
-    }
-
-    fn run_pipelined(
-        &self,
-        design: &Design,
-        timing: PipelinedTiming,
-        recorder: &mut Recorder,
-        cancel: &AtomicBool,
-        progress: &mut dyn FnMut(u64, u64),
-    ) -> Result<(), CosimError> {
-        let mut random = Random::new(self.seed);
-        let (machine, lanes) = match self.level {
-            Level::Rpu => (Machine::Rpu(Box::new(PipelinedRpu::new(design))), 1),
-            Level::Rcm { .. } | Level::Full => {
-                (Machine::Rcm(PipelinedRcm::new(design)), design.regions())
-            }
-        };
-        let lanes = lanes as usize;
-        let driver = Driver::new(design, machine, lanes, recorder, random.fork(), cancel);
-        Session::new(design, timing, self.level, driver, random).run(
-            self.rounds,
-            &self.frames,
+        let run = Run {
+            stimulus: self,
+            design,
+            simulated: &simulated,
+            recorder: &mut recorder,
+            cancel,
             progress,
-        )
+        };
+        driver(simulated.organization())(run)?;
+        recorder.finish()
     }
 
     /// Refuses an array that would not fit into memory, before any of it is made.
     fn check_size(&self, design: &Design) -> Result<(), CosimError> {
-        let regions = u64::from(match (self.level, design.organization()) {
-            (Level::Rpu, Organization::Pipelined) => 1,
-            (Level::Rpu, Organization::Serial) | (Level::Rcm { .. } | Level::Full, _) => {
-                design.regions()
-            }
+        let regions = u64::from(match self.level {
+            Level::Rpu => design.unit().regions,
+            Level::Rcm { .. } | Level::Full => design.regions(),
         });
         let pixels = regions * u64::from(design.stream_pixels());
         if regions > MAX_REGIONS || pixels > MAX_PIXELS {

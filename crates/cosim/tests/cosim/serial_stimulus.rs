@@ -8,7 +8,7 @@ use crate::common::vectors::{clocks, value};
 use crate::common::{design, directed, feature};
 use foveate_cosim::{Layout, Level, Recording, Stimulus};
 use foveate_design::{
-    Config, Design, FeatureKind, Feed, Filter, Neighborhood, PortRole, Reference, Timing,
+    Config, Design, FeatureKind, Feed, Filter, Neighborhood, PortRole, Reference, SerialTiming,
 };
 use foveate_frame::Frame;
 use std::collections::BTreeSet;
@@ -61,7 +61,7 @@ struct Clock {
 /// What happens in a recording; whether a pixel is taken follows from the expected `ready_o`.
 fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let Timing::Serial(timing) = design.timing() else { unreachable!() };
+    let timing = SerialTiming::of(&design);
     let ready = |record: &[u8]| value(outputs, PortRole::Ready, record) == 1;
     let (mut before, mut taken, mut story) = (outputs.record(), 0, Vec::new());
     for (input, output) in clocks(recording) {
@@ -148,7 +148,7 @@ fn resets_come_everywhere() {
             let field = common::vectors::field(outputs, role);
             field.slice(&clock.before).iter().any(|&byte| byte != 0)
         };
-        let Timing::Serial(timing) = design.timing() else { unreachable!() };
+        let timing = SerialTiming::of(&design);
         let mut found = BTreeSet::new();
         let mut worked = 0;
         for clock in story(&design, &recording) {

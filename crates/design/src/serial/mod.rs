@@ -7,11 +7,12 @@
 mod folds;
 mod memory;
 mod ports;
+mod rules;
 mod timing;
 mod widths;
 
 pub use memory::{Area, AreaKind, LaneMemory, MemoryKind};
-pub(crate) use ports::ports;
+pub(crate) use rules::Serial;
 pub use timing::{Phase, SerialTiming};
 pub use widths::LaneWidths;
 
@@ -104,7 +105,8 @@ impl Design {
         let (width, height) = (self.fold() * self.region_size(), self.region_size());
         let mut config = self.config().clone();
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
-        Self::new(config, (width, height), self.features().to_vec(), *self.temporal())
+        let lane = config.validate_up_to(u32::MAX);
+        lane.expect("a valid design stays one with a frame of as many regions as share a lane")
     }
 }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::{Config, FeatureKind, Feed, Neighborhood, Qualifier, Timing};
+use crate::{Config, FeatureKind, Feed, Neighborhood, Qualifier};
 use Phase::{
     Border, Copy, DenoiseTemporal, Pass, RotateCount, RotateScore, Temporal as Compare, Unload,
 };
@@ -14,10 +14,7 @@ fn design(overrides: &[&str]) -> Design {
 }
 
 fn timing(design: &Design) -> SerialTiming {
-    match design.timing() {
-        Timing::Serial(timing) => timing,
-        Timing::Pipelined(_) => panic!("the design is serial"),
-    }
+    SerialTiming::of(design)
 }
 
 #[test]
@@ -260,7 +257,34 @@ fn the_largest_fold_is_the_last_that_is_fast_enough() {
         }
     }
     let design = design(&[]);
-    assert_eq!((design.with_fold(0), design.with_fold(785)), (None, None));
+    for fold in [0, 785] {
+        let refusal = design.with_fold(fold).unwrap_err().to_string();
+        assert!(refusal.starts_with(&format!("`hardware.fold` = {fold} is out of")), "{refusal}");
+    }
     let folded = design.with_fold(784).unwrap();
     assert_eq!(folded.config().validate().unwrap(), folded);
+}
+
+/// Whatever makes a design of a design checks it as if it had been written.
+#[test]
+fn a_pipelined_design_has_no_other_fold() {
+    let design = Config::default().validate().unwrap();
+    assert_eq!(design.with_fold(1).unwrap(), design);
+    let refusal = design.with_fold(2).unwrap_err().to_string();
+    assert_eq!(
+        refusal,
+        "`hardware.fold` = 2 cannot be combined with organization = \"pipelined\"; only the serial \
+         organization folds; use 1"
+    );
+    assert_eq!(design.largest_fold(u64::MAX), None);
+}
+
+/// Its frame is wider than what a configuration may ask for, and it is a design all the same.
+#[test]
+fn one_lane_may_have_more_regions_than_a_row() {
+    let design = design(&["frame.width=8192", "frame.height=8192", "hardware.fold=1048576"]);
+    let lane = design.lone_unit();
+    assert_eq!((lane.width(), lane.lanes(), lane.regions()), (8 << 20, 1, 1 << 20));
+    assert_eq!(lane.features(), design.features());
+    assert!(lane.config().validate().is_err());
 }

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::{Design, FeatureKind, Feed, Filter, Reference, SpatialFeature};
+use crate::{Design, FeatureKind, Feed, Filter, Reference, SpatialFeature, Timing};
 
 /// What the lanes do for one slot, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -53,7 +53,8 @@ pub struct SerialTiming {
 
 impl SerialTiming {
     /// The timing of the design, as if it were serial.
-    pub(crate) fn of(design: &Design) -> Self {
+    #[must_use]
+    pub fn of(design: &Design) -> Self {
         let stream = u64::from(design.stream_pixels());
         let (load_pixels, load_clocks) = match design.feed() {
             Feed::Parallel => {
@@ -133,6 +134,35 @@ impl SerialTiming {
     #[must_use]
     pub fn clocks_per_frame(&self) -> u64 {
         self.load_clocks + self.steps() + 1
+    }
+
+    /// What every organization answers.
+    pub(super) fn answers(&self) -> Timing {
+        let phases: Vec<_> =
+            self.phases.iter().map(|(phase, steps)| (phase.to_string(), *steps)).collect();
+        let listed: Vec<_> =
+            phases.iter().map(|(phase, steps)| format!("{phase} {steps}")).collect();
+        let (clocks, slot) = (self.clocks_per_frame(), self.slot_steps());
+        let (load, steps) = (self.load_clocks, self.steps());
+        Timing {
+            clocks_per_frame: clocks,
+            pixels_per_frame: self.load_pixels,
+            figures: vec![
+                ("cycles_per_frame", clocks),
+                ("load_pixels", self.load_pixels),
+                ("load_clocks", load),
+                ("steps", steps),
+                ("slot_steps", slot),
+            ],
+            phases,
+            text: vec![
+                ("steps per slot", format!("{slot}: {}", listed.join(", "))),
+                (
+                    "cycles per frame",
+                    format!("{clocks}: {load} to take the frame, {steps} steps, 1 between"),
+                ),
+            ],
+        }
     }
 }
 

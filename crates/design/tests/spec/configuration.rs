@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The configuration at its boundary: what is accepted, what it becomes, what is refused and how.
 
-use foveate_design::{Config, Design, DesignError, PRESETS, Preset};
+use foveate_design::{Config, Design, DesignError, PRESETS, PipelinedTiming, Preset};
 
 fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()
@@ -18,7 +18,7 @@ fn the_default_is_the_paper() {
     assert_eq!((paper.region_pixels(), paper.stream_pixels(), paper.pixel_max()), (64, 64, 255));
     assert_eq!((paper.count_bits(), paper.slot_bits()), (7, 6));
     assert_eq!(paper.timing().clocks_per_frame(), 64);
-    assert_eq!(paper.pipelined_timing("a test").unwrap().decision_latency, 20);
+    assert_eq!(PipelinedTiming::of(&paper).decision_latency, 20);
 }
 
 #[test]
@@ -46,17 +46,6 @@ fn fingerprints_tell_designs_apart() {
     assert_eq!(serial("").fingerprint(), serial("feed = \"parallel\"\n").fingerprint());
     let names = ["", "fold = 2\n", "feed = \"raster\"\n"].map(|keys| serial(keys).fingerprint());
     assert!(names[0] != paper && names[0] != names[1] && names[0] != names[2]);
-}
-
-#[test]
-fn who_knows_only_pipelined_says_so() {
-    let serial = design("[hardware]\norganization = \"serial\"\n");
-    let refusal = serial.pipelined_timing("the test").unwrap_err().to_string();
-    assert_eq!(
-        refusal,
-        "`hardware.organization` = \"serial\" cannot be combined with the test of this version; \
-         use \"pipelined\""
-    );
 }
 
 #[test]

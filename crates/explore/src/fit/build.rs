@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Looks as silicon: what could be built of them, what it costs, which is cheapest.
 
-use foveate_design::{
-    Config, Design, FeatureKind, Feed, Filter, Neighborhood, Organization, Reference,
-};
+use foveate_design::{Config, Design, FeatureKind, Filter, Neighborhood, Organization, Reference};
 use foveate_estimate::Device;
 
 use super::FitRequest;
@@ -200,10 +198,11 @@ fn clocks(clock_hz: u64, fps: f64) -> u64 {
     (real(clock_hz) / fps.max(1e-9)).floor() as u64
 }
 
-/// Ways to build a camera: of each feed the deepest fold that is fast enough and its halvings, since lanes
-/// do not only shrink with their number; pipelined where no serial array is fast enough.
+/// Ways to build a camera. Where regions may share a unit: of each feed the deepest fold that is fast
+/// enough and its halvings, since units do not only shrink with their number. Where that is nowhere fast
+/// enough, the organizations in which they do not.
 fn ways(look: &Config, task: &Config, max_clocks: Option<u64>) -> Vec<Design> {
-    let with = |organization, feed| {
+    let with = |organization: Organization, feed| {
         let mut config = look.clone();
         config.hardware = task.hardware.clone();
         config.hardware.organization = organization;
@@ -211,16 +210,21 @@ fn ways(look: &Config, task: &Config, max_clocks: Option<u64>) -> Vec<Design> {
         config.hardware.feed = feed;
         config.validate().ok()
     };
+    let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());
     let mut found = Vec::new();
-    for &feed in Feed::ALL {
-        let Some(serial) = with(Organization::Serial, Some(feed)) else { continue };
-        let fold = max_clocks.map_or(Some(serial.regions()), |clocks| serial.largest_fold(clocks));
-        let Some(deepest) = fold.and_then(|fold| serial.with_fold(fold)) else { continue };
+    let fed = |&organization: &Organization| {
+        organization.feeds().iter().filter_map(move |&feed| with(organization, Some(feed)))
+    };
+    for single in folding.into_iter().flat_map(fed) {
+        let fold = max_clocks.map_or(Some(single.regions()), |clocks| single.largest_fold(clocks));
+        let Some(deepest) = fold.and_then(|fold| single.with_fold(fold).ok()) else { continue };
         let halvings = 0..=deepest.fold().max(1).ilog2();
-        found.extend(halvings.filter_map(|halving| serial.with_fold(deepest.fold() >> halving)));
+        found.extend(
+            halvings.filter_map(|halving| single.with_fold(deepest.fold() >> halving).ok()),
+        );
     }
     if found.is_empty() {
-        found.extend(with(Organization::Pipelined, None));
+        found.extend(others.into_iter().filter_map(|&organization| with(organization, None)));
     }
     found
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Why a design was chosen: what one step to something simpler would do.
 
-use foveate_design::{Config, Filter, Neighborhood, Organization, Reference};
+use foveate_design::{Config, Filter, Neighborhood, Reference};
 
 use super::FitRequest;
 use super::build::{Built, Candidate};
@@ -13,16 +13,8 @@ use crate::scale::at_depth;
 /// The design in a few words.
 pub(super) fn summary(config: &Config) -> String {
     let features: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
-    let hardware = &config.hardware;
-    let lanes = match hardware.organization {
-        Organization::Pipelined => "pipelined".to_owned(),
-        Organization::Serial => {
-            let feed = hardware.feed.map_or("parallel", |feed| feed.name());
-            format!("serial, {feed} feed, fold {}", hardware.fold)
-        }
-    };
     format!(
-        "{lanes}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}",
+        "{hardware}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}",
         features.join(" and "),
         config.frame.pixel_bits,
         match config.denoise.filter {
@@ -30,6 +22,7 @@ pub(super) fn summary(config: &Config) -> String {
             Filter::Median3x3 => "median",
         },
         config.temporal.reference,
+        hardware = config.hardware.in_words(),
         size = config.region.size,
         neighborhood = config.region.neighborhood,
     )
@@ -154,10 +147,9 @@ fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec
 
 /// One fold more, if that is too slow.
 fn slower(chosen: &Candidate, request: &FitRequest<'_>) -> Option<String> {
-    let deeper = chosen.design.with_fold(chosen.design.fold() + 1)?;
+    let deeper = chosen.design.with_fold(chosen.design.fold() + 1).ok()?;
     let rate = real(request.clock_hz) / real(deeper.timing().clocks_per_frame());
-    let slow =
-        deeper.organization() == Organization::Serial && request.constraints.min_fps > Some(rate);
+    let slow = request.constraints.min_fps > Some(rate);
     slow.then(|| format!("fold {}: {rate:.2} frames/s", deeper.fold()))
 }
 

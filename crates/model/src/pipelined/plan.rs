@@ -45,10 +45,12 @@ impl Plan {
     /// # Panics
     /// When the design is not pipelined: no number below would mean anything.
     pub(super) fn of(design: &Design) -> Self {
-        match design.organization() {
-            Organization::Pipelined => {}
-            Organization::Serial => panic!("a pipelined model is made of a pipelined design"),
-        }
+        let organization = design.organization();
+        assert_eq!(
+            organization,
+            Organization::Pipelined,
+            "a pipelined model is made of a pipelined design"
+        );
         let mut features = [None; FEATURES];
         for (place, feature) in features.iter_mut().zip(design.features()) {
             *place = Some(feature.kind());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which step of its work the array is at, and what is seen of it.
 
-use foveate_design::{Design, Feed, Phase, Timing};
+use foveate_design::{Design, Feed, Organization, Phase, SerialTiming};
 
 /// What the outputs show in a step, if anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,10 +49,9 @@ impl Schedule {
     /// # Panics
     /// When the design is not serial.
     pub(super) fn new(design: &Design) -> Self {
-        let timing = match design.timing() {
-            Timing::Serial(timing) => timing,
-            Timing::Pipelined(_) => panic!("a serial model is made of a serial design"),
-        };
+        let organization = design.organization();
+        assert_eq!(organization, Organization::Serial, "a serial model is made of a serial design");
+        let timing = SerialTiming::of(design);
         Self {
             lanes: design.lanes(),
             fold: design.fold(),

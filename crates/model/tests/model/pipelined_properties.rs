@@ -2,6 +2,7 @@
 //! The cycle-level model shows, after every edge, what the schedule and the oracle say; and its
 //! decisions are those of the functional model.
 
+use foveate_design::PipelinedTiming;
 use foveate_frame::Frame;
 use foveate_model::{Camera, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream};
 use proptest::prelude::*;
@@ -117,7 +118,7 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
     let edges = stream_edges(recipe, gaps, film.len());
     let steps = tail_steps(recipe, &edges);
     let last = edges.iter().flatten().max().unwrap();
-    let clocks = last + design.pipelined_timing("this test").unwrap().decision_latency as usize + 5;
+    let clocks = last + PipelinedTiming::of(&design).decision_latency as usize + 5;
     let shown = run(recipe, rcm, film, &edges, clocks);
     let history = watch(recipe, film);
     for region in 0..design.regions() as usize {
@@ -134,7 +135,7 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
 /// Decisions in order are those of the functional model, and so are the pixels that leave.
 fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     let design = recipe.design();
-    let timing = design.pipelined_timing("this test").unwrap();
+    let timing = PipelinedTiming::of(&design);
     for region in 0..design.regions() {
         let at = region as usize;
         let ports = || shown.iter().map(|outputs| outputs[at]);
@@ -162,12 +163,12 @@ fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>
     }
 }
 
-/// Without gaps a decision is valid exactly when `Design::pipelined_timing` says so.
+/// Without gaps a decision is valid exactly when `PipelinedTiming` says so.
 fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     if gaps.inside != 0 || gaps.between != 0 {
         return;
     }
-    let timing = recipe.design().pipelined_timing("this test").unwrap();
+    let timing = PipelinedTiming::of(&recipe.design());
     let valid: Vec<usize> =
         (0..shown.len()).filter(|&edge| shown[edge][0].decision_valid).collect();
     let due = |frame: usize| {

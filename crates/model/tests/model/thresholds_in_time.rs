@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds that change at any clock: which clock's value counts for what.
 
-use foveate_design::Design;
+use foveate_design::{Design, PipelinedTiming};
 use foveate_frame::Frame;
 use foveate_model::denoise::denoise;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
@@ -113,10 +113,7 @@ fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError
         }
         stream.push(edges);
     }
-    inputs.extend(vec![
-        None;
-        design.pipelined_timing("this test").unwrap().decision_latency as usize + 3
-    ]);
+    inputs.extend(vec![None; PipelinedTiming::of(&design).decision_latency as usize + 3]);
     let frames = Frames {
         recipe,
         denoised: film.iter().map(|f| denoise(&design, &pad(&design, f).unwrap())).collect(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card that is about silicon against speed: lanes, memory, frames per second, folds.
 
-use foveate_design::{Area, Design, Organization};
+use foveate_design::{Area, Design};
 use serde::Serialize;
 
 use crate::args::{Clock, Rate};
@@ -94,19 +94,16 @@ impl FrameRate {
 impl Proposal {
     /// What is proposed for a serial design; its own fold does not matter.
     pub(super) fn of(design: &Design, rate: Rate, clock: Clock) -> Result<Self, CliError> {
-        match design.organization() {
-            Organization::Serial => {}
-            Organization::Pipelined => {
-                return Err(CliError::Usage(
-                    "--fps proposes a fold, which only a serial design has; add \
-                     --set hardware.organization=serial or leave --fps out"
-                        .to_owned(),
-                ));
-            }
+        if !design.organization().folds() {
+            return Err(CliError::Usage(
+                "--fps proposes a fold, which only a serial design has; add \
+                 --set hardware.organization=serial or leave --fps out"
+                    .to_owned(),
+            ));
         }
         let found = design.largest_fold(rate.max_clocks(clock));
         let fold = found.unwrap_or(1);
-        let best = design.with_fold(fold).unwrap_or_else(|| design.clone());
+        let best = design.with_fold(fold)?;
         let clocks = best.timing().clocks_per_frame();
         let reach =
             format!("{clocks} clocks per frame, {} frames/s at {clock}", shown(clock, clocks));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The card: everything that follows from a configuration, in the form of its JSON.
 
-use foveate_design::{Config, Design, Direction, Organization, Phase, Port, SerialTiming, Timing};
+use foveate_design::{Config, Design, Direction, Port, Timing};
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 
 use super::array::{Array, FrameRate, Proposal};
 use crate::args::Clock;
@@ -19,7 +20,7 @@ pub(super) struct Card<'a> {
     pub(super) stream: Stream,
     pub(super) features: Vec<Feature>,
     pub(super) count_bits: u32,
-    /// Only of a serial design.
+    /// Only of a design whose regions may share a unit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) array: Option<Array>,
     pub(super) timing: Clocks,
@@ -55,36 +56,29 @@ pub(super) struct Feature {
     pub(super) score_bits: u32,
 }
 
-#[derive(Serialize)]
-#[serde(untagged)]
-pub(super) enum Clocks {
-    Pipelined(Latencies),
-    Serial(Steps),
-}
-
-/// What a serial array does with a frame, in clocks.
-#[derive(Serialize)]
-pub(super) struct Steps {
-    pub(super) cycles_per_frame: u64,
-    pub(super) load_pixels: u64,
-    pub(super) load_clocks: u64,
-    pub(super) steps: u64,
-    pub(super) slot_steps: u64,
-    pub(super) phases: Vec<PhaseRow>,
-}
+/// The figures of the organization by their names, and `phases` where it has some.
+pub(super) struct Clocks(pub(super) Timing);
 
 #[derive(Serialize)]
-pub(super) struct PhaseRow {
-    pub(super) phase: String,
-    pub(super) steps: u64,
+struct PhaseRow<'a> {
+    phase: &'a str,
+    steps: u64,
 }
 
-#[derive(Serialize)]
-pub(super) struct Latencies {
-    pub(super) cycles_per_frame: u32,
-    pub(super) decision_latency: u32,
-    pub(super) decision_frames: u32,
-    pub(super) forward_frames: u32,
+impl Serialize for Clocks {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (name, value) in self.0.figures() {
+            map.serialize_entry(name, value)?;
+        }
+        let phases = self.0.phases().iter();
+        let phases: Vec<_> =
+            phases.map(|(phase, steps)| PhaseRow { phase, steps: *steps }).collect();
+        if !phases.is_empty() {
+            map.serialize_entry("phases", &phases)?;
+        }
+        map.end()
+    }
 }
 
 #[derive(Serialize)]
@@ -116,38 +110,12 @@ impl<'a> Card<'a> {
             },
             features: design.features().iter().map(Feature::of).collect(),
             count_bits: design.count_bits(),
-            timing: match design.timing() {
-                Timing::Pipelined(timing) => Clocks::Pipelined(Latencies {
-                    cycles_per_frame: timing.cycles_per_frame,
-                    decision_latency: timing.decision_latency,
-                    decision_frames: timing.decision_frames,
-                    forward_frames: timing.forward_frames,
-                }),
-                Timing::Serial(timing) => Clocks::Serial(Steps::of(&timing)),
-            },
-            array: match design.organization() {
-                Organization::Pipelined => None,
-                Organization::Serial => Some(Array::of(design)),
-            },
+            timing: Clocks(design.timing()),
+            array: design.organization().folds().then(|| Array::of(design)),
             rate: FrameRate::of(clock, design.timing().clocks_per_frame()),
             proposal,
             rpu_ports: design.rpu_ports().iter().map(PortRow::of).collect(),
             rcm_ports: design.rcm_ports().iter().map(PortRow::of).collect(),
-        }
-    }
-}
-
-impl Steps {
-    fn of(timing: &SerialTiming) -> Self {
-        let row =
-            |(phase, steps): &(Phase, u64)| PhaseRow { phase: phase.to_string(), steps: *steps };
-        Self {
-            cycles_per_frame: timing.clocks_per_frame(),
-            load_pixels: timing.load_pixels(),
-            load_clocks: timing.load_clocks(),
-            steps: timing.steps(),
-            slot_steps: timing.slot_steps(),
-            phases: timing.phases().iter().map(row).collect(),
         }
     }
 }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use foveate_design::{Design, Neighborhood};
 
 use super::array::{Array, Memory};
-use super::card::{Card, Clocks, Feature, Latencies, PortRow, Steps};
+use super::card::{Card, Feature, PortRow};
 use crate::output;
 
 pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
@@ -44,17 +44,7 @@ pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
         lines.push(("lanes", lanes_line(array)));
         lines.push(("lane memory", memory_line(design, &array.memory)));
     }
-    match &card.timing {
-        Clocks::Pipelined(timing) => {
-            lines.push(("cycles per frame", timing.cycles_per_frame.to_string()));
-            lines.push(("decision", decision_line(timing)));
-            lines.push(("pixels leave", forward_line(timing)));
-        }
-        Clocks::Serial(timing) => {
-            lines.push(("steps per slot", steps_line(timing)));
-            lines.push(("cycles per frame", frame_line(timing)));
-        }
-    }
+    lines.extend(card.timing.0.text().iter().cloned());
     lines.push(("rate", card.rate.text.clone()));
     if let Some(proposal) = &card.proposal {
         lines.push(("proposal", proposal.text.clone()));
@@ -112,26 +102,6 @@ fn memory_line(design: &Design, memory: &Memory) -> String {
         memory.slot_words,
         areas.collect::<Vec<_>>().join(", ")
     )
-}
-
-fn steps_line(timing: &Steps) -> String {
-    let phases = timing.phases.iter().map(|row| format!("{} {}", row.phase, row.steps));
-    format!("{}: {}", timing.slot_steps, phases.collect::<Vec<_>>().join(", "))
-}
-
-fn frame_line(timing: &Steps) -> String {
-    let (load, steps) = (timing.load_clocks, timing.steps);
-    format!("{}: {load} to take the frame, {steps} steps, 1 between", timing.cycles_per_frame)
-}
-
-fn decision_line(timing: &Latencies) -> String {
-    let of = if timing.decision_frames == 0 { "" } else { " of the next frame" };
-    format!("valid {} clocks after the last pixel{of}", timing.decision_latency)
-}
-
-fn forward_line(timing: &Latencies) -> String {
-    let which = if timing.forward_frames == 1 { "next frame" } else { "next frame but one" };
-    format!("while the {which} enters")
 }
 
 fn ports(text: &mut String, module: &str, rows: &[PortRow]) {

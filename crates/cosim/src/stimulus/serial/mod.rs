@@ -15,6 +15,22 @@ mod parts;
 mod sequence;
 mod session;
 
+use super::Run;
+use super::random::Random;
+use crate::error::CosimError;
 pub use codec::SerialCodec;
-pub(super) use driver::Driver;
-pub(super) use session::Session;
+use driver::Driver;
+use foveate_design::SerialTiming;
+use session::Session;
+
+pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
+    let Run { stimulus, design, simulated, recorder, cancel, progress } = run;
+    let mut random = Random::new(stimulus.seed);
+    let driver = Driver::new(simulated, recorder, random.fork(), cancel);
+    let timing = SerialTiming::of(simulated);
+    Session::new(design, simulated, stimulus.level, &timing, driver, random).run(
+        stimulus.rounds,
+        &stimulus.frames,
+        progress,
+    )
+}

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A recording under way: draws the frames of each sequence and streams them.
 
+use super::super::motif::Artist;
+use super::super::random::Random;
+use super::super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
 use super::driver::Driver;
-use super::motif::Artist;
-use super::random::Random;
-use super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
 use foveate_design::{Design, PipelinedTiming};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Streams frames into the model, clock by clock, and records what goes in and what comes out.
 
-use super::aim::Ranges;
+use super::super::aim::Ranges;
+use super::super::random::Random;
+use super::super::sequence::{Aim, Gaps};
 use super::machine::{Inputs, Machine, PipelinedCodec};
-use super::random::Random;
-use super::sequence::{Aim, Gaps};
 use crate::error::CosimError;
 use crate::recording::Recorder;
 use foveate_design::{Design, Thresholds as Mode};

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! When a pipelined design says what: the numbers behind `docs/timing.md`.
+
+use crate::{Design, Filter, Neighborhood, Timing};
+
+/// Registers between a median window and the stream that follows it: window, result.
+const MEDIAN_REGISTERS: u32 = 2;
+
+/// Latencies of a pipelined RPU, in clocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PipelinedTiming {
+    /// Pixels of a region's stream, halo included; with one pixel per clock also the clocks from
+    /// one frame to the next (the initiation interval).
+    pub cycles_per_frame: u32,
+    /// Clock edges from the one that takes the last pixel of a frame to the one after which
+    /// `decision_valid_o` is high, when nothing follows or the next frame follows without a gap.
+    /// With `decision_frames` = 1 it is counted from the last pixel of the next frame.
+    pub decision_latency: u32,
+    /// Frames that must follow before a decision is known: 1 where a feature needs a second pass.
+    pub decision_frames: u32,
+    /// Frames that must follow before an active region's pixels leave: they leave while the
+    /// frame enters the store that many frames later.
+    pub forward_frames: u32,
+    /// Registers that align windows and counters with features whose score is final a clock later.
+    pub tail_delay: u32,
+}
+
+impl PipelinedTiming {
+    /// The latencies of the design, as if it were pipelined.
+    #[must_use]
+    pub fn of(design: &Design) -> Self {
+        let flush = match design.neighborhood() {
+            Neighborhood::Isolated => design.region_size() + 1,
+            Neighborhood::Shared => 0,
+        };
+        let median = match design.filter() {
+            Filter::None => 0,
+            Filter::Median3x3 => flush + MEDIAN_REGISTERS,
+        };
+        let window = if design.has_feature_window() { flush } else { 0 };
+        let slowest = design.features().iter().map(|f| f.kind().score_latency()).max();
+        let tail_delay = slowest.map_or(0, |latency| latency - 1);
+        let decision_frames = u32::from(design.has_second_pass());
+        Self {
+            cycles_per_frame: design.stream_pixels(),
+            decision_latency: median + window + tail_delay,
+            decision_frames,
+            forward_frames: decision_frames + 1,
+            tail_delay,
+        }
+    }
+
+    /// What every organization answers.
+    pub(super) fn answers(&self) -> Timing {
+        let of = if self.decision_frames == 0 { "" } else { " of the next frame" };
+        let which = if self.forward_frames == 1 { "next frame" } else { "next frame but one" };
+        Timing {
+            clocks_per_frame: self.cycles_per_frame.into(),
+            pixels_per_frame: self.cycles_per_frame.into(),
+            figures: vec![
+                ("cycles_per_frame", self.cycles_per_frame.into()),
+                ("decision_latency", self.decision_latency.into()),
+                ("decision_frames", self.decision_frames.into()),
+                ("forward_frames", self.forward_frames.into()),
+            ],
+            phases: Vec::new(),
+            text: vec![
+                ("cycles per frame", self.cycles_per_frame.to_string()),
+                (
+                    "decision",
+                    format!("valid {} clocks after the last pixel{of}", self.decision_latency),
+                ),
+                ("pixels leave", format!("while the {which} enters")),
+            ],
+        }
+    }
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the Verilog of an organization is made of; the only place that lists them here.
+
+use crate::verilog::Top;
+use crate::{SourceFile, core, leaf, rcm, serial};
+use foveate_design::{Design, Organization, Port};
+
+/// What an organization brings.
+pub(crate) struct Emitter {
+    /// The leaves that its generated modules instantiate themselves.
+    pub(crate) leaves: fn(&Design) -> Vec<&'static str>,
+    /// The generated modules that `Top` is made of, each after those it instantiates.
+    pub(crate) modules: fn(&Design, Top) -> Vec<SourceFile>,
+    /// The range of a port whose width depends on the grid.
+    pub(crate) range: fn(&Port, &Design) -> Option<String>,
+    /// The README of the core.
+    pub(crate) readme: fn(&Design) -> String,
+}
+
+impl Emitter {
+    /// What the organization of `design` brings.
+    pub(crate) fn of(design: &Design) -> Self {
+        match design.organization() {
+            Organization::Pipelined => Self {
+                leaves: leaf::pipelined,
+                modules: rcm::modules,
+                range: rcm::range,
+                readme: core::pipelined_readme,
+            },
+            Organization::Serial => Self {
+                leaves: |_| vec!["serial_array"],
+                modules: serial::modules,
+                range: serial::range,
+                readme: core::serial_readme,
+            },
+        }
+    }
+}
