@@ -61,7 +61,7 @@ struct Clock {
 /// What happens in a recording; whether a pixel is taken follows from the expected `ready_o`.
 fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let timing = SerialTiming::of(&design);
+    let timing = SerialTiming::of(design);
     let ready = |record: &[u8]| value(outputs, PortRole::Ready, record) == 1;
     let (mut before, mut taken, mut story) = (outputs.record(), 0, Vec::new());
     for (input, output) in clocks(recording) {
