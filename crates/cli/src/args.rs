@@ -137,10 +137,12 @@ pub(crate) struct CosimArgs {
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// What to simulate: one RPU that sees every region in turn, or an array
-    #[arg(long, value_enum, default_value_t = Level::Rpu)]
-    pub(crate) level: Level,
-    /// Regions of the array for --level rcm, columns x rows
+    /// What to simulate: one RPU that sees every region in turn, or an array. By default one RPU; with
+    /// --rtl both, if the folder has both, and a file that belongs to neither is an error
+    #[arg(long, value_enum)]
+    pub(crate) level: Option<Level>,
+    /// Regions of the array for --level rcm, columns x rows. By default 3x2, or more, so that there are
+    /// two lanes, but never more than the frame has
     #[arg(long, value_name = "CxR", value_parser = parse_grid)]
     pub(crate) grid: Option<(u32, u32)>,
     /// The whole array of the design

@@ -8,7 +8,7 @@ use crate::locate;
 use crate::netlist::Netlist;
 use crate::recording::Recording;
 use crate::replay::{self, About};
-use crate::report::{CosimReport, FORMAT_VERSION, Mismatch, Seconds};
+use crate::report::{CosimReport, Mismatch, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
 use foveate_design::{Design, DesignError};
@@ -66,9 +66,10 @@ impl Job {
     /// # Errors
     /// When the level's grid makes a frame that no design can have.
     pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, DesignError> {
-        let simulated = stimulus.level.design(design)?;
+        stimulus.level.design(design)?;
         Ok(Self {
-            sources: verilog(&simulated, stimulus.level.top()),
+            // The array takes its grid from its parameters, so that its Verilog is that of the design.
+            sources: verilog(design, stimulus.level.top()),
             design: design.clone(),
             netlist: None,
             stimulus,
@@ -172,9 +173,8 @@ impl Job {
         let mismatch = outcome.difference.as_ref().map(name).transpose()?;
         let clocks = mismatch.as_ref().map_or(recording.clocks(), |mismatch| mismatch.clock + 1);
         Ok(CosimReport {
-            format_version: FORMAT_VERSION,
             name: self.name(),
-            design: design.fingerprint(),
+            design: self.design.fingerprint(),
             level,
             grid: (design.columns(), design.rows()),
             simulator: self.simulator,

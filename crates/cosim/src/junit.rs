@@ -2,35 +2,56 @@
 //! Results as JUnit XML, which test servers read.
 
 use crate::report::CosimReport;
+use crate::summary::Summary;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::time::Duration;
 
-/// One test case per report.
+/// One test case per run, and one that says whether all of the Verilog was simulated where it was given.
 #[must_use]
-pub fn junit_xml(reports: &[CosimReport]) -> String {
+pub fn junit_xml(summary: &Summary) -> String {
     let mut suite = TestSuite::new("foveate cosim");
-    for report in reports {
-        let status = match &report.mismatch {
-            None => TestCaseStatus::success(),
-            Some(mismatch) => {
-                let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-                status.set_type("mismatch").set_message(mismatch.to_string());
-                if let Some(replay) = &report.replay {
-                    status
-                        .set_description(format!("replay it with {}/replay.sh", replay.display()));
-                }
-                status
-            }
-        };
-        let mut case = TestCase::new(report.name.clone(), status);
+    let class = format!("foveate.{}", summary.design);
+    for report in &summary.runs {
+        let mut case = TestCase::new(report.name.clone(), status(report));
         let seconds = report.seconds;
         let total = seconds.vectors + seconds.build + seconds.run;
-        case.set_classname(format!("foveate.{}", report.design));
+        case.set_classname(class.clone());
         case.set_time(Duration::try_from_secs_f64(total).unwrap_or_default());
         case.set_system_out(report.to_string());
         suite.add_test_case(case);
     }
+    for name in &summary.not_run {
+        let mut status = TestCaseStatus::skipped();
+        status.set_message("left out after the mismatch of an earlier run");
+        let mut case = TestCase::new(name.clone(), status);
+        case.set_classname(class.clone());
+        suite.add_test_case(case);
+    }
+    if !summary.not_simulated.is_empty() {
+        let mut status = if summary.whole {
+            TestCaseStatus::non_success(NonSuccessKind::Failure)
+        } else {
+            TestCaseStatus::skipped()
+        };
+        status.set_type("not simulated").set_message(summary.left_out());
+        let mut case = TestCase::new("every file is simulated", status);
+        case.set_classname(class);
+        suite.add_test_case(case);
+    }
     rendered(suite)
+}
+
+fn status(report: &CosimReport) -> TestCaseStatus {
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+    match &report.mismatch {
+        None if report.passed() => return TestCaseStatus::success(),
+        None => status.set_type("nothing").set_message("nothing was compared"),
+        Some(mismatch) => status.set_type("mismatch").set_message(mismatch.to_string()),
+    };
+    if let Some(replay) = &report.replay {
+        status.set_description(format!("replay it with {}/replay.sh", replay.display()));
+    }
+    status
 }
 
 /// One test case for a run that came to no result.

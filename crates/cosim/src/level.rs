@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How much of the hardware is simulated.
 
+use crate::hierarchy::declares;
 use foveate_design::{Design, DesignError};
-use foveate_emit::Top;
+use foveate_emit::{SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -26,6 +27,31 @@ pub enum Level {
 }
 
 impl Level {
+    /// The array that stands for the design's own where that would take long: 3x2 regions, so that
+    /// rows and columns cannot be confused; more where a lane serves more, so that there are two
+    /// lanes; never more than the frame has.
+    #[must_use]
+    pub fn sample(design: &Design) -> Self {
+        let (all_columns, all_rows) = (design.columns(), design.rows());
+        let wanted = design.fold() + 1;
+        let rows_for = |columns: u32| wanted.div_ceil(columns).max(2).min(all_rows);
+        let columns = (all_columns.min(3)..=all_columns)
+            .find(|&columns| columns * rows_for(columns) >= wanted)
+            .unwrap_or(all_columns);
+        Self::Rcm { columns, rows: rows_for(columns) }
+    }
+
+    /// The levels that between them simulate Verilog that somebody gives: one for each of the modules
+    /// `rpu` and `rcm` that is there, the array as [`Level::sample`]. Without either it is `rpu`, whose
+    /// simulation says what is missing.
+    #[must_use]
+    pub fn all_of(design: &Design, sources: &[SourceFile]) -> Vec<Self> {
+        let levels = [Self::Rpu, Self::sample(design)];
+        let is_there = |level: &Self| declares(sources, level.top().module());
+        let found: Vec<Self> = levels.into_iter().filter(is_there).collect();
+        if found.is_empty() { vec![Self::Rpu] } else { found }
+    }
+
     /// The module that is simulated.
     #[must_use]
     pub fn top(self) -> Top {
@@ -64,5 +90,30 @@ impl fmt::Display for Level {
             Self::Rcm { columns, rows } => f.pad(&format!("rcm {columns}x{rows}")),
             Self::Full => f.pad("full"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foveate_design::Config;
+
+    fn sample(toml: &str) -> Level {
+        Level::sample(&Config::from_toml(toml).unwrap().validate().unwrap())
+    }
+
+    #[test]
+    fn a_sample_has_two_lanes_where_the_frame_has() {
+        let grid = |columns, rows| Level::Rcm { columns, rows };
+        assert_eq!(sample(""), grid(3, 2));
+        assert_eq!(sample("[frame]\nwidth = 8\nheight = 80\n"), grid(1, 2));
+        assert_eq!(sample("[frame]\nwidth = 8\nheight = 8\n"), grid(1, 1));
+        let folded = |frame: &str, fold| {
+            sample(&format!("{frame}[hardware]\norganization = \"serial\"\nfold = {fold}\n"))
+        };
+        assert_eq!(folded("", 1), grid(3, 2));
+        assert_eq!(folded("", 38), grid(3, 13));
+        assert_eq!(folded("", 784), grid(28, 28));
+        assert_eq!(folded("[frame]\nwidth = 64\nheight = 16\n", 9), grid(5, 2));
     }
 }

@@ -8,17 +8,13 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::PathBuf;
 
-/// Version of [`CosimReport`] as JSON; changes when a field changes its meaning or goes.
-pub const FORMAT_VERSION: u32 = 1;
-
 /// The result of one co-simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CosimReport {
-    /// [`FORMAT_VERSION`].
-    pub format_version: u32,
     /// Name for people, such as `rpu verilator`.
     pub name: String,
-    /// Fingerprint of the design, with the frame that was simulated.
+    /// Fingerprint of the design, as in the README of its core. What was simulated of it says
+    /// [`CosimReport::grid`].
     pub design: String,
     /// How much of the hardware was simulated.
     pub level: Level,

@@ -27,8 +27,9 @@ fn model_and_rtl_agree_in_both_simulators() {
     for simulator in ["verilator", "iverilog"] {
         let args =
             ["cosim", "scene:street", "--preset", "bare", "--simulator", simulator, "--json"];
-        let report: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
-        assert_eq!(report["format_version"], 1);
+        let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+        assert_eq!((&summary["format_version"], &summary["passed"]), (&2.into(), &true.into()));
+        let report = &summary["runs"][0];
         assert!(report["mismatch"].is_null());
         assert!(report["comparisons"].as_u64().unwrap() > 100_000);
         assert_eq!(report["rtl_sha256"].as_str().unwrap().len(), 64);
@@ -51,7 +52,8 @@ fn real_images_agree() {
     let dir = tempfile::tempdir().unwrap();
     let folder = data.join("mosquito/culex");
     let args = ["cosim", folder.to_str().unwrap(), "--rounds", "0", "--json"];
-    let report: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    let report = &summary["runs"][0];
     assert!(report["mismatch"].is_null());
     assert_eq!((&report["sequences"], &report["frames"]), (&784.into(), &(2 * 784).into()));
 }
@@ -86,6 +88,66 @@ fn edited_verilog_is_caught_and_replayed() {
     let printed = String::from_utf8(replay.stdout).unwrap();
     assert_eq!(replay.status.code(), Some(1), "{printed}");
     assert!(printed.contains("port trs_o"), "{printed}");
+}
+
+/// A fault of the array alone is found by the plain command, in both organizations; and a file that no
+/// simulation reaches is named and is no pass.
+#[test]
+fn the_whole_folder_is_simulated() {
+    if !require_tools(SIMULATORS) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    for (organization, from, to) in [
+        ("pipelined", "pixel_i[REGION*8+:8]", "pixel_i[(REGION^1)*8+:8]"),
+        ("serial", ".RAW_SIDE(4)", ".RAW_SIDE(3)"),
+    ] {
+        let core = format!("core-{organization}");
+        let organization = format!("hardware.organization=\"{organization}\"");
+        let design = ["--preset", "bare", "--set", "region.size=4", "--set", &organization];
+        succeed_in(dir.path(), &[&["generate", "-o", &core][..], &design].concat());
+        let (toml, rtl) = (format!("{core}/design.toml"), format!("{core}/rtl"));
+        let cosim = |extra: &[&str]| {
+            let args = ["cosim", "--config", &toml, "--rtl", &rtl, "--simulator", "iverilog"];
+            run_in(dir.path(), &[&args[..], &["--rounds", "1", "--json"], extra].concat())
+        };
+        let json = |text: &str| serde_json::from_str::<Value>(text).unwrap();
+
+        let sound = cosim(&[]);
+        assert_eq!(sound.code, 0, "{}", sound.stderr);
+        let sound = json(&sound.stdout);
+        let names = [&sound["runs"][0]["name"], &sound["runs"][1]["name"]];
+        assert_eq!(names, ["rpu iverilog", "rcm 3x2 iverilog"]);
+        assert_eq!(sound["not_simulated"], serde_json::json!([]));
+        let readme = fs::read_to_string(dir.path().join(&core).join("README.md")).unwrap();
+        for run in sound["runs"].as_array().unwrap() {
+            assert!(readme.contains(run["design"].as_str().unwrap()), "{run}\n{readme}");
+        }
+
+        let spare = dir.path().join(&rtl).join("spare.v");
+        fs::write(&spare, "module spare; endmodule\n").unwrap();
+        let incomplete = cosim(&["--junit", "spare.xml"]);
+        assert_eq!(incomplete.code, 1, "{}", incomplete.stdout);
+        assert!(incomplete.stderr.contains("rtl/spare.v (module spare)"), "{}", incomplete.stderr);
+        let summary = json(&incomplete.stdout);
+        assert_eq!(summary["passed"], false);
+        assert_eq!(summary["not_simulated"][0]["file"], "rtl/spare.v");
+        let junit = fs::read_to_string(dir.path().join("spare.xml")).unwrap();
+        assert!(junit.contains("failures=\"1\"") && junit.contains("spare.v"), "{junit}");
+        let part = cosim(&["--level", "rpu"]);
+        assert_eq!(part.code, 0, "a part was asked for: {}", part.stderr);
+        let part = json(&part.stdout);
+        let files: Vec<_> = part["not_simulated"].as_array().unwrap().iter().collect();
+        assert_eq!(files.len(), 2, "the array and the spare file: {files:?}");
+        fs::remove_file(spare).unwrap();
+
+        edit(&dir.path().join(&rtl).join("rcm.v"), from, to);
+        let broken = cosim(&[]);
+        assert_eq!(broken.code, 1, "{}", broken.stderr);
+        let broken = json(&broken.stdout);
+        assert!(broken["runs"][0]["mismatch"].is_null(), "{broken}");
+        assert!(!broken["runs"][1]["mismatch"].is_null(), "{broken}");
+    }
 }
 
 /// Broken Verilog is the tool's refusal, not a mismatch; files of another design are bad input.
@@ -181,8 +243,8 @@ fn estimate_and_cosim_are_about_the_same_rtl() {
         serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap()
     };
     let area = json(&["estimate"]);
-    let rpu = json(&["cosim", "--rounds", "1", "--netlist"]);
-    let array = json(&["cosim", "--full", "--simulator", "iverilog"]);
+    let rpu = &json(&["cosim", "--rounds", "1", "--netlist"])["runs"][0];
+    let array = &json(&["cosim", "--full", "--simulator", "iverilog"])["runs"][0];
     assert_eq!(rpu["name"], "rpu netlist iverilog");
     assert_eq!(rpu["netlist"]["tool"], area["tool"]);
     assert_eq!(rpu["rtl_sha256"], area["rpu_sha256"]);

@@ -21,7 +21,10 @@ fn write_config(folder: &Path, config: &str) {
 
 fn cosim(folder: &Path, extra: &[&str]) -> Value {
     let args = ["cosim", "--config", "camera.toml", "--json"];
-    serde_json::from_str(&succeed_in(folder, &[&args[..], extra].concat())).unwrap()
+    let printed = succeed_in(folder, &[&args[..], extra].concat());
+    let summary: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(summary["passed"], true, "{summary}");
+    summary["runs"][0].clone()
 }
 
 #[test]

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Reports as text, JSON and JUnit XML.
 
-use foveate_cosim::{CosimReport, FORMAT_VERSION, Level, Mismatch, Seconds, Simulator, junit_xml};
+use foveate_cosim::{
+    CosimReport, Level, Mismatch, NotSimulated, Seconds, Simulator, Summary, Verdict, junit_xml,
+};
 
 fn report(mismatch: Option<Mismatch>) -> CosimReport {
     CosimReport {
-        format_version: FORMAT_VERSION,
         name: "rcm 3x1 verilator".to_owned(),
         design: "0123456789abcdef".to_owned(),
         level: Level::Rcm { columns: 3, rows: 1 },
@@ -52,28 +53,60 @@ fn a_mismatch_names_everything() {
     );
 }
 
+/// A summary of these runs, with a file that none of them reached or without.
+fn summary(runs: Vec<CosimReport>, spare: bool, whole: bool) -> Summary {
+    let (file, modules) = ("rtl/spare.v".to_owned(), vec!["spare".to_owned()]);
+    let left_out = if spare { vec![NotSimulated { file, modules }] } else { Vec::new() };
+    Summary::new("0123456789abcdef".to_owned(), runs, Vec::new(), left_out, whole)
+}
+
 #[test]
 fn json_comes_back_and_has_its_version() {
     for mismatch in [None, Some(mismatch())] {
-        let report = report(mismatch);
-        let json = serde_json::to_string(&report).unwrap();
-        assert!(json.starts_with("{\"format_version\":1,"), "{json}");
-        assert_eq!(serde_json::from_str::<CosimReport>(&json).unwrap(), report);
+        let summary = summary(vec![report(mismatch)], true, true);
+        let json = serde_json::to_string(&summary).unwrap();
+        assert!(json.starts_with("{\"format_version\":2,\"passed\":false,"), "{json}");
+        assert_eq!(serde_json::from_str::<Summary>(&json).unwrap(), summary);
     }
 }
 
 #[test]
-fn junit_has_a_case_per_report() {
-    let xml = junit_xml(&[report(None), report(Some(mismatch()))]);
+fn junit_has_a_case_per_run_and_one_for_what_none_reached() {
+    let runs = vec![report(None), report(Some(mismatch()))];
+    let xml = junit_xml(&Summary {
+        not_run: vec!["full verilator".to_owned()],
+        ..summary(runs.clone(), true, true)
+    });
     for part in [
-        "tests=\"2\" skipped=\"0\" failures=\"1\" errors=\"0\"",
+        "tests=\"4\" skipped=\"1\" failures=\"2\" errors=\"0\"",
         "classname=\"foveate.0123456789abcdef\" time=\"3.750\"",
         "type=\"mismatch\"",
         "trs_o is &apos;hx, expected &apos;h1",
         "replay it with replay/replay.sh",
+        "message=\"rtl/spare.v (module spare)\" type=\"not simulated\"",
     ] {
         assert!(xml.contains(part), "{part}\n{xml}");
     }
+    let xml = junit_xml(&summary(vec![report(None)], true, false));
+    assert!(xml.contains("tests=\"2\" skipped=\"1\" failures=\"0\""), "{xml}");
+    let nothing = CosimReport { comparisons: 0, ..report(None) };
+    let xml = junit_xml(&summary(vec![nothing], false, false));
+    assert!(xml.contains("failures=\"1\"") && xml.contains("nothing was compared"), "{xml}");
+}
+
+#[test]
+fn a_pass_takes_every_run_and_where_it_must_be_all_of_the_verilog() {
+    let verdict = |runs, spare, whole| {
+        let summary = summary(runs, spare, whole);
+        assert_eq!(summary.passed, summary.verdict() == Verdict::Passed);
+        summary.verdict()
+    };
+    assert_eq!(verdict(vec![report(None)], false, true), Verdict::Passed);
+    assert_eq!(verdict(vec![report(None)], true, false), Verdict::Passed);
+    assert_eq!(verdict(vec![report(None)], true, true), Verdict::Incomplete);
+    let second = vec![report(None), report(Some(mismatch()))];
+    assert_eq!(verdict(second, true, true), Verdict::Mismatch);
+    assert_eq!(verdict(Vec::new(), false, false), Verdict::Mismatch);
 }
 
 #[test]

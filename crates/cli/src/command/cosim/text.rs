@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A summary of co-simulations for people.
+
+use foveate_cosim::{CosimReport, Summary};
+
+/// The text, in lines of at most `width` columns where words allow it.
+pub(super) fn of(summary: &Summary, width: usize) -> String {
+    let mut text = String::new();
+    for report in &summary.runs {
+        add(&mut text, &report.to_string(), "", width);
+        add(&mut text, &about(report), "  ", width);
+        if let Some(replay) = &report.replay {
+            let script = replay.join("replay.sh");
+            add(&mut text, &format!("replay it with {}", script.display()), "  ", width);
+        }
+        if let Some(waves) = &report.waves {
+            add(&mut text, &format!("waves in {}", waves.display()), "  ", width);
+        }
+    }
+    for name in &summary.not_run {
+        add(&mut text, &format!("{name}: not run, after the mismatch above"), "", width);
+    }
+    for left_out in &summary.not_simulated {
+        add(&mut text, &format!("not simulated: {left_out}"), "", width);
+    }
+    text
+}
+
+fn about(report: &CosimReport) -> String {
+    let (seconds, (columns, rows)) = (report.seconds, report.grid);
+    format!(
+        "design {}, {columns} x {rows} regions, {}, seed {}; {:.1} s vectors, {:.1} s build, {:.1} s run",
+        report.design,
+        report.simulator_version,
+        report.seed,
+        seconds.vectors,
+        seconds.build,
+        seconds.run
+    )
+}
+
+/// Appends a paragraph, whose later lines are indented by two more.
+fn add(text: &mut String, paragraph: &str, indent: &str, width: usize) {
+    let further = format!("{indent}  ");
+    for line in paragraph.lines() {
+        // A path or a number is longer than the line sooner than it is broken.
+        let options = textwrap::Options::new(width)
+            .initial_indent(indent)
+            .subsequent_indent(&further)
+            .break_words(false)
+            .word_splitter(textwrap::WordSplitter::NoHyphenation);
+        text.push_str(&textwrap::fill(line, options));
+        text.push('\n');
+    }
+}
