@@ -183,7 +183,7 @@ fn build_in(
     let makefile = Makefile::read(dir, &job.prefix())?;
     let compiler = Compiler::new(toolchain, include_dir(toolchain)?, job.trace)?;
     let mut objects = compiler.run_time(cache, &makefile)?;
-    objects.extend(compiler.model(dir, &makefile, job.optimize.flag())?);
+    objects.extend(compiler.model(cache, dir, &makefile, job.optimize)?);
     compiler.link(dir, &objects, &makefile)
 }
 
