@@ -9,6 +9,7 @@ use foveate_cosim::CosimError;
 use foveate_design::DesignError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
+use foveate_footage::FootageError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_studies::StudyError;
@@ -64,12 +65,12 @@ impl CliError {
         ExitCode::from(match self {
             Self::Study(error) => match error.as_ref() {
                 StudyError::Cancelled => interrupt::EXIT_CODE,
-                StudyError::Simulator(error) => simulator_code(error),
+                StudyError::Footage(error) => footage_code(error),
                 _ => INPUT,
             },
             Self::Explore(error) => match error.as_ref() {
                 ExploreError::Cancelled => interrupt::EXIT_CODE,
-                ExploreError::Simulator(error) => simulator_code(error),
+                ExploreError::Footage(error) => footage_code(error),
                 ExploreError::Estimate(error) => estimate_code(error),
                 _ => INPUT,
             },
@@ -112,9 +113,23 @@ fn estimate_code(error: &EstimateError) -> u8 {
 fn simulator_code(error: &SimulatorError) -> u8 {
     match error {
         SimulatorError::Cancelled => interrupt::EXIT_CODE,
+        SimulatorError::Footage(error) => footage_code(error),
         SimulatorError::Tool(error) | SimulatorError::NoVideo(error) => tool_code(error),
         SimulatorError::VideoOutput { .. } => TOOL,
         _ => INPUT,
+    }
+}
+
+fn footage_code(error: &FootageError) -> u8 {
+    match error {
+        FootageError::Tool(error) => tool_code(error),
+        _ => INPUT,
+    }
+}
+
+impl From<FootageError> for CliError {
+    fn from(error: FootageError) -> Self {
+        SimulatorError::Footage(error).into()
     }
 }
 

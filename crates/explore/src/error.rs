@@ -7,8 +7,8 @@ use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
+use foveate_footage::FootageError;
 use foveate_ideal::IdealError;
-use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -96,7 +96,7 @@ pub enum ExploreError {
     },
     /// An input cannot be read.
     #[error(transparent)]
-    Simulator(Box<SimulatorError>),
+    Footage(Box<FootageError>),
     /// A configuration that is no design.
     #[error(transparent)]
     Design(#[from] DesignError),
@@ -126,9 +126,9 @@ pub enum ExploreError {
     Cancelled,
 }
 
-impl From<SimulatorError> for ExploreError {
-    fn from(error: SimulatorError) -> Self {
-        Self::Simulator(Box::new(error))
+impl From<FootageError> for ExploreError {
+    fn from(error: FootageError) -> Self {
+        Self::Footage(Box::new(error))
     }
 }
 

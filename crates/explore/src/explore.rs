@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, Design};
-use foveate_simulator::InputOptions;
+use foveate_footage::InputOptions;
 use foveate_staging::write_file;
 use serde::Serialize;
 
@@ -113,11 +113,11 @@ pub fn explore(
         rows.extend(Row::new(index + 1, settings, design, &of_point, silicon, space.clock_mhz));
     }
     mark_fronts(&mut rows);
-    let of_clip = |(subject, measured): (&foveate_simulator::Subject, &Vec<Measured>)| ClipRow {
+    let of_clip = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| ClipRow {
         name: subject.name.clone(),
         frames: measured.first().map_or(0, |first| first.tally.figures().frames),
     };
-    let problem = |(subject, measured): (&foveate_simulator::Subject, &Vec<Measured>)| {
+    let problem = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| {
         let problem = measured.iter().find_map(|one| one.problem.clone());
         problem.map(|problem| format!("{}: {problem}", subject.name))
     };

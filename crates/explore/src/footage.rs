@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_design::{Config, Design};
 use foveate_fidelity::{Figures, Tally};
-use foveate_simulator::{InputOptions, Source, Subject, is_read_once, open, subjects};
+use foveate_footage::{InputOptions, Source, Subject, is_read_once, open, subjects};
 
 use crate::measure::{Clip, Measured};
 use crate::store::{Store, identity, key};

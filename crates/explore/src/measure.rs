@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 use foveate_design::{Config, Design};
 use foveate_engine::Engine;
 use foveate_fidelity::{Fidelity, Tally};
+use foveate_footage::{FootageError, InputOptions, Kind, Source, Subject, open};
 use foveate_frame::{Raster, convert_depth};
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_simulator::{InputOptions, Kind, SimulatorError, Source, Subject, open};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -186,7 +186,7 @@ fn at_depths(
         } else {
             Raster::from_words(width, height, bits, pixels.collect())
         };
-        found.insert(bits, raster.map_err(SimulatorError::from)?);
+        found.insert(bits, raster.map_err(FootageError::from)?);
     }
     Ok(found)
 }

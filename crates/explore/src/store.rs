@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use foveate_design::{Config, HardwareConfig};
-use foveate_simulator::{InputOptions, Subject};
+use foveate_footage::{InputOptions, Subject};
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 

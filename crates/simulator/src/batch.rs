@@ -2,10 +2,8 @@
 //! Many clips in one run: one output folder per clip, in a tree like that of the inputs, and one
 //! summary of all. A clip that fails does not lose the others.
 
-mod plan;
 mod summary;
 
-pub use plan::{Clip, Plan, plan};
 pub use summary::{BatchSummary, ClipSummary};
 
 use std::path::Path;
@@ -16,7 +14,8 @@ use foveate_design::Config;
 use foveate_staging::StagedFolder;
 
 use crate::simulation::{INTERRUPTED, SIMULATION};
-use crate::{Hooks, InputOptions, Progress, RunOptions, Simulation, SimulatorError, Summary, open};
+use crate::{Hooks, Progress, RunOptions, Simulation, SimulatorError, Summary};
+use foveate_footage::{Clip, InputOptions, open};
 
 /// How far a batch is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,7 +101,7 @@ impl Batch<'_> {
             .into_iter()
             .zip(self.clips)
             .map(|(slot, clip)| {
-                result(slot).unwrap_or_else(|| clip.failed("not started".to_owned()))
+                result(slot).unwrap_or_else(|| ClipSummary::failed(clip, "not started".to_owned()))
             })
             .collect();
         self.conclude(clips)
@@ -116,8 +115,8 @@ impl Batch<'_> {
                 return;
             };
             let summary = match self.simulate(clip) {
-                Ok(summary) => clip.done(summary),
-                Err(error) => clip.failed(error.to_string()),
+                Ok(summary) => ClipSummary::done(clip, summary),
+                Err(error) => ClipSummary::failed(clip, error.to_string()),
             };
             *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(summary);
             self.done.fetch_add(1, Ordering::Relaxed);

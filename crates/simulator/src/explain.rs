@@ -12,7 +12,8 @@ use foveate_design::{Config, FeatureKind, Filter};
 use foveate_model::Camera;
 use serde::Serialize;
 
-use crate::{Kind, SimulatorError, Source};
+use crate::SimulatorError;
+use foveate_footage::{Kind, Source};
 
 /// Rows of pixels.
 pub type Rows<T> = Vec<Vec<T>>;

@@ -8,8 +8,9 @@ use foveate_engine::Engine;
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 
 use crate::output::{DISK_FULL, Recorder};
-use crate::source::ahead::read_ahead;
-use crate::{Kind, RunOptions, SimulatorError, Source, Summary};
+use crate::{RunOptions, SimulatorError, Summary};
+use foveate_footage::{FootageError, read_ahead};
+use foveate_footage::{Kind, Source};
 
 /// What a summary says of a run that the user stopped.
 pub(crate) const INTERRUPTED: &str = "interrupted";
@@ -95,7 +96,7 @@ impl Simulation {
             (Ok(End::Cancelled), 0) => return Err(SimulatorError::Cancelled),
             (Ok(End::Source), 0) => {
                 let inputs = self.source.inputs().join(", ");
-                return Err(SimulatorError::NoFrames { inputs });
+                return Err(FootageError::NoFrames { inputs }.into());
             }
             (Ok(End::Cancelled), _) => Some(INTERRUPTED.to_owned()),
             (Ok(End::Source), _) => self.source.problem(),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
-use foveate_simulator::SimulatorError;
+use foveate_footage::FootageError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -15,7 +15,7 @@ use thiserror::Error;
 pub enum StudyError {
     /// An input cannot be read.
     #[error(transparent)]
-    Simulator(Box<SimulatorError>),
+    Footage(Box<FootageError>),
     /// A point of the study is no design.
     #[error(transparent)]
     Design(#[from] DesignError),
@@ -65,8 +65,8 @@ pub enum StudyError {
     Cancelled,
 }
 
-impl From<SimulatorError> for StudyError {
-    fn from(error: SimulatorError) -> Self {
-        Self::Simulator(Box::new(error))
+impl From<FootageError> for StudyError {
+    fn from(error: FootageError) -> Self {
+        Self::Footage(Box::new(error))
     }
 }

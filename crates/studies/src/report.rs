@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::Config;
-use foveate_simulator::{BatchHooks, InputOptions, subjects};
+use foveate_footage::{InputOptions, subjects};
+use foveate_simulator::BatchHooks;
 use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
 

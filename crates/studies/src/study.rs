@@ -8,7 +8,7 @@ mod sensor;
 mod sweep;
 mod temporal;
 
-use foveate_simulator::Kind;
+use foveate_footage::Kind;
 
 use crate::StudyError;
 use crate::report::{Findings, Request};

@@ -7,9 +7,8 @@ use std::sync::{Mutex, PoisonError};
 
 use foveate_design::{Config, Design};
 use foveate_engine::{Engine, Outcome};
-use foveate_simulator::{
-    BatchHooks, BatchProgress, InputOptions, Kind, SimulatorError, Subject, open,
-};
+use foveate_footage::{FootageError, InputOptions, Kind, Subject, open};
+use foveate_simulator::{BatchHooks, BatchProgress};
 use rayon::prelude::*;
 
 use crate::StudyError;
@@ -128,7 +127,7 @@ impl Watcher<'_> {
         }
         let inputs = source.inputs().to_vec();
         if frame == 0 {
-            return Err(SimulatorError::NoFrames { inputs: inputs.join(", ") }.into());
+            return Err(FootageError::NoFrames { inputs: inputs.join(", ") }.into());
         }
         Ok(Watched {
             name: subject.name.clone(),

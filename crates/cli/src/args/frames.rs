@@ -2,8 +2,9 @@
 //! Frames of the inputs, for the commands that hold all of them in memory.
 
 use foveate_design::Design;
+use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
-use foveate_simulator::{InputOptions, Simulation, SimulatorError, open};
+use foveate_simulator::{Simulation, SimulatorError};
 
 use super::DesignArgs;
 use crate::error::CliError;

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use foveate_simulator::{Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selection, parse_time};
+use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selection, parse_time};
 
 /// How inputs are read.
 #[derive(Args, Debug)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate analyze`: the paper's studies as tables and charts.
 
-use foveate_simulator::ImagesAs;
+use foveate_footage::ImagesAs;
 use foveate_studies::{Report, Request, Study, analyze};
 
 use super::simulate::Terminal;

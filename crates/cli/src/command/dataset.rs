@@ -2,7 +2,8 @@
 //! `foveate dataset`: a set of images in, the set of their active regions out. It is a simulation that
 //! writes the set instead of pictures.
 
-use foveate_simulator::{ImagesAs, RunOptions};
+use foveate_footage::ImagesAs;
+use foveate_simulator::RunOptions;
 
 use super::simulate::{Job, run_job};
 use crate::args::DatasetArgs;

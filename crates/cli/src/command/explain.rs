@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate explain`: why a region was sent or dropped.
 
-use foveate_simulator::{ImagesAs, explain, open};
+use foveate_footage::{ImagesAs, open};
+use foveate_simulator::explain;
 
 use crate::args::ExplainArgs;
 use crate::error::CliError;

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foveate_explore::{
     BUILT_IN, Exploration, ExploreError, Hooks, Progress, Request, Space, Synthesizer, explore,
 };
-use foveate_simulator::ImagesAs;
+use foveate_footage::ImagesAs;
 use foveate_toolchain::{Cache, Toolchain};
 
 use crate::args::ExploreArgs;

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use foveate_explore::{ExploreError, Figures, Fit, FitRequest, FittedDesign, Held, fit};
-use foveate_simulator::ImagesAs;
+use foveate_footage::ImagesAs;
 use foveate_staging::{check_file, write_file};
 
 use super::explore::Terminal;

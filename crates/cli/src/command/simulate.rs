@@ -6,9 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_design::Config;
+use foveate_footage::{ImagesAs, InputOptions, Plan, open, plan};
 use foveate_simulator::{
-    Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, ImagesAs, InputOptions,
-    Plan, Progress, RunOptions, Simulation, Summary, Traffic, open, plan, run_batch,
+    Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, Progress, RunOptions,
+    Simulation, Summary, Traffic, run_batch,
 };
 
 use crate::args::SimulateArgs;

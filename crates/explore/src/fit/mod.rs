@@ -22,7 +22,7 @@ mod why;
 use std::path::PathBuf;
 
 use foveate_design::{Config, HardwareConfig};
-use foveate_simulator::InputOptions;
+use foveate_footage::InputOptions;
 
 use crate::cost::Synthesizer;
 use crate::footage::Footage;

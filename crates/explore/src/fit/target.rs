@@ -103,7 +103,7 @@ fn rounded(value: f64) -> u32 {
 mod tests {
     use std::path::PathBuf;
 
-    use foveate_simulator::InputOptions;
+    use foveate_footage::InputOptions;
     use foveate_toolchain::{Cache, Toolchain};
 
     use super::*;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_explore::{Exploration, ExploreError, Hooks, Progress, Request, Space, explore};
-use foveate_simulator::InputOptions;
+use foveate_footage::InputOptions;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 

@@ -7,7 +7,7 @@ use foveate_design::Config;
 use foveate_explore::{
     Constraints, ExploreError, Fit, FitRequest, Hooks, Progress, Synthesizer, fit,
 };
-use foveate_simulator::InputOptions;
+use foveate_footage::InputOptions;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 

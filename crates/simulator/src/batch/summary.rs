@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use super::Clip;
 use crate::Summary;
+use foveate_footage::Clip;
 
 /// Changes when a key of the summary changes its meaning or goes.
 pub(super) const FORMAT_VERSION: u32 = 1;
@@ -49,24 +49,24 @@ pub struct BatchSummary {
     pub clips: Vec<ClipSummary>,
 }
 
-impl Clip {
-    pub(super) fn done(&self, summary: Summary) -> ClipSummary {
-        ClipSummary {
-            output: Some(self.place.display().to_string()),
+impl ClipSummary {
+    pub(super) fn done(clip: &Clip, summary: Summary) -> Self {
+        Self {
+            output: Some(clip.place.display().to_string()),
             complete: summary.complete,
+            problem: summary.problem,
             frames: summary.frames,
             active_share: Some(summary.active_share),
             pixels_in: summary.pixels_in,
             pixels_forwarded: summary.pixels_forwarded,
-            ..self.failed(String::new())
+            ..Self::failed(clip, String::new())
         }
-        .with_problem(summary.problem)
     }
 
-    pub(super) fn failed(&self, problem: String) -> ClipSummary {
-        ClipSummary {
-            inputs: self.inputs.iter().map(|input| input.display().to_string()).collect(),
-            label: self.label.clone(),
+    pub(super) fn failed(clip: &Clip, problem: String) -> Self {
+        Self {
+            inputs: clip.inputs.iter().map(|input| input.display().to_string()).collect(),
+            label: clip.label.clone(),
             output: None,
             complete: false,
             problem: Some(problem),
@@ -75,11 +75,5 @@ impl Clip {
             pixels_in: 0,
             pixels_forwarded: 0,
         }
-    }
-}
-
-impl ClipSummary {
-    fn with_problem(self, problem: Option<String>) -> Self {
-        Self { problem, ..self }
     }
 }

@@ -8,7 +8,7 @@ use foveate_model::feature::{corner_strengths, edge_magnitudes, mad};
 use foveate_model::{Outcome, region_pixels};
 
 use super::{Change, Explanation, Place, Rows, Spatial};
-use crate::SourceFrame;
+use foveate_footage::SourceFrame;
 
 /// Changes when a key changes its meaning or goes.
 const FORMAT_VERSION: u32 = 1;

@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::npy::NpyWriter;
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
-use crate::source::form::{Labels, SetFiles, SetForm};
+use foveate_footage::{Labels, SetFiles, SetForm};
 
 /// Where a data set is, below the folder of its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

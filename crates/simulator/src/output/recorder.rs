@@ -18,7 +18,8 @@ use super::sink::{Sink, Step};
 use super::summary::Totals;
 use super::table::{FrameTable, Row};
 use super::{RunOptions, Summary, events};
-use crate::{SetForm, SimulatorError, SourceFrame};
+use crate::SimulatorError;
+use foveate_footage::{SetForm, SourceFrame};
 
 /// How a full disk is called in a summary.
 pub(crate) const DISK_FULL: &str = "disk full";

@@ -7,7 +7,8 @@ use foveate_design::Design;
 use foveate_engine::{Engine, Outcome};
 use foveate_frame::Plane;
 
-use crate::{SimulatorError, SourceFrame};
+use crate::SimulatorError;
+use foveate_footage::SourceFrame;
 
 /// One frame and what came of it.
 pub(super) struct Step<'a> {

@@ -92,7 +92,7 @@ impl VideoFile {
             .args(["-i", "pipe:0", "-an"])
             .args(self.codec(picture.samples))
             .arg(&self.path);
-        Ok(Feeder::start(&invocation)?)
+        Feeder::start(&invocation).map_err(|error| SimulatorError::Tool(Box::new(error)))
     }
 
     fn codec(&self, samples: Samples) -> &'static [&'static str] {

@@ -6,11 +6,9 @@ use std::path::Path;
 
 use crate::support::{Npy, grey, names, run};
 use foveate_design::Config;
+use foveate_footage::{FootageError, InputOptions, Source, SourceFrame, open};
 use foveate_frame::Frame;
-use foveate_simulator::{
-    Hooks, InputOptions, Progress, RunOptions, Silent, Simulation, SimulatorError, Source,
-    SourceFrame, open,
-};
+use foveate_simulator::{Hooks, Progress, RunOptions, Silent, Simulation, SimulatorError};
 use foveate_staging::StagingError;
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];
@@ -58,12 +56,12 @@ fn a_failing_run_leaves_nothing() {
     let whole = fs::read(&broken).unwrap();
     fs::write(&broken, &whole[..whole.len() / 2]).unwrap();
     let error = run(&[&frames], &[], &folder.path().join("out"), &plain()).unwrap_err();
-    assert!(matches!(error, SimulatorError::Truncated { .. }), "{error}");
+    assert!(matches!(error, SimulatorError::Footage(FootageError::Truncated { .. })), "{error}");
     assert_eq!(names(folder.path()), ["frames"]);
 
     grey(&broken, 17, 16, |_, _| 0);
     let error = run(&[&frames], &[], &folder.path().join("out"), &plain()).unwrap_err();
-    assert!(matches!(error, SimulatorError::MixedSizes { .. }), "{error}");
+    assert!(matches!(error, SimulatorError::Footage(FootageError::MixedSizes { .. })), "{error}");
     assert_eq!(names(folder.path()), ["frames"]);
 }
 
@@ -201,7 +199,7 @@ impl Source for Foreign {
         None
     }
 
-    fn next_frame(&mut self) -> Result<Option<SourceFrame>, SimulatorError> {
+    fn next_frame(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         let name = "frame".to_owned();
         Ok(self.frames.pop().map(|frame| SourceFrame {
             name,

@@ -7,10 +7,8 @@ use std::sync::Mutex;
 
 use crate::support::{grey, names};
 use foveate_design::Config;
-use foveate_simulator::{
-    BatchHooks, BatchProgress, Clip, ImagesAs, InputOptions, Plan, RunOptions, SimulatorError,
-    plan, run_batch,
-};
+use foveate_footage::{Clip, FootageError, ImagesAs, InputOptions, Plan, plan};
+use foveate_simulator::{BatchHooks, BatchProgress, RunOptions, SimulatorError, run_batch};
 
 /// A stream of `frames` frames of 16x16 pixels.
 fn y4m(path: &Path, frames: u8) -> PathBuf {
@@ -103,11 +101,11 @@ fn what_is_one_clip_is_no_batch() {
     assert_eq!(planned(&[at("top.y4m"), at("cars")]).len(), 3);
     for mixed in [["top.y4m", "alone/0.png"], ["top.y4m", "gone.mp4"]] {
         let error = plan(&mixed.map(at), &InputOptions::default()).unwrap_err();
-        assert!(matches!(error, SimulatorError::NotAlone { .. }), "{error}");
+        assert!(matches!(error, FootageError::NotAlone { .. }), "{error}");
     }
     fs::create_dir(at("empty")).unwrap();
     let error = plan(&[at("empty")], &InputOptions::default()).unwrap_err();
-    assert!(matches!(error, SimulatorError::EmptyFolder { .. }), "{error}");
+    assert!(matches!(error, FootageError::EmptyFolder { .. }), "{error}");
 }
 
 fn run(

@@ -8,7 +8,8 @@ use crate::support::made::{
     LABELS, images, made, packed, pixels, rendered, set, unpacked, unpacked_any,
 };
 use crate::support::{Npy, grey, names};
-use foveate_simulator::{Hooks, InputOptions, Progress, Silent};
+use foveate_footage::InputOptions;
+use foveate_simulator::{Hooks, Progress, Silent};
 
 #[test]
 fn idx_becomes_idx_byte_by_byte() {

@@ -3,9 +3,10 @@
 
 use crate::support::{design, frames};
 use foveate_design::Config;
+use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_model::{Camera, region_pixels};
-use foveate_simulator::{Explanation, InputOptions, SimulatorError, explain, open};
+use foveate_simulator::{Explanation, SimulatorError, explain};
 
 const FOUR: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90}]"#;
 

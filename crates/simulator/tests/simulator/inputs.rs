@@ -6,14 +6,15 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{grey, run};
 use foveate_design::Config;
-use foveate_simulator::{InputOptions, RunOptions, SimulatorError, open};
+use foveate_footage::{FootageError, InputOptions, open};
+use foveate_simulator::RunOptions;
 
 fn level(frame: usize) -> u8 {
     u8::try_from(frame).unwrap()
 }
 
 /// The names and the first pixels of all frames, in order.
-fn read_all<P: AsRef<Path>>(inputs: &[P]) -> Result<Vec<(String, u16)>, SimulatorError> {
+fn read_all<P: AsRef<Path>>(inputs: &[P]) -> Result<Vec<(String, u16)>, FootageError> {
     let mut source = open(inputs, &Config::default(), &InputOptions::default())?;
     let total = source.frames();
     let mut seen = Vec::new();

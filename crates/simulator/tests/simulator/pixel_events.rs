@@ -8,9 +8,10 @@ use std::path::Path;
 
 use crate::support::{Npy, STREET, design, frames, names, street};
 use foveate_design::Decimal;
+use foveate_footage::FrameRate;
 use foveate_frame::Frame;
 use foveate_simulator::{
-    FrameRate, PIXEL_EVENT_BYTES, PixelCamera, PixelEvents, RunOptions, SimulatorError, Summary,
+    PIXEL_EVENT_BYTES, PixelCamera, PixelEvents, RunOptions, SimulatorError, Summary,
 };
 
 /// x, y, t, p.

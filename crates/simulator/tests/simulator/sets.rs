@@ -9,12 +9,12 @@ use crate::support::{Npy, grey, run};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use foveate_design::Config;
-use foveate_simulator::{
-    ImagesAs, InputOptions, Kind, RunOptions, Selection, Silent, Simulation, SimulatorError,
-    SourceFrame, luma, open,
+use foveate_footage::{
+    FootageError, ImagesAs, InputOptions, Kind, Selection, SourceFrame, luma, open,
 };
+use foveate_simulator::{RunOptions, Silent, Simulation};
 
-fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, SimulatorError> {
+fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, FootageError> {
     let mut source = open(&[path], &Config::default(), options)?;
     assert_eq!(source.kind(), Kind::Set);
     let mut seen = Vec::new();

@@ -6,7 +6,8 @@ use std::fs;
 
 use crate::support::clips::{all, clip, ffmpeg, frames, opened, tools};
 use crate::support::run;
-use foveate_simulator::{InputOptions, RunOptions, Selection, SimulatorError};
+use foveate_footage::{FootageError, InputOptions, Selection};
+use foveate_simulator::RunOptions;
 
 #[test]
 fn a_truncated_video_gives_what_could_be_decoded_and_says_so() {
@@ -92,7 +93,7 @@ fn what_holds_no_video_is_refused_in_one_line() {
     for name in ["text.mp4", "empty.mp4", "real.gif", "sound.wav", "cut.mp4"] {
         let error = opened(&at(name), 8, &InputOptions::default()).err().unwrap();
         let message = error.to_string();
-        assert!(matches!(error, SimulatorError::Video { .. }), "{message}");
+        assert!(matches!(error, FootageError::Video { .. }), "{message}");
         assert!(message.contains(name) && !message.contains('\n'), "{message}");
     }
     let late = Selection { start_us: Some(100_000_000), ..Selection::default() };

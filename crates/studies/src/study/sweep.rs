@@ -2,7 +2,7 @@
 //! Active share against one number of the design: region size, and each threshold by itself.
 
 use foveate_design::{Config, Decimal, FeatureKind};
-use foveate_simulator::Kind;
+use foveate_footage::Kind;
 
 use super::Study;
 use crate::StudyError;

@@ -5,7 +5,8 @@ use std::fs;
 
 use crate::support::{Silent, cells, run};
 use foveate_design::Config;
-use foveate_simulator::{BatchHooks, BatchProgress, FrameRate, ImagesAs, InputOptions};
+use foveate_footage::{FrameRate, ImagesAs, InputOptions};
+use foveate_simulator::{BatchHooks, BatchProgress};
 use foveate_studies::{Request, Study, StudyError, analyze};
 
 #[test]

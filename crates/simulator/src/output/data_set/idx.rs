@@ -11,7 +11,7 @@ use super::super::headed::HeadedFile;
 use super::super::png::low_byte;
 use super::super::sink::{Sink, Step};
 use crate::SimulatorError;
-use crate::source::form::IdxFile;
+use foveate_footage::{FootageError, IdxFile};
 use foveate_frame::convert_depth;
 
 const BITS: u32 = 8;
@@ -25,7 +25,7 @@ pub(super) fn sinks(
     if let Some(labels) = labels.filter(|labels| labels.name == images.name) {
         let name = &labels.name;
         let problem = format!("images and labels are both called `{name}`; rename one of them");
-        return Err(SimulatorError::Option { option: "--labels", problem });
+        return Err(FootageError::Option { option: "--labels", problem }.into());
     }
     let file = HeadedFile::create(&folder.join(&images.name), images.packed)?;
     let mut sinks: Vec<Box<dyn Sink>> =

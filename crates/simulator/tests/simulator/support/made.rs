@@ -9,11 +9,10 @@ use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use foveate_design::Config;
+use foveate_footage::{ImagesAs, InputOptions, open};
 use foveate_frame::{Frame, convert_depth};
 use foveate_model::Camera;
-use foveate_simulator::{
-    Hooks, ImagesAs, InputOptions, RunOptions, Simulation, SimulatorError, Summary, open,
-};
+use foveate_simulator::{Hooks, RunOptions, Simulation, SimulatorError, Summary};
 
 pub(crate) fn made<P: AsRef<Path>>(
     inputs: &[P],
@@ -23,7 +22,7 @@ pub(crate) fn made<P: AsRef<Path>>(
     hooks: &mut dyn Hooks,
 ) -> Result<Summary, Box<SimulatorError>> {
     let config = Config::from_toml_with("", overrides).unwrap();
-    let source = open(inputs, &config, input)?;
+    let source = open(inputs, &config, input).map_err(SimulatorError::from)?;
     let options = RunOptions { rendered: None, data_set: true, ..RunOptions::default() };
     Ok(Simulation::new(&config, source)?.run(output, &options, hooks)?)
 }

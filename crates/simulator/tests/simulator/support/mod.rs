@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the tests of this crate share: runs, images made on the spot, and a reader of NPY files.
 
+#[path = "../../../../footage/tests/footage/clips.rs"]
 pub(crate) mod clips;
 pub(crate) mod made;
 
@@ -8,12 +9,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, Design};
+use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_model::{Camera, Outcome};
 use foveate_scenes::{Scene, SceneSize};
-use foveate_simulator::{
-    InputOptions, RunOptions, Silent, Simulation, SimulatorError, Summary, open,
-};
+use foveate_simulator::{RunOptions, Silent, Simulation, SimulatorError, Summary};
 
 /// Runs `inputs` with a configuration of default values and `overrides`.
 pub(crate) fn run<P: AsRef<Path>>(

@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::Config;
-use foveate_simulator::{BatchHooks, BatchProgress, InputOptions};
+use foveate_footage::InputOptions;
+use foveate_simulator::{BatchHooks, BatchProgress};
 use foveate_studies::{Report, Request, Study, StudyError, analyze};
 
 pub(crate) struct Silent;

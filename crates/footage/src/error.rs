@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Why there is no footage. Every message names the input and says what to do.
+
+use std::path::PathBuf;
+
+use foveate_design::DesignError;
+use foveate_frame::FrameError;
+use foveate_scenes::SceneError;
+use foveate_toolchain::ToolError;
+use thiserror::Error;
+
+use crate::Crop;
+use crate::picture::{MAX_FILE_GIB, MAX_SIDE};
+
+/// What the reader understands, for messages.
+const TYPES: &str = "PNG, JPEG, BMP and PNM (PGM, PPM, PBM, PAM)";
+
+/// Footage that cannot be opened or read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum FootageError {
+    /// Nothing to simulate was named.
+    #[error(
+        "no input was given; name a video, images, folders, patterns such as 'frames/*.png', or scene:NAME"
+    )]
+    NoInput,
+    /// A file or folder that does not exist.
+    #[error("input `{}` does not exist; check the path", path.display())]
+    Missing {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// A pattern that no image matches.
+    #[error("no image matches `{pattern}`; check the pattern (image types are {TYPES})")]
+    NoMatch {
+        /// The pattern as given.
+        pattern: String,
+    },
+    /// A pattern with a syntax error.
+    #[error("`{pattern}` is not a valid pattern: {problem}")]
+    Pattern {
+        /// The pattern as given.
+        pattern: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A folder without images or clips.
+    #[error("folder `{}` holds no image and no video; image types are {TYPES}", path.display())]
+    EmptyFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Scenes, cameras, streams and videos do not mix with other inputs in one clip.
+    #[error("`{input}` cannot be combined with other inputs; simulate it on its own")]
+    NotAlone {
+        /// The input as given.
+        input: String,
+    },
+    /// A video that gives no frame.
+    #[error(
+        "`{}` cannot be read as a video, and is no image ({TYPES}): {problem}; \
+         play it to see whether it is whole",
+        path.display()
+    )]
+    Video {
+        /// The file or device.
+        path: PathBuf,
+        /// What is wrong, as ffmpeg says it.
+        problem: String,
+    },
+    /// A raw stream that gives no frame.
+    #[error(
+        "`{name}` is no YUV4MPEG2 stream: {problem}; make one with `ffmpeg -i FILE -f yuv4mpegpipe -`"
+    )]
+    Y4m {
+        /// The file, or standard input.
+        name: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A file of many images that cannot be read.
+    #[error("data set `{}` cannot be read: {problem}; copy or fetch it again", path.display())]
+    DataSet {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A choice that does not fit.
+    #[error("{option} cannot be followed: {problem}")]
+    Option {
+        /// The option.
+        option: &'static str,
+        /// What is wrong, and what to do.
+        problem: String,
+    },
+    /// A part that is not inside the frame.
+    #[error(
+        "--crop {}x{}+{}+{} does not lie inside the frame of {}x{} pixels",
+        crop.size.0, crop.size.1, crop.at.0, crop.at.1, size.0, size.1
+    )]
+    Crop {
+        /// The part as given.
+        crop: Crop,
+        /// Width and height of the frame.
+        size: (u32, u32),
+    },
+    /// ffmpeg is missing or cannot be started.
+    #[error(transparent)]
+    Tool(Box<ToolError>),
+    /// A file that cannot be read at all.
+    #[error("cannot read `{}`: {problem}", path.display())]
+    Unreadable {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        problem: String,
+    },
+    /// A file that is no image of a known type.
+    #[error("`{}` is not an image of a supported type; convert it to one of {TYPES}", path.display())]
+    UnsupportedType {
+        /// The file.
+        path: PathBuf,
+    },
+    /// An image of a supported type in a variant that is not.
+    #[error("image `{}` cannot be decoded: {problem}; export it again as a plain PNG", path.display())]
+    UnsupportedFeature {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        problem: String,
+    },
+    /// An image that ends too early.
+    #[error("image `{}` is truncated: {problem}; copy or export it again", path.display())]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+        /// What is missing.
+        problem: String,
+    },
+    /// An image that does not decode.
+    #[error("image `{}` is damaged: {problem}; copy or export it again", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        problem: String,
+    },
+    /// An image beyond the limits.
+    #[error(
+        "image `{}` is too large; the limits are {MAX_SIDE} pixels per side and {MAX_FILE_GIB} GiB, \
+         so scale it down or cut it",
+        path.display()
+    )]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Frames of one run that differ in size.
+    #[error(
+        "frames of one run must have one size: `{first}` has {}x{} pixels, `{other}` has {}x{}; \
+         scale them with --resize, or simulate them apart",
+        first_size.0, first_size.1, other_size.0, other_size.1
+    )]
+    MixedSizes {
+        /// Name of the first frame.
+        first: String,
+        /// Its width and height.
+        first_size: (u32, u32),
+        /// Name of the first frame that differs.
+        other: String,
+        /// Its width and height.
+        other_size: (u32, u32),
+    },
+    /// A source that has no frame.
+    #[error("{inputs} holds no frame; at least one is needed")]
+    NoFrames {
+        /// The inputs as given.
+        inputs: String,
+    },
+    /// A frame rate of zero or without end.
+    #[error("{frames} frames in {seconds} s are no frame rate; both must be at least 1")]
+    FrameRate {
+        /// Frames as given.
+        frames: u32,
+        /// Seconds as given.
+        seconds: u32,
+    },
+    /// The system gave no thread.
+    #[error("the system gives no thread: {reason}; try again with less running beside it")]
+    Thread {
+        /// What it says.
+        reason: String,
+    },
+    /// The configuration does not fit.
+    #[error(transparent)]
+    Design(#[from] DesignError),
+    /// Pixels are no frame.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    /// The scene does not exist.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+impl From<ToolError> for FootageError {
+    fn from(error: ToolError) -> Self {
+        Self::Tool(Box::new(error))
+    }
+}

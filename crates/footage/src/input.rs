@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From what a user names to a source: a scene, a camera, standard input, files, folders, patterns.
+//!
+//! Arguments keep the order in which they are given; the files of one folder or pattern are in natural
+//! order. What a file is follows from its content, and from its extension where content is silent.
+
+mod find;
+mod sniff;
+
+pub(crate) use find::{VIDEO_EXTENSIONS, entries, extension_in, is_image_name};
+
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use foveate_design::Config;
+use foveate_scenes::{Scene, SceneSize};
+
+use crate::sets::cifar::{Batch, Sheet};
+use crate::sets::idx::Idx;
+use crate::sets::open_unpacked;
+use crate::source::feed::{Adjustment, Feed, Input};
+use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
+use crate::source::resize::Crop;
+use crate::source::select::Selection;
+use crate::video::{Medium, Video};
+use crate::y4m::Y4m;
+use crate::{FootageError, FrameRate, Kind, Source};
+
+/// Side of a scene where the configuration does not say.
+const SCENE_SIDE: u32 = 224;
+
+/// What image files are to each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImagesAs {
+    /// Frames of one clip, in order.
+    #[default]
+    Clip,
+    /// A set: each is a first frame. Sub-folders are searched, and their names are labels.
+    Set,
+    /// CIFAR sheets: 1024 columns, and every row is an image of 32x32 pixels.
+    CifarSheet,
+}
+
+/// Choices on how inputs are read.
+#[derive(Clone, Debug, Default)]
+pub struct InputOptions {
+    /// At most this many frames; of a scene, exactly this many.
+    pub frames: Option<u32>,
+    /// Frames per second of what has no times: images, scenes, streams without a rate.
+    pub frame_rate: FrameRate,
+    /// Which frames of a clip to take.
+    pub selection: Selection,
+    /// The part of every frame to take.
+    pub crop: Option<Crop>,
+    /// Width and height to scale to, after cropping.
+    pub resize: Option<(u32, u32)>,
+    /// What image files are to each other.
+    pub images: ImagesAs,
+    /// The labels of an IDX file, if they are not beside it under their usual name.
+    pub labels: Option<PathBuf>,
+}
+
+/// Opens inputs as one source of frames with the configuration's bits per pixel. Scenes also take
+/// their size from it.
+///
+/// # Errors
+/// When an input does not exist, cannot be read, or there are several that are no images.
+pub fn open<P: AsRef<Path>>(
+    inputs: &[P],
+    config: &Config,
+    options: &InputOptions,
+) -> Result<Box<dyn Source>, FootageError> {
+    let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
+    let adjustment = Adjustment {
+        selection: options.selection,
+        crop: options.crop,
+        size: options.resize,
+        frames: options.frames,
+    };
+    let feed = feed(&inputs, config, options)?;
+    let names = inputs.iter().map(|input| input.display().to_string()).collect();
+    Ok(Box::new(Input::new(names, feed, adjustment)?))
+}
+
+/// What follows a prefix, such as the name of a scene.
+fn after<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
+    input.to_str()?.strip_prefix(prefix)
+}
+
+/// Whether an input is a source by itself that is no file.
+pub(crate) fn is_special(input: &Path) -> bool {
+    is_read_once(input) || after("scene:", input).is_some()
+}
+
+/// Whether an input cannot be read a second time: standard input, a camera.
+#[must_use]
+pub fn is_read_once(input: &Path) -> bool {
+    input == Path::new("-") || after("v4l2:", input).is_some()
+}
+
+fn feed(
+    inputs: &[&Path],
+    config: &Config,
+    options: &InputOptions,
+) -> Result<Box<dyn Feed>, FootageError> {
+    if let (Some(special), 2..) = (inputs.iter().find(|input| is_special(input)), inputs.len()) {
+        return Err(FootageError::NotAlone { input: special.display().to_string() });
+    }
+    // A depth out of range is refused here, with the name of its key, not by a frame.
+    let bits = config.validate()?.pixel_bits();
+    let rate = options.frame_rate;
+    if let [input] = inputs {
+        if let Some(name) = after("scene:", input) {
+            return scene(name, config, options);
+        }
+        if let Some(device) = after("v4l2:", input) {
+            return Ok(Box::new(Video::open(Medium::Camera(device.into()), bits, rate, 0)?));
+        }
+        if *input == Path::new("-") {
+            let stdin = Box::new(BufReader::new(std::io::stdin()));
+            return Ok(Box::new(Y4m::new("standard input".to_owned(), stdin, bits, rate)?));
+        }
+    }
+    let mut images = Vec::new();
+    let mut clips = Vec::new();
+    for input in inputs {
+        let mut paths = find::expand(input, options.images)?;
+        let (mut pictures, mut others) = find::split(&mut paths)?;
+        images.append(&mut pictures);
+        clips.append(&mut others);
+    }
+    match (images.is_empty(), clips.as_slice()) {
+        (true, []) => Err(FootageError::NoInput),
+        (true, [(path, kind)]) => file(path, *kind, bits, options),
+        (false, []) => pictures(images, bits, options),
+        (_, [(path, _), ..]) => Err(FootageError::NotAlone { input: path.display().to_string() }),
+    }
+}
+
+fn pictures(
+    files: Vec<ImageFile>,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<Box<dyn Feed>, FootageError> {
+    let kind = match (options.images, files.as_slice()) {
+        (ImagesAs::Clip, _) => Kind::Clip,
+        (ImagesAs::Set, _) => Kind::Set,
+        (ImagesAs::CifarSheet, [sheet]) => return Ok(Box::new(Sheet::open(&sheet.path, bits)?)),
+        (ImagesAs::CifarSheet, _) => {
+            let sheets =
+                format!("{} files are given; simulate one CIFAR sheet at a time", files.len());
+            return Err(FootageError::Option { option: "--images", problem: sheets });
+        }
+    };
+    Ok(Box::new(ImageFiles::new(files, bits, options.frame_rate, kind)))
+}
+
+fn file(
+    path: &Path,
+    kind: sniff::FileKind,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<Box<dyn Feed>, FootageError> {
+    Ok(match kind {
+        sniff::FileKind::Idx => Box::new(Idx::open(path, options.labels.as_deref(), bits)?),
+        sniff::FileKind::CifarBatch => Box::new(Batch::open(path, bits)?),
+        sniff::FileKind::Y4m => {
+            let name = path.display().to_string();
+            Box::new(Y4m::new(name, open_unpacked(path)?, bits, options.frame_rate)?)
+        }
+        sniff::FileKind::Video => {
+            let start = options.selection.start_us.unwrap_or(0);
+            let medium = Medium::File(path.to_owned());
+            Box::new(Video::open(medium, bits, options.frame_rate, start)?)
+        }
+    })
+}
+
+fn scene(
+    name: &str,
+    config: &Config,
+    options: &InputOptions,
+) -> Result<Box<dyn Feed>, FootageError> {
+    let scene = Scene::find(name)?;
+    let size = SceneSize {
+        width: config.frame.width.unwrap_or(SCENE_SIDE),
+        height: config.frame.height.unwrap_or(SCENE_SIDE),
+        bits: config.frame.pixel_bits,
+        region_size: config.region.size,
+        frames: options.frames.unwrap_or(scene.default_frames()),
+    };
+    Ok(Box::new(SceneFeed::new(scene, size, options.frame_rate)))
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Footage: video, images, data sets and synthetic scenes, as frames one at a time.
+//!
+//! [`open`] turns what a user names (video, files, folders, globs, `scene:NAME`) into a [`Source`] of
+//! frames of the design's depth; [`plan`] decides whether inputs are one clip or many; [`read_ahead`]
+//! reads on a thread of its own. Memory does not grow with the number of frames. Nothing here knows
+//! what becomes of the frames.
+
+mod error;
+mod input;
+mod natural;
+mod picture;
+mod plan;
+mod samples;
+mod sets;
+mod source;
+mod subject;
+mod video;
+mod y4m;
+
+pub use error::FootageError;
+pub use input::{ImagesAs, InputOptions, is_read_once, open};
+pub use natural::natural_order;
+pub use picture::{MAX_SIDE, decode, luma, read};
+pub use plan::{Clip, Plan, plan};
+pub use source::ahead::{Frames, read_ahead};
+pub use source::form::{IdxFile, Labels, SetFiles, SetForm};
+pub use source::resize::Crop;
+pub use source::select::{Selection, parse_time};
+pub use source::{FrameRate, Kind, Source, SourceFrame};
+pub use subject::{Subject, subjects};

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Image files to frames: PNG (first frame), JPEG, BMP, PNM; told apart by content, not by name.
+//!
+//! * Colour becomes luma by [`luma`], on 8-bit samples or, where the file has more, on 16-bit ones.
+//!   Alpha, colour profiles and EXIF orientation are ignored.
+//! * Samples of fewer bits (1-, 2-, 4-bit PNG, PNM with another maximum than 255 or 65535) count as the
+//!   nearest of the full range of 8 or 16 bits.
+//! * Those 8 or 16 bits become P bits by [`convert_depth`].
+//! * Files that end early are refused, even where a decoder would fill up with grey.
+
+mod complete;
+
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use foveate_frame::Frame;
+use image::error::{ImageError, LimitErrorKind};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+
+use crate::FootageError;
+use foveate_frame::convert_depth;
+
+/// Largest width and height of an image, in pixels.
+pub const MAX_SIDE: u32 = 16_384;
+/// Largest file, and the most memory that decoding may take.
+pub(crate) const MAX_FILE_GIB: u64 = 1;
+
+/// Luma of a colour: `(77 R + 150 G + 29 B + 128) >> 8`; grey stays what it is.
+#[must_use]
+pub fn luma(red: u16, green: u16, blue: u16) -> u16 {
+    let sum = 77 * u32::from(red) + 150 * u32::from(green) + 29 * u32::from(blue) + 128;
+    u16::try_from(sum >> 8).unwrap_or(u16::MAX)
+}
+
+/// Reads an image file as a frame of `bits` bits per pixel.
+///
+/// # Errors
+/// When the file cannot be read, is too large, truncated, damaged, or no supported image.
+pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
+    decode(&bytes_of(path)?, path, bits)
+}
+
+/// Decodes the bytes of an image; `path` is what errors name.
+///
+/// # Errors
+/// When it is too large, truncated, damaged, or no supported image.
+pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageError> {
+    let format =
+        supported(bytes).ok_or_else(|| FootageError::UnsupportedType { path: path.to_owned() })?;
+    if let Some(problem) = complete::missing(format, bytes) {
+        return Err(FootageError::Truncated { path: path.to_owned(), problem });
+    }
+    let mut limits = Limits::no_limits();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(MAX_FILE_GIB << 30);
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits);
+    let image = reader.decode().map_err(|error| refusal(path, &error))?;
+    let (width, height) = (image.width(), image.height());
+    let (samples, depth) = luma_samples(image);
+    let pixels = samples.into_iter().map(|value| convert_depth(value, depth, bits)).collect();
+    Frame::new(width, height, bits, pixels).map_err(|error| FootageError::Damaged {
+        path: path.to_owned(),
+        problem: error.to_string(),
+    })
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, FootageError> {
+    let unreadable = |problem: String| FootageError::Unreadable { path: path.to_owned(), problem };
+    let file = File::open(path).map_err(|error| unreadable(error.to_string()))?;
+    let known = file.metadata().map_err(|error| unreadable(error.to_string()))?;
+    if !known.is_file() {
+        return Err(unreadable("it is not a file".to_owned()));
+    }
+    let mut bytes = Vec::new();
+    let limit = MAX_FILE_GIB << 30;
+    let length = file.take(limit + 1).read_to_end(&mut bytes);
+    match length.map(u64::try_from) {
+        Ok(Ok(length)) if length <= limit => Ok(bytes),
+        Ok(_) => Err(FootageError::TooLarge { path: path.to_owned() }),
+        Err(error) => Err(unreadable(error.to_string())),
+    }
+}
+
+/// Whether a file starts as an image of a supported type does.
+pub(crate) fn is_image(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path).map(|file| file.take(16).read_to_end(&mut start));
+    matches!(read, Ok(Ok(_))) && supported(&start).is_some()
+}
+
+fn supported(bytes: &[u8]) -> Option<ImageFormat> {
+    let format = image::guess_format(bytes).ok()?;
+    let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Bmp, ImageFormat::Pnm];
+    known.contains(&format).then_some(format)
+}
+
+fn refusal(path: &Path, error: &ImageError) -> FootageError {
+    let path = path.to_owned();
+    let problem = one_line(&error.to_string());
+    match error {
+        ImageError::Limits(limit) => match limit.kind() {
+            LimitErrorKind::DimensionError | LimitErrorKind::InsufficientMemory => {
+                FootageError::TooLarge { path }
+            }
+            _ => FootageError::Damaged { path, problem },
+        },
+        ImageError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => {
+            FootageError::Truncated { path, problem: "pixels are missing at its end".to_owned() }
+        }
+        ImageError::Unsupported(_) => FootageError::UnsupportedFeature { path, problem },
+        _ => FootageError::Damaged { path, problem },
+    }
+}
+
+/// The decoder's message without line breaks and whatever else a damaged file put into it.
+fn one_line(text: &str) -> String {
+    let plain = text.replace(char::is_control, " ");
+    plain.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// One luma sample per pixel, and how many bits it has.
+fn luma_samples(image: DynamicImage) -> (Vec<u16>, u32) {
+    let wide = |value: &u8| u16::from(*value);
+    match image {
+        DynamicImage::ImageLuma8(grey) => (grey.as_raw().iter().map(wide).collect(), 8),
+        DynamicImage::ImageLumaA8(grey) => (grey.pixels().map(|p| wide(&p.0[0])).collect(), 8),
+        DynamicImage::ImageLuma16(grey) => (grey.into_raw(), 16),
+        DynamicImage::ImageLumaA16(grey) => (grey.pixels().map(|p| p.0[0]).collect(), 16),
+        DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) => {
+            let colour = image.into_rgb16();
+            (colour.pixels().map(|p| luma(p.0[0], p.0[1], p.0[2])).collect(), 16)
+        }
+        _ => {
+            let colour = image.into_rgb8();
+            let mix = |p: &image::Rgb<u8>| luma(p.0[0].into(), p.0[1].into(), p.0[2].into());
+            (colour.pixels().map(mix).collect(), 8)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn luma_follows_the_rule_at_both_depths() {
+        assert_eq!(luma(255, 0, 0), 77);
+        assert_eq!(luma(0, 255, 0), 149);
+        assert_eq!(luma(0, 0, 255), 29);
+        assert_eq!(luma(10, 200, 30), (770 + 30_000 + 870 + 128) >> 8);
+        assert_eq!(luma(65_535, 0, 0), 19_712);
+    }
+
+    #[test]
+    fn grey_stays_what_it_is() {
+        assert!((0..=u16::MAX).all(|value| luma(value, value, value) == value));
+    }
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sets of small images in one file: IDX (MNIST and its kin) and CIFAR. Every image is a first frame.
+
+pub(crate) mod cifar;
+pub(crate) mod idx;
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+use std::path::Path;
+
+use flate2::bufread::MultiGzDecoder;
+
+use crate::FootageError;
+
+/// What a gzipped file starts with.
+const GZIP: [u8; 2] = [0x1F, 0x8B];
+
+/// Opens a file, unpacked if it is gzipped.
+pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, FootageError> {
+    let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
+    if file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP) {
+        return Ok(Box::new(BufReader::new(MultiGzDecoder::new(file))));
+    }
+    Ok(Box::new(file))
+}
+
+/// Whether a file is gzipped.
+fn is_packed(path: &Path) -> Result<bool, FootageError> {
+    let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
+    Ok(file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP))
+}
+
+fn unreadable(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
+    |error| FootageError::Unreadable { path: path.to_owned(), problem: error.to_string() }
+}
+
+/// Names the file in what is wrong with it.
+fn damaged(path: &Path, problem: impl Into<String>) -> FootageError {
+    FootageError::DataSet { path: path.to_owned(), problem: problem.into() }
+}
+
+fn cut(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
+    |error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => damaged(path, "it ends before its last image"),
+        _ => damaged(path, error.to_string()),
+    }
+}

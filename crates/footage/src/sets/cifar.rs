@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! CIFAR images, 32x32 in colour: the binary batches as published (CIFAR-10: a label and three
+//! planes; CIFAR-100: two labels, of which the second, finer one is kept), and sheets, pictures of
+//! 1024 columns of which each row is one image, row by row.
+
+use std::fs::File;
+use std::io::{BufReader, ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use foveate_frame::Frame;
+use foveate_frame::Raster;
+
+use super::{damaged, unreadable};
+use crate::source::feed::Feed;
+use crate::source::form::{Labels, SetFiles, SetForm};
+use crate::{FootageError, Kind, SourceFrame, luma, picture};
+use foveate_frame::convert_depth;
+
+const SIDE: u32 = 32;
+const AREA: usize = 1024;
+
+/// The labels before every image of a batch of this length, if it is one.
+pub(crate) fn labels_in_batch(length: u64) -> Option<usize> {
+    (1..=2).find(|&labels| {
+        let record = (labels + 3 * AREA) as u64;
+        length > 0 && length.is_multiple_of(record)
+    })
+}
+
+/// The images of a binary batch.
+pub(crate) struct Batch {
+    path: PathBuf,
+    file: BufReader<File>,
+    record: Vec<u8>,
+    total: u64,
+    next: u64,
+    bits: u32,
+}
+
+impl Batch {
+    pub(crate) fn open(path: &Path, bits: u32) -> Result<Self, FootageError> {
+        let file = File::open(path).map_err(unreadable(path))?;
+        let length = file.metadata().map_err(unreadable(path))?.len();
+        let labels = labels_in_batch(length).ok_or_else(|| {
+            damaged(path, "its length is no multiple of 3073 (CIFAR-10) or 3074 (CIFAR-100) bytes")
+        })?;
+        let record = vec![0; labels + 3 * AREA];
+        let total = length / record.len() as u64;
+        Ok(Self { path: path.to_owned(), file: BufReader::new(file), record, total, next: 0, bits })
+    }
+}
+
+impl Feed for Batch {
+    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+        match self.file.read_exact(&mut self.record) {
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => return Ok(None),
+            read => read.map_err(unreadable(&self.path))?,
+        }
+        let (labels, planes) = self.record.split_at(self.record.len() - 3 * AREA);
+        let (red, rest) = planes.split_at(AREA);
+        let (green, blue) = rest.split_at(AREA);
+        let mix = |((&r, &g), &b): ((&u8, &u8), &u8)| {
+            convert_depth(luma(r.into(), g.into(), b.into()), 8, self.bits)
+        };
+        let pixels = red.iter().zip(green).zip(blue).map(mix).collect();
+        let name = format!("{}#{}", self.path.display(), self.next);
+        self.next += 1;
+        let frame = Raster::from_words(SIDE, SIDE, self.bits, pixels)?;
+        Ok(Some(SourceFrame { name, time_us: 0, label: labels.last().map(u8::to_string), frame }))
+    }
+
+    fn total(&self) -> Option<u64> {
+        Some(self.total)
+    }
+
+    fn kind(&self) -> Kind {
+        Kind::Set
+    }
+
+    fn form(&self) -> SetForm {
+        SetForm { files: SetFiles::Records, labels: Labels::Numbers }
+    }
+}
+
+/// The images of a sheet.
+pub(crate) struct Sheet {
+    path: PathBuf,
+    sheet: Frame,
+    next: u32,
+}
+
+impl Sheet {
+    pub(crate) fn open(path: &Path, bits: u32) -> Result<Self, FootageError> {
+        let sheet = picture::read(path, bits)?;
+        if sheet.width() as usize != AREA {
+            let width = sheet.width();
+            let problem =
+                format!("a CIFAR sheet is 1024 pixels wide, one image per row, not {width}");
+            return Err(damaged(path, problem));
+        }
+        Ok(Self { path: path.to_owned(), sheet, next: 0 })
+    }
+}
+
+impl Feed for Sheet {
+    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+        if self.next == self.sheet.height() {
+            return Ok(None);
+        }
+        let pixels = self.sheet.row(self.next).to_vec();
+        let name = format!("{}#{}", self.path.display(), self.next);
+        self.next += 1;
+        let frame = Raster::from_words(SIDE, SIDE, self.sheet.bits(), pixels)?;
+        Ok(Some(SourceFrame { name, time_us: 0, label: None, frame }))
+    }
+
+    fn total(&self) -> Option<u64> {
+        Some(self.sheet.height().into())
+    }
+
+    fn kind(&self) -> Kind {
+        Kind::Set
+    }
+
+    fn form(&self) -> SetForm {
+        SetForm { files: SetFiles::Records, labels: Labels::None }
+    }
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! IDX files of 8-bit images (MNIST), plain or gzipped, with the labels of the file beside them.
+
+use std::io::{BufRead, Read};
+use std::path::{Path, PathBuf};
+
+use super::{cut, damaged, is_packed, open_unpacked};
+use crate::samples::Layout;
+use crate::source::feed::Feed;
+use crate::source::form::{IdxFile, Labels, SetFiles, SetForm};
+use crate::{FootageError, Kind, MAX_SIDE, SourceFrame};
+
+/// What a file of images starts with: unsigned bytes in three dimensions.
+pub(crate) const MAGIC: [u8; 4] = [0, 0, 8, 3];
+const LABEL_MAGIC: [u8; 4] = [0, 0, 8, 1];
+
+/// The images of a file.
+pub(crate) struct Idx {
+    path: PathBuf,
+    input: Box<dyn BufRead + Send>,
+    labels: Option<Vec<u8>>,
+    total: u32,
+    next: u32,
+    size: (u32, u32),
+    bits: u32,
+    form: SetForm,
+}
+
+impl Idx {
+    /// `labels` is the file of labels; without one, that beside the images is taken if there is one.
+    pub(crate) fn open(
+        path: &Path,
+        labels: Option<&Path>,
+        bits: u32,
+    ) -> Result<Self, FootageError> {
+        let mut input = open_unpacked(path)?;
+        let magic: [u8; 4] = read(&mut *input, path)?;
+        if magic != MAGIC {
+            return Err(damaged(path, "it is no IDX file of 8-bit images (00 00 08 03)"));
+        }
+        let [total, height, width] = [(); 3].map(|()| number(&mut *input, path));
+        let (total, height, width) = (total?, height?, width?);
+        if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
+            let problem =
+                format!("its images have {width}x{height} pixels; sides are 1..={MAX_SIDE}");
+            return Err(damaged(path, problem));
+        }
+        let labels = labels.map(Path::to_owned).or_else(|| beside(path));
+        let form = form_of(path, labels.as_deref())?;
+        let labels = labels.map(|file| labels_of(&file, total)).transpose()?;
+        Ok(Self {
+            path: path.to_owned(),
+            input,
+            labels,
+            total,
+            next: 0,
+            size: (width, height),
+            bits,
+            form,
+        })
+    }
+}
+
+impl Feed for Idx {
+    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+        if self.next == self.total {
+            return Ok(None);
+        }
+        let (width, height) = self.size;
+        let mut bytes = Vec::new();
+        let size = u64::from(width) * u64::from(height);
+        // Memory grows with what is there, not with what the header says.
+        (&mut *self.input).take(size).read_to_end(&mut bytes).map_err(cut(&self.path))?;
+        let layout = Layout { width, height, depth: 8, colour: false };
+        let frame = layout
+            .raster(bytes, self.bits)
+            .map_err(|_| damaged(&self.path, "it ends before its last image"))?;
+        let index = self.next;
+        self.next += 1;
+        let label = self.labels.as_ref().and_then(|labels| labels.get(index as usize));
+        Ok(Some(SourceFrame {
+            name: format!("{}#{index}", self.path.display()),
+            time_us: 0,
+            label: label.map(u8::to_string),
+            frame,
+        }))
+    }
+
+    fn total(&self) -> Option<u64> {
+        Some(self.total.into())
+    }
+
+    fn kind(&self) -> Kind {
+        Kind::Set
+    }
+
+    fn form(&self) -> SetForm {
+        self.form.clone()
+    }
+}
+
+fn form_of(images: &Path, labels: Option<&Path>) -> Result<SetForm, FootageError> {
+    let file = |path: &Path| -> Result<IdxFile, FootageError> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(IdxFile { name, packed: is_packed(path)? })
+    };
+    let files = SetFiles::Idx { images: file(images)?, labels: labels.map(file).transpose()? };
+    let labels = if labels.is_some() { Labels::Numbers } else { Labels::None };
+    Ok(SetForm { files, labels })
+}
+
+/// `train-images-idx3-ubyte.gz` has its labels in `train-labels-idx1-ubyte`, packed or not.
+fn beside(path: &Path) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?;
+    let stem = name.strip_suffix(".gz").unwrap_or(name);
+    let labels = stem.replace("images", "labels").replace("idx3", "idx1");
+    if labels == stem {
+        return None;
+    }
+    let names = [labels.clone(), labels + ".gz"];
+    names.iter().map(|name| path.with_file_name(name)).find(|file| file.is_file())
+}
+
+fn labels_of(path: &Path, images: u32) -> Result<Vec<u8>, FootageError> {
+    let mut input = open_unpacked(path)?;
+    let magic: [u8; 4] = read(&mut *input, path)?;
+    if magic != LABEL_MAGIC {
+        return Err(damaged(path, "it is no IDX file of labels (00 00 08 01)"));
+    }
+    let total = number(&mut *input, path)?;
+    if total != images {
+        return Err(damaged(path, format!("it holds {total} labels for {images} images")));
+    }
+    let mut labels = Vec::new();
+    input.take(total.into()).read_to_end(&mut labels).map_err(cut(path))?;
+    if labels.len() < total as usize {
+        return Err(damaged(path, "it ends before its last label"));
+    }
+    Ok(labels)
+}
+
+fn number(input: &mut dyn BufRead, path: &Path) -> Result<u32, FootageError> {
+    read(input, path).map(u32::from_be_bytes)
+}
+
+fn read<const SIZE: usize>(
+    input: &mut dyn BufRead,
+    path: &Path,
+) -> Result<[u8; SIZE], FootageError> {
+    let mut bytes = [0; SIZE];
+    input.read_exact(&mut bytes).map_err(|_| damaged(path, "it ends inside its header"))?;
+    Ok(bytes)
+}

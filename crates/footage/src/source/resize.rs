@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cropping, and scaling by area, in integers: the same bits for every source and on every machine.
+//!
+//! Each pixel of the result is the mean of the part of the picture that it covers, edges in
+//! proportion, rounded to the nearest (halves up). Going down this is box filtering, going up it is
+//! nearest-neighbor with blended seams.
+
+use foveate_frame::{Plane, Raster};
+
+use crate::FootageError;
+
+/// A part of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// Width and height.
+    pub size: (u32, u32),
+    /// Its left and upper pixel.
+    pub at: (u32, u32),
+}
+
+/// The part of a frame.
+pub(crate) fn crop(frame: &Raster, crop: Crop) -> Result<Raster, FootageError> {
+    let (width, height) = crop.size;
+    let fits = |at: u32, size: u32, whole: u32| {
+        size > 0 && at.checked_add(size).is_some_and(|end| end <= whole)
+    };
+    if !fits(crop.at.0, width, frame.width()) || !fits(crop.at.1, height, frame.height()) {
+        return Err(FootageError::Crop { crop, size: (frame.width(), frame.height()) });
+    }
+    let (bits, whole) = (frame.bits(), frame.width() as usize);
+    Ok(match frame.plane() {
+        Plane::Bytes(pixels) => Raster::from_bytes(width, height, bits, part(pixels, whole, crop)),
+        Plane::Words(pixels) => Raster::from_words(width, height, bits, part(pixels, whole, crop)),
+    }?)
+}
+
+/// The part of pixels in rows of `whole`, in which it is known to lie.
+fn part<T: Copy>(pixels: &[T], whole: usize, crop: Crop) -> Vec<T> {
+    let (left, right) = (crop.at.0 as usize, (crop.at.0 + crop.size.0) as usize);
+    let rows = pixels.chunks_exact(whole).skip(crop.at.1 as usize).take(crop.size.1 as usize);
+    rows.flat_map(|row| &row[left..right]).copied().collect()
+}
+
+/// The frame at another size.
+pub(crate) fn resize(frame: Raster, width: u32, height: u32) -> Result<Raster, FootageError> {
+    let from = (frame.width(), frame.height());
+    if from == (width, height) {
+        return Ok(frame);
+    }
+    let pixels = match frame.plane() {
+        Plane::Bytes(pixels) => scaled(pixels, from, (width, height)),
+        Plane::Words(pixels) => scaled(pixels, from, (width, height)),
+    };
+    Ok(Raster::from_words(width, height, frame.bits(), pixels)?)
+}
+
+fn scaled<T: Copy + Into<u64>>(values: &[T], from: (u32, u32), to: (u32, u32)) -> Vec<u16> {
+    let columns = spans(from.0, to.0);
+    let rows = spans(from.1, to.1);
+    let area = u64::from(from.0) * u64::from(from.1);
+    let mut pixels = Vec::with_capacity(to.0 as usize * to.1 as usize);
+    let mut sums = vec![0u64; from.0 as usize];
+    for span in &rows {
+        sums.fill(0);
+        for (y, weight) in span.parts() {
+            let row = values.chunks_exact(sums.len()).nth(y as usize).unwrap_or_default();
+            for (sum, &value) in sums.iter_mut().zip(row) {
+                *sum += weight * value.into();
+            }
+        }
+        pixels.extend(columns.iter().map(|span| {
+            let sum: u64 = span.parts().map(|(x, weight)| weight * sums[x as usize]).sum();
+            // A mean of pixels is no larger than the largest of them.
+            u16::try_from((sum + area / 2) / area).unwrap_or(u16::MAX)
+        }));
+    }
+    pixels
+}
+
+/// What one pixel of the result covers, in parts of 1 / `scale` source pixels.
+struct Span {
+    start: u64,
+    end: u64,
+    scale: u64,
+}
+
+/// Pixel j of `to` covers j * from .. (j + 1) * from where source pixel i is i * to .. (i + 1) * to.
+fn spans(from: u32, to: u32) -> Vec<Span> {
+    let (from, scale) = (u64::from(from), u64::from(to));
+    (0..scale).map(|j| Span { start: j * from, end: (j + 1) * from, scale }).collect()
+}
+
+impl Span {
+    /// Source pixels with their weights, which add up to the size of the source.
+    fn parts(&self) -> impl Iterator<Item = (u32, u64)> + '_ {
+        (self.start / self.scale..self.end.div_ceil(self.scale)).map(|i| {
+            let (low, high) = (i * self.scale, (i + 1) * self.scale);
+            let weight = self.end.min(high) - self.start.max(low);
+            (u32::try_from(i).unwrap_or(u32::MAX), weight)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(width: u32, height: u32, pixels: &[u16]) -> Raster {
+        Raster::from_words(width, height, 8, pixels.to_vec()).unwrap()
+    }
+
+    #[test]
+    fn whole_blocks_become_their_mean_with_halves_up() {
+        let small = resize(frame(4, 2, &[0, 1, 10, 20, 0, 1, 30, 40]), 2, 1).unwrap();
+        assert_eq!(small.plane().to_words(), [1, 25]);
+    }
+
+    #[test]
+    fn pixels_at_the_edge_count_in_proportion() {
+        // 3 to 2: (2 a + b) / 3 and (b + 2 c) / 3.
+        assert_eq!(resize(frame(3, 1, &[0, 90, 255]), 2, 1).unwrap().plane().to_words(), [30, 200]);
+        assert_eq!(resize(frame(1, 3, &[0, 90, 255]), 1, 2).unwrap().plane().to_words(), [30, 200]);
+        // 2 to 3: the middle is half of each.
+        assert_eq!(resize(frame(2, 1, &[10, 20]), 3, 1).unwrap().plane().to_words(), [10, 15, 20]);
+    }
+
+    #[test]
+    fn flat_stays_flat_and_the_mean_stays_near_at_any_size() {
+        let full = Raster::from_words(37, 23, 16, vec![65_535; 37 * 23]).unwrap();
+        for (width, height) in [(1, 1), (7, 50), (36, 24), (100, 3)] {
+            let scaled = resize(full.clone(), width, height).unwrap();
+            assert!(scaled.plane().to_words().iter().all(|&value| value == 65_535));
+            assert_eq!((scaled.width(), scaled.height()), (width, height));
+        }
+    }
+
+    #[test]
+    fn a_crop_takes_what_it_names_or_says_why_not() {
+        let whole =
+            frame(5, 4, &(0..4).flat_map(|y| (0..5).map(move |x| 10 * y + x)).collect::<Vec<_>>());
+        let part = crop(&whole, Crop { size: (2, 3), at: (3, 1) }).unwrap();
+        assert_eq!(part.plane().to_words(), [13, 14, 23, 24, 33, 34]);
+        for (size, at) in [((6, 1), (0, 0)), ((1, 1), (5, 0)), ((0, 1), (0, 0)), ((1, 2), (0, 3))] {
+            let message = crop(&whole, Crop { size, at }).unwrap_err().to_string();
+            assert!(message.contains("5x4"), "{message}");
+        }
+        assert!(crop(&whole, Crop { size: (u32::MAX, 1), at: (2, 0) }).is_err());
+    }
+}

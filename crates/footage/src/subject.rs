@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is looked at side by side: every input is a clip or set with a name, a folder of clips several.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use crate::{FootageError, ImagesAs, InputOptions, Plan, plan};
+
+/// A clip or set with a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Subject {
+    /// Its name in tables and charts, different from that of all others.
+    pub name: String,
+    /// What [`open`](crate::open) takes.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// Image files together are one clip, as everywhere, unless they are sheets of many; else every input stands for itself.
+///
+/// # Errors
+/// As [`plan`].
+pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<Subject>, FootageError> {
+    let mut found = Vec::new();
+    let sheets = options.images == ImagesAs::CifarSheet;
+    if inputs.len() > 1 && !sheets && matches!(plan(inputs, options), Ok(Plan::One)) {
+        let name = inputs.first().map(|path| name_of(path)).unwrap_or_default();
+        return Ok(vec![Subject { name, inputs: inputs.to_vec() }]);
+    }
+    for input in inputs {
+        match plan(&[input], options)? {
+            Plan::One => found.push(Subject { name: name_of(input), inputs: vec![input.clone()] }),
+            Plan::Batch(clips) => found.extend(clips.into_iter().map(|clip| {
+                let name = clip.inputs.first().map(|path| name_of(path)).unwrap_or_default();
+                Subject { name, inputs: clip.inputs }
+            })),
+        }
+    }
+    set_apart(&mut found);
+    Ok(found)
+}
+
+/// The name of a file without folder and extension, or of a scene.
+fn name_of(path: &Path) -> String {
+    let text = path.to_string_lossy();
+    if let Some(scene) = text.strip_prefix("scene:") {
+        return scene.to_owned();
+    }
+    let name = if path.is_dir() { path.file_name() } else { path.file_name().map(stem) };
+    name.map_or_else(|| "clip".to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+fn stem(name: &std::ffi::OsStr) -> &std::ffi::OsStr {
+    let once = Path::new(name).file_stem().unwrap_or(name);
+    // Of `train-images-idx3-ubyte.gz` and `clip.y4m.gz` alike only the first part is a name.
+    Path::new(once).file_stem().unwrap_or(once)
+}
+
+/// Names that are there twice get the folder in front, and a number if that does not help.
+fn set_apart(subjects: &mut [Subject]) {
+    let mut times: HashMap<String, u32> = HashMap::new();
+    for subject in subjects.iter() {
+        *times.entry(subject.name.clone()).or_insert(0) += 1;
+    }
+    let mut seen: HashMap<String, u32> = HashMap::new();
+    for subject in subjects {
+        let folder = subject.inputs.first().and_then(|path| path.parent()?.file_name());
+        if let (Some(2..), Some(folder)) = (times.get(&subject.name), folder) {
+            subject.name = format!("{}/{}", folder.to_string_lossy(), subject.name);
+        }
+        let number = seen.entry(subject.name.clone()).or_insert(0);
+        *number += 1;
+        if *number > 1 {
+            subject.name = format!("{} ({number})", subject.name);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(inputs: &[&str]) -> Vec<String> {
+        let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
+        let found = subjects(&inputs, &InputOptions::default()).unwrap();
+        found.into_iter().map(|subject| subject.name).collect()
+    }
+
+    #[test]
+    fn every_input_has_a_name_of_its_own() {
+        assert_eq!(names(&["scene:street", "scene:fade"]), ["street", "fade"]);
+        assert_eq!(names(&["scene:zero", "scene:zero"]), ["zero", "zero (2)"]);
+        assert_eq!(names(&["a.png", "b.png"]), ["a"]);
+        assert_eq!(names(&["-", "x/a.png", "y/a.png"]), ["-", "x/a", "y/a"]);
+    }
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! YUV4MPEG2, the stream of raw frames that ffmpeg and others write: the Y plane of every frame, of
+//! 8 bits or more, whatever the other planes are. Read from a file or from standard input, without
+//! ffmpeg. Times follow from the rate in the header.
+
+mod header;
+
+use std::io::{self, BufRead, Read};
+
+use foveate_frame::Raster;
+
+use self::header::{Header, line};
+use crate::samples::Layout;
+use crate::source::feed::Feed;
+use crate::{FootageError, FrameRate, SourceFrame};
+
+/// What a stream starts with.
+pub(crate) const MAGIC: &[u8] = b"YUV4MPEG2";
+
+/// The frames of a stream.
+pub(crate) struct Y4m {
+    name: String,
+    input: Box<dyn BufRead + Send>,
+    header: Header,
+    rate: FrameRate,
+    bits: u32,
+    /// Memory for the next frame.
+    bytes: Vec<u8>,
+    frames: u64,
+    problem: Option<String>,
+}
+
+impl Y4m {
+    /// Reads the header; `rate` is for streams that say none.
+    pub(crate) fn new(
+        name: String,
+        mut input: Box<dyn BufRead + Send>,
+        bits: u32,
+        rate: FrameRate,
+    ) -> Result<Self, FootageError> {
+        let header = line(&mut *input).and_then(|text| Header::parse(&text));
+        let header = header.map_err(|problem| FootageError::Y4m { name: name.clone(), problem })?;
+        let rate = header.rate.unwrap_or(rate);
+        Ok(Self { name, input, header, rate, bits, bytes: Vec::new(), frames: 0, problem: None })
+    }
+
+    fn frame(&mut self) -> Result<Option<Raster>, String> {
+        if self.input.fill_buf().map_err(|error| error.to_string())?.is_empty() {
+            return Ok(None);
+        }
+        let start = line(&mut *self.input)?;
+        if start != "FRAME" && !start.starts_with("FRAME ") {
+            return Err("a frame does not start with FRAME".to_owned());
+        }
+        let Header { width, height, depth, others, .. } = self.header;
+        let wide = depth > 8;
+        let layout = Layout { width, height, depth, colour: false };
+        let mut bytes = std::mem::take(&mut self.bytes);
+        bytes.resize(layout.bytes(), 0);
+        self.input.read_exact(&mut bytes).map_err(|error| cut(&error))?;
+        let rest = others * if wide { 2 } else { 1 };
+        let skipped = io::copy(&mut (&mut *self.input).take(rest), &mut io::sink());
+        if skipped.map_err(|error| cut(&error))? < rest {
+            return Err(cut(&io::ErrorKind::UnexpectedEof.into()));
+        }
+        layout.raster(bytes, self.bits).map(Some).map_err(|error| error.to_string())
+    }
+}
+
+impl Feed for Y4m {
+    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+        if self.problem.is_some() {
+            return Ok(None);
+        }
+        match self.frame() {
+            Ok(frame) => Ok(frame.map(|frame| {
+                let time_us = self.rate.time_us(self.frames);
+                self.frames += 1;
+                SourceFrame { name: self.name.clone(), time_us, label: None, frame }
+            })),
+            Err(problem) if self.frames == 0 => {
+                Err(FootageError::Y4m { name: self.name.clone(), problem })
+            }
+            Err(problem) => {
+                self.problem = Some(format!("after {} frames: {problem}", self.frames));
+                Ok(None)
+            }
+        }
+    }
+
+    fn total(&self) -> Option<u64> {
+        None
+    }
+
+    fn give_back(&mut self, bytes: Vec<u8>) {
+        self.bytes = bytes;
+    }
+
+    fn problem(&self) -> Option<String> {
+        self.problem.clone()
+    }
+
+    fn is_stream(&self) -> bool {
+        true
+    }
+}
+
+fn cut(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => "the stream ends inside a frame".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(bytes: &[u8], bits: u32) -> Result<(Vec<SourceFrame>, Option<String>), FootageError> {
+        let input = Box::new(io::Cursor::new(bytes.to_vec()));
+        let mut stream = Y4m::new("-".to_owned(), input, bits, FrameRate::default())?;
+        let mut frames = Vec::new();
+        while let Some(frame) = stream.next()? {
+            frames.push(frame);
+        }
+        Ok((frames, stream.problem()))
+    }
+
+    #[test]
+    fn the_y_plane_is_taken_from_every_kind_of_stream() {
+        for (colour, others) in [
+            ("", 4),
+            (" C420jpeg", 4),
+            (" C420paldv", 4),
+            (" C422", 8),
+            (" C444", 12),
+            (" C444alpha", 18),
+            (" C411", 4),
+            (" C440", 6),
+            (" Cmono", 0),
+        ] {
+            let mut bytes = format!("YUV4MPEG2 W3 H2 F25:2 Ip A1:1{colour} XNOTE=x\n").into_bytes();
+            for frame in 0..3 {
+                bytes.extend(b"FRAME Ip\n");
+                bytes.extend((0..6).map(|pixel| 10 * frame + pixel));
+                bytes.resize(bytes.len() + others, 99);
+            }
+            let (frames, problem) = read(&bytes, 8).unwrap();
+            assert_eq!((frames.len(), problem), (3, None), "{colour}");
+            assert_eq!(frames[2].frame.plane().to_words(), [20, 21, 22, 23, 24, 25], "{colour}");
+            assert_eq!(frames[2].time_us, 160_000);
+        }
+    }
+
+    #[test]
+    fn deep_samples_follow_the_rule_of_depth() {
+        let mut bytes = b"YUV4MPEG2 W2 H1 Cmono10\nFRAME\n".to_vec();
+        bytes.extend([0x55, 0x02, 0xFF, 0xFF]);
+        assert_eq!(read(&bytes, 10).unwrap().0[0].frame.plane().to_words(), [0x255, 0x3FF]);
+        assert_eq!(read(&bytes, 8).unwrap().0[0].frame.plane().to_words(), [0x95, 0xFF]);
+    }
+
+    #[test]
+    fn a_stream_cut_anywhere_gives_its_whole_frames_and_says_so() {
+        let mut bytes = b"YUV4MPEG2 W4 H4 C420 F30:1\n".to_vec();
+        let start = bytes.len();
+        for _ in 0..3 {
+            bytes.extend(b"FRAME\n");
+            bytes.resize(bytes.len() + 24, 7);
+        }
+        for length in 0..bytes.len() {
+            let whole = length.saturating_sub(start) / 30;
+            match read(&bytes[..length], 8) {
+                Ok((frames, problem)) => {
+                    assert_eq!(frames.len(), whole);
+                    assert_eq!(problem.is_some(), !(length - start).is_multiple_of(30), "{length}");
+                }
+                Err(error) => assert!(whole == 0 && !error.to_string().contains('\n'), "{error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn headers_that_make_no_sense_are_refused() {
+        for header in [
+            "",
+            "RIFF",
+            "YUV4MPEG2\n",
+            "YUV4MPEG2 W4\n",
+            "YUV4MPEG2 W0 H4\n",
+            "YUV4MPEG2 W99999 H4\n",
+            "YUV4MPEG2 W4 H4 C999\n",
+            "YUV4MPEG2 W4 H4 C420p99\n",
+            "YUV4MPEG2 W4 H4 C420p7\n",
+            "YUV4MPEG2 W4 H4\nNOFRAME\n",
+        ] {
+            assert!(read(header.as_bytes(), 8).is_err(), "{header}");
+        }
+    }
+}
