@@ -5,6 +5,7 @@
 mod bench;
 mod common;
 mod core;
+mod crate_map;
 mod dataset;
 mod design;
 mod explore;
