@@ -2,8 +2,7 @@
 //! The map of the crates is true: every crate is on it, with what its manifest imports, and imports
 //! go only upwards.
 
-use std::collections::BTreeMap;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
@@ -19,7 +18,8 @@ fn manifests() -> Imports {
     let imports = folders.filter(|folder| folder.join("Cargo.toml").is_file()).map(|folder| {
         let text = fs::read_to_string(folder.join("Cargo.toml")).unwrap();
         let manifest: toml::Table = text.parse().unwrap();
-        let keys = manifest["dependencies"].as_table().into_iter().flat_map(toml::Table::keys);
+        let table = manifest.get("dependencies").and_then(toml::Value::as_table);
+        let keys = table.into_iter().flat_map(toml::Table::keys);
         let own = keys.filter_map(|key| key.strip_prefix("foveate-")).map(str::to_owned);
         (folder.file_name().unwrap().to_str().unwrap().to_owned(), own.collect())
     });
