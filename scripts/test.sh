@@ -16,6 +16,8 @@ step "format"
 cargo fmt --all --check
 step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
+step "shell, Python, dependencies"
+scripts/static.sh
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
 step "book"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Used by mutation.py: proofs that a design with a mutant is the design.
+"""Used by design.py: proofs that a design with a mutant is the design.
 
 `same`   Yosys makes the same netlist of both, down to the last cell: nothing in it comes from what has been changed.
 `equal`  ABC proves that no sequence of inputs tells the two netlists apart: registers that are always equal are found by
@@ -105,7 +105,9 @@ def proven(design, work, sides, inside, cut):
     if cut and memories(work, "gold") != memories(work, "gate"):
         return False
     # ABC leaves files where it stands.
-    ask = lambda commands: run([abc(), "-c", f"read {out}; {commands}"], PROVING, cwd=folder(work)) or ""
+    def ask(commands):
+        return run([abc(), "-c", f"read {out}; {commands}"], PROVING, cwd=folder(work)) or ""
+
     if "was asserted" in ask(REFUTE):
         return False
     said = ask(PROVE)

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Called by mutation.sh: mutants of the Verilog, the co-simulation vectors that must kill them, and what to do with survivors.
+
+1. Records the vectors of every design of mutation/designs.txt once, as co-simulation gives them to Icarus (design.py).
+2. Makes the mutants: one edit each, from a seed, spread over all leaves and rendered modules of an organization (mutants.py).
+   The edits are those of edits.py; parameter defaults, clocks and loop steps are left alone, declared ranges only become narrower.
+3. Replays the vectors of the designs that contain the module, smallest first, until a mismatch (verdicts.py). A replay that
+   takes 12 times the processor time of the unmutated one counts as a mismatch, too.
+4. Where Icarus makes the same program, the mutant is not in the design. A survivor is equivalent if Yosys makes the same netlist
+   of it in every design. It is no mutant if it leaves a net without a driver or with two: every synthesis tool refuses that.
+   What is left sees longer vectors.
+5. What still survives must be proven equal in every design, from reset on (proof.py), or mutation/survivors.txt must say why.
+"""
+import argparse
+import collections
+import concurrent.futures
+import os
+import shutil
+import sys
+import time
+
+from design import LATER, WORK, designs, recorded
+from mutants import drawn, pools, wanted
+from verdicts import REASONS, Journal, everywhere, judge, judge_longer, prove, reasons, replay
+
+
+def examine(organization, options, excuses, used):
+    """Judges the mutants of an organization and prints what became of them; returns how many survive without an excuse."""
+    began = time.monotonic()
+    all_of = recorded(organization, options.jobs, options.sample)
+    found = pools(all_of, options.seed)
+    takes = wanted(found, options.count)
+    print(f"{organization}: {len(all_of)} designs recorded in {time.monotonic() - began:.0f} s, {len(found)} modules with"
+          f" {sum(map(len, found.values()))} possible mutants", flush=True)
+    if options.sample:
+        found, takes = sampled(found, takes, options.sample)
+    journal = Journal(all_of)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        mutants = drawn(found, takes, pool, lambda mutant: journal.ask("short", mutant, lambda it: judge(it, all_of, options.prove)))
+        survivors = [mutant for mutant in mutants if mutant.verdict in ("survived", "equivalent")]
+        unknown = [mutant for mutant in survivors if mutant.verdict == "survived"]
+        if options.sample:
+            unknown = shown_to_others(organization, [mutant for mutant in unknown if mutant.key() not in excuses])
+        elif options.longer:
+            list(pool.map(lambda mutant: journal.ask("long", mutant, lambda it: judge_longer(it, all_of)), unknown))
+            unknown = [mutant for mutant in unknown if mutant.key() not in excuses]
+        unknown = [mutant for mutant in unknown if mutant.verdict == "survived"]
+        if options.prove:
+            if options.longer:
+                list(pool.map(lambda mutant: journal.ask("proof", mutant, lambda it: prove(it, all_of)), unknown))
+            control_proofs(mutants, survivors, all_of, pool)
+    # Another design may show that a mutant is none: it does not elaborate there.
+    mutants, survivors = ([mutant for mutant in of if mutant.verdict != "refused"] for of in (mutants, survivors))
+    open_ones = excuse(survivors, excuses, used, options.verbose)
+    if options.table:
+        print_table(found, mutants)
+    print_counts(organization, found, mutants, open_ones, time.monotonic() - began)
+    return open_ones
+
+
+def sampled(found, takes, sample):
+    """Every so many of the mutants of a whole run of these designs."""
+    whole = [mutant for place in found for mutant in found[place][:takes[place]]]
+    step = len(whole) / sample
+    chosen = collections.defaultdict(list)
+    for index in range(sample):
+        mutant = whole[int((index + 0.5) * step)]
+        chosen[mutant.place()].append(mutant)
+    # A mutant that does not elaborate is replaced by another of its module.
+    found = {place: chosen[place] + [m for m in found[place] if m not in chosen[place]] for place in chosen}
+    return found, {place: len(chosen[place]) for place in chosen}
+
+
+def shown_to_others(organization, unknown):
+    """A sample does without the other designs, unless something has survived that they may kill."""
+    for mutant in unknown:
+        others = [design for design in designs(organization) if not (design.starred or mutant.design)]
+        mutant.verdict = None
+        for design in others:
+            stage = LATER if design.late else 0
+            design.record(stage)
+            if design.has(mutant.module) and replay(mutant, [design], stage):
+                break
+        mutant.verdict = mutant.verdict or "survived"
+    return unknown
+
+
+def control_proofs(mutants, survivors, all_of, pool):
+    """The negative control of the proofs: a mutant of the same module that was killed must not be proven equal."""
+    proven = {mutant.place(): mutant.proof for mutant in survivors if mutant.proof}
+    killed = {mutant.place(): mutant for mutant in mutants if mutant.verdict == "killed" and mutant.place() in proven}
+    controls = list(killed.values())
+    claims = pool.map(lambda mutant: everywhere(mutant, all_of, proven[mutant.place()]), controls)
+    for mutant, claim in zip(controls, claims, strict=True):
+        if claim:
+            sys.exit(f"mutation: proven equal is what the vectors tell apart: {mutant}")
+
+
+def excuse(survivors, excuses, used, verbose):
+    """Prints the survivors that have no excuse, and returns how many there are."""
+    open_ones = 0
+    for mutant in survivors:
+        if mutant.verdict == "survived" and mutant.key() in excuses:
+            mutant.verdict = "excused"
+            used.add(mutant.key())
+        if mutant.verdict == "survived":
+            open_ones += 1
+            print(f"SURVIVES {mutant}")
+        elif verbose:
+            print(f"{mutant.verdict}{f' ({mutant.proof})' if mutant.proof else ''} {mutant}")
+    return open_ones
+
+
+def print_table(found, mutants):
+    print(f"  {'module':28} mutants  killed  equivalent  excused")
+    for place in found:
+        of = [mutant.verdict for mutant in mutants if mutant.place() == place]
+        print(f"  {place:28} {len(of):7} {of.count('killed'):7} {of.count('equivalent'):11} {of.count('excused'):8}")
+
+
+def print_counts(organization, found, mutants, open_ones, seconds):
+    count = collections.Counter(mutant.verdict for mutant in mutants)
+    alike = sum(1 for mutant in mutants if mutant.verdict == "equivalent" and mutant.proof == "same")
+    longer = sum(1 for mutant in mutants if mutant.by and mutant.by[0] > 0)
+    hangs = sum(1 for mutant in mutants if mutant.by and mutant.by[2] == "hang")
+    print(f"{organization}: {len(mutants)} mutants of {len(found)} modules: {count['killed']} killed ({longer} of them by the"
+          f" longer vectors, {hangs} by time), {count['equivalent']} proven equivalent ({alike} of them by the same netlist),"
+          f" {count['excused']} excused with a reason, {open_ones} open; {seconds:.0f} s", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="mutation.sh", description="Mutants of the Verilog against the co-simulation vectors.")
+    parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help="pipelined, serial; by default both")
+    parser.add_argument("--count", type=int, default=320, help="mutants of an organization (%(default)s)")
+    parser.add_argument("--sample", type=int, metavar="N",
+                        help="only N of them, evenly spread, in the smallest designs; the others only for survivors")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the mutants (%(default)s)")
+    parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", os.cpu_count() or 1)), help="at a time (%(default)s)")
+    parser.add_argument("--table", action="store_true", help="print a table by module")
+    parser.add_argument("--verbose", action="store_true", help="print the survivors that are proven or excused, too")
+    parser.add_argument("--no-proofs", dest="prove", action="store_false", help="do not try to prove survivors equivalent")
+    parser.add_argument("--no-longer", dest="longer", action="store_false", help="leave survivors of the short vectors open")
+    parser.add_argument("--resume", action="store_true",
+                        help="go on where a run was ended; what other designs or vectors touch is found anew")
+    options = parser.parse_args()
+    organizations = options.organizations or ["pipelined", "serial"]
+    if set(organizations) - {"pipelined", "serial"}:
+        parser.error(f"an organization is pipelined or serial, not {' '.join(organizations)}")
+    if not options.resume:
+        shutil.rmtree(WORK, ignore_errors=True)
+    excuses, used = reasons(), set()
+    open_ones = sum(examine(organization, options, excuses, used) for organization in organizations)
+    unused = []
+    if not options.sample and options.prove and len(organizations) == 2 and (options.seed, options.count) == (1, 320):
+        unused = [key for key in excuses if key not in used]
+        for place, was, now in unused:
+            print(f"{REASONS}: no survivor needs this; remove it: {place}\n    - {was}\n    + {now}")
+    sys.exit(1 if open_ones or unused else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A design with its Verilog and its vectors, and what a mutant does to it: in Icarus, in Yosys, in a proof."""
+import concurrent.futures
+import functools
+import hashlib
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+
+import proof
+
+TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
+WORK = os.path.join(TARGET, "mutation")
+FOVEATE = os.environ.get("FOVEATE", "foveate")
+DESIGNS = "mutation/designs.txt"
+# Rounds and seed of the vectors of each stage.
+STAGES = ((1, 1), (3, 2))
+LATER = 1
+SLOWER = 12
+# What stands between Foveate and Icarus.
+KEEPING = os.path.abspath("scripts/keeping")
+
+
+class Design:
+    """A design with its sources and its vectors."""
+
+    def __init__(self, organization, name, options):
+        # A late design is only there for what has survived the others, one with a star is in the sample.
+        self.organization, self.late, self.starred, self.name = organization, name.endswith("+"), name.endswith("*"), name.rstrip("+*")
+        self.options = options
+        self.folder = os.path.join(WORK, "designs", organization, self.name)
+        self.lock, self.modules, self.netlists, self.program = threading.Lock(), None, {}, None
+        self.vectors, self.seconds, self.digests = {}, {}, {}
+
+    def record(self, stage):
+        """Keeps the sources and the vectors of a stage, and how long they take; once."""
+        with self.lock:
+            if stage in self.seconds:
+                return
+            # The long vectors of a late design are those that are short elsewhere.
+            rounds, seed = STAGES[0 if self.late else stage]
+            keep = os.path.join(self.folder, f"stage{stage}")
+            done_at = os.path.join(keep, "seconds")
+            made_of_at, made_of = os.path.join(keep, "made_of"), json.dumps([executable(), self.options, rounds, seed])
+            if not os.path.exists(made_of_at) or open(made_of_at).read() != made_of:
+                shutil.rmtree(keep, ignore_errors=True)
+                os.makedirs(keep)
+                self.simulate(keep, rounds, seed)
+                with open(made_of_at, "w") as out:
+                    out.write(made_of)
+            self.vectors[stage] = os.path.join(keep, "vectors.hex")
+            self.sources = keep
+            self.files = open(os.path.join(keep, "files")).read().split()
+            self.bench = next(name for name in self.files if name.endswith("_replay.v"))
+            self.top = self.bench[: -len("_replay.v")]
+            self.texts = {name: open(os.path.join(keep, name)).read() for name in self.files}
+            self.seconds[stage] = float(open(done_at).read())
+
+    def simulate(self, keep, rounds, seed):
+        """Co-simulates without a mutant and keeps what is needed to do so again."""
+        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(KEEPING, "iverilog"),
+                   FOVEATE_VVP=os.path.join(KEEPING, "vvp"))
+        command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
+                   "--replay", os.path.join(keep, "replay"), *self.options]
+        if "--rounds" not in self.options:
+            command += ["--rounds", str(rounds)]
+        done = subprocess.run(command, env=env, capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant: {done.stdout}{done.stderr}")
+        # Of processor time: the last line of `times` is that of vvp.
+        minutes, seconds = open(os.path.join(keep, "times")).read().split()[2].rstrip("s").split("m")
+        with open(os.path.join(keep, "seconds"), "w") as out:
+            out.write(str(60 * int(minutes) + float(seconds)))
+
+    def clocks(self, stage):
+        """A measure of the length of the vectors."""
+        return os.path.getsize(self.vectors[stage])
+
+    def digest(self, phase):
+        """Changes with the sources and, where a phase replays them, with the vectors that were recorded first."""
+        with self.lock:
+            if phase not in self.digests:
+                replayed = phase == "long" or phase == "short" and not self.late
+                vectors = open(self.vectors[LATER if self.late else 0], "rb").read() if replayed else b""
+                texts = json.dumps([self.texts, STAGES], sort_keys=True).encode()
+                self.digests[phase] = hashlib.sha256(texts + vectors).hexdigest()
+            return self.digests[phase]
+
+    def has(self, module):
+        return f"rtl/{module}.v" in self.files
+
+    def compiled(self, module, text):
+        """The program for Icarus with another text of a module, if it elaborates, and where it is; addresses and the values of
+        parameters, which the code has as constants, are left out."""
+        folder = os.path.join(WORK, "run", str(threading.get_ident()))
+        os.makedirs(folder, exist_ok=True)
+        files = [os.path.join(self.sources, name) for name in self.files]
+        if module:
+            mutant = os.path.join(folder, f"{module}.v")
+            with open(mutant, "w") as out:
+                out.write(text)
+            files[self.files.index(f"rtl/{module}.v")] = mutant
+        path = os.path.join(folder, "program.vvp")
+        built = proof.limited(["iverilog", "-g2005", "-s", f"{self.top}_replay", "-o", path, *files], 60)
+        if built.returncode != 0:
+            return None, path
+        code = re.sub(r"^P_.*\n", "", open(path).read().split("\n# The file index")[0], flags=re.M)
+        known = {}
+        code = re.sub(r"0x[0-9a-f]{6,}", lambda match: known.setdefault(match[0], str(len(known))), code)
+        return hashlib.sha256(code.encode()).hexdigest(), path
+
+    def alike(self, module, text):
+        """Whether Icarus makes the same program with another text of a module."""
+        self.record(LATER if self.late else 0)
+        with self.lock:
+            if not self.program:
+                self.program = self.compiled(None, None)[0]
+        return self.compiled(module, text)[0] == self.program
+
+    def run(self, stage, module, text):
+        """`pass`, `fail`, `hang`, `refused` if it does not elaborate, or `same` if it is the same program, of a module with another
+        text."""
+        self.record(stage)
+        with self.lock:
+            if not self.program:
+                self.program = self.compiled(None, None)[0]
+        code, program = self.compiled(module, text)
+        if code is None:
+            return "refused"
+        if code == self.program:
+            return "same"
+        limit = int(max(10, SLOWER * self.seconds[stage]))
+        done = proof.limited(["vvp", "-n", program, f"+vectors={self.vectors[stage]}", "+stop"], limit, cwd=os.path.dirname(program))
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+            return "hang"
+        last = (done.stdout.strip().splitlines() or [""])[-1]
+        if last.startswith("PASS"):
+            return "pass"
+        if last.startswith("FAIL"):
+            return "fail"
+        raise RuntimeError(f"{self.name}: the replay says neither PASS nor FAIL: {(done.stdout + done.stderr)[-300:]}")
+
+    def chparam(self):
+        """The parameters that the bench gives to the top module, for Yosys."""
+        parameters = re.search(rf"^\s*{self.top} #\((.*)\) dut \($", self.texts[self.bench], re.M)
+        values = re.findall(r"\.(\w+)\((\d+)\)", parameters.group(1) if parameters else "")
+        return "".join(f" -chparam {name} {value}" for name, value in values)
+
+    def variants(self, module):
+        """What Yosys calls the module with the parameters that it has in this design."""
+        with self.lock:
+            if self.modules is None:
+                paths = " ".join(os.path.join(self.sources, name) for name in self.files if name != self.bench)
+                done = subprocess.run([proof.YOSYS, "-p", f"read_verilog {paths}; hierarchy -top {self.top}{self.chparam()}; tee -o /dev/stderr ls"],
+                                      capture_output=True, text=True)
+                if done.returncode != 0:
+                    sys.exit(f"mutation: Yosys does not read {self.name}: {done.stdout[-300:]}")
+                self.modules = [line.strip() for line in done.stderr.splitlines()]
+        return [name for name in self.modules if re.fullmatch(rf"(\$paramod(\$\w+)?\\)?{module}(\\.*)?", name)]
+
+    def same(self, module, text, inside=None):
+        """Whether Yosys makes the same netlist with another text of a module, of the whole or of the module of that name; None if
+        the mutant is none."""
+        with self.lock:
+            if inside not in self.netlists:
+                self.netlists[inside] = proof.netlist(self, WORK, inside=inside)
+        cells, problems = self.netlists[inside]
+        mutant, mutant_problems = proof.netlist(self, WORK, module, text, inside)
+        if mutant_problems > problems:
+            return None
+        return cells is not None and mutant == cells
+
+    def equal(self, module, text, inside=None):
+        """Whether the design with another text of a module is proven to be the design; or the module of that name alone."""
+        return proof.equal(self, WORK, module, text, inside)
+
+
+@functools.cache
+def executable():
+    """Tells one Foveate from another."""
+    return hashlib.sha256(open(FOVEATE, "rb").read()).hexdigest()
+
+
+def designs(organization):
+    """Those of mutation/designs.txt, `organization name options`."""
+    for number, line in enumerate(open(DESIGNS), 1):
+        words = line.split()
+        if not words or line.startswith("#"):
+            continue
+        if len(words) < 3 or words[0] not in ("pipelined", "serial"):
+            sys.exit(f"mutation: {DESIGNS}:{number}: wants `pipelined|serial NAME OPTIONS`")
+        if words[0] == organization:
+            options = words[2:]
+            if organization == "serial":
+                options += ["--set", "hardware.organization='serial'"]
+            yield Design(organization, words[1], options)
+
+
+def recorded(organization, jobs, sample):
+    """The designs of an organization with their vectors, the shortest first; of a sample only those."""
+    found = [design for design in designs(organization) if design.starred or not sample]
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(lambda design: design.record(LATER if design.late else 0), found))
+    return sorted(found, key=lambda design: design.clocks(LATER if design.late else 0))

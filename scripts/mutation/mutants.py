@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Mutants: one edit of one module each, and which of them are drawn."""
+import collections
+import random
+import re
+
+from edits import edits
+
+LEAVES = "crates/emit/src/leaf.rs"
+
+
+class Mutant:
+    """One edit of one module; `design` where the module is rendered for that design."""
+
+    def __init__(self, module, design, text, operator, start, end, replacement):
+        self.module, self.design, self.operator = module, design, operator
+        self.text = text[:start] + replacement + text[end:]
+        self.line = text.count("\n", 0, start) + 1
+        low, high = text.rfind("\n", 0, start) + 1, text.find("\n", end)
+        self.was = one_line(text[low:high])
+        self.now = one_line(text[low:start] + replacement + text[end:high])
+        self.verdict = self.by = self.proof = None
+        # Designs in which the code that is changed is not elaborated.
+        self.apart = set()
+
+    def pointless(self):
+        """Whether it only touches a wire that tells lint what is not used, or gives a wire to itself."""
+        own = re.match(r"(?:wire|assign)\b.*?(\w+)(?:\[[^=]*\])? = (.*)", self.now)
+        return "unused_" in self.was or bool(self.operator == "name" and own and re.search(rf"\b{own[1]}\b", own[2]))
+
+    def key(self):
+        return self.place(), self.was, self.now
+
+    def place(self):
+        return f"{self.module}@{self.design.name}" if self.design else self.module
+
+    def __str__(self):
+        return f"{self.place()}:{self.line} {self.operator}\n    - {self.was}\n    + {self.now}"
+
+
+def one_line(text):
+    return " ".join(text.split())
+
+
+def pools(all_of, seed):
+    """All mutants of each module, in the order in which they are drawn: the operators take turns."""
+    leaves = re.findall(r'^    "(\w+)" => \[', open(LEAVES).read(), re.M)
+    texts, pools = {}, {}
+    for design in all_of:
+        for name, text in design.texts.items():
+            module = re.fullmatch(r"rtl/(\w+)\.v", name)
+            if not module:
+                continue
+            module = module.group(1)
+            # A leaf is the same text everywhere; a rendered module is the design's own.
+            if module in leaves:
+                texts[module] = (module, None, text)
+            else:
+                texts[f"{module}@{design.name}"] = (module, design, text)
+    for place, (module, design, text) in sorted(texts.items()):
+        def pick(where, place=place):
+            return random.Random(f"{seed}:{place}:{where}")
+
+        groups, seen = collections.defaultdict(list), {text}
+        for operator, start, end, replacement in edits(text, design is not None, pick):
+            mutant = Mutant(module, design, text, operator, start, end, replacement)
+            if mutant.text not in seen:
+                seen.add(mutant.text)
+                groups[operator].append(mutant)
+        turns = []
+        for operator in sorted(groups):
+            pick(operator).shuffle(groups[operator])
+            size = len(groups[operator])
+            turns += [((rank + pick(f"{operator}{rank}").random()) / size, operator, rank) for rank in range(size)]
+        pools[place] = [groups[operator][rank] for _, operator, rank in sorted(turns)]
+    return pools
+
+
+def wanted(pools, count):
+    """How many mutants of each module: as the root of how many there are, and at least four."""
+    takes = {place: min(4, len(pool)) for place, pool in pools.items()}
+    while sum(takes.values()) < count:
+        open_places = [place for place in pools if takes[place] < len(pools[place])]
+        if not open_places:
+            break
+        takes[max(open_places, key=lambda place: len(pools[place]) ** 0.5 / (takes[place] + 1))] += 1
+    return takes
+
+
+def drawn(pools, takes, pool, check):
+    """The mutants that elaborate and have a point, as many of each module as wanted."""
+    at, kept = collections.Counter(), collections.defaultdict(list)
+    while True:
+        batch = []
+        for place, mutants in pools.items():
+            missing = takes[place] - len(kept[place])
+            batch += mutants[at[place]:at[place] + missing]
+            at[place] += missing
+        if not batch:
+            return [mutant for place in pools for mutant in kept[place]]
+        list(pool.map(check, batch))
+        for mutant in batch:
+            if mutant.verdict != "refused":
+                kept[mutant.place()].append(mutant)

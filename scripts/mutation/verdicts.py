@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What becomes of a mutant: killed by vectors, proven equivalent, excused with a reason, or a survivor."""
+import hashlib
+import json
+import os
+import re
+import sys
+import threading
+
+from design import LATER, WORK
+
+REASONS = "mutation/survivors.txt"
+# After so many of the smallest designs it is asked whether the mutant makes another netlist at all.
+QUICK = 3
+
+
+def reasons():
+    """The reviewed survivors: a paragraph each, `place`, `- line`, `+ line`, `reason`."""
+    found = {}
+    for paragraph in re.split(r"\n\s*\n", open(REASONS).read()):
+        lines = [line.strip() for line in paragraph.splitlines() if line.strip() and not line.startswith("#")]
+        if not lines:
+            continue
+        if len(lines) < 4 or not lines[1].startswith("- ") or not lines[2].startswith("+ "):
+            sys.exit(f"mutation: {REASONS}: wants a place, `- line`, `+ line` and a reason: {lines[0]}")
+        found[lines[0], lines[1][2:], lines[2][2:]] = " ".join(lines[3:])
+    return found
+
+
+class Journal:
+    """What has been found of each mutant, so that an interrupted run can go on."""
+
+    def __init__(self, all_of):
+        self.all_of, self.lock, self.path, self.found = all_of, threading.Lock(), os.path.join(WORK, "journal"), {}
+        for line in open(self.path) if os.path.exists(self.path) else ():
+            key, *verdict = json.loads(line)
+            self.found[key] = verdict
+
+    def key(self, mutant, phase):
+        of = [design.digest(phase) for design in containing(mutant, self.all_of)]
+        return hashlib.sha256(json.dumps([sorted(of), mutant.place(), mutant.text, phase]).encode()).hexdigest()
+
+    def ask(self, phase, mutant, find):
+        """Sets the verdict: what is known, or what `find` says."""
+        key = self.key(mutant, phase)
+        if key not in self.found:
+            find(mutant)
+            with self.lock, open(self.path, "a") as out:
+                print(json.dumps([key, mutant.verdict, mutant.by, mutant.proof]), file=out)
+        else:
+            mutant.verdict, mutant.by, mutant.proof = self.found[key]
+
+
+def replay(mutant, designs, stage):
+    """Whether the vectors of a design decide; the verdict then is `refused` or `killed`."""
+    for design in designs:
+        if design.name in mutant.apart:
+            continue
+        outcome = design.run(stage, mutant.module, mutant.text)
+        if outcome == "refused":
+            mutant.verdict = "refused"
+        elif outcome == "same":
+            mutant.apart.add(design.name)
+        elif outcome != "pass":
+            mutant.verdict, mutant.by = "killed", (stage, design.name, outcome)
+        if mutant.verdict:
+            return True
+    return False
+
+
+def judge(mutant, all_of, prove):
+    """Sets the verdict of the short vectors and of the netlists: `refused`, `killed`, `equivalent` or `survived`."""
+    if mutant.pointless():
+        mutant.verdict = "refused"
+        return
+    contain = [design for design in containing(mutant, all_of) if not design.late]
+    if replay(mutant, contain[:QUICK], 0):
+        return
+    found = everywhere(mutant, all_of, "same") if prove else False
+    if found is not False:
+        mutant.verdict, mutant.proof = "refused" if found is None else "equivalent", "same"
+        return
+    if replay(mutant, contain[QUICK:], 0):
+        return
+    # A leaf is small beside the designs around it and the longer vectors of all of them.
+    if prove and not mutant.design and everywhere(mutant, all_of, "equal", around=False):
+        mutant.verdict, mutant.proof = "equivalent", "equal"
+        return
+    mutant.verdict = "survived"
+
+
+def judge_longer(mutant, all_of):
+    """The same of the longer vectors."""
+    mutant.verdict = None
+    if not replay(mutant, containing(mutant, all_of), LATER):
+        mutant.verdict = "survived"
+
+
+def containing(mutant, all_of):
+    return [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
+
+
+def everywhere(mutant, all_of, proof, around=True):
+    """Whether the proof holds for the module with the parameters of every design, or else the design around it, if that is to be
+    tried; None if the proof says so."""
+    known = {}
+    for design in containing(mutant, all_of):
+        if design.name in mutant.apart:
+            continue
+        if design.late and design.alike(mutant.module, mutant.text):
+            mutant.apart.add(design.name)
+            continue
+        variants = design.variants(mutant.module)
+        for name in variants:
+            if name not in known:
+                known[name] = getattr(design, proof)(mutant.module, mutant.text, name)
+            if known[name] is None:
+                return None
+            if not (known[name] or around and design.top not in variants):
+                return False
+        if not all(known[name] for name in variants) and not getattr(design, proof)(mutant.module, mutant.text):
+            return False
+    return True
+
+
+def prove(mutant, all_of):
+    if everywhere(mutant, all_of, "equal"):
+        mutant.verdict, mutant.proof = "equivalent", "equal"

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Verilog as a stream of tokens: brackets, statements, literals, declared names. Just enough of the language for `edits`."""
+import re
+
+TOKEN = re.compile(r"""
+    (?P<skip>\s+|//[^\n]*|/\*.*?\*/|`\w+[^\n]*|\(\*(?!\)).*?\*\))
+  | (?P<string>"[^"]*")
+  | (?P<based>\d*'[sS]?[bBdDoOhH][0-9a-fA-F_]+)
+  | (?P<number>\d+)
+  | (?P<word>\$?[A-Za-z_]\w*)
+  | (?P<op><<<|>>>|===|!==|<<|>>|<=|>=|==|!=|&&|\|\||\+:|-:|\*\*|.)
+""", re.X | re.S)
+DECLARES = {"input", "output", "wire", "reg", "localparam", "parameter", "integer", "genvar"}
+KEYWORDS = DECLARES | {"module", "endmodule", "always", "posedge", "assign", "if", "else", "begin", "end", "case", "endcase", "default",
+                       "generate", "endgenerate", "for", "function", "endfunction", "or", "initial", "automatic", "signed"}
+OPENS, CLOSES = "([{", ")]}"
+
+
+class Token:
+    def __init__(self, match):
+        self.kind, self.text, self.start, self.end = match.lastgroup, match.group(), match.start(), match.end()
+
+
+def tokens(text):
+    found = [Token(match) for match in TOKEN.finditer(text)]
+    return [token for token in found if token.kind != "skip"]
+
+
+def partners(stream):
+    """Index of the other bracket of each bracket."""
+    stack, other = [], {}
+    for index, token in enumerate(stream):
+        if token.text in OPENS and token.kind == "op":
+            stack.append(index)
+        elif token.text in CLOSES and token.kind == "op":
+            other[index] = stack.pop()
+            other[other[index]] = index
+    return other
+
+
+def statements(stream, other):
+    """For each token the index of the first token of its statement, and its depth in brackets."""
+    first, start, depth, depths = [], 0, 0, []
+    for index, token in enumerate(stream):
+        closes = token.kind == "op" and token.text in CLOSES
+        depth -= closes
+        before = stream[index - 1] if index else None
+        if before is not None and depth == 0 and (
+            before.text in (";", "begin", "else", "end", "generate", "endgenerate", "endcase")
+            or before.text == ")" and stream[other[index - 1] - 1].text in ("if", "for", "case")
+            or before.text == ")" and stream[other[index - 1] - 1].text == "@"
+            or before.kind == "word" and index > 2 and stream[index - 2].text == ":" and stream[index - 3].text == "begin"
+            or before.text == ":" and stream[index - 2].text != "begin" and "?" not in (t.text for t in stream[start:index])
+        ):
+            start = index
+        first.append(start)
+        depths.append(depth)
+        depth += token.kind == "op" and token.text in OPENS
+    return first, depths
+
+
+def literals(token):
+    """Other values of a literal: one more, one less."""
+    if token.kind == "number":
+        value = int(token.text)
+        return [str(other) for other in (value + 1, value - 1) if other >= 0]
+    width, rest = token.text.split("'")
+    base, digits = rest[0], rest[1:].replace("_", "")
+    if base in "sS":
+        return []
+    radix = {"b": 2, "o": 8, "d": 10, "h": 16}[base.lower()]
+    value, bits = int(digits, radix), int(width) if width else 32
+    show = {2: f"{{:0{len(digits)}b}}", 8: "{:o}", 10: "{}", 16: "{:x}"}[radix]
+    values = {(value + 1) % (1 << bits), (value - 1) % (1 << bits)} - {value}
+    return [f"{width}'{base}{show.format(other)}" for other in sorted(values)]
+
+
+def declared(stream, other):
+    """Names and the text of their range, by which they can stand for each other."""
+    found, index = {}, 0
+    while index < len(stream):
+        token = stream[index]
+        if token.kind == "word" and token.text in DECLARES - {"genvar", "integer"}:
+            at, size = index + 1, ""
+            while stream[at].text in ("wire", "reg", "signed"):
+                at += 1
+            if stream[at].text == "[":
+                size = "".join(t.text for t in stream[at:other[at] + 1])
+                at = other[at] + 1
+            kind = "constant" if token.text in ("localparam", "parameter") else "signal"
+            while at < len(stream) and stream[at].kind == "word" and stream[at].text not in KEYWORDS:
+                memory = stream[at + 1].text == "["
+                found[stream[at].text] = ("memory" if memory else kind, size)
+                # Further names of a list without initial values.
+                at += 1
+                if stream[at].text == "," and stream[at + 1].text not in DECLARES:
+                    at += 1
+                else:
+                    break
+        index += 1
+    return found

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Everything, whole: what a release must pass, with a log of the figures that the documents quote. Takes some three hours on
+# two cores. A step that has passed on this commit is not run again, so an interrupted run goes on where it was.
+#
+#   scripts/release.sh            all steps
+#   scripts/release.sh STEP...    some of them
+#   scripts/release.sh --list     what there is
+#
+# Logs are in target/release-log/COMMIT: STEP.log of each step, figures.md of all.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+foveate() { "${CARGO_TARGET_DIR:-target}/release/foveate" "$@"; }
+
+# ---- the steps: a function each
+step_test() { scripts/test.sh; }
+step_quickstart() { scripts/quickstart.sh "$log/quickstart"; }
+step_cosim() {
+    foveate cosim --full --preset paper scene:street
+    foveate cosim --full --preset serial scene:street
+}
+step_netlists() {
+    local array=(--level rcm --rounds 1)
+    foveate cosim --netlist --preset bare --rounds 1
+    foveate cosim --netlist --preset paper --rounds 1
+    foveate cosim --netlist --preset bare "${array[@]}" --grid 3x2
+    foveate cosim --netlist --preset serial --rounds 1
+    # Block RAM, and the DSP blocks of `variance`.
+    foveate cosim --netlist --preset serial "${array[@]}" --grid 4x4 --set hardware.feed="'raster'" \
+        --set hardware.fold=4 --set hardware.memory="'block'"
+    foveate cosim --netlist --preset bare --rounds 1 --set "spatial=[{feature='variance',min_score=30}]"
+}
+step_area() { foveate estimate --compare --markdown; }
+step_lint() { scripts/lint.sh; }
+step_formal() { scripts/formal.sh; }
+step_coverage() { scripts/coverage.sh; }
+step_newer() { scripts/newer_tools.sh; }
+step_mutation() { scripts/mutation.sh --table --resume; }
+step_memory() { scripts/memory.sh; }
+step_bench() {
+    foveate bench --preset paper
+    foveate bench --preset serial
+}
+steps=(test quickstart cosim netlists area lint formal coverage newer mutation memory bench)
+
+case ${1:-} in
+-h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
+--list) printf '%s\n' "${steps[@]}" && exit 0 ;;
+esac
+for name in "$@"; do
+    declare -F "step_$name" >/dev/null || { echo "release: there is no step $name; scripts/release.sh --list shows them" >&2; exit 2; }
+done
+[ -z "$(git status --porcelain --untracked-files=no)" ] || { echo "release: commit first; a log belongs to a commit" >&2; exit 2; }
+commit=$(git rev-parse HEAD)
+log=$(realpath -m "${CARGO_TARGET_DIR:-target}/release-log/$commit")
+mkdir -p "$log"
+scripts/install_tools.sh
+cargo build --release --locked --quiet --package foveate
+FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/release/foveate")
+export FOVEATE
+
+selected=("$@")
+[ $# -gt 0 ] || selected=("${steps[@]}")
+failed=()
+for name in "${selected[@]}"; do
+    [ ! -e "$log/$name.passed" ] || { echo "$name: passed before"; continue; }
+    echo "$name: $(date +%H:%M:%S), log in $log/$name.log"
+    began=$SECONDS
+    # Not as a condition: there `set -e` would not hold inside of the step.
+    set +e
+    (set -ex && "step_$name") >"$log/$name.log" 2>&1
+    ended=$?
+    set -e
+    if [ $ended -eq 0 ]; then
+        echo "$((SECONDS - began)) s" >"$log/$name.passed"
+        echo "$name: passed in $((SECONDS - began)) s"
+    else
+        failed+=("$name")
+        echo "$name: FAILED after $((SECONDS - began)) s; the end of its log:"
+        tail -5 "$log/$name.log"
+    fi
+done
+
+{
+    echo "# Figures of ${commit:0:10}"
+    for name in "${steps[@]}"; do
+        printf '\n## %s: %s\n```\n' "$name" "$(cat "$log/$name.passed" 2>/dev/null || echo "not passed")"
+        # Of long logs what sums them up; of the others everything that was printed.
+        case $name in
+        test | quickstart) grep -E '^[0-9]+ passed|^test result: FAILED|^book:' "$log/$name.log" || true ;;
+        *) grep -v '^+' "$log/$name.log" | tail -60 || true ;;
+        esac 2>/dev/null
+        echo '```'
+    done
+} >"$log/figures.md"
+echo "figures: $log/figures.md"
+[ ${#failed[@]} -eq 0 ] || { echo "release: ${failed[*]} failed" >&2; exit 1; }

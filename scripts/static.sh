@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Checks what is not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), dependencies
+# (cargo-deny: licences, bans, sources; skipped where it is not installed). Installs what is missing of the first three.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/install_tools.sh
+tools=$(scripts/python_tools.sh --static)
+# The templates in tb/ are no shell yet; what is made of them is in rtl/generated.
+mapfile -t shell < <(git ls-files '*.sh' .ci/run scripts/keeping ':!tb')
+shellcheck "${shell[@]}"
+mapfile -t python < <(git ls-files '*.py')
+"$tools/ruff" check --quiet "${python[@]}"
+python3 -W error::SyntaxWarning -m unittest discover --quiet --start-directory scripts/tests
+if command -v cargo-deny >/dev/null; then
+    cargo deny --offline --locked --log-level error check licenses bans sources
+else
+    echo "skipped: cargo-deny is not installed (cargo install --locked cargo-deny); hosted CI runs it"
+fi

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The parts of mutation.sh: what is read of Verilog, which edits it gives, which mutants are drawn, which reasons count."""
+import os
+import sys
+import tempfile
+import unittest
+from types import SimpleNamespace
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "mutation"))
+
+import verdicts  # noqa: E402
+from edits import edits  # noqa: E402
+from mutants import Mutant, drawn, wanted  # noqa: E402
+from verilog import declared, literals, partners, statements, tokens  # noqa: E402
+
+MODULE = """\
+module counter #(parameter WIDTH = 4) (input wire clk_i, input wire [3:0] step_i, output reg [3:0] count_q);
+    wire [3:0] other = count_q;  // not this: 9
+    always @(posedge clk_i)
+        if (step_i != 4'd0) count_q <= count_q + step_i;
+endmodule
+"""
+
+
+def first(_):
+    return SimpleNamespace(choice=lambda names: names[0])
+
+
+def made(text):
+    """(operator, what is there, what comes instead) of every edit."""
+    return {(operator, text[start:end], replacement) for operator, start, end, replacement in edits(text, False, first)}
+
+
+class Reading(unittest.TestCase):
+    def test_comments_and_attributes_are_no_tokens(self):
+        self.assertEqual([token.text for token in tokens("a /* b */ <= (* c *) 4'hF; // d")], ["a", "<=", "4'hF", ";"])
+
+    def test_brackets_find_each_other(self):
+        stream = tokens("f(a[{b}])")
+        self.assertEqual(partners(stream), {1: 8, 8: 1, 3: 7, 7: 3, 4: 6, 6: 4})
+
+    def test_a_statement_begins_after_its_condition(self):
+        stream = tokens("if (a) b <= c; d <= e;")
+        starts, depths = statements(stream, partners(stream))
+        self.assertEqual([stream[start].text for start in starts][4:], ["b"] * 4 + ["d"] * 4)
+        self.assertEqual(depths[2], 1)
+
+    def test_literals_are_one_more_and_one_less_in_their_bits(self):
+        def others(text):
+            return literals(tokens(text)[0])
+
+        self.assertEqual(others("0"), ["1"])
+        self.assertEqual(others("7"), ["8", "6"])
+        self.assertEqual(others("2'b11"), ["2'b00", "2'b10"])
+        self.assertEqual(others("8'h10"), ["8'hf", "8'h11"])
+        self.assertEqual(others("4'sd1"), [])
+
+    def test_names_of_one_range_can_stand_for_each_other(self):
+        stream = tokens(MODULE)
+        names = declared(stream, partners(stream))
+        self.assertEqual(names["count_q"], ("signal", "[3:0]"))
+        self.assertEqual(names["other"], names["step_i"])
+        self.assertEqual(names["WIDTH"][0], "constant")
+
+
+class Edits(unittest.TestCase):
+    def test_every_operator_of_mutation_is_there(self):
+        found = made(MODULE)
+        for edit in [
+            ("operator", "!=", "=="),
+            ("operator", "+", "-"),
+            ("condition", "step_i != 4'd0", "1'b0"),
+            ("condition", "step_i != 4'd0", "!(step_i != 4'd0)"),
+            ("constant", "4'd0", "4'd1"),
+            ("drop", "count_q + step_i", "count_q"),
+            ("name", "step_i", "count_q"),
+            ("range", "", "-1"),
+        ]:
+            self.assertIn(edit, found)
+
+    def test_parameters_clocks_and_comments_are_left_alone(self):
+        for operator, was, now in made(MODULE):
+            self.assertNotIn("clk_i", (was, now), operator)
+            self.assertNotIn(was, ("4", "9"), operator)
+
+    def test_an_edit_changes_its_line_only(self):
+        operator, start, end, replacement = next(edit for edit in edits(MODULE, False, first) if edit[0] == "drop")
+        mutant = Mutant("counter", None, MODULE, operator, start, end, replacement)
+        self.assertEqual(mutant.line, 4)
+        self.assertEqual(mutant.now, "if (step_i != 4'd0) count_q <= count_q;")
+        changed = [pair for pair in zip(MODULE.splitlines(), mutant.text.splitlines(), strict=True) if pair[0] != pair[1]]
+        self.assertEqual(len(changed), 1)
+        self.assertEqual(mutant.key(), ("counter", mutant.was, mutant.now))
+
+
+class Drawing(unittest.TestCase):
+    def test_every_module_gets_four_and_large_ones_more(self):
+        takes = wanted({"small": [0] * 3, "middle": [0] * 50, "large": [0] * 400}, 60)
+        self.assertEqual(sum(takes.values()), 60)
+        self.assertEqual(takes["small"], 3)
+        self.assertGreater(takes["large"], takes["middle"])
+
+    def test_a_refused_mutant_is_replaced_by_the_next(self):
+        pool = [SimpleNamespace(number=number, verdict=None, place=lambda: "leaf") for number in range(5)]
+
+        def check(mutant):
+            mutant.verdict = "refused" if mutant.number < 2 else "killed"
+
+        kept = drawn({"leaf": pool}, {"leaf": 2}, SimpleNamespace(map=map), check)
+        self.assertEqual([mutant.number for mutant in kept], [2, 3])
+
+
+class Reasons(unittest.TestCase):
+    def read(self, text):
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+            file.write(text)
+            file.flush()
+            before, verdicts.REASONS = verdicts.REASONS, file.name
+            try:
+                return verdicts.reasons()
+            finally:
+                verdicts.REASONS = before
+
+    def test_a_paragraph_is_a_place_two_lines_and_a_reason(self):
+        found = self.read("# why\n\nleaf\n- a = b;\n+ a = c;\nb and c\nare equal\n")
+        self.assertEqual(found, {("leaf", "a = b;", "a = c;"): "b and c are equal"})
+
+    def test_an_excuse_without_a_reason_is_refused(self):
+        with self.assertRaises(SystemExit):
+            self.read("leaf\n- a = b;\n+ a = c;\n")
+
+    def test_the_project_s_own_reasons_are_read(self):
+        self.assertTrue(verdicts.reasons())
+
+
+if __name__ == "__main__":
+    unittest.main()
