@@ -8,9 +8,9 @@ use foveate_cosim::{Agreement, PipelinedCodec, Recording};
 use foveate_design::Design;
 use foveate_model::RpuOutput;
 
-use crate::clear::per_clock;
 use crate::error::BenchError;
 use crate::memory::Before;
+use crate::rate::per_clock;
 use crate::report::{Level, Measured, Row};
 use crate::timer::Timer;
 use crate::vectors::{Vectors, compare};

@@ -6,11 +6,12 @@ use std::time::Duration;
 use foveate_cosim::{CosimError, Level as Simulated, Recording, Stimulus};
 use foveate_design::Design;
 use foveate_frame::Frame;
-use foveate_toolchain::{Cache, Tool, Toolchain};
+use foveate_toolchain::{Tool, Toolchain};
 
 use crate::error::BenchError;
 use crate::report::{FORMAT_VERSION, Level, Report, Row};
 use crate::timer::Timer;
+use crate::tools::Tools;
 use crate::vectors::Vectors;
 use crate::{clear, functional, netlist, rtl};
 
@@ -27,15 +28,6 @@ pub struct Bench {
     pub at_least: Duration,
     /// Whether the netlist is run, too.
     pub netlist: bool,
-}
-
-/// The tools of the machine, and what they have built.
-#[derive(Clone, Copy, Debug)]
-pub struct Tools<'a> {
-    /// Found and run by it; its flag stops the bench.
-    pub toolchain: &'a Toolchain,
-    /// Finished builds.
-    pub cache: &'a Cache,
 }
 
 impl Bench {

@@ -10,8 +10,9 @@ use foveate_model::{PipelinedRcm, SerialInput, SerialRcm};
 
 use crate::error::BenchError;
 use crate::memory::Before;
+use crate::rate::per_clock;
 use crate::report::{Level, Measured, Row};
-use crate::timer::{Time, Timer};
+use crate::timer::Timer;
 use crate::vectors::{Control, Vectors, compare};
 use crate::{array, outcomes};
 
@@ -105,20 +106,4 @@ fn serial_agreement(
 fn input<'a>(control: &'a Control, pixels: &'a [u16]) -> SerialInput<'a> {
     let Control { reset, valid, thresholds } = control;
     SerialInput { reset: *reset, valid: *valid, pixels, thresholds }
-}
-
-/// Rates of a level with clocks.
-#[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
-pub(crate) fn per_clock(design: &Design, vectors: &Vectors, time: Time) -> Measured {
-    let passes_per_second = time.passes as f64 / time.seconds;
-    let frames_per_second = vectors.streamed as f64 * passes_per_second;
-    let pixels = f64::from(design.width()) * f64::from(design.height());
-    Measured {
-        frames_per_second,
-        clocks_per_second: Some(vectors.clocks() as f64 * passes_per_second),
-        pixels_per_second: frames_per_second * pixels,
-        passes: time.passes,
-        seconds: time.seconds,
-        ..Measured::default()
-    }
 }

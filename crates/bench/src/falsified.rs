@@ -12,9 +12,9 @@ use foveate_frame::Frame;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
-use crate::bench::Tools;
 use crate::report::Row;
 use crate::timer::Timer;
+use crate::tools::Tools;
 use crate::vectors::Vectors;
 use crate::{array, clear, random_frames, rtl};
 

@@ -27,12 +27,15 @@ mod functional;
 mod memory;
 mod netlist;
 mod outcomes;
+mod rate;
 mod report;
 mod rtl;
 mod timer;
+mod tools;
 mod vectors;
 
-pub use bench::{Bench, Tools};
+pub use bench::Bench;
 pub use error::BenchError;
 pub use frames::random_frames;
 pub use report::{FORMAT_VERSION, Level, Measured, Report, Row};
+pub use tools::Tools;

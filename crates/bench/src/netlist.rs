@@ -7,10 +7,9 @@ use foveate_cosim::{Agreement, Job, Level as Simulated, Netlist, Simulator, Stim
 use foveate_design::Design;
 use foveate_frame::Frame;
 
-use crate::bench::Tools;
 use crate::error::BenchError;
 use crate::report::{Level, Measured, Row};
-use crate::rtl::LIMIT;
+use crate::tools::{LIMIT, Tools};
 
 pub(crate) const NAME: &str = "1 RPU in Icarus";
 

@@ -2,21 +2,17 @@
 //! The Verilog in Verilator, over the same clocks: `-O3`, one thread, the RPU compiled once.
 
 use std::path::Path;
-use std::time::Duration;
 
 use foveate_cosim::{Job, Level as Simulated, Recording, Run, Simulator, Stimulus};
 use foveate_design::Design;
 use foveate_toolchain::verilator::Optimize;
 
-use crate::bench::Tools;
-use crate::clear::per_clock;
 use crate::error::BenchError;
+use crate::rate::per_clock;
 use crate::report::{Level, Measured, Row};
 use crate::timer::{Time, Timer};
+use crate::tools::{LIMIT, Tools};
 use crate::vectors::Vectors;
-
-/// The longest that a run may take.
-pub(crate) const LIMIT: Duration = Duration::from_secs(3600);
 
 /// Builds it, compares every port at every clock, then times it.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]

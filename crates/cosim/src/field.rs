@@ -92,6 +92,26 @@ impl Field {
     }
 }
 
+impl Gate {
+    /// Whether no lane of a value is compared at this clock.
+    pub(crate) fn is_shut(self, fields: &[Field], expected: &[u8]) -> bool {
+        match self {
+            Self::Always => false,
+            Self::SameLane(valid) | Self::AnyLane(valid) => {
+                fields[valid].slice(expected).iter().all(|&byte| byte == 0)
+            }
+        }
+    }
+
+    /// Whether a lane is compared at a clock at which the gate is not shut.
+    pub(crate) fn lets_pass(self, fields: &[Field], expected: &[u8], lane: u32) -> bool {
+        match self {
+            Self::Always | Self::AnyLane(_) => true,
+            Self::SameLane(valid) => fields[valid].get(expected, lane) == 1,
+        }
+    }
+}
+
 /// Ones in the lowest bits.
 pub(crate) fn mask(width: u32) -> u64 {
     u64::MAX.checked_shr(u64::BITS.saturating_sub(width)).unwrap_or(0)

@@ -9,8 +9,7 @@ use foveate_scenes::SceneError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-use crate::Crop;
-use crate::picture::{MAX_FILE_GIB, MAX_SIDE};
+use crate::limits::{Crop, MAX_FILE_GIB, MAX_SIDE};
 
 /// What the reader understands, for messages.
 const TYPES: &str = "PNG, JPEG, BMP and PNM (PGM, PPM, PBM, PAM)";

@@ -15,12 +15,12 @@ use std::path::{Path, PathBuf};
 use foveate_design::Config;
 use foveate_scenes::{Scene, SceneSize};
 
+use crate::limits::Crop;
 use crate::sets::cifar::{Batch, Sheet};
 use crate::sets::idx::Idx;
 use crate::sets::open_unpacked;
 use crate::source::feed::{Adjustment, Feed, Input};
 use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
-use crate::source::resize::Crop;
 use crate::source::select::Selection;
 use crate::video::{Medium, Video};
 use crate::y4m::Y4m;

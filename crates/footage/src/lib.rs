@@ -8,6 +8,7 @@
 
 mod error;
 mod input;
+mod limits;
 mod natural;
 mod picture;
 mod plan;
@@ -20,12 +21,12 @@ mod y4m;
 
 pub use error::FootageError;
 pub use input::{ImagesAs, InputOptions, is_read_once, open};
+pub use limits::{Crop, MAX_SIDE};
 pub use natural::natural_order;
-pub use picture::{MAX_SIDE, decode, luma, read};
+pub use picture::{decode, luma, read};
 pub use plan::{Clip, Plan, plan};
 pub use source::ahead::{Frames, read_ahead};
 pub use source::form::{IdxFile, Labels, SetFiles, SetForm};
-pub use source::resize::Crop;
 pub use source::select::{Selection, parse_time};
 pub use source::{FrameRate, Kind, Source, SourceFrame};
 pub use subject::{Subject, subjects};

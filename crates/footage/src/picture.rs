@@ -19,12 +19,8 @@ use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
 use crate::FootageError;
+use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 use foveate_frame::convert_depth;
-
-/// Largest width and height of an image, in pixels.
-pub const MAX_SIDE: u32 = 16_384;
-/// Largest file, and the most memory that decoding may take.
-pub(crate) const MAX_FILE_GIB: u64 = 1;
 
 /// Luma of a colour: `(77 R + 150 G + 29 B + 128) >> 8`; grey stays what it is.
 #[must_use]

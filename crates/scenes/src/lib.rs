@@ -7,10 +7,12 @@
 
 mod canvas;
 mod error;
+mod frames;
 mod noise;
 mod patterns;
 mod scene;
 mod street;
 
 pub use error::SceneError;
-pub use scene::{Scene, SceneFrames, SceneSize};
+pub use frames::SceneFrames;
+pub use scene::{Scene, SceneSize};

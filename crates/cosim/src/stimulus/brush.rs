@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How motifs are drawn: the figures, with differences and counts near the design's thresholds.
 
-use super::motif::Artist;
+use super::motif::{Artist, moved};
 use super::random::Random;
 
 impl Artist {
@@ -170,11 +170,4 @@ impl Artist {
         pixels[to] = moved(background, amount, true, self.max);
         pixels
     }
-}
-
-/// A pixel more or less by an amount, the other way where there is no room.
-pub(super) fn moved(pixel: u16, amount: u16, up: bool, max: u16) -> u16 {
-    let (more, less) = (pixel.checked_add(amount).filter(|&v| v <= max), pixel.checked_sub(amount));
-    let wanted = if up { more.or(less) } else { less.or(more) };
-    wanted.unwrap_or(if up { max } else { 0 })
 }

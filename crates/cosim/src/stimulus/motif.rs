@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a region shows: the hard cases, each drawn into a square of pixels.
 
-use super::brush::moved;
 use super::gauge::Gauge;
 use super::random::Random;
 use foveate_design::Design;
@@ -177,6 +176,13 @@ impl Artist {
         let distance = |square: &Vec<u16>| self.gauge.read(meter, square, &before).abs_diff(wanted);
         self.pixels = trials.min_by_key(distance).unwrap_or(drawn);
     }
+}
+
+/// A pixel more or less by an amount, the other way where there is no room.
+pub(super) fn moved(pixel: u16, amount: u16, up: bool, max: u16) -> u16 {
+    let (more, less) = (pixel.checked_add(amount).filter(|&v| v <= max), pixel.checked_sub(amount));
+    let wanted = if up { more.or(less) } else { less.or(more) };
+    wanted.unwrap_or(if up { max } else { 0 })
 }
 
 #[cfg(test)]

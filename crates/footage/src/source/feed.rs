@@ -3,10 +3,11 @@
 //! their times, cropped, scaled, and held to one size, all in the same way whatever they come from.
 
 use super::form::SetForm;
-use super::resize::{self, Crop};
+use super::resize;
 use super::select::{Selection, Selector, Verdict};
 use super::{Kind, Source, SourceFrame};
 use crate::FootageError;
+use crate::limits::Crop;
 
 /// Frames as they come, of any size.
 pub(crate) trait Feed: Send {

@@ -7,16 +7,7 @@
 
 use foveate_frame::{Plane, Raster};
 
-use crate::FootageError;
-
-/// A part of a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Crop {
-    /// Width and height.
-    pub size: (u32, u32),
-    /// Its left and upper pixel.
-    pub at: (u32, u32),
-}
+use crate::{Crop, FootageError};
 
 /// The part of a frame.
 pub(crate) fn crop(frame: &Raster, crop: Crop) -> Result<Raster, FootageError> {

@@ -13,8 +13,8 @@
 //! Centers that are *owed* when the last pixel has come leave one at every edge (flush) until the
 //! next frame begins; from then on one with every pixel. They are gone before pixel N + 1.
 
+use super::center::{Center, center_at};
 use super::pixel::Pixel;
-use super::window::{Center, center_at};
 
 /// The window, with all pixels of the frame that comes in and of the one before. (Two rows would
 /// do, as they do in hardware; whole frames are easier to trust.)

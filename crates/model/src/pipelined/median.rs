@@ -9,9 +9,10 @@
 //! next stage takes                                  median
 //! ```
 
+use super::center::Center;
 use super::pixel::Pixel;
 use super::plan::Plan;
-use super::window::{Center, WindowStage};
+use super::window::WindowStage;
 use crate::denoise::median;
 
 /// Raw pixels in, denoised pixels out.

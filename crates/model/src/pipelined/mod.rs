@@ -13,6 +13,7 @@
 //!
 //! A stage that the design does not need is not there. At an edge a stage takes one pixel, or none.
 
+mod center;
 mod decide;
 mod isolated;
 mod median;

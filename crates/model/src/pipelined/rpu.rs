@@ -3,11 +3,12 @@
 
 use foveate_design::Design;
 
+use super::center::Center;
 use super::median::MedianStage;
 use super::pixel::{Pixel, Step};
 use super::plan::{FEATURES, Plan};
 use super::tail::Tail;
-use super::window::{Center, WindowStage};
+use super::window::WindowStage;
 use crate::Thresholds;
 use crate::feature::is_hit;
 

@@ -9,8 +9,9 @@
 //!
 //! A center leaves at the edge that takes the pixel below and right of it, so there is no flush.
 
+use super::center::{Center, center_at};
 use super::pixel::Pixel;
-use super::window::{Center, center_at};
+
 use crate::stream::{BOTTOM, LEFT, RIGHT, TOP};
 
 /// The window, with all pixels of the square that comes in.

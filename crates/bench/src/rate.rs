@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How fast a level with clocks is.
+
+use foveate_design::Design;
+
+use crate::report::Measured;
+use crate::timer::Time;
+use crate::vectors::Vectors;
+
+/// Rates of a level with clocks.
+#[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
+pub(crate) fn per_clock(design: &Design, vectors: &Vectors, time: Time) -> Measured {
+    let passes_per_second = time.passes as f64 / time.seconds;
+    let frames_per_second = vectors.streamed as f64 * passes_per_second;
+    let pixels = f64::from(design.width()) * f64::from(design.height());
+    Measured {
+        frames_per_second,
+        clocks_per_second: Some(vectors.clocks() as f64 * passes_per_second),
+        pixels_per_second: frames_per_second * pixels,
+        passes: time.passes,
+        seconds: time.seconds,
+        ..Measured::default()
+    }
+}

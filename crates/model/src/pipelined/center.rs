@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a window stage gives, and how it is taken out of the pixels that a stage keeps.
+
+use super::pixel::Pixel;
+use crate::window::Window;
+
+/// What a window stage gives at a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Center {
+    /// The pixel at the center.
+    pub(super) pixel: Pixel,
+    /// The scored values around it.
+    pub(super) window: Window,
+}
+
+/// The window at column `x` and row `y` of a square of pixels, where no position is below `low` or
+/// above `high` (column, row).
+pub(super) fn center_at(
+    pixels: &[Pixel],
+    side: usize,
+    (x, y): (usize, usize),
+    low: (usize, usize),
+    high: (usize, usize),
+) -> Center {
+    let columns = [x.saturating_sub(1).max(low.0), x, (x + 1).min(high.0)];
+    let rows = [y.saturating_sub(1).max(low.1), y, (y + 1).min(high.1)];
+    let mut window = [0; 9];
+    for (line, row) in window.chunks_exact_mut(3).zip(rows) {
+        for (value, column) in line.iter_mut().zip(columns) {
+            *value = pixels[row * side + column].scored;
+        }
+    }
+    Center { pixel: pixels[y * side + x], window }
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The frames of a scene, made one at a time.
+
+use foveate_frame::Frame;
+
+use crate::canvas::Canvas;
+use crate::street::{Mood, Street};
+use crate::{Scene, SceneSize, noise, patterns};
+
+impl Scene {
+    /// Its frames, made one at a time.
+    #[must_use]
+    pub fn frames(self, size: SceneSize) -> SceneFrames {
+        SceneFrames::new(self, size.in_range())
+    }
+}
+
+/// The frames of one scene.
+#[derive(Clone, Debug)]
+pub struct SceneFrames {
+    scene: Scene,
+    size: SceneSize,
+    street: Option<Street>,
+    next: u32,
+}
+
+impl SceneFrames {
+    fn new(scene: Scene, size: SceneSize) -> Self {
+        let street = match scene {
+            Scene::Street => Some(Street::new(size.width, size.height, Mood::Day)),
+            Scene::NightRain => Some(Street::new(size.width, size.height, Mood::Night)),
+            Scene::Shake => {
+                let margin = 2 * shake_reach(&size);
+                Some(Street::new(size.width + margin, size.height + margin, Mood::Day))
+            }
+            _ => None,
+        };
+        Self { scene, size, street, next: 0 }
+    }
+
+    /// Frame number `t`.
+    fn frame(&self, t: u32) -> Option<Frame> {
+        match (self.scene, &self.street) {
+            (Scene::Street, Some(street)) => self.seen(&street.at(t), (0, 0), 160, t),
+            (Scene::NightRain, Some(street)) => self.seen(&street.at(t), (0, 0), 450, t),
+            (Scene::Shake, Some(street)) => {
+                let span = 2 * shake_reach(&self.size) + 1;
+                let shift = |axis| noise::pick(0x5AAE, t, axis, 0, span);
+                self.seen(street.backdrop(), (shift(0), shift(1)), 0, t)
+            }
+            _ => self.made(|x, y| patterns::pixel(self.scene, &self.size, t, x, y)),
+        }
+    }
+
+    /// The canvas through a sensor: cut out at `corner`, with noise, in P bits.
+    fn seen(&self, canvas: &Canvas, corner: (u32, u32), amplitude: i32, t: u32) -> Option<Frame> {
+        self.made(|x, y| {
+            let light = i32::from(canvas.get(x + corner.0, y + corner.1));
+            let noisy = light + amplitude * noise::bell(0x5EED, t, x, y);
+            u32::try_from(noisy.clamp(0, 65_535)).unwrap_or(0) >> (16 - self.size.bits)
+        })
+    }
+
+    fn made(&self, mut pixel: impl FnMut(u32, u32) -> u32) -> Option<Frame> {
+        let SceneSize { width, height, bits, .. } = self.size;
+        let limit = self.size.max();
+        let pixel = |x, y| u16::try_from(pixel(x, y).min(limit)).unwrap_or(u16::MAX);
+        // A size in range is a valid frame.
+        Frame::from_fn(width, height, bits, pixel).ok()
+    }
+}
+
+impl Iterator for SceneFrames {
+    type Item = Frame;
+
+    fn next(&mut self) -> Option<Frame> {
+        if self.next >= self.size.frames {
+            return None;
+        }
+        self.next += 1;
+        self.frame(self.next - 1)
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = (self.size.frames - self.next.min(self.size.frames)) as usize;
+        (left, Some(left))
+    }
+}
+
+impl ExactSizeIterator for SceneFrames {}
+
+/// How far a shaking camera goes to either side, in pixels: 4 at 224x224.
+fn shake_reach(size: &SceneSize) -> u32 {
+    (size.width.min(size.height) / 56).max(1)
+}
