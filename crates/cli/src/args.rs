@@ -11,6 +11,8 @@ mod fit;
 mod frames;
 mod input;
 mod outputs;
+#[cfg(test)]
+mod page;
 mod stress;
 
 use std::fs;
@@ -242,15 +244,15 @@ pub(crate) struct SimulateArgs {
     /// Replace the folder if it holds a simulation
     #[arg(long)]
     pub(crate) force: bool,
-    #[command(flatten)]
-    pub(crate) input: InputArgs,
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
     /// No progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Last, because what follows would be listed under its heading.
+    // Last, because what follows would be listed under their headings.
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
     #[command(flatten)]
     pub(crate) outputs: OutputArgs,
 }

@@ -113,3 +113,34 @@ fn same_leaf(a: &str, b: &str) -> f64 {
     let leaf = |key: &str| key.rsplit('.').next().map(str::to_owned);
     if leaf(a) == leaf(b) { 0.95 } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `docs/configuration.md` has one row per key, and every value that a key takes by name stands in it.
+    #[test]
+    fn the_page_of_the_configuration_has_every_key() {
+        let page = include_str!("../../../docs/configuration.md");
+        let rows: Vec<(&str, &str)> = page
+            .lines()
+            .filter_map(|line| line.strip_prefix("| `")?.split_once("` |"))
+            .filter(|(key, _)| key.contains('.'))
+            .collect();
+        for (key, takes) in KEYS {
+            let row = rows.iter().find(|(name, _)| name == key);
+            let (_, row) =
+                row.unwrap_or_else(|| panic!("{key} has no row in docs/configuration.md"));
+            for value in takes.split('"').skip(1).step_by(2) {
+                assert!(
+                    row.contains(&format!("`\"{value}\"`")),
+                    "the row of {key} lacks \"{value}\""
+                );
+            }
+        }
+        for (key, _) in &rows {
+            assert!(KEYS.iter().any(|(known, _)| known == key), "{key} is no key");
+        }
+        assert_eq!(rows.len(), KEYS.len(), "a key has two rows");
+    }
+}
