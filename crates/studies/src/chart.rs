@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Charts as SVG and PNG: the same drawing twice, with a font that comes along, so that they look the
-//! same on a machine without fonts. Colours are those of Okabe and Ito, to be told apart with any
-//! colour vision; from the eighth series on lines are dashed.
+//! same on a machine without fonts. Colours are those of the palette; from the eighth series on lines
+//! are dashed.
 
 mod draw;
+mod page;
 
 use std::sync::OnceLock;
 
+use ab_glyph::FontRef;
+use foveate_palette::Colour;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use plotters::prelude::*;
 use plotters::style::register_font;
 
 use crate::StudyError;
+use page::Page;
 
 /// Width and height of a chart in pixels.
 const SIZE: (u32, u32) = (1000, 560);
@@ -48,6 +52,7 @@ pub(crate) struct Line {
 #[derive(Clone, Debug)]
 pub(crate) struct Bars {
     pub(crate) name: String,
+    pub(crate) colour: Colour,
     pub(crate) values: Vec<f64>,
     /// From and to, a whisker on every bar; or none.
     pub(crate) ranges: Vec<(f64, f64)>,
@@ -69,8 +74,10 @@ impl Chart {
     pub(crate) fn png(&self) -> Result<Vec<u8>, StudyError> {
         self.load_font()?;
         let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
-        draw::draw(self, &BitMapBackend::with_buffer(&mut pixels, SIZE).into_drawing_area())
-            .map_err(|error| self.failed(&error))?;
+        let font = FontRef::try_from_slice(dejavu::sans::regular())
+            .map_err(|_| self.failed(&"the font is damaged"))?;
+        let page = Page { pixels: &mut pixels, size: SIZE, font };
+        draw::draw(self, &page.into_drawing_area()).map_err(|error| self.failed(&error))?;
         let mut file = Vec::new();
         PngEncoder::new(&mut file)
             .write_image(&pixels, SIZE.0, SIZE.1, ExtendedColorType::Rgb8)

@@ -52,6 +52,25 @@ pub enum StudyError {
         /// What is wrong.
         problem: String,
     },
+    /// The recording is about another time than the clip.
+    #[error(
+        "no sensor event of `{}` is from the time of the clip, which is {first} to {last} us with \
+         --sensor-start {first}; the recording is from {from} to {to} us: give --sensor-start the \
+         time of the first frame on that clock",
+        path.display()
+    )]
+    SensorTime {
+        /// The file.
+        path: PathBuf,
+        /// Time of the first frame on the clock of the events, in microseconds.
+        first: u64,
+        /// That of the last.
+        last: u64,
+        /// Time of the first event.
+        from: u64,
+        /// That of the last.
+        to: u64,
+    },
     /// Charts cannot be drawn.
     #[error("cannot draw the chart `{name}`: {problem}")]
     Chart {

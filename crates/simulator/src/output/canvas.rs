@@ -2,15 +2,14 @@
 //! A colour picture to draw on, and the common layout of pictures of regions: the frame, enlarged if
 //! it is small, above a footer for a legend.
 
-use super::font;
+use foveate_palette::Colour;
 
-/// Red, green and blue.
-pub(super) type Colour = [u8; 3];
+use super::font;
 
 pub(super) const BACKGROUND: Colour = [16, 16, 16];
 pub(super) const TEXT: Colour = [230, 230, 230];
 
-/// Frames are enlarged until they are this wide,
+/// Frames are enlarged, by a whole factor, until they are at least this wide,
 const ENOUGH_WIDTH: u32 = 448;
 /// unless they become higher than this.
 const ENOUGH_HEIGHT: u32 = 1024;
@@ -34,7 +33,7 @@ pub(super) struct Layout {
 
 impl Layout {
     pub(super) fn new(width: u32, height: u32) -> Self {
-        let scale = (ENOUGH_WIDTH / width).min(ENOUGH_HEIGHT / height).max(1);
+        let scale = ENOUGH_WIDTH.div_ceil(width).min(ENOUGH_HEIGHT / height).max(1);
         let (frame_width, frame_height) = (width * scale, height * scale);
         let dot = (frame_width / ENOUGH_DOTS).clamp(1, 4);
         Self { scale, dot, width: frame_width.max(LEGEND_DOTS), frame_height, frame_width }
@@ -89,5 +88,18 @@ impl Canvas {
             at += (font::SIZE.0 + 1) * dot;
         }
         at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_frames_are_enlarged_to_448_pixels_or_more() {
+        let sizes = [(224, 224), (300, 200), (320, 240), (447, 300), (448, 300), (28, 28)];
+        let scales = sizes.map(|(width, height)| Layout::new(width, height).scale);
+        assert_eq!(scales, [2, 2, 2, 2, 1, 16]);
+        assert_eq!(Layout::new(100, 600).scale, 1, "no picture is higher than 1024 for that");
     }
 }

@@ -6,8 +6,9 @@
 
 use colorous::VIRIDIS;
 use foveate_design::{Design, FeatureKind, SpatialFeature};
+use foveate_palette::Colour;
 
-use super::canvas::{Canvas, Colour, Layout, TEXT};
+use super::canvas::{Canvas, Layout, TEXT};
 use super::font;
 use super::gallery::Painter;
 use super::sink::Step;

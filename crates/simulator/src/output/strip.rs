@@ -4,7 +4,9 @@
 //! A bar is a frame until the strip is full; then two bars become one, the mean of both, and so on. So
 //! the strip shows the whole clip in constant memory without knowing how long it will be.
 
-use super::canvas::{Canvas, Colour, Layout};
+use foveate_palette::Colour;
+
+use super::canvas::{Canvas, Layout};
 
 /// The line that means one half.
 const HALF: Colour = [70, 70, 70];

@@ -15,9 +15,9 @@ use foveate_toolchain::{Tool, Toolchain};
 use image::RgbImage;
 
 const NOTHING: fn() -> RunOptions = || RunOptions { rendered: None, ..RunOptions::default() };
-/// Enlargement of 45 x 38 pixels, to be at most 448 wide, and dots of the footer.
-const SCALE: u32 = 9;
-const DOT: u32 = 1;
+/// Enlargement of 45 x 38 pixels, to be at least 448 wide, and dots of the footer.
+const SCALE: u32 = 10;
+const DOT: u32 = 2;
 
 fn pictures(folder: &Path, name: &str) -> Vec<RgbImage> {
     let picture = |t| image::open(folder.join(format!("{name}/{t:06}.png"))).unwrap().into_rgb8();

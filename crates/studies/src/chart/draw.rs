@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One drawing for every backend: axes, series, legend beside them, caption below.
 
+use foveate_palette::{Colour, SERIES};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Bars, Chart, Line, SIZE, Shape};
 
-/// Okabe and Ito, without yellow, which is lost on white.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-];
 /// Columns of pixels for the legend, and letters of a name in it.
 const LEGEND: u32 = 210;
 const LETTERS: usize = 25;
@@ -32,26 +23,30 @@ pub(super) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shi
     let (plot, legend) = above.split_horizontally(SIZE.0 - LEGEND);
     let small = ("sans-serif", 11).into_font().color(&RGBColor(90, 90, 90));
     caption.draw(&Text::new(chart.caption.clone(), (12, 4), small))?;
-    let names: Vec<&str> = match &chart.shape {
+    match &chart.shape {
         Shape::Lines(lines) => {
             draw_lines::<DB>(chart, lines, &plot)?;
-            lines.iter().map(|line| line.name.as_str()).collect()
+            draw_names_of_lines::<DB>(lines, &legend)?;
         }
         Shape::Bars { groups, series } => {
             draw_bars::<DB>(chart, groups, series, &plot)?;
-            series.iter().map(|bars| bars.name.as_str()).collect()
+            draw_names_of_bars::<DB>(series, &legend)?;
         }
-    };
-    draw_legend::<DB>(&names, matches!(chart.shape, Shape::Bars { .. }), &legend)?;
+    }
     root.present()
 }
 
+/// Of a line by its number.
 fn colour(number: usize) -> RGBColor {
-    COLOURS.get(number % COLOURS.len()).copied().unwrap_or(BLACK)
+    rgb(SERIES[number % SERIES.len()])
+}
+
+fn rgb([red, green, blue]: Colour) -> RGBColor {
+    RGBColor(red, green, blue)
 }
 
 fn dashed(number: usize) -> bool {
-    number >= COLOURS.len()
+    number >= SERIES.len()
 }
 
 /// A little more than the largest, so that nothing touches the frame.
@@ -133,7 +128,7 @@ fn draw_bars<DB: DrawingBackend>(
         let left = |group: usize| number(group) + 0.1 + wide * number(at);
         let bar = |(group, &value): (usize, &f64)| {
             let corners = [(left(group), 0.0), (left(group) + 0.9 * wide, value)];
-            Rectangle::new(corners, colour(at).filled())
+            Rectangle::new(corners, rgb(bars.colour).filled())
         };
         context.draw_series(bars.values.iter().enumerate().map(bar))?;
         let whisker = |(group, &(from, to)): (usize, &(f64, f64))| {
@@ -160,26 +155,40 @@ fn draw_bars<DB: DrawingBackend>(
     area.draw(&Text::new(chart.x.clone(), below, axis))
 }
 
-fn draw_legend<DB: DrawingBackend>(
-    names: &[&str],
-    blocks: bool,
+/// Heights of the rows of a legend.
+fn rows() -> impl Iterator<Item = i32> {
+    (56..).step_by(22)
+}
+
+fn draw_names_of_bars<DB: DrawingBackend>(
+    series: &[Bars],
     area: &DrawingArea<DB, Shift>,
 ) -> Result<DB> {
-    let font = ("sans-serif", 13).into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
-    for (number, (name, y)) in names.iter().zip((56..).step_by(22)).enumerate() {
-        if blocks {
-            area.draw(&Rectangle::new([(4, y - 6), (18, y + 6)], colour(number).filled()))?;
-        } else {
-            let pieces: &[(i32, i32)] =
-                if dashed(number) { &[(4, 11), (16, 23)] } else { &[(4, 23)] };
-            for &(from, to) in pieces {
-                let style = colour(number).stroke_width(3);
-                area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
-            }
-        }
-        area.draw(&Text::new(cut(name, LETTERS), (29, y), font.clone()))?;
+    for (bars, y) in series.iter().zip(rows()) {
+        area.draw(&Rectangle::new([(4, y - 6), (18, y + 6)], rgb(bars.colour).filled()))?;
+        draw_name::<DB>(&bars.name, y, area)?;
     }
     Ok(())
+}
+
+fn draw_names_of_lines<DB: DrawingBackend>(
+    lines: &[Line],
+    area: &DrawingArea<DB, Shift>,
+) -> Result<DB> {
+    for (number, (line, y)) in lines.iter().zip(rows()).enumerate() {
+        let pieces: &[(i32, i32)] = if dashed(number) { &[(4, 11), (16, 23)] } else { &[(4, 23)] };
+        for &(from, to) in pieces {
+            let style = colour(number).stroke_width(3);
+            area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
+        }
+        draw_name::<DB>(&line.name, y, area)?;
+    }
+    Ok(())
+}
+
+fn draw_name<DB: DrawingBackend>(name: &str, y: i32, area: &DrawingArea<DB, Shift>) -> Result<DB> {
+    let font = ("sans-serif", 13).into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
+    area.draw(&Text::new(cut(name, LETTERS), (29, y), font))
 }
 
 fn cut(name: &str, letters: usize) -> String {

@@ -2,6 +2,7 @@
 //! Spatial redundancy: the share of regions that a feature by itself calls irrelevant.
 
 use foveate_design::{Config, FeatureKind, SpatialConfig};
+use foveate_palette::SERIES;
 
 use super::Study;
 use crate::StudyError;
@@ -45,6 +46,7 @@ pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let points = || watched.iter().flat_map(|set| set.points.iter().map(|(_, below)| below));
     let bars = |(at, kind): (usize, &FeatureKind)| Bars {
         name: kind.name().to_owned(),
+        colour: SERIES[at % SERIES.len()],
         values: points().map(|below| percent(below.by_feature[at], below.all)).collect(),
         ranges: Vec::new(),
     };

@@ -54,7 +54,7 @@ pub(super) fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findin
     for (design, counts) in watched.iter().flat_map(|clip| &clip.points) {
         let start = request.sensor_start_us;
         let times = (start, start.saturating_add(counts.last_us));
-        let events = events_per_region(path, design, times)?;
+        let events = read(path, design, times)?.compared(path, times, design)?;
         for (name, own) in [
             ("active frames", &counts.active),
             ("frames with TRS", &counts.changed),
@@ -74,12 +74,43 @@ pub(super) fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findin
     Ok(findings)
 }
 
-/// Events with first < t <= last in every region; others, and those outside the frame, are left out.
-fn events_per_region(
-    path: &Path,
-    design: &Design,
-    (first, last): (u64, u64),
-) -> Result<Vec<u64>, StudyError> {
+/// What a recording holds for a clip.
+struct Recorded {
+    /// Events of every region, in rows.
+    per_region: Vec<u64>,
+    /// Times of the first and the last event of the recording.
+    times: Option<(u64, u64)>,
+    /// Whether any event was meanwhile, inside of the frame or not.
+    meanwhile: bool,
+}
+
+impl Recorded {
+    /// The events of every region; an error where there is nothing to compare with.
+    fn compared(
+        self,
+        path: &Path,
+        (first, last): (u64, u64),
+        design: &Design,
+    ) -> Result<Vec<u64>, StudyError> {
+        let wrong = |problem| StudyError::SensorEvents { path: path.to_owned(), problem };
+        let (from, to) = self.times.ok_or_else(|| wrong("it holds no event".to_owned()))?;
+        if !self.meanwhile {
+            let path = path.to_owned();
+            return Err(StudyError::SensorTime { path, first, last, from, to });
+        }
+        if self.per_region.iter().all(|&events| events == 0) {
+            let (width, height) = (design.width(), design.height());
+            return Err(wrong(format!(
+                "all events of that time are outside of the frame of {width}x{height} pixels"
+            )));
+        }
+        Ok(self.per_region)
+    }
+}
+
+/// Reads a recording: events with first < t <= last count for their region; those outside the frame do
+/// not.
+fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recorded, StudyError> {
     let wrong = |problem: String| StudyError::SensorEvents { path: path.to_owned(), problem };
     let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
     let packed = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
@@ -95,7 +126,8 @@ fn events_per_region(
         at.ok_or_else(|| wrong(format!("there is no column `{name}`")))
     };
     let places = [column("t_us")?, column("x")?, column("y")?];
-    let mut counts = vec![0; usize::try_from(design.regions()).unwrap_or_default()];
+    let per_region = vec![0; usize::try_from(design.regions()).unwrap_or_default()];
+    let mut recorded = Recorded { per_region, times: None, meanwhile: false };
     for (number, line) in lines {
         let line = line.map_err(|error| wrong(error.to_string()))?;
         let cells: Vec<&str> = line.split(',').collect();
@@ -104,12 +136,15 @@ fn events_per_region(
             cell.ok_or_else(|| wrong(format!("line {} has no number there", number + 1)))
         };
         let [t, x, y] = [value(places[0])?, value(places[1])?, value(places[2])?];
-        let inside = x < u64::from(design.width()) && y < u64::from(design.height());
-        if inside && t > first && t <= last {
+        let (from, to) = recorded.times.unwrap_or((t, t));
+        recorded.times = Some((from.min(t), to.max(t)));
+        let meanwhile = t > first && t <= last;
+        recorded.meanwhile |= meanwhile;
+        if meanwhile && x < u64::from(design.width()) && y < u64::from(design.height()) {
             let size = u64::from(design.region_size());
             let region = y / size * u64::from(design.columns()) + x / size;
-            counts[usize::try_from(region).unwrap_or_default()] += 1;
+            recorded.per_region[usize::try_from(region).unwrap_or_default()] += 1;
         }
     }
-    Ok(counts)
+    Ok(recorded)
 }

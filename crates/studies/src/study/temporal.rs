@@ -3,6 +3,8 @@
 
 use std::slice::from_ref;
 
+use foveate_palette::{ACTIVE, CHANGED, RELEVANT};
+
 use super::{Study, clips_only};
 use crate::StudyError;
 use crate::chart::{Bars, Chart, Shape};
@@ -53,15 +55,16 @@ pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
         }
     }
     let mut findings = Findings::new(Study::Temporal, &watched, table);
-    let bars = |name: &str, part: fn(&Regions) -> u64, ranges| Bars {
+    let bars = |name: &str, colour, part: fn(&Regions) -> u64, ranges| Bars {
         name: name.to_owned(),
+        colour,
         values: sums.iter().map(|sum| percent(part(sum), sum.all)).collect(),
         ranges,
     };
     let series = vec![
-        bars("active, line min to max", |sum| sum.active, ranges),
-        bars("SRS (relevant)", |sum| sum.srs, Vec::new()),
-        bars("TRS (changed)", |sum| sum.trs, Vec::new()),
+        bars("active, line min to max", ACTIVE, |sum| sum.active, ranges),
+        bars("SRS (relevant)", RELEVANT, |sum| sum.srs, Vec::new()),
+        bars("TRS (changed)", CHANGED, |sum| sum.trs, Vec::new()),
     ];
     let chart = Chart {
         file: "temporal".to_owned(),

@@ -71,6 +71,19 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     // What comes before the first frame and after the last is left out.
     assert_eq!(cells(&report, "sensor_events"), ["3"; 3]);
     assert_eq!(cells(&report, "spearman"), ["undefined", "1.0000", "1.0000"]);
+    // A start on another clock, no event at all, and none inside of the frame.
+    let late = Request { sensor_start_us: 5_000_000, ..request.clone() };
+    let refused = analyze(&late, &out, true, &Silent).unwrap_err().to_string();
+    for part in ["events.csv", "5000000 to 5100000 us", "from 500 to 900000 us", "--sensor-start"] {
+        assert!(refused.contains(part), "{part}: {refused}");
+    }
+    let at_first = Request { sensor_start_us: 900_000, ..request.clone() };
+    assert!(analyze(&at_first, &out, true, &Silent).is_err(), "nothing comes after frame 0");
+    for (csv, part) in [("t_us,x,y\n", "no event"), ("t_us,x,y\n1001,24,0\n", "24x8 pixels")] {
+        fs::write(&events, csv).unwrap();
+        let refused = analyze(&request, &out, true, &Silent).unwrap_err().to_string();
+        assert!(refused.contains(part) && refused.contains("events.csv"), "{refused}");
+    }
     fs::write(&events, "t_us,x,y\n1,2\n").unwrap();
     let refused = analyze(&request, &out, true, &Silent).unwrap_err().to_string();
     assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");

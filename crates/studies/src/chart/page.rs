@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The page of a PNG: pixels that a chart is drawn on.
+//!
+//! Lines and rectangles are those of `plotters`. Text is set here, on a baseline as in the SVG: the bitmap
+//! backend of `plotters` 0.3.7 puts every letter where its own height says, which lifts `.` and `,` off the
+//! line. Dots are round here, too.
+
+use std::convert::Infallible;
+
+use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters_backend::{
+    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+};
+
+/// The size of a text in `plotters` per em.
+const SIZE_OF_EM: f32 = 1.24;
+
+/// A picture in the making: red, green and blue, row by row from the top.
+pub(super) struct Page<'a> {
+    pub(super) pixels: &'a mut [u8],
+    pub(super) size: (u32, u32),
+    pub(super) font: FontRef<'static>,
+}
+
+type Result = std::result::Result<(), DrawingErrorKind<Infallible>>;
+
+impl DrawingBackend for Page<'_> {
+    type ErrorType = Infallible;
+
+    fn get_size(&self) -> (u32, u32) {
+        self.size
+    }
+
+    fn ensure_prepared(&mut self) -> Result {
+        Ok(())
+    }
+
+    fn present(&mut self) -> Result {
+        Ok(())
+    }
+
+    fn draw_pixel(&mut self, (x, y): BackendCoord, colour: BackendColor) -> Result {
+        let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return Ok(()) };
+        if x < self.size.0 && y < self.size.1 {
+            let (red, green, blue) = colour.rgb;
+            let at = 3 * (y as usize * self.size.0 as usize + x as usize);
+            for (below, above) in self.pixels[at..at + 3].iter_mut().zip([red, green, blue]) {
+                *below = mixed(*below, above, colour.alpha);
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_circle<S: BackendStyle>(
+        &mut self,
+        (x, y): BackendCoord,
+        radius: u32,
+        style: &S,
+        _fill: bool,
+    ) -> Result {
+        let reach = i32::try_from(radius).unwrap_or(i32::MAX - 1) + 1;
+        for (dx, dy) in (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy))) {
+            let covered = f64::from(radius) + 0.5 - f64::from(dx).hypot(f64::from(dy));
+            let colour = style.color();
+            let alpha = colour.alpha * covered.clamp(0.0, 1.0);
+            self.draw_pixel((x + dx, y + dy), BackendColor { alpha, ..colour })?;
+        }
+        Ok(())
+    }
+
+    fn draw_text<S: BackendTextStyle>(
+        &mut self,
+        text: &str,
+        style: &S,
+        (x, y): BackendCoord,
+    ) -> Result {
+        let (glyphs, transform) = (self.set(text, style), style.transform());
+        for glyph in glyphs {
+            let Some(outline) = self.font.outline_glyph(glyph) else { continue };
+            let corner = outline.px_bounds().min;
+            let mut dots = Vec::new();
+            outline.draw(|dx, dy, covered| dots.push((dx, dy, covered)));
+            for (dx, dy, covered) in dots {
+                let (dx, dy) = transform.transform(along(corner.x, dx), along(corner.y, dy));
+                let colour = style.color();
+                let alpha = colour.alpha * f64::from(covered.clamp(0.0, 1.0));
+                self.draw_pixel((x + dx, y + dy), BackendColor { alpha, ..colour })?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Page<'_> {
+    /// The letters of a text side by side on their baseline, from its anchor, as an SVG places them.
+    fn set<S: BackendTextStyle>(&self, text: &str, style: &S) -> Vec<Glyph> {
+        #[allow(clippy::cast_possible_truncation, reason = "sizes of letters")]
+        let em = style.size() as f32 / SIZE_OF_EM;
+        let height = self.font.height_unscaled();
+        let scale = PxScale::from(em * height / self.font.units_per_em().unwrap_or(height));
+        let font = self.font.as_scaled(scale);
+        let baseline = match style.anchor().v_pos {
+            VPos::Top => 0.76 * em,
+            VPos::Center => 0.27 * em,
+            VPos::Bottom => -0.27 * em,
+        };
+        let mut caret = 0.0;
+        let mut glyphs: Vec<Glyph> = Vec::new();
+        for letter in text.chars() {
+            let id = font.glyph_id(letter);
+            caret += glyphs.last().map_or(0.0, |last| font.kern(last.id, id));
+            glyphs.push(id.with_scale_and_position(scale, point(caret, baseline)));
+            caret += font.h_advance(id);
+        }
+        let left = match style.anchor().h_pos {
+            HPos::Left => 0.0,
+            HPos::Right => caret,
+            HPos::Center => caret / 2.0,
+        };
+        glyphs.iter_mut().for_each(|glyph| glyph.position.x -= left);
+        glyphs
+    }
+}
+
+/// The place of a dot of a letter; bounds of letters are whole numbers.
+#[allow(clippy::cast_possible_truncation, reason = "places on the page")]
+fn along(corner: f32, step: u32) -> i32 {
+    (corner.round() as i32).saturating_add_unsigned(step)
+}
+
+/// `above` over `below`, `alpha` of it.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
+fn mixed(below: u8, above: u8, alpha: f64) -> u8 {
+    (f64::from(below) + (f64::from(above) - f64::from(below)) * alpha).round() as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use plotters::prelude::*;
+
+    use super::*;
+
+    /// Rows with ink of a text at 20, 20 on white.
+    fn inked(text: &str, size: u32) -> Vec<usize> {
+        let (width, height) = (80, 60);
+        let mut pixels = vec![255; 3 * width * height];
+        let font = FontRef::try_from_slice(dejavu::sans::regular()).unwrap();
+        let page = Page { pixels: &mut pixels, size: (80, 60), font };
+        let area = page.into_drawing_area();
+        let style = ("sans-serif", size).into_font().color(&BLACK);
+        area.draw(&Text::new(text.to_owned(), (20, 20), style)).unwrap();
+        drop(area);
+        let dark = |row: &[u8]| row.iter().any(|&value| value < 128);
+        (0..height).filter(|y| dark(&pixels[3 * width * y..3 * width * (y + 1)])).collect()
+    }
+
+    #[test]
+    fn points_and_commas_stand_on_the_line_of_digits() {
+        for size in 11..=30 {
+            let [digit, point, comma] = ["1", ".", ","].map(|text| inked(text, size));
+            assert_eq!(digit.last(), point.last(), "size {size}");
+            assert!(comma.last() >= digit.last(), "size {size}");
+            assert!(digit.len() > 3 * point.len(), "size {size}");
+        }
+    }
+}
