@@ -26,6 +26,8 @@ step "build of the tests"
 cargo test --workspace --locked --quiet --no-run
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
+step "Python of the documents"
+scripts/snippets.sh
 step "samples of proofs, lint matrix and mutants (scripts/formal.sh, lint.sh and mutation.sh are the whole)"
 beside=$(mktemp)
 log=$(mktemp)

@@ -20,6 +20,7 @@ mod npy;
 mod npz;
 mod options;
 mod overlay;
+mod packer;
 mod parquet;
 mod pixel_camera;
 mod pixel_events;
@@ -32,7 +33,7 @@ mod table;
 mod video;
 
 pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
-pub use csv::quoted as csv_field;
+pub use csv::{plain as csv_name, quoted as csv_field};
 pub use data_set::DataSet;
 pub use options::{EventTables, Medium, PixelEvents, RunOptions};
 pub use pixel_camera::{PixelCamera, PixelEvent};

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use foveate_simulator::csv_field;
+use foveate_simulator::csv_name;
 
 /// A table. Cells are text that is already rounded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -17,7 +17,8 @@ impl Table {
         Self { columns: columns.to_vec(), rows: Vec::new() }
     }
 
-    /// CSV with `notes` in front, a comment line each.
+    /// CSV with `notes` in front, a comment line each; names are plain, so that readers that skip comments
+    /// leave them whole.
     pub(crate) fn csv(&self, notes: &[String]) -> String {
         let mut text = String::new();
         for note in notes {
@@ -25,7 +26,7 @@ impl Table {
         }
         let _ = writeln!(text, "{}", self.columns.join(","));
         for row in &self.rows {
-            let cells: Vec<String> = row.iter().map(|cell| csv_field(cell)).collect();
+            let cells: Vec<String> = row.iter().map(|cell| csv_name(cell)).collect();
             let _ = writeln!(text, "{}", cells.join(","));
         }
         text
@@ -48,10 +49,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_are_quoted_where_they_must_be() {
+    fn cells_are_plain() {
         let mut table = Table::new(&["a", "b"]);
         table.rows.push(vec!["x, \"y\"".to_owned(), "1|2".to_owned()]);
-        assert_eq!(table.csv(&["of\nme".to_owned()]), "# of me\na,b\n\"x, \"\"y\"\"\",1|2\n");
+        assert_eq!(table.csv(&["of\nme".to_owned()]), "# of me\na,b\nx%2C %22y%22,1|2\n");
         assert_eq!(table.markdown(), "| a | b |\n| --- | --- |\n| x, \"y\" | 1\\|2 |\n");
     }
 }

@@ -63,7 +63,7 @@ impl Feed for Batch {
             convert_depth(luma(r.into(), g.into(), b.into()), 8, self.bits)
         };
         let pixels = red.iter().zip(green).zip(blue).map(mix).collect();
-        let name = format!("{}#{}", self.path.display(), self.next);
+        let name = format!("{}[{}]", self.path.display(), self.next);
         self.next += 1;
         let frame = Raster::from_words(SIDE, SIDE, self.bits, pixels)?;
         Ok(Some(SourceFrame { name, time_us: 0, label: labels.last().map(u8::to_string), frame }))
@@ -108,7 +108,7 @@ impl Feed for Sheet {
             return Ok(None);
         }
         let pixels = self.sheet.row(self.next).to_vec();
-        let name = format!("{}#{}", self.path.display(), self.next);
+        let name = format!("{}[{}]", self.path.display(), self.next);
         self.next += 1;
         let frame = Raster::from_words(SIDE, SIDE, self.sheet.bits(), pixels)?;
         Ok(Some(SourceFrame { name, time_us: 0, label: None, frame }))

@@ -79,7 +79,7 @@ impl Feed for Idx {
         self.next += 1;
         let label = self.labels.as_ref().and_then(|labels| labels.get(index as usize));
         Ok(Some(SourceFrame {
-            name: format!("{}#{index}", self.path.display()),
+            name: format!("{}[{index}]", self.path.display()),
             time_us: 0,
             label: label.map(u8::to_string),
             frame,

@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The NumPy arrays of a run: bits, counts and scores by frame, row and column.
+//! The NumPy arrays of a run: bits, counts and scores by frame, row and column, each in the smallest type
+//! that holds its range, which the design knows.
 
 use std::path::Path;
 
 use foveate_design::Design;
 
-use super::npy::NpyWriter;
+use super::npy::{Element, NpyWriter};
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
 
 /// Every array, open.
 pub(super) struct Arrays {
-    srs: NpyWriter<u8>,
-    trs: NpyWriter<u8>,
-    active: NpyWriter<u8>,
-    temporal_count: NpyWriter<u32>,
-    scores: Vec<NpyWriter<u64>>,
+    srs: NpyWriter,
+    trs: NpyWriter,
+    active: NpyWriter,
+    temporal_count: NpyWriter,
+    scores: Vec<NpyWriter>,
 }
 
 impl Arrays {
     pub(super) fn create(folder: &Path, design: &Design) -> Result<Self, SimulatorError> {
         let (rows, columns) = (design.rows(), design.columns());
-        let flags = |name: &str| NpyWriter::create(&folder.join(name), rows, columns);
-        let scores = design.features().iter().map(|feature| {
-            let name = format!("score_{}.npy", feature.kind());
-            NpyWriter::create(&folder.join(name), rows, columns)
-        });
+        let array = |name: &str, max: u64| {
+            NpyWriter::create(&folder.join(name), Element::up_to(max), rows, columns)
+        };
+        let scores = design
+            .features()
+            .iter()
+            .map(|feature| array(&format!("score_{}.npy", feature.kind()), feature.score_max()));
         Ok(Self {
-            srs: flags("srs.npy")?,
-            trs: flags("trs.npy")?,
-            active: flags("active.npy")?,
-            temporal_count: NpyWriter::create(&folder.join("t_count.npy"), rows, columns)?,
+            srs: array("srs.npy", 1)?,
+            trs: array("trs.npy", 1)?,
+            active: array("active.npy", 1)?,
+            temporal_count: array("t_count.npy", design.region_pixels().into())?,
             scores: scores.collect::<Result<_, _>>()?,
         })
     }
@@ -39,10 +42,10 @@ impl Arrays {
 impl Sink for Arrays {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let outcome = step.outcome;
-        self.srs.push(outcome.srs.iter().copied().map(u8::from));
-        self.trs.push(outcome.trs.iter().copied().map(u8::from));
-        self.active.push(outcome.active.iter().copied().map(u8::from));
-        self.temporal_count.push(outcome.temporal_count.iter().copied());
+        self.srs.push(outcome.srs.iter().copied().map(u64::from));
+        self.trs.push(outcome.trs.iter().copied().map(u64::from));
+        self.active.push(outcome.active.iter().copied().map(u64::from));
+        self.temporal_count.push(outcome.temporal_count.iter().copied().map(u64::from));
         for (writer, scores) in self.scores.iter_mut().zip(&outcome.scores) {
             writer.push(scores.iter().copied());
         }

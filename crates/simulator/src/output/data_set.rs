@@ -9,7 +9,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::npy::NpyWriter;
+use super::npy::{Element, NpyWriter};
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
 use foveate_footage::{Labels, SetFiles, SetForm};
@@ -46,7 +46,7 @@ impl DataSet {
 pub(super) fn sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
     let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
     if form.labels != Labels::None {
-        let file = NpyWriter::create_list(&folder.join("labels.npy"))?;
+        let file = NpyWriter::create_list(&folder.join("labels.npy"), Element::Signed64)?;
         sinks.push(Box::new(Numbers { labels: form.labels.clone(), file }));
     }
     match &form.files {
@@ -64,12 +64,13 @@ pub(super) fn sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn Sink>>,
 /// `labels.npy`, open.
 struct Numbers {
     labels: Labels,
-    file: NpyWriter<i64>,
+    file: NpyWriter,
 }
 
 impl Sink for Numbers {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        self.file.push([self.labels.number(step.source.label.as_deref())].into_iter());
+        let number = self.labels.number(step.source.label.as_deref());
+        self.file.push(std::iter::once(number.cast_unsigned()));
         Ok(())
     }
 

@@ -4,14 +4,12 @@
 //! Gzipped, the header is a stored block of its own before the compressed rest, so that it can be
 //! written in place at the end; the checksum is combined from both. The bytes hold no time or name.
 
-use std::io::Write as _;
 use std::path::Path;
 
-use crc32fast::Hasher;
 use flate2::Compression;
-use flate2::write::DeflateEncoder;
 
 use super::growing::GrowingFile;
+use super::packer::{BEFORE_STORED, Packer, stored};
 use crate::SimulatorError;
 
 /// Magic, deflate, no flags, no time, no level, no system.
@@ -23,40 +21,23 @@ pub(super) struct HeadedFile<const HEADER: usize> {
     packer: Option<Packer>,
 }
 
-/// Packs into memory, from where the file takes it.
-struct Packer {
-    encoder: DeflateEncoder<Vec<u8>>,
-    checksum: Hasher,
-    /// Modulo 2^32, as gzip has it.
-    length: u32,
-}
-
 impl<const HEADER: usize> HeadedFile<HEADER> {
     /// Creates a file that is not there yet.
     pub(super) fn create(path: &Path, packed: bool) -> Result<Self, SimulatorError> {
         let mut file = GrowingFile::create_new(path)?;
         if packed {
-            // A header has a few bytes; a stored block takes 65,535.
-            let length = u16::try_from(HEADER).unwrap_or(u16::MAX);
             file.append(&GZIP);
-            file.append(&[0]);
-            file.append(&length.to_le_bytes());
-            file.append(&(!length).to_le_bytes());
+            file.append(&stored(&[0; HEADER]));
+        } else {
+            file.append(&[0; HEADER]);
         }
-        file.append(&[0; HEADER]);
-        Ok(Self { file, packer: packed.then(Packer::new) })
+        Ok(Self { file, packer: packed.then(|| Packer::new(Compression::default())) })
     }
 
     pub(super) fn write(&mut self, bytes: &[u8]) {
         match &mut self.packer {
             None => self.file.append(bytes),
-            Some(packer) => {
-                packer.checksum.update(bytes);
-                packer.length = packer.length.wrapping_add(low_word(bytes.len()));
-                // Memory takes everything.
-                let _ = packer.encoder.write_all(bytes);
-                self.file.end().append(packer.encoder.get_mut());
-            }
+            Some(packer) => packer.write(bytes, self.file.end()),
         }
     }
 
@@ -67,26 +48,17 @@ impl<const HEADER: usize> HeadedFile<HEADER> {
     /// Completes the file with its header.
     pub(super) fn finish(mut self, header: &[u8; HEADER]) -> Result<(), SimulatorError> {
         let Some(packer) = self.packer else { return self.file.write_over(0, header) };
-        let mut whole = Hasher::new();
-        whole.update(header);
-        whole.combine(&packer.checksum);
-        self.file.append(&packer.encoder.finish().unwrap_or_default());
-        self.file.append(&whole.finalize().to_le_bytes());
-        self.file.append(&packer.length.wrapping_add(low_word(header.len())).to_le_bytes());
-        self.file.write_over(GZIP.len() as u64 + 5, header)
+        let (last, checksum, length) = packer.finish(header);
+        self.file.append(&last);
+        self.file.append(&checksum.to_le_bytes());
+        self.file.append(&low_word(length).to_le_bytes());
+        self.file.write_over((GZIP.len() + BEFORE_STORED) as u64, header)
     }
 }
 
-impl Packer {
-    fn new() -> Self {
-        let encoder = DeflateEncoder::new(Vec::new(), Compression::default());
-        Self { encoder, checksum: Hasher::new(), length: 0 }
-    }
-}
-
-/// A length modulo 2^32.
-fn low_word(length: usize) -> u32 {
-    let [a, b, c, d, ..] = (length as u64).to_le_bytes();
+/// A length modulo 2^32, as gzip has it.
+fn low_word(length: u64) -> u32 {
+    let [a, b, c, d, ..] = length.to_le_bytes();
     u32::from_le_bytes([a, b, c, d])
 }
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! NPZ: a ZIP archive of NPY files, stored, not compressed. The large array is written into its place
-//! as it grows; its sizes, its checksum and its length are filled in at the end. Every entry has
-//! ZIP64 sizes, so that nothing changes beyond 4 GiB.
+//! NPZ: a ZIP archive of NPY files, deflated. The large array is packed into its place as it grows; its
+//! sizes, its checksum and its length are filled in at the end. Every entry has ZIP64 sizes, so that
+//! nothing changes beyond 4 GiB.
 
-use crc32fast::Hasher;
+use flate2::Compression;
 
 use super::growing::GrowingFile;
 use super::npy;
+use super::packer::{Packer, stored};
 use crate::SimulatorError;
 
 /// Bytes of an NPY header here; a multiple of 64.
 const HEADER: usize = 192;
+/// Events are packed at once while frames go by: quickly, then.
+const LEVEL: Compression = Compression::new(1);
 
 /// An archive with one entry in the making.
 pub(super) struct Npz {
@@ -18,8 +21,7 @@ pub(super) struct Npz {
     at: u64,
     done: Vec<Entry>,
     open: Entry,
-    /// Checksum of the elements of the open entry.
-    crc: Hasher,
+    packer: Packer,
 }
 
 /// A file of the archive.
@@ -29,24 +31,27 @@ struct Entry {
     descr: &'static str,
     start: u64,
     bytes: u64,
+    packed_bytes: u64,
     crc: u32,
 }
 
 impl Npz {
     /// An archive whose first array is `name`, of elements `descr`.
     pub(super) fn new(file: GrowingFile, name: &'static str, descr: &'static str) -> Self {
-        let open = Entry { name, descr, start: 0, bytes: 0, crc: 0 };
-        let mut npz = Self { file, at: 0, done: Vec::new(), open, crc: Hasher::new() };
+        let open = Entry::new(name, descr, 0);
+        let mut npz = Self { file, at: 0, done: Vec::new(), open, packer: Packer::new(LEVEL) };
         npz.begin();
         npz
     }
 
     /// Appends elements to the open array.
     pub(super) fn write(&mut self, elements: &[u8]) {
-        self.crc.update(elements);
-        self.open.bytes += length(elements);
-        self.at += length(elements);
-        self.file.append(elements);
+        let pending = self.file.end();
+        let before = pending.len();
+        self.packer.write(elements, pending);
+        let packed = length(&pending[before..]);
+        self.open.packed_bytes += packed;
+        self.at += packed;
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
@@ -61,8 +66,7 @@ impl Npz {
         descr: &'static str,
     ) -> Result<(), SimulatorError> {
         self.close(count)?;
-        let next = Entry { name, descr, start: self.at, bytes: 0, crc: 0 };
-        let closed = std::mem::replace(&mut self.open, next);
+        let closed = std::mem::replace(&mut self.open, Entry::new(name, descr, self.at));
         self.done.push(closed);
         self.begin();
         Ok(())
@@ -80,29 +84,35 @@ impl Npz {
 
     /// Leaves room for the headers of the open entry.
     fn begin(&mut self) {
-        self.crc = Hasher::new();
-        let room = [self.open.local(), npy::header::<HEADER>(self.open.descr, "0,")].concat();
+        let header = stored(&npy::header::<HEADER>(self.open.descr, "0,"));
+        self.open.packed_bytes = length(&header);
+        let room = [self.open.local(), header].concat();
         self.at += length(&room);
         self.file.append(&room);
     }
 
     fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
         let header = npy::header::<HEADER>(self.open.descr, &format!("{count},"));
-        let mut crc = Hasher::new();
-        crc.update(&header);
-        crc.combine(&std::mem::take(&mut self.crc));
-        self.open.crc = crc.finalize();
-        self.open.bytes += length(&header);
-        self.file.write_over(self.open.start, &[self.open.local(), header].concat())
+        let packer = std::mem::replace(&mut self.packer, Packer::new(LEVEL));
+        let (last, crc, bytes) = packer.finish(&header);
+        self.file.append(&last);
+        self.at += length(&last);
+        self.open.packed_bytes += length(&last);
+        (self.open.crc, self.open.bytes) = (crc, bytes);
+        self.file.write_over(self.open.start, &[self.open.local(), stored(&header)].concat())
     }
 }
 
 impl Entry {
+    fn new(name: &'static str, descr: &'static str, start: u64) -> Self {
+        Self { name, descr, start, bytes: 0, packed_bytes: 0, crc: 0 }
+    }
+
     /// The header before the data.
     fn local(&self) -> Vec<u8> {
         let mut bytes = b"PK\x03\x04".to_vec();
         bytes.extend(self.common());
-        let sizes = [self.bytes, self.bytes];
+        let sizes = [self.bytes, self.packed_bytes];
         self.name_and_sizes(bytes, &[], &sizes)
     }
 
@@ -110,15 +120,15 @@ impl Entry {
     fn central(&self) -> Vec<u8> {
         let mut bytes = b"PK\x01\x02\x2d\x03".to_vec();
         bytes.extend(self.common());
-        let sizes = [self.bytes, self.bytes, self.start];
+        let sizes = [self.bytes, self.packed_bytes, self.start];
         // No comment, first disk, no attributes but -rw-r--r--; the offset is among the long sizes.
         let rest = [&[0; 6][..], &(0o100_644u32 << 16).to_le_bytes(), &[0xFF; 4]].concat();
         self.name_and_sizes(bytes, &rest, &sizes)
     }
 
-    /// Version 4.5, no flags, stored, 1980-01-01, checksum, and sizes that are elsewhere.
+    /// Version 4.5, no flags, deflated, 1980-01-01, checksum, and sizes that are elsewhere.
     fn common(&self) -> Vec<u8> {
-        let fixed = [0x2d, 0, 0, 0, 0, 0, 0, 0, 0x21, 0];
+        let fixed = [0x2d, 0, 0, 0, 8, 0, 0, 0, 0x21, 0];
         [&fixed[..], &self.crc.to_le_bytes(), &[0xFF; 8]].concat()
     }
 

@@ -49,7 +49,7 @@ pub(super) fn write(path: &Path, picture: &Picture, bytes: &mut Vec<u8>) -> io::
         Samples::Rgb8 => ExtendedColorType::Rgb8,
     };
     bytes.clear();
-    PngEncoder::new_with_quality(&mut *bytes, CompressionType::Fast, FilterType::Adaptive)
+    PngEncoder::new_with_quality(&mut *bytes, CompressionType::Fast, FilterType::Paeth)
         .write_image(&picture.bytes, picture.width, picture.height, colour)
         .map_err(|error| match error {
             ImageError::IoError(error) => error,

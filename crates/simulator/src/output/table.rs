@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `frames.csv`: one line per frame, so that every row of the arrays has a name and a time.
+//! `frames.csv`: one line per frame, so that every row of the arrays has a name and a time. Names are
+//! plain, so that `numpy.genfromtxt`, pandas and `csv` read the same.
 
 use std::path::Path;
 
-use super::csv::{Csv, quoted};
+use super::csv::{Csv, plain};
 use crate::SimulatorError;
 
 /// What the table says of a frame.
@@ -24,13 +25,13 @@ pub(super) struct FrameTable(Csv);
 impl FrameTable {
     pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
         let heading =
-            "frame,time_us,name,label,srs_regions,trs_regions,active_regions,pixels_forwarded";
+            "frame,t_us,name,label,srs_regions,trs_regions,active_regions,pixels_forwarded";
         Csv::create(path, heading).map(Self)
     }
 
     pub(super) fn push(&mut self, row: &Row<'_>) {
         let Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded } = row;
-        let (name, label) = (quoted(name), quoted(label.unwrap_or_default()));
+        let (name, label) = (plain(name), plain(label.unwrap_or_default()));
         let counts = format!("{srs},{trs},{active},{pixels_forwarded}");
         self.0.line([format!("{frame},{time_us},{name},{label},{counts}")]);
     }

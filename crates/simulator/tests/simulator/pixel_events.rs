@@ -4,9 +4,11 @@
 
 use crate::support;
 use std::fs;
+use std::io::Read as _;
 use std::path::Path;
 
 use crate::support::{Npy, STREET, design, frames, names, street};
+use flate2::read::DeflateDecoder;
 use foveate_design::Decimal;
 use foveate_footage::FrameRate;
 use foveate_frame::Frame;
@@ -54,7 +56,7 @@ fn simulate(output: &Path, overrides: &[&str], options: PixelEvents) -> Summary 
     street(output, overrides, &options)
 }
 
-/// The files of an archive that is stored, by the directory at its end.
+/// The files of an archive that is deflated, by the directory at its end.
 fn unzip(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let u16_at = |at: usize| usize::from(u16::from_le_bytes(bytes[at..at + 2].try_into().unwrap()));
     let u32_at = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
@@ -71,16 +73,19 @@ fn unzip(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     for _ in 0..entries {
         assert_eq!(&bytes[at..at + 4], b"PK\x01\x02");
-        assert_eq!(u16_at(at + 10), 0, "stored");
+        assert_eq!(u16_at(at + 10), 8, "deflated");
         let (name, extra) = (u16_at(at + 28), u16_at(at + 30));
         let sizes = at + 46 + name;
         assert_eq!((u16_at(sizes), u16_at(sizes + 2), extra), (1, 24, 28));
-        let (size, start) = (u64_at(sizes + 4), u64_at(sizes + 20));
+        let [size, packed, start] = [4, 12, 20].map(|long| u64_at(sizes + long));
         assert_eq!(&bytes[start..start + 4], b"PK\x03\x04");
         assert_eq!(u32_at(start + 14), u32_at(at + 16), "checksums of both headers");
-        assert_eq!(u64_at(start + 30 + name + 4), size);
-        let data = start + 30 + name + u16_at(start + 28);
-        let data = bytes[data..data + size].to_vec();
+        assert_eq!(u16_at(start + 8), 8);
+        assert_eq!([4, 12].map(|long| u64_at(start + 30 + name + long)), [size, packed]);
+        let from = start + 30 + name + u16_at(start + 28);
+        let mut data = Vec::new();
+        let read = DeflateDecoder::new(&bytes[from..from + packed]).read_to_end(&mut data).unwrap();
+        assert_eq!(read, size);
         assert_eq!(crc(&data), u32_at(at + 16));
         files.push((String::from_utf8(bytes[at + 46..sizes].to_vec()).unwrap(), data));
         at = sizes + extra;

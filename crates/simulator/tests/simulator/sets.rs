@@ -52,7 +52,7 @@ fn idx_files_are_read_packed_or_not_with_the_labels_beside_them() {
     assert_eq!(labels(&seen), [None; 4]);
     assert_eq!((seen[2].frame.width(), seen[2].frame.height()), (5, 3));
     assert_eq!(seen[2].frame.get(1, 1), 36 * 7);
-    assert!(seen[2].name.ends_with("t-images-idx3-ubyte#2"));
+    assert!(seen[2].name.ends_with("t-images-idx3-ubyte[2]"));
     fs::write(at("t-labels-idx1-ubyte.gz"), zipped(&LABELS)).unwrap();
     fs::write(at("t-images-idx3-ubyte.gz"), zipped(&images())).unwrap();
     for name in ["t-images-idx3-ubyte", "t-images-idx3-ubyte.gz"] {
