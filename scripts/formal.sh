@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Proves the properties in formal/ of the Verilog, with SymbiYosys, and that faults planted in the Verilog make the same
+# Proves the properties in formal/ of the Verilog, with SymbiYosys, and that faults injected into the Verilog make the same
 # proofs fail. Installs what is missing.
 #
 #   scripts/formal.sh             everything

@@ -184,7 +184,7 @@ def main():
     unused = [] if quick else [excuse for excuse in excuses if not used[excuse] and not excuse[3]]
     for tool, pattern, *_ in unused:
         print(f"{WAIVERS}: nothing needs `{tool} | {pattern.pattern}`; remove it")
-    print(f"{len(designs)} designs in {len(TOOLS)} tools: {bad} findings, {sum(used.values())} excused by {len(used)} of"
+    print(f"{len(designs)} designs in {len(TOOLS)} tools: {bad} findings, {sum(used.values())} waived by {len(used)} of"
           f" {len(excuses)} waivers, {time.monotonic() - began:.0f} s")
     sys.exit(1 if bad or unused else 0)
 

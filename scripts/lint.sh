@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Lints generated Verilog in four tools over a matrix of designs: verilator -Wall, iverilog -Wall, yosys check, slang -Weverything.
-# What lint/waivers.txt does not excuse is an error, and so is an excuse that nothing needs. Installs what is missing.
+# What lint/waivers.txt does not waive is an error, and so is a waiver that nothing needs. Installs what is missing.
 #
 #   scripts/lint.sh             every design of the matrix
 #   scripts/lint.sh --quick     every seventh

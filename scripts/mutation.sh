@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Mutants of the Verilog of both organizations: the co-simulation vectors must kill every one that is neither proven equivalent
-# nor excused in mutation/survivors.txt with a reason. Any other survivor is an error, and so is an excuse that nothing needs.
+# nor waived in mutation/survivors.txt with a reason. Any other survivor is an error, and so is a waiver that nothing needs.
 # Installs what is missing.
 #
 #   scripts/mutation.sh              the whole

@@ -101,7 +101,7 @@ def excuse(survivors, excuses, used, verbose):
     open_ones = 0
     for mutant in survivors:
         if mutant.verdict == "survived" and mutant.key() in excuses:
-            mutant.verdict = "excused"
+            mutant.verdict = "waived"
             used.add(mutant.key())
         if mutant.verdict == "survived":
             open_ones += 1
@@ -112,10 +112,10 @@ def excuse(survivors, excuses, used, verbose):
 
 
 def print_table(found, mutants):
-    print(f"  {'module':28} mutants  killed  equivalent  excused")
+    print(f"  {'module':28} mutants  killed  equivalent   waived")
     for place in found:
         of = [mutant.verdict for mutant in mutants if mutant.place() == place]
-        print(f"  {place:28} {len(of):7} {of.count('killed'):7} {of.count('equivalent'):11} {of.count('excused'):8}")
+        print(f"  {place:28} {len(of):7} {of.count('killed'):7} {of.count('equivalent'):11} {of.count('waived'):8}")
 
 
 def print_counts(organization, found, mutants, open_ones, seconds):
@@ -125,7 +125,7 @@ def print_counts(organization, found, mutants, open_ones, seconds):
     hangs = sum(1 for mutant in mutants if mutant.by and mutant.by[2] == "hang")
     print(f"{organization}: {len(mutants)} mutants of {len(found)} modules: {count['killed']} killed ({longer} of them by the"
           f" longer vectors, {hangs} by time), {count['equivalent']} proven equivalent ({alike} of them by the same netlist),"
-          f" {count['excused']} excused with a reason, {open_ones} open; {seconds:.0f} s", flush=True)
+          f" {count['waived']} waived with a reason, {open_ones} open; {seconds:.0f} s", flush=True)
 
 
 def main():
@@ -137,7 +137,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="seed of the mutants (%(default)s)")
     parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", os.cpu_count() or 1)), help="at a time (%(default)s)")
     parser.add_argument("--table", action="store_true", help="print a table by module")
-    parser.add_argument("--verbose", action="store_true", help="print the survivors that are proven or excused, too")
+    parser.add_argument("--verbose", action="store_true", help="print the survivors that are proven or waived, too")
     parser.add_argument("--no-proofs", dest="prove", action="store_false", help="do not try to prove survivors equivalent")
     parser.add_argument("--no-longer", dest="longer", action="store_false", help="leave survivors of the short vectors open")
     parser.add_argument("--resume", action="store_true",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What becomes of a mutant: killed by vectors, proven equivalent, excused with a reason, or a survivor."""
+"""What becomes of a mutant: killed by vectors, proven equivalent, waived with a reason, or a survivor."""
 import hashlib
 import json
 import os
