@@ -3,13 +3,24 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-//   +vectors=FILE  the vectors, by default vectors.hex. A line is one clock: the inputs, then the
-//                  outputs that are expected after its rising edge with these inputs still applied,
-//                  hexadecimal, in the order in which they are declared below
+{%- for line in about %}
+// {= line =}
+{%- endfor %}
+{%- if !about.is_empty() %}
+//
+{%- endif %}
+//   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
+//                  a line has a bit for each value that differs from the line before: bit 0 for the first
+//                  input declared below, then the others, then the expected outputs. These values
+//                  follow. The bit above them all says that the number of clocks comes first for which
+//                  the line is good; without it that is one. A line 0 is the end.
+//                  Inputs are applied, and outputs are expected after the rising edge with these inputs
+//                  still applied.
 //   +stop          ends at the first mismatch
 //   +waves=FILE    writes waves of everything: VCD, or FST with `vvp SIMULATION -fst`
 //
-// Prints the first mismatch of each output. The last line starts with PASS or FAIL.
+// Prints the first mismatch of each output, then a line that starts with PASS, FAIL or INCOMPLETE (no mismatch,
+// but the vectors do not show everything). The simulator's exit code is 0 only with PASS.
 
 `default_nettype none
 
@@ -48,23 +59,31 @@ module {= bench =};
 
   reg [8*1024-1:0] path;
   integer file;
-  integer columns;
-  integer clocks;
   integer failures;
+  reg [63:0] clocks;
+  reg [31:0] run;  // clocks for which the line is good
+  reg [{= columns =}:0] changes;  // the first number of the line
+  reg is_whole;  // whether every value of the line was there
+  {%- if shortcoming.is_none() %}
+  reg has_passed = 1'b0;
+  {%- endif %}
   {%- if has_lanes %}
   integer lane;
   {%- endif %}
 
-  // The next line of the vectors; `columns` tells whether there was one.
+  // The next line of the vectors.
   task read_line;
     begin
-      columns = $fscanf(file, "{= scan_format =}"
-        {%- for port in inputs %},
-        {= port.name =}_next
-        {%- endfor %}
-        {%- for port in outputs %},
-        {= port.name =}_expected
-        {%- endfor %});
+      changes = {= columns + 1 =}'d0;
+      run = 32'd1;
+      is_whole = $fscanf(file, "%h", changes) == 1;
+      if (changes[{= columns =}]) is_whole = $fscanf(file, "%h", run) == 1 && is_whole;
+      {%- for port in inputs %}
+      if (changes[{= loop.index0 =}]) is_whole = $fscanf(file, "%h", {= port.name =}_next) == 1 && is_whole;
+      {%- endfor %}
+      {%- for port in outputs %}
+      if (changes[{= loop.index0 + inputs.len() =}]) is_whole = $fscanf(file, "%h", {= port.name =}_expected) == 1 && is_whole;
+      {%- endfor %}
     end
   endtask
 
@@ -109,24 +128,38 @@ module {= bench =};
     end
     if (!$value$plusargs("vectors=%s", path)) path = "vectors.hex";
     file = $fopen(path, "r");
-    clocks = 0;
+    clocks = 64'd0;
     failures = 0;
-    columns = 0;
+    is_whole = 1'b0;
+    changes = {= columns + 1 =}'d0;
     if (file != 0) read_line;
-    while (columns == {= columns =} && !(failures != 0 && $test$plusargs("stop"))) begin
+    while (is_whole && |changes && !(failures != 0 && $test$plusargs("stop"))) begin
       apply;
-      #5 {= clock.name =} = 1'b1;
-      #4 compare;
-      clocks = clocks + 1;
-      #1 {= clock.name =} = 1'b0;
+      while (run != 32'd0 && !(failures != 0 && $test$plusargs("stop"))) begin
+        #5 {= clock.name =} = 1'b1;
+        #4 compare;
+        clocks = clocks + 64'd1;
+        run = run - 32'd1;
+        #1 {= clock.name =} = 1'b0;
+      end
       read_line;
     end
     if (file == 0) $display("FAIL cannot read the vectors from %0s", path);
     else if (failures != 0) $display("FAIL %0d of {= outputs.len() =} outputs in %0d clocks", failures, clocks);
-    else if (columns > 0) $display("FAIL line %0d of the vectors is incomplete", clocks + 1);
-    else if (clocks == 0) $display("FAIL there are no vectors in %0s", path);
-    else $display("PASS %0d clocks", clocks);
-    $finish;
+    else if (!is_whole) $display("FAIL the vectors end after %0d clocks, in the middle", clocks);
+    else if (clocks == 64'd0) $display("FAIL there are no vectors in %0s", path);
+    {%- match shortcoming %}
+    {%- when Some(shortcoming) %}
+    else $display("INCOMPLETE %0d clocks without a mismatch, but {= shortcoming =}", clocks);
+    $fatal(1, "not passed");
+    {%- when None %}
+    else begin
+      $display("PASS %0d clocks", clocks);
+      has_passed = 1'b1;
+    end
+    if (has_passed) $finish;
+    else $fatal(1, "not passed");
+    {%- endmatch %}
   end
 
 endmodule

@@ -138,11 +138,9 @@ class Design:
         done = proof.limited(["vvp", "-n", program, f"+vectors={self.vectors[stage]}", "+stop"], limit, cwd=os.path.dirname(program))
         if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return "hang"
-        last = (done.stdout.strip().splitlines() or [""])[-1]
-        if last.startswith("PASS"):
-            return "pass"
-        if last.startswith("FAIL"):
-            return "fail"
+        verdicts = [line.split()[0] for line in done.stdout.splitlines() if line.startswith(("PASS ", "FAIL "))]
+        if verdicts:
+            return {"PASS": "pass", "FAIL": "fail"}[verdicts[-1]]
         raise RuntimeError(f"{self.name}: the replay says neither PASS nor FAIL: {(done.stdout + done.stderr)[-300:]}")
 
     def chparam(self):

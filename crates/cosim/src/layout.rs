@@ -97,16 +97,6 @@ impl Layout {
         let lanes = if field.gate.is_shut(&self.fields, expected) { 0 } else { field.port.lanes };
         (0..lanes).filter(|&lane| field.gate.lets_pass(&self.fields, expected, lane))
     }
-
-    /// Appends a record as a line's worth of hexadecimal numbers, one per port.
-    pub fn write_hex(&self, record: &[u8], line: &mut String) {
-        for field in &self.fields {
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(&field.hex(record));
-        }
-    }
 }
 
 /// The gate of a port among the others of a layout: the valid bit of its lane where there is one per
@@ -147,9 +137,8 @@ mod tests {
             layout.fields()[1].set(&mut record, lane, value);
         }
         assert_eq!(record, [1, 0xbc, 0xfa, 0xde, 0x23, 0x01]);
-        let mut line = String::new();
-        layout.write_hex(&record, &mut line);
-        assert_eq!(line, "1 123defabc");
+        let hex: Vec<_> = layout.fields().iter().map(|field| field.hex(&record)).collect();
+        assert_eq!(hex, ["1", "123defabc"]);
         assert_eq!(Layout::outputs(&ports).record_bytes(), 7);
     }
 

@@ -6,6 +6,7 @@
 
 use crate::error::CosimError;
 use crate::layout::Layout;
+use crate::packer::Packer;
 use foveate_design::Port;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
@@ -130,47 +131,32 @@ impl Recording {
     /// When a file cannot be read or written.
     pub fn write_hex(&self, path: &Path, limit: u64) -> Result<(), CosimError> {
         let file = File::create(path).map_err(CosimError::io("write", path))?;
-        let mut file = BufWriter::with_capacity(1 << 18, file);
-        self.each_line(limit, |line| file.write_all(line.as_bytes()), path)?;
-        file.flush().map_err(CosimError::io("write", path))
+        self.pack(limit, BufWriter::with_capacity(1 << 18, file), path).map(drop)
     }
 
-    fn each_line(
-        &self,
-        limit: u64,
-        mut write: impl FnMut(&str) -> std::io::Result<()>,
-        to: &Path,
-    ) -> Result<(), CosimError> {
+    /// The first `limit` clocks as vectors of a replay bench; errors name `to`.
+    fn pack<W: Write>(&self, limit: u64, out: W, to: &Path) -> Result<W, CosimError> {
         let (inputs, expected) = (self.inputs_path(), self.expected_path());
         let mut sources = [open(&inputs)?, open(&expected)?];
         let [input, output] = &mut sources;
         let (mut applied, mut wanted) = (self.inputs.record(), self.outputs.record());
-        let mut line = String::new();
+        let mut packer = Packer::new(&self.inputs, &self.outputs, out);
         for _ in 0..self.clocks.min(limit) {
             input.read_exact(&mut applied).map_err(CosimError::io("read", &inputs))?;
             output.read_exact(&mut wanted).map_err(CosimError::io("read", &expected))?;
-            line.clear();
-            self.inputs.write_hex(&applied, &mut line);
-            self.outputs.write_hex(&wanted, &mut line);
-            line.push('\n');
-            write(&line).map_err(CosimError::io("write", to))?;
+            packer.push(&applied, &wanted, 1).map_err(CosimError::io("write", to))?;
         }
-        Ok(())
+        packer.finish().map_err(CosimError::io("write", to))
     }
 }
 
-/// The first `limit` clocks of a recording as text for a replay bench: a line per clock.
+/// The first `limit` clocks of a recording as text for a replay bench; [`Packer`] says what is in a line.
 ///
 /// # Errors
 /// When the recording cannot be read.
 pub fn vectors_hex(recording: &Recording, limit: u64) -> Result<String, CosimError> {
-    let mut text = String::new();
-    let append = |line: &str| {
-        text.push_str(line);
-        Ok(())
-    };
-    recording.each_line(limit, append, Path::new("vectors"))?;
-    Ok(text)
+    let bytes = recording.pack(limit, Vec::new(), Path::new("vectors"))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Writes a recording.

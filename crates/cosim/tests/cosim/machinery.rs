@@ -245,7 +245,43 @@ fn the_bench_is_clean_in_both_tools() {
 fn vectors_are_lines_of_hexadecimal_numbers() {
     let text = vectors_hex(&recording(20), 10).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines.len(), 10);
-    let digits: Vec<usize> = lines[3].split(' ').map(str::len).collect();
-    assert_eq!(digits, [1, 2, 9, 16, 50, 1, 3, 9, 16, 50]);
+    assert_eq!(lines.len(), 10 + 1, "{text}");
+    // All five inputs and five outputs, a new number of clocks never.
+    assert!(lines[0].starts_with("3ff ") && lines[0].split(' ').count() == 11, "{}", lines[0]);
+    let digits = lines[0].split(' ').map(str::len).zip([3, 1, 2, 9, 16, 50, 1, 3, 9, 16, 50]);
+    assert!(digits.clone().all(|(digits, most)| digits <= most), "{}", lines[0]);
+    assert_eq!(lines[10], "0");
+}
+
+/// Vectors that somebody cut do not pass.
+#[test]
+fn the_bench_refuses_vectors_without_an_end() {
+    if !require_tools(Simulator::Iverilog.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    put("tiny.v", TINY);
+    put("tiny_replay.v", &replay_bench("tiny", &ports(), &[]));
+    let text = vectors_hex(&recording(20), 20).unwrap();
+    let toolchain = Toolchain::system();
+    let compile = toolchain.invocation(Tool::Iverilog).unwrap().dir(dir.path());
+    let compile = compile.args(["-g2005", "-o", "simulation", "tiny.v", "tiny_replay.v"]);
+    toolchain.run_checked(&compile).unwrap();
+    let cut = |lines: usize| text.lines().take(lines).fold(String::new(), |text, line| text + line + "\n");
+    let in_a_line = text[..text.len() / 2].to_owned();
+    for (vectors, verdict, passes) in [
+        (text.clone(), "PASS 20 clocks", true),
+        (cut(12), "FAIL the vectors end after 12 clocks, in the middle", false),
+        (in_a_line, "FAIL", false),
+        ("0\n".to_owned(), "FAIL there are no vectors", false),
+        (String::new(), "FAIL the vectors end after 0 clocks", false),
+    ] {
+        put("vectors.hex", &vectors);
+        let run = toolchain.invocation(Tool::Vvp).unwrap().args(["-n", "simulation"]);
+        let output = toolchain.run(&run.dir(dir.path())).unwrap();
+        let log = output.log();
+        assert!(log.lines().any(|line| line.starts_with(verdict)), "{verdict}: {log}");
+        assert_eq!(output.is_success(), passes, "{verdict}: {log}");
+    }
 }

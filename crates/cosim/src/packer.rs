@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Vectors as text for a replay bench: only what changes from clock to clock, and stretches in which
+//! nothing does as one line.
+
+use crate::field::Field;
+use crate::layout::Layout;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// Most clocks of a line; the bench counts them in 32 bits.
+const LONGEST: u64 = u32::MAX as u64;
+
+/// Writes vectors as the lines that [`crate::replay_bench`] reads.
+///
+/// The first number of a line has a bit for each value that differs from the line before, inputs first,
+/// then expected outputs, in the order of their layouts; these values follow. The bit above all of them
+/// says that the number of clocks comes first for which the line is good; without it that is one. A line
+/// `0` ends the vectors. All numbers are hexadecimal.
+#[derive(Debug)]
+pub struct Packer<W: Write> {
+    out: W,
+    inputs: Layout,
+    outputs: Layout,
+    /// The values of the last line.
+    written: Option<Clock>,
+    /// The clocks of the next line, all alike.
+    waiting: Option<(Clock, u64)>,
+    line: String,
+}
+
+/// What is applied in a clock, and what is expected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Clock {
+    input: Vec<u8>,
+    expected: Vec<u8>,
+}
+
+impl<W: Write> Packer<W> {
+    /// Vectors with records of these layouts.
+    pub fn new(inputs: &Layout, outputs: &Layout, out: W) -> Self {
+        let (inputs, outputs) = (inputs.clone(), outputs.clone());
+        Self { out, inputs, outputs, written: None, waiting: None, line: String::new() }
+    }
+
+    /// Adds so many clocks with the same inputs and expected outputs.
+    ///
+    /// # Errors
+    /// When writing fails.
+    pub fn push(&mut self, input: &[u8], expected: &[u8], clocks: u64) -> io::Result<()> {
+        let mut expected = expected.to_vec();
+        if let Some((waiting, run)) = &mut self.waiting {
+            keep_uncompared(&self.outputs, &waiting.expected, &mut expected);
+            if waiting.input == input && waiting.expected == expected && *run + clocks <= LONGEST {
+                *run += clocks;
+                return Ok(());
+            }
+        }
+        self.flush()?;
+        self.waiting = Some((Clock { input: input.to_vec(), expected }, clocks));
+        Ok(())
+    }
+
+    /// Ends the vectors.
+    ///
+    /// # Errors
+    /// When writing fails.
+    pub fn finish(mut self) -> io::Result<W> {
+        self.flush()?;
+        self.out.write_all(b"0\n")?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    /// Writes the line that waits. One that says nothing new says how long that lasts.
+    fn flush(&mut self) -> io::Result<()> {
+        let Some((clock, run)) = self.waiting.take() else { return Ok(()) };
+        let before = self.written.as_ref();
+        let inputs = changed(&self.inputs, &clock.input, before.map(|clock| &clock.input));
+        let outputs = changed(&self.outputs, &clock.expected, before.map(|clock| &clock.expected));
+        let columns = self.inputs.fields().len() + self.outputs.fields().len();
+        let numbered = inputs.into_iter().chain(outputs).enumerate();
+        let (mut changes, mut values) = (0u128, String::new());
+        for (column, value) in numbered {
+            if let Some(value) = value {
+                changes |= 1 << column;
+                values.push(' ');
+                values.push_str(&value);
+            }
+        }
+        self.line.clear();
+        // Writing to a string cannot fail.
+        let _ = if run > 1 || changes == 0 {
+            write!(self.line, "{:x} {run:x}", changes | 1 << columns)
+        } else {
+            write!(self.line, "{changes:x}")
+        };
+        self.line.push_str(&values);
+        self.line.push('\n');
+        self.written = Some(clock);
+        self.out.write_all(self.line.as_bytes())
+    }
+}
+
+/// The values of a record that differ from those before, as hexadecimal numbers.
+fn changed(layout: &Layout, record: &[u8], before: Option<&Vec<u8>>) -> Vec<Option<String>> {
+    let differs = |field: &Field| before.is_none_or(|old| field.slice(old) != field.slice(record));
+    let value = |field: &Field| differs(field).then(|| shortest(&field.hex(record)));
+    layout.fields().iter().map(value).collect()
+}
+
+/// A hexadecimal number without leading zeros.
+fn shortest(hex: &str) -> String {
+    let digits = hex.trim_start_matches('0');
+    if digits.is_empty() { "0".to_owned() } else { digits.to_owned() }
+}
+
+/// Values that are not compared in a clock stay as they were, so that they take no room.
+fn keep_uncompared(layout: &Layout, before: &[u8], record: &mut [u8]) {
+    for field in layout.fields() {
+        if field.gate.is_shut(layout.fields(), record) {
+            let place = field.offset..field.offset + field.bytes;
+            record[place.clone()].copy_from_slice(&before[place]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::port;
+    use foveate_design::{Direction, Port, PortRole, Qualifier};
+
+    #[test]
+    fn only_changes_are_written_and_stretches_are_one_line() {
+        let ports = [
+            port("a_i", Direction::Input, 12, 1),
+            Port { role: PortRole::ScoreValid, ..port("v_o", Direction::Output, 1, 1) },
+            Port {
+                qualifier: Qualifier::With(PortRole::ScoreValid),
+                ..port("b_o", Direction::Output, 8, 1)
+            },
+        ];
+        let (inputs, outputs) = (Layout::inputs(&ports), Layout::outputs(&ports));
+        let mut packer = Packer::new(&inputs, &outputs, Vec::new());
+        for (input, expected, clocks) in [
+            ([0xff, 0], [1, 7], 1),
+            ([0xff, 0], [1, 7], 1),
+            ([0xfe, 0], [1, 7], 1),
+            // Without its valid bit a value is as it was.
+            ([0xfe, 0], [0, 9], 1000),
+            ([0xfe, 0], [0, 3], 24),
+            ([0xfe, 3], [1, 3], 1),
+            ([0xfe, 3], [1, 3], u64::from(u32::MAX)),
+        ] {
+            packer.push(&input, &expected, clocks).unwrap();
+        }
+        let text = String::from_utf8(packer.finish().unwrap()).unwrap();
+        let lines: Vec<_> = text.lines().collect();
+        let wanted = ["f 2 ff 1 7", "1 fe", "a 400 0", "7 3fe 1 3", "8 ffffffff", "0"];
+        assert_eq!(lines, wanted);
+    }
+}
