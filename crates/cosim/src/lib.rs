@@ -8,6 +8,7 @@
 //! the replay bench.
 
 mod compare;
+mod diagram;
 mod error;
 mod field;
 mod gate;
@@ -23,6 +24,7 @@ mod packer;
 mod recording;
 mod replay;
 mod report;
+mod shipped;
 mod simulate;
 mod stimulus;
 mod summary;
@@ -31,6 +33,7 @@ mod testing;
 mod timed;
 
 pub use compare::Difference;
+pub use diagram::timing_diagram;
 pub use error::CosimError;
 pub use field::Field;
 pub use gate::Gate;
@@ -44,6 +47,7 @@ pub use netlist::{Netlist, NetlistRecord};
 pub use packer::Packer;
 pub use recording::{Recorder, Recording, Span, vectors_hex};
 pub use report::{CosimReport, Mismatch, Seconds};
+pub use shipped::{ShippedBench, Tally};
 pub use simulate::{Dut, Outcome, Run, Simulator};
 pub use stimulus::{PipelinedCodec, SerialCodec, Stimulus};
 pub use summary::{FORMAT_VERSION, Summary, Verdict};

@@ -6,9 +6,11 @@
 //! asks for.
 
 mod core;
+mod instance;
 mod leaf;
 mod organization;
 mod rcm;
+mod readme;
 mod rpu;
 mod serial;
 mod thresholds;

@@ -2,7 +2,7 @@
 //! What the Verilog of an organization is made of; the only place that lists them here.
 
 use crate::verilog::Top;
-use crate::{SourceFile, core, leaf, rcm, serial};
+use crate::{SourceFile, leaf, rcm, readme, serial};
 use foveate_design::{Design, Organization, Port};
 
 /// What an organization brings.
@@ -25,13 +25,13 @@ impl Emitter {
                 leaves: leaf::pipelined,
                 modules: rcm::modules,
                 range: rcm::range,
-                readme: core::pipelined_readme,
+                readme: readme::pipelined_readme,
             },
             Organization::Serial => Self {
                 leaves: |_| vec!["serial_array"],
                 modules: serial::modules,
                 range: serial::range,
-                readme: core::serial_readme,
+                readme: readme::serial_readme,
             },
         }
     }

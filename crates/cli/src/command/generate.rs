@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate generate`: the core of a design as a folder.
 
-use foveate_bench::random_frames;
-use foveate_cosim::{Level, Stimulus, replay_bench, vectors_hex};
+use foveate_cosim::{ShippedBench, timing_diagram};
 use foveate_design::Design;
-use foveate_emit::{SourceFile, Top};
-use foveate_simulator::SimulatorError;
+use foveate_emit::Top;
 use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
+use std::sync::atomic::AtomicBool;
 
 use crate::args::GenerateArgs;
 use crate::error::CliError;
@@ -18,16 +17,6 @@ const CORE: Kind = Kind {
     what: "a generated core (its foveate_rcm.core)",
     is: |folder| folder.join("foveate_rcm.core").is_file(),
 };
-/// Clocks of the bench that comes with a pipelined core: enough for several frames of each kind at 8x8, small
-/// enough to be kept under version control.
-const BENCH_CLOCKS: u64 = 2000;
-/// Frames of the bench of a serial core, each of thousands of clocks. The second is the first again, so that
-/// nothing of it is sent.
-const SERIAL_FRAMES: u64 = 3;
-/// Clocks of that bench at which it has fewer frames, but one at least.
-const SERIAL_CLOCKS: u64 = 100_000;
-/// Clocks of that bench at most; a frame of very large regions is longer.
-const SERIAL_LIMIT: u64 = 250_000;
 
 #[derive(Serialize)]
 struct Listing<'a> {
@@ -35,23 +24,44 @@ struct Listing<'a> {
     fingerprint: String,
     folder: &'a str,
     files: Vec<&'a str>,
+    benches: Vec<BenchListing<'a>>,
+}
+
+/// What the vectors of a bench show.
+#[derive(Serialize)]
+struct BenchListing<'a> {
+    top: &'static str,
+    grid: (u32, u32),
+    clocks: u64,
+    frames: u64,
+    active: u64,
+    held: u64,
+    blank: u64,
+    compared: u64,
+    shortcoming: Option<&'a str>,
 }
 
 pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     let design = args.design.design()?;
     let folder = StagedFolder::new(&args.output, CORE, args.force)?;
-    let files = files(&design)?;
+    let mut files = foveate_emit::core(&design);
+    let cancel = interrupt::flag()?;
+    let benches = benches(&design, &cancel)?;
+    files.extend(benches.iter().flat_map(|bench| bench.files.iter().cloned()));
+    files.extend(timing_diagram(&design, &cancel)?);
     for file in &files {
         folder.write(&file.path, file.contents.as_bytes())?;
     }
     folder.commit()?;
     let shown = args.output.display().to_string();
+    warn(&benches);
     if args.json {
         return output::json(&Listing {
             format_version: 1,
             fingerprint: design.fingerprint(),
             folder: &shown,
             files: files.iter().map(|file| file.path.as_str()).collect(),
+            benches: benches.iter().map(listing).collect(),
         });
     }
     output::text(&format!(
@@ -63,29 +73,35 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     ))
 }
 
-/// The core, and its replay bench with vectors from the model.
-fn files(design: &Design) -> Result<Vec<SourceFile>, CliError> {
-    let mut files = foveate_emit::core(design);
-    let lane = Level::Rpu.design(design)?;
-    let (stimulus, clocks) = stimulus(&lane)?;
-    let cancel = interrupt::flag()?;
-    let recording = stimulus.record_until(&lane, &cancel, &mut |_, _| {})?;
-    let rpu = Top::Rpu;
-    let mut add = |path: &str, contents| files.push(SourceFile { path: path.to_owned(), contents });
-    add("tb/rpu_replay.v", replay_bench(rpu.module(), &rpu.ports(&lane), &rpu.parameters(&lane)));
-    add("tb/rpu_vectors.hex", vectors_hex(&recording, clocks)?);
-    Ok(files)
+/// The bench of one RPU or lane, and that of the array.
+fn benches(design: &Design, cancel: &AtomicBool) -> Result<Vec<ShippedBench>, CliError> {
+    let bench = |top| Ok(ShippedBench::new(design, top, cancel)?);
+    [Top::Rpu, Top::Rcm].into_iter().map(bench).collect()
 }
 
-/// What the bench of an RPU or lane replays, and for how many clocks.
-fn stimulus(lane: &Design) -> Result<(Stimulus, u64), CliError> {
-    let timing = lane.timing();
-    if timing.phases().is_empty() {
-        return Ok((Stimulus { rounds: 1, ..Stimulus::default() }, BENCH_CLOCKS));
+/// Says which benches will not pass, and why.
+fn warn(benches: &[ShippedBench]) {
+    for bench in benches {
+        if let Some(shortcoming) = &bench.shortcoming {
+            eprintln!(
+                "warning: tb/{0}_replay.v does not test all of `{0}`, and never says PASS: {shortcoming}",
+                bench.top.module()
+            );
+        }
     }
-    let count = (SERIAL_CLOCKS / timing.clocks_per_frame()).clamp(1, SERIAL_FRAMES);
-    let mut frames = random_frames(lane, 1, 2).map_err(SimulatorError::from)?;
-    frames.insert(1, frames[0].clone());
-    frames.truncate(usize::try_from(count).unwrap_or(1));
-    Ok((Stimulus { rounds: 0, frames, ..Stimulus::default() }, SERIAL_LIMIT))
+}
+
+fn listing(bench: &ShippedBench) -> BenchListing<'_> {
+    let tally = &bench.tally;
+    BenchListing {
+        top: bench.top.module(),
+        grid: bench.grid,
+        clocks: bench.clocks,
+        frames: tally.frames,
+        active: tally.active,
+        held: tally.held,
+        blank: tally.blank,
+        compared: tally.compared,
+        shortcoming: bench.shortcoming.as_deref(),
+    }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The bench that comes with a core, by the commands of the core's own README.
+//! The benches that come with a core, by the commands of the core's own README.
 
 use std::fs;
 use std::path::Path;
@@ -9,16 +9,14 @@ use crate::common::succeed_in;
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-/// Runs the commands of the README, without Foveate, and returns what they print.
-fn replay(core: &Path) -> String {
+/// Runs `tb/replay.sh` as the README says, without Foveate; returns its exit code and what it prints.
+fn replay(core: &Path, args: &[&str]) -> (Option<i32>, String) {
     let readme = fs::read_to_string(core.join("README.md")).unwrap();
-    let commands: Vec<_> = readme.lines().filter_map(|line| line.strip_prefix("    ")).collect();
-    assert_eq!(commands.len(), 2, "{readme}");
+    assert!(readme.contains("    sh tb/replay.sh\n"), "{readme}");
     let output =
-        Command::new("sh").args(["-ec", &commands.join("\n")]).current_dir(core).output().unwrap();
+        Command::new("sh").arg("tb/replay.sh").args(args).current_dir(core).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
-    text
+    (output.status.code(), text + &String::from_utf8_lossy(&output.stderr))
 }
 
 /// Writes a core.
@@ -44,10 +42,117 @@ fn the_bench_of_a_pipelined_core_finds_an_edited_leaf() {
     let dir = tempfile::tempdir().unwrap();
     core(dir.path(), &[]);
     let folder = dir.path().join("core");
-    assert_eq!(replay(&folder).trim(), "PASS 2000 clocks");
+    let (code, text) = replay(&folder, &[]);
+    assert_eq!(code, Some(0), "{text}");
+    let lines: Vec<_> = text.lines().collect();
+    assert!(lines.len() == 2 && lines[0].starts_with("rpu: PASS "), "{text}");
+    assert!(lines[1].starts_with("rcm: PASS "), "{text}");
     edit(&folder.join("rtl/vote.v"), "score_i >= minimum_i", "score_i > minimum_i");
-    let text = replay(&folder);
-    assert!(text.contains("\nFAIL "), "{text}");
+    for (args, verdicts) in [(&[][..], 2), (&["rcm"], 1), (&["rpu", "iverilog"], 1)] {
+        let (code, text) = replay(&folder, args);
+        assert_eq!(
+            (code, text.matches(": FAIL ").count()),
+            (Some(1), verdicts),
+            "{args:?}: {text}"
+        );
+    }
+    // What somebody breaks in the array alone is found by its bench alone.
+    core(dir.path(), &[]);
+    edit(&folder.join("rtl/rcm.v"), ".pixel_i(pixel_i[REGION*8+:8])", ".pixel_i(pixel_i[7:0])");
+    assert_eq!(replay(&folder, &["rpu"]).0, Some(0));
+    assert_eq!(replay(&folder, &["all"]).0, Some(1));
+    for args in [&["rtl"][..], &["rpu", "vcs"]] {
+        assert_eq!(replay(&folder, args).0, Some(2), "{args:?}");
+    }
+}
+
+/// The commands that the README gives for those who use no script, and the exit code of the simulator.
+#[test]
+fn the_bench_runs_by_hand_and_in_verilator() {
+    if !require_tools(&[Tool::Iverilog, Tool::Vvp, Tool::Verilator]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    core(dir.path(), &["region.size=4", "frame={width=8,height=4}"]);
+    let folder = dir.path().join("core");
+    let readme = fs::read_to_string(folder.join("README.md")).unwrap();
+    let commands: Vec<_> = readme
+        .lines()
+        .filter_map(|line| line.strip_prefix("    "))
+        .filter(|line| line.starts_with("iverilog ") || line.starts_with("vvp "))
+        .collect();
+    assert_eq!(commands.len(), 2, "{readme}");
+    let by_hand = || {
+        let script = commands.join("\n");
+        let output =
+            Command::new("sh").args(["-ec", &script]).current_dir(&folder).output().unwrap();
+        (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    let (is_success, text) = by_hand();
+    assert!(is_success && text.starts_with("PASS "), "{text}");
+    let (code, text) = replay(&folder, &["all", "verilator"]);
+    assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{text}");
+    edit(
+        &folder.join("rtl/decision.v"),
+        "assign active_o  = srs_o",
+        "assign active_o  = 1'b0 & srs_o",
+    );
+    let (is_success, text) = by_hand();
+    assert!(!is_success && text.contains("FAIL ") && text.contains("port active_o"), "{text}");
+    let (code, text) = replay(&folder, &["rcm", "verilator"]);
+    assert!(code == Some(1) && text.contains("rcm: FAIL "), "{text}");
+}
+
+/// The instantiation template of the README is Verilog, and every port has the width of the core's.
+#[test]
+fn the_instance_of_the_readme_fits_the_core() {
+    if !require_tools(&[Tool::Iverilog]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let serial = "hardware={organization='serial',fold=5,feed='raster'}";
+    let lanes = "hardware={organization='serial',fold=5}";
+    let constant = "hardware.thresholds='constant'";
+    let frame = "frame={width=30,height=20}";
+    for settings in [&[frame][..], &[frame, constant], &[frame, serial], &[frame, lanes]] {
+        core(dir.path(), settings);
+        let folder = dir.path().join("core");
+        let readme = fs::read_to_string(folder.join("README.md")).unwrap();
+        let (_, rest) = readme.split_once("```verilog\n").unwrap();
+        let (instance, _) = rest.split_once("```").unwrap();
+        let compile = |instance: &str| {
+            let top = format!("`default_nettype none\nmodule mine;\n{instance}\nendmodule\n");
+            fs::write(folder.join("mine.v"), top).unwrap();
+            let args = ["-g2005", "-Wall", "-s", "mine", "-o", "mine.vvp", "-f", "rcm.f", "mine.v"];
+            let output = Command::new("iverilog").args(args).current_dir(&folder).output().unwrap();
+            let log = String::from_utf8_lossy(&output.stderr).into_owned();
+            output.status.success() && !log.contains("expects") && !log.contains("dangling")
+        };
+        assert!(compile(instance), "{settings:?}\n{instance}");
+        let wide = instance.replacen("wire [", "wire [1+", 1);
+        assert!(!compile(&wide), "a port that is too wide is noticed: {wide}");
+    }
+}
+
+/// A design that no picture makes active: generate says so, and its benches do not pass.
+#[test]
+fn a_core_whose_vectors_show_too_little_never_passes() {
+    if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let never = "spatial=[{feature='edge',level=1530,min_score=1}]";
+    let constant = "hardware.thresholds='constant'";
+    let args = ["generate", "--preset", "bare", "-o", "core", "--set", never, "--set", constant];
+    let outcome = crate::common::run_in(dir.path(), &args);
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    for top in ["rpu", "rcm"] {
+        let words = format!("warning: tb/{top}_replay.v does not test all of `{top}`");
+        assert!(outcome.stderr.contains(&words), "{}", outcome.stderr);
+    }
+    let (code, text) = replay(&dir.path().join("core"), &[]);
+    assert_eq!((code, text.matches(": INCOMPLETE ").count()), (Some(1), 2), "{text}");
+    assert!(text.contains("no region is active") && !text.contains("PASS"), "{text}");
 }
 
 #[test]
@@ -59,7 +164,7 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
     let serial = "hardware.organization='serial'";
     let folder = dir.path().join("core");
     let designs: [&[&str]; 3] = [
-        &[serial],
+        &[serial, "denoise.filter='none'"],
         &[serial, "region.size=4", "hardware.fold=3", "hardware.feed='raster'"],
         &[
             serial,
@@ -70,8 +175,8 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
     ];
     for settings in designs {
         core(dir.path(), settings);
-        let text = replay(&folder);
-        assert!(text.starts_with("PASS ") && text.lines().count() == 1, "{settings:?}: {text}");
+        let (code, text) = replay(&folder, &[]);
+        assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{settings:?}: {text}");
     }
     // Every stage of a frame is in the vectors: votes, Table I, pixels that leave.
     let faults = [
@@ -81,7 +186,10 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
     for (leaf, from, to, port) in faults {
         core(dir.path(), &[serial, "region.size=4", "hardware.fold=2"]);
         edit(&folder.join(format!("rtl/{leaf}.v")), from, to);
-        let text = replay(&folder);
-        assert!(text.contains("\nFAIL ") && text.contains(port), "{leaf}: {text}");
+        let (code, text) = replay(&folder, &["rpu", "iverilog"]);
+        assert!(
+            code == Some(1) && text.contains(": FAIL ") && text.contains(port),
+            "{leaf}: {text}"
+        );
     }
 }

@@ -144,19 +144,28 @@ fn every_command_has_help_with_an_example() {
     }
 }
 
-/// Regenerate with `foveate generate --preset paper -o rtl/generated/paper --force`.
+/// Regenerate with the commands that CONTRIBUTING.md has under "Change what is generated".
 #[test]
-fn the_committed_core_is_not_stale() {
-    let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &["generate", "--preset", "paper", "-o", "core"]);
-    let fresh = files_below(&dir.path().join("core"));
-    let committed = files_below(&repository().join("rtl/generated/paper"));
+fn the_committed_cores_are_not_stale() {
     let names = |files: &[(std::path::PathBuf, Vec<u8>)]| {
         files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>()
     };
-    assert_eq!(names(&fresh), names(&committed));
-    for ((name, fresh), (_, committed)) in fresh.iter().zip(&committed) {
-        assert!(fresh == committed, "{} is stale; see this test's documentation", name.display());
+    let contributing = fs::read_to_string(repository().join("CONTRIBUTING.md")).unwrap();
+    for (folder, options) in [
+        ("paper", &["--preset", "paper"][..]),
+        ("serial", &["--preset", "serial", "--set", "hardware.fold=4"]),
+    ] {
+        let command = format!("generate {} -o rtl/generated/{folder} --force", options.join(" "));
+        assert!(contributing.contains(&command), "{command}");
+        let dir = tempfile::tempdir().unwrap();
+        succeed_in(dir.path(), &[&["generate", "-o", "core"], options].concat());
+        let fresh = files_below(&dir.path().join("core"));
+        let committed = files_below(&repository().join("rtl/generated").join(folder));
+        assert_eq!(names(&fresh), names(&committed), "{folder}");
+        for ((name, fresh), (_, committed)) in fresh.iter().zip(&committed) {
+            let name = name.display();
+            assert!(fresh == committed, "{folder}: {name} is stale; see this test's documentation");
+        }
     }
 }
 

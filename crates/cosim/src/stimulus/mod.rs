@@ -20,7 +20,11 @@ use crate::level::Level;
 use crate::recording::{Recorder, Recording};
 use foveate_design::{Design, Organization};
 use foveate_frame::Frame;
+pub(crate) use motif::{Artist, Motif};
 pub use pipelined::PipelinedCodec;
+pub(crate) use pipelined::{Inputs, Machine};
+pub(crate) use random::Random;
+pub(crate) use serial::Feed;
 pub use serial::SerialCodec;
 use std::sync::atomic::AtomicBool;
 

@@ -268,7 +268,9 @@ fn the_bench_refuses_vectors_without_an_end() {
     let compile = toolchain.invocation(Tool::Iverilog).unwrap().dir(dir.path());
     let compile = compile.args(["-g2005", "-o", "simulation", "tiny.v", "tiny_replay.v"]);
     toolchain.run_checked(&compile).unwrap();
-    let cut = |lines: usize| text.lines().take(lines).fold(String::new(), |text, line| text + line + "\n");
+    let cut = |lines: usize| {
+        text.lines().take(lines).fold(String::new(), |text, line| text + line + "\n")
+    };
     let in_a_line = text[..text.len() / 2].to_owned();
     for (vectors, verdict, passes) in [
         (text.clone(), "PASS 20 clocks", true),

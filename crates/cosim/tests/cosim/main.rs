@@ -4,6 +4,7 @@
 
 mod common;
 mod designs;
+mod diagram;
 mod folders;
 mod gates;
 mod machinery;
@@ -14,5 +15,6 @@ mod report;
 mod same_results;
 mod serial_matrix;
 mod serial_stimulus;
+mod shipped;
 mod stimulus;
 mod widths;

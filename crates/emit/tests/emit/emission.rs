@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{design, matrix, serial_matrix};
-use foveate_design::Direction;
+use foveate_design::{Direction, SerialTiming};
 use foveate_emit::{LEAVES, SourceFile, Top, core, verilog};
 
 fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
@@ -128,7 +128,29 @@ fn a_serial_core_has_its_array_and_its_lone_lane() {
     assert!(listed("rpu.f", "rtl/rpu.v") && !listed("rpu.f", "rtl/rcm.v"));
     assert!(listed("rcm.f", "rtl/rcm.v") && !listed("rcm.f", "rtl/rpu.v"));
     assert!(contents(&files, "README.md").contains("196 serial lanes"));
-    assert!(contents(&files, "foveate_rcm.core").contains("toplevel: rpu_replay"));
+    assert!(contents(&files, "foveate_rcm.core").contains("toplevel: rcm_replay"));
+}
+
+/// Which region is where, and for how long a stream waits, by the numbers of the design.
+#[test]
+fn the_readme_of_a_folded_core_says_where_regions_are_and_how_long_a_stream_waits() {
+    let hardware = "[hardware]\norganization = 'serial'\nfold = 5\n";
+    for (feed, words) in [("raster", "forward_region_o"), ("parallel", "`forward_slot_o`")] {
+        let design = design(&format!("{hardware}feed = '{feed}'\n"));
+        let files = core(&design);
+        let readme = contents(&files, "README.md");
+        let stall = SerialTiming::of(&design).edges_to_ready();
+        for part in [
+            "**region = lane * 5 + slot**, lane = 0..156, slot = 0..4",
+            "The last 1 slots of lane 156 are empty",
+            &format!("`ready_o` is 0 for **{stall} clocks**"),
+            words,
+        ] {
+            assert!(readme.contains(part), "{part}: {readme}");
+        }
+        assert_eq!(design.region_of(156, 3), Some(783));
+        assert_eq!(design.region_of(156, 4), None);
+    }
 }
 
 #[test]

@@ -103,6 +103,15 @@ impl SerialRcm {
         }
     }
 
+    /// For how many more clocks without reset and without a pixel the outputs stay as they are, since the
+    /// array works and nothing is seen of it: a lower bound.
+    #[must_use]
+    pub fn quiet_clocks(&self) -> u64 {
+        let Stage::Working { clock } = self.stage else { return 0 };
+        let seen = self.schedule.until_seen(clock).unwrap_or(u64::MAX);
+        seen.min(self.clocks_until_ready()).saturating_sub(1)
+    }
+
     /// What the next frame of a region will be compared with: scored pixels, row by row; `None` where
     /// there is no reference. Known from the edge that takes the last pixel of a frame.
     ///

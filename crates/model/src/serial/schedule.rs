@@ -77,6 +77,21 @@ impl Schedule {
         Some((slot, self.seen(phase.what, step)?))
     }
 
+    /// Clocks from so many after T0 to the first at which something may be seen; `None` after the last.
+    pub(super) fn until_seen(&self, clock: u64) -> Option<u64> {
+        let lead = self.lead.saturating_sub(clock);
+        let step = (clock + lead - self.lead) % self.slot_steps;
+        if clock + lead - self.lead >= self.steps {
+            return None;
+        }
+        let to = |phase: &Visible| {
+            let is_over = step >= phase.start + phase.steps;
+            (!is_over).then(|| phase.start.saturating_sub(step))
+        };
+        // The last phase of a slot, in which pixels leave, is one of them.
+        self.visible.iter().find_map(to).map(|steps| lead + steps)
+    }
+
     fn seen(&self, what: What, step: u64) -> Option<Seen> {
         match what {
             What::Rotation { number, decides } => {

@@ -22,7 +22,7 @@ impl SerialCodec {
         self.kinds.iter().position(|&own| own == kind).unwrap_or(0)
     }
 
-    pub(super) fn inputs(&self, layout: &Layout, input: &SerialInput<'_>, record: &mut [u8]) {
+    pub(crate) fn inputs(&self, layout: &Layout, input: &SerialInput<'_>, record: &mut [u8]) {
         let thresholds = input.thresholds;
         for field in layout.fields() {
             let value = match field.port.role {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame as the pixel port takes it.
 
-use super::super::random::Random;
 use foveate_design::{Design, Feed as Order};
 use foveate_frame::Frame;
 use foveate_model::region_stream;
 
 /// A frame as the pixel port takes it, and the streams of its regions.
-pub(super) struct Feed {
+pub(crate) struct Feed {
     /// Pixels that the port takes at once.
     width: usize,
     pixels: Vec<u16>,
@@ -17,8 +16,8 @@ pub(super) struct Feed {
 }
 
 impl Feed {
-    /// The frame for a design of its size. What the port shows for empty slots is random.
-    pub(super) fn of(design: &Design, frame: &Frame, random: &mut Random) -> Self {
+    /// The frame for a design of its size. What the port shows for empty slots is `nothing`.
+    pub(crate) fn of(design: &Design, frame: &Frame, nothing: impl FnMut() -> u16) -> Self {
         let mut streams = Vec::new();
         for region in 0..design.regions() {
             region_stream(design, frame, region, &mut streams);
@@ -27,16 +26,15 @@ impl Feed {
         let (width, pixels) = match design.feed() {
             Order::Raster => (1, raster(design, frame)),
             Order::Parallel => {
-                let max = u16::try_from(design.pixel_max()).unwrap_or(u16::MAX);
                 let lanes = design.lanes() as usize;
-                (lanes, parallel(design, &streams, || random.pixel(max)))
+                (lanes, parallel(design, &streams, nothing))
             }
         };
         Self { width, pixels, streams, stream_pixels }
     }
 
     /// What is at the port for each pixel of the frame.
-    pub(super) fn beats(&self) -> impl Iterator<Item = &[u16]> {
+    pub(crate) fn beats(&self) -> impl Iterator<Item = &[u16]> {
         self.pixels.chunks_exact(self.width)
     }
 

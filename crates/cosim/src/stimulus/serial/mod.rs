@@ -20,6 +20,7 @@ use super::random::Random;
 use crate::error::CosimError;
 pub use codec::SerialCodec;
 use driver::Driver;
+pub(crate) use feed::Feed;
 use foveate_design::SerialTiming;
 use session::Session;
 

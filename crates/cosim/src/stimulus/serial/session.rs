@@ -103,7 +103,7 @@ impl<'a> Session<'a> {
                 self.driver.name(sequence.name, frame as u64, None);
             }
             let drawn = self.drawn()?;
-            let feed = Feed::of(self.design, &drawn, &mut self.random);
+            let feed = self.feed(&drawn);
             let beats = match (sequence.end, frame == last) {
                 (End::Loading, true) => self.below(feed.count()),
                 _ => feed.count(),
@@ -198,10 +198,16 @@ impl<'a> Session<'a> {
                 Level::Rpu => parts::of_lane(self.whole, frame, first)?,
                 Level::Rcm { .. } | Level::Full => parts::upper_left(self.design, frame)?,
             };
-            let feed = Feed::of(self.design, &part, &mut self.random);
+            let feed = self.feed(&part);
             self.driver.take(&feed, feed.count(), gaps)?;
         }
         self.drain()
+    }
+
+    /// A frame as the pixel port takes it; what it shows for empty slots is random.
+    fn feed(&mut self, frame: &Frame) -> Feed {
+        let max = u16::try_from(self.design.pixel_max()).unwrap_or(u16::MAX);
+        Feed::of(self.design, frame, || self.random.pixel(max))
     }
 
     /// What the artists have drawn, as a frame.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which clocks a diagram shows: those around a change of a line.
+
+use super::trace::{Stretch, Trace};
+use std::collections::BTreeSet;
+
+/// Changes of a line that are shown, the first and the last; a line may change thousands of times.
+const CHANGES: usize = 2;
+
+/// A column of a diagram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Column {
+    /// The clock that begins with this edge, in the stretch of that number.
+    Clock { edge: u64, stretch: usize },
+    /// Clocks that are left out.
+    Gap,
+}
+
+/// The columns of a diagram: the last clock, those before and after a frame begins or a line changes, and
+/// gaps.
+pub(super) fn columns(trace: &Trace) -> Vec<Column> {
+    let end = trace.stretches.last().map_or(0, |last| last.first_edge + last.clocks);
+    let bits = (0..trace.signals.len()).filter(|&at| trace.signals[at].is_bit);
+    let mut starts = trace.frames.clone();
+    starts.push(end);
+    starts.extend(bits.flat_map(|at| changes(&trace.stretches, at)));
+    // The clock before a change, that of the change, and the one behind it.
+    let near = |start: u64| [start.checked_sub(1), Some(start), Some(start + 1)];
+    let edges = starts.into_iter().flat_map(near).flatten().filter(|&edge| edge < end);
+    let mut columns = Vec::new();
+    let mut next = 0;
+    for edge in edges.collect::<BTreeSet<_>>() {
+        // A gap of one clock is as wide as the clock.
+        if edge == next + 1 {
+            columns.push(clock(trace, next));
+        } else if edge > next {
+            columns.push(Column::Gap);
+        }
+        columns.push(clock(trace, edge));
+        next = edge + 1;
+    }
+    columns
+}
+
+/// The first edges and the last after which a signal is another.
+fn changes(stretches: &[Stretch], signal: usize) -> Vec<u64> {
+    let pairs = stretches.windows(2);
+    let changed = pairs.filter(|pair| pair[0].values[signal] != pair[1].values[signal]);
+    let mut edges: Vec<u64> = changed.map(|pair| pair[1].first_edge).collect();
+    if edges.len() > 2 * CHANGES {
+        edges.drain(CHANGES..edges.len() - CHANGES);
+    }
+    edges
+}
+
+fn clock(trace: &Trace, edge: u64) -> Column {
+    let behind = trace.stretches.partition_point(|stretch| stretch.first_edge <= edge);
+    Column::Clock { edge, stretch: behind - 1 }
+}

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A frame and what follows, clock by clock, as the model shows it.
+
+use crate::error::CosimError;
+use crate::layout::Layout;
+use crate::level::Level;
+use crate::shipped::{Applied, Model, Picture, Record, model};
+use crate::stimulus::Random;
+use foveate_design::{Design, Direction, Port, PortRole};
+use foveate_emit::Top;
+use foveate_frame::Frame;
+use foveate_model::Thresholds;
+use foveate_toolchain::ToolError;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Regions of the largest array whose model is played; of a larger one a lane alone.
+const MAX_REGIONS: u32 = 1 << 14;
+
+/// Clocks from the edge that takes the first pixel on.
+pub(super) struct Trace {
+    /// What is shown, in few words.
+    pub(super) title: String,
+    pub(super) signals: Vec<Signal>,
+    /// Stretches of clocks that are alike, one after the other.
+    pub(super) stretches: Vec<Stretch>,
+    /// The edges that take the first pixels of frames.
+    pub(super) frames: Vec<u64>,
+}
+
+/// A port, or its first lane.
+pub(super) struct Signal {
+    pub(super) name: String,
+    /// Whether it is drawn as a line; else as numbers.
+    pub(super) is_bit: bool,
+}
+
+/// Clocks at which every signal shows the same.
+pub(super) struct Stretch {
+    /// The edge that the first clock begins with; 0 takes the first pixel.
+    pub(super) first_edge: u64,
+    pub(super) clocks: u64,
+    /// The value of each signal; `None` where it says nothing.
+    pub(super) values: Vec<Option<u64>>,
+}
+
+impl Trace {
+    /// A frame with something in its first region, the same again as far as that shows the first one leave,
+    /// and a clock more.
+    pub(super) fn of(design: &Design, cancel: &AtomicBool) -> Result<Self, CosimError> {
+        let (part, title) = part(design)?;
+        let top = if part.unit().rpu_in_rcm { Top::Rpu } else { Top::Rcm };
+        let mut take = Take::new(&part, top, title, cancel);
+        let frame = frame(&part);
+        for _ in 0..=take.model.frames_behind() {
+            let beats = take.model.beats(&part, &frame);
+            take.wait()?;
+            take.trace.frames.push(take.edge);
+            for pixels in &beats {
+                take.wait()?;
+                take.clock(false, Some(pixels))?;
+            }
+        }
+        take.wait()?;
+        let settling = take.model.settling_clocks();
+        (0..settling.max(2)).try_for_each(|_| take.clock(false, None))?;
+        Ok(take.trace)
+    }
+}
+
+/// What is played: one region where all are alike at every clock, else the array, or a lane of a huge one.
+fn part(design: &Design) -> Result<(Design, String), CosimError> {
+    let size = design.region_size();
+    if design.unit().rpu_in_rcm {
+        let part = Level::Rcm { columns: 1, rows: 1 }.design(design)?;
+        return Ok((part, format!("One of {} regions of {size}x{size} pixels", design.regions())));
+    }
+    if design.regions() <= MAX_REGIONS {
+        let words = format!("{} regions of {size}x{size} pixels", design.regions());
+        let unit = design.unit();
+        return Ok((design.clone(), format!("{words} in {} {}s", unit.count, unit.name)));
+    }
+    let part = design.lone_unit();
+    let words = format!("{} regions of {size}x{size} pixels, module rpu", part.regions());
+    Ok((part, words))
+}
+
+/// Noise in the first region, one level elsewhere.
+fn frame(part: &Design) -> Frame {
+    let side = part.region_size();
+    let max = u16::try_from(part.pixel_max()).unwrap_or(u16::MAX);
+    let square = Picture::Noise.draw(side as usize, max, false, &mut Random::new(1));
+    let pixel = |x: u32, y: u32| {
+        if x < side && y < side { square[(y * side + x) as usize] } else { max / 3 }
+    };
+    Frame::from_fn(part.width(), part.height(), part.pixel_bits(), pixel)
+        .unwrap_or_else(|error| unreachable!("pixels are those of the design: {error}"))
+}
+
+/// A trace under way.
+struct Take<'a> {
+    model: Box<dyn Model>,
+    inputs: Layout,
+    outputs: Layout,
+    record: Record,
+    thresholds: Thresholds,
+    garbage: Vec<u16>,
+    edge: u64,
+    trace: Trace,
+    cancel: &'a AtomicBool,
+}
+
+impl<'a> Take<'a> {
+    fn new(part: &Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
+        let ports = top.ports(part);
+        let (inputs, outputs) = (Layout::inputs(&ports), Layout::outputs(&ports));
+        let model = model(part.organization())(part, top);
+        let shown = inputs.fields().iter().chain(outputs.fields()).map(|field| &field.port);
+        let signals = shown.filter(|port| is_shown(port)).map(signal).collect();
+        Self {
+            garbage: vec![0; model.width()],
+            record: Record { input: inputs.record(), expected: outputs.record() },
+            model,
+            inputs,
+            outputs,
+            thresholds: Thresholds::of(part),
+            edge: 0,
+            trace: Trace { title, signals, stretches: Vec::new(), frames: Vec::new() },
+            cancel,
+        }
+    }
+
+    /// Lets clocks pass until a pixel is taken.
+    fn wait(&mut self) -> Result<(), CosimError> {
+        while !self.model.is_ready() {
+            match self.model.quiet_clocks() {
+                0 | 1 => self.clock(false, None)?,
+                quiet => {
+                    let pixels = &self.garbage;
+                    let thresholds = &self.thresholds;
+                    let applied = Applied { reset: false, valid: false, pixels, thresholds };
+                    self.model.skip(&applied, &self.inputs, &self.outputs, &mut self.record);
+                    self.keep(quiet);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn clock(&mut self, reset: bool, pixels: Option<&[u16]>) -> Result<(), CosimError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted.into());
+        }
+        let (valid, thresholds) = (pixels.is_some(), &self.thresholds);
+        let pixels = pixels.unwrap_or(&self.garbage);
+        let applied = Applied { reset, valid, pixels, thresholds };
+        self.model.clock(&applied, &self.inputs, &self.outputs, &mut self.record);
+        self.keep(1);
+        Ok(())
+    }
+
+    fn keep(&mut self, clocks: u64) {
+        let valid = self.inputs.fields().iter().find(|field| field.port.role == PortRole::Valid);
+        let is_valid = valid.is_some_and(|field| field.get(&self.record.input, 0) == 1);
+        let input =
+            self.inputs.fields().iter().filter(|field| is_shown(&field.port)).map(|field| {
+                let says = field.port.role != PortRole::Pixel || is_valid;
+                says.then(|| field.get(&self.record.input, 0))
+            });
+        let expected = &self.record.expected;
+        let output = self.outputs.fields().iter().map(|field| {
+            let says = self.outputs.compared_lanes(field, expected).next() == Some(0);
+            says.then(|| field.get(expected, 0))
+        });
+        let values: Vec<_> = input.chain(output).collect();
+        let first_edge = self.edge;
+        self.edge += clocks;
+        match self.trace.stretches.last_mut() {
+            Some(last) if last.values == values => last.clocks += clocks,
+            _ => self.trace.stretches.push(Stretch { first_edge, clocks, values }),
+        }
+    }
+}
+
+/// Thresholds, resets and borders stand still.
+fn is_shown(port: &Port) -> bool {
+    port.direction == Direction::Output || matches!(port.role, PortRole::Valid | PortRole::Pixel)
+}
+
+fn signal(port: &Port) -> Signal {
+    let lane = match (port.lanes, port.width) {
+        (1, _) => String::new(),
+        (_, 1) => "[0]".to_owned(),
+        (_, width) => format!("[{}:0]", width - 1),
+    };
+    let is_number = matches!(
+        port.role,
+        PortRole::Pixel
+            | PortRole::Score(_)
+            | PortRole::TemporalCount
+            | PortRole::ForwardPixel
+            | PortRole::ScoreIndex
+            | PortRole::Region
+            | PortRole::AnyScore
+            | PortRole::ForwardPosition
+            | PortRole::ForwardSlot
+            | PortRole::ForwardRegion
+    );
+    Signal { name: format!("{}{lane}", port.name), is_bit: !is_number }
+}

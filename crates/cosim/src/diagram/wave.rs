@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A diagram in the terms of WaveDrom: a row of characters per signal, and numbers for some of them.
+
+use super::choose::Column;
+use super::trace::Trace;
+use serde::Serialize;
+
+/// The name of the row that numbers the edges.
+const EDGE: &str = "edge of clk_i";
+
+/// A diagram as WaveDrom has it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct Wave {
+    pub(super) signal: Vec<Row>,
+    pub(super) head: Text,
+    pub(super) foot: Text,
+}
+
+/// A line of text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct Text {
+    pub(super) text: String,
+}
+
+/// A signal: a character per column (`0`, `1`: a line; `=`: the next of the data; `x`: nothing of use; `.`:
+/// as before; `|`: a gap).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct Row {
+    pub(super) name: String,
+    pub(super) wave: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) data: Vec<String>,
+}
+
+impl Wave {
+    pub(super) fn of(trace: &Trace, columns: &[Column]) -> Self {
+        let mut rows = vec![edges(columns)];
+        rows.extend((0..trace.signals.len()).map(|signal| row(trace, signal, columns)));
+        let foot = "A column shows the inputs of an edge and the outputs after it; edge 0 takes the first pixel of a first frame.";
+        Self {
+            signal: rows,
+            head: Text { text: trace.title.clone() },
+            foot: Text { text: foot.to_owned() },
+        }
+    }
+
+    /// WaveJSON, a signal per line.
+    pub(super) fn json(&self) -> String {
+        let rows: Vec<_> = self.signal.iter().map(|row| format!("    {}", text(row))).collect();
+        format!(
+            "{{\n  \"signal\": [\n{}\n  ],\n  \"head\": {},\n  \"foot\": {}\n}}\n",
+            rows.join(",\n"),
+            text(&self.head),
+            text(&self.foot)
+        )
+    }
+}
+
+fn text(value: &impl Serialize) -> String {
+    serde_json::to_string(value).expect("texts and lists of texts have JSON")
+}
+
+fn edges(columns: &[Column]) -> Row {
+    let mut row = Row { name: EDGE.to_owned(), wave: String::new(), data: Vec::new() };
+    for column in columns {
+        match column {
+            Column::Clock { edge, .. } => {
+                row.wave.push('=');
+                row.data.push(edge.to_string());
+            }
+            Column::Gap => row.wave.push('|'),
+        }
+    }
+    row
+}
+
+fn row(trace: &Trace, signal: usize, columns: &[Column]) -> Row {
+    let shown = &trace.signals[signal];
+    let mut row = Row { name: shown.name.clone(), wave: String::new(), data: Vec::new() };
+    let mut before: Option<Option<u64>> = None;
+    for column in columns {
+        let &Column::Clock { stretch, .. } = column else {
+            row.wave.push('|');
+            // Who knows what was in the gap.
+            before = before.filter(|_| shown.is_bit);
+            continue;
+        };
+        let value = trace.stretches[stretch].values[signal];
+        if before == Some(value) {
+            row.wave.push('.');
+        } else {
+            row.wave.push(match value {
+                None => 'x',
+                Some(0) if shown.is_bit => '0',
+                Some(_) if shown.is_bit => '1',
+                Some(value) => {
+                    row.data.push(value.to_string());
+                    '='
+                }
+            });
+        }
+        before = Some(value);
+    }
+    row
+}

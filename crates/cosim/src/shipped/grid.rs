@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How much of a core its bench simulates: the same Verilog with other parameters.
+
+use crate::error::CosimError;
+use crate::level::Level;
+use foveate_design::{Design, Neighborhood};
+use foveate_emit::{Parameter, Top};
+
+/// Side of a region from which an array of nine is too slow in Icarus.
+const LARGE_SIDE: u32 = 32;
+/// Slots of a lane from which two full ones take too long.
+const MANY_SLOTS: u32 = 1024;
+
+/// The design for the grid that the bench of `top` simulates: of `rpu` one region or lane; of `rcm` the
+/// whole grid if it is small, else one with more than two lanes and, where regions see their neighbors and are
+/// not large, with a region that has neighbors on all sides.
+pub(super) fn part(design: &Design, top: Top) -> Result<Design, CosimError> {
+    match top {
+        Top::Rpu if design.unit().rpu_in_rcm => {
+            Ok(Level::Rcm { columns: 1, rows: 1 }.design(design)?)
+        }
+        Top::Rpu => Ok(design.lone_unit()),
+        Top::Rcm => {
+            let (columns, rows) = array(design);
+            Ok(Level::Rcm { columns, rows }.design(design)?)
+        }
+    }
+}
+
+/// The parameters of `top` that make it the part.
+pub(super) fn parameters(part: &Design, top: Top) -> Vec<Parameter> {
+    top.parameters(part)
+}
+
+fn array(design: &Design) -> (u32, u32) {
+    let (columns, rows) = (design.columns(), design.rows());
+    let least = match design.neighborhood() {
+        Neighborhood::Shared if design.region_size() < LARGE_SIDE => 9,
+        Neighborhood::Shared | Neighborhood::Isolated => 4,
+    };
+    let fold = design.fold();
+    // Two full lanes and a third which is not, or one and some.
+    let lanes = if fold <= MANY_SLOTS { 2 * fold + fold.div_ceil(2) } else { fold + least };
+    let wanted = lanes.max(least).min(columns * rows);
+    let side = (1..=columns).find(|side| side * side >= wanted).unwrap_or(columns);
+    let high = wanted.div_ceil(side).min(rows);
+    (wanted.div_ceil(high).min(columns), high)
+}

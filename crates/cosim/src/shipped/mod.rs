@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The benches that come with a generated core: one of `rpu`, one of `rcm`, each with vectors that show
+//! regions of every kind.
+//!
+//! A large array is replayed as a small [`grid`] of the same Verilog. The [`script`] chooses frames that
+//! lead to active, held and blank regions under the thresholds of the design; the [`tally`] counts what
+//! the vectors then hold, so that a bench which does not show everything never says `PASS`.
+
+mod grid;
+mod picture;
+mod pipelined;
+mod player;
+mod script;
+mod serial;
+mod studio;
+mod tally;
+mod tape;
+
+use crate::error::CosimError;
+use crate::harness::{bench_file, told_bench};
+use foveate_design::{Design, Port};
+use foveate_emit::{SourceFile, Top};
+pub(crate) use picture::Picture;
+use player::Player;
+pub(crate) use player::{Applied, Model, Record, model};
+use script::{FRAMES, Script};
+use std::sync::atomic::AtomicBool;
+use tape::Tape;
+
+pub use tally::Tally;
+
+/// Clocks of the longest vectors. Verilator needs a quarter of an hour for them.
+const MAX_CLOCKS: u64 = 1 << 31;
+/// Decisions of the largest vectors: each takes a few lines.
+const MAX_DECISIONS: u64 = 1 << 16;
+
+/// The bench of one module of a core, and what its vectors show.
+#[derive(Clone, Debug)]
+pub struct ShippedBench {
+    /// The module.
+    pub top: Top,
+    /// Regions side by side and one below the other; the core's own grid, or a smaller one.
+    pub grid: (u32, u32),
+    /// What the vectors show.
+    pub tally: Tally,
+    /// Clocks of the vectors.
+    pub clocks: u64,
+    /// What the vectors should show and do not, in words; the bench then never says `PASS`.
+    pub shortcoming: Option<String>,
+    /// What no vectors of this design can show, in words: it follows from its configuration.
+    pub remarks: Vec<String>,
+    /// The bench and its vectors, below the folder of the core.
+    pub files: [SourceFile; 2],
+}
+
+impl ShippedBench {
+    /// Plays the frames that show everything to the model of `top`, and makes a bench of it. Equal designs
+    /// give equal files.
+    ///
+    /// # Errors
+    /// When the model refuses the design's grid, or `cancel` is set; [`CosimError::is_interrupted`] tells.
+    pub fn new(design: &Design, top: Top, cancel: &AtomicBool) -> Result<Self, CosimError> {
+        let part = grid::part(design, top)?;
+        let ports = top.ports(&part);
+        let mut take = Take::of(&part, top, &ports, false, cancel)?;
+        if take.is_played && take.tally.shortcoming(&part).is_some() {
+            take = Take::of(&part, top, &ports, true, cancel)?;
+        }
+        let Take { tally, clocks, vectors, is_played } = take;
+        let remarks = tally::impossible(design);
+        let shortcoming = if is_played {
+            tally.shortcoming(&part)
+        } else {
+            Some(format!(
+                "a frame of {} regions takes {} clocks, which is too long for vectors",
+                part.regions(),
+                part.timing().clocks_per_frame()
+            ))
+        };
+        let mut about = tally.about(design, &part, top);
+        about.extend(remarks.iter().cloned());
+        let parameters = grid::parameters(&part, top);
+        let bench = told_bench(top.module(), &ports, &parameters, &about, shortcoming.as_deref());
+        let file = |name: String, contents| SourceFile { path: format!("tb/{name}"), contents };
+        Ok(Self {
+            top,
+            grid: (part.columns(), part.rows()),
+            tally,
+            clocks,
+            shortcoming,
+            remarks,
+            files: [
+                file(bench_file(top.module()), bench),
+                file(format!("{}_vectors.hex", top.module()), vectors),
+            ],
+        })
+    }
+}
+
+/// Vectors, and what they show.
+struct Take {
+    tally: Tally,
+    clocks: u64,
+    vectors: String,
+    /// Whether there are any: not where they would be too long.
+    is_played: bool,
+}
+
+impl Take {
+    fn of(
+        part: &Design,
+        top: Top,
+        ports: &[Port],
+        is_wide: bool,
+        cancel: &AtomicBool,
+    ) -> Result<Self, CosimError> {
+        let mut tape = Tape::new(part, ports);
+        let is_played = is_short(part);
+        if is_played {
+            let script = Script::of(part, is_wide);
+            Player::new(part, top, &mut tape, cancel).play(&script)?;
+        }
+        let (tally, clocks, vectors) = tape.finish()?;
+        Ok(Self { tally, clocks, vectors, is_played })
+    }
+}
+
+/// Whether the frames of a bench are few enough clocks and lines.
+fn is_short(part: &Design) -> bool {
+    let clocks = FRAMES.saturating_mul(part.timing().clocks_per_frame());
+    clocks <= MAX_CLOCKS && FRAMES * u64::from(part.regions()) <= MAX_DECISIONS
+}

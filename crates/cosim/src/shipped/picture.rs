@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pictures of one region, among which every feature finds much, and one in which it finds nothing.
+
+use crate::stimulus::Random;
+
+/// A way to fill a square.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Picture {
+    /// Independent random pixels.
+    Noise,
+    /// Random squares of 2x2 pixels, which a median leaves.
+    Blocks,
+    /// Random extremes.
+    Binary,
+    /// Squares of `0` pixels a side, alternately dark and bright.
+    Checkers(usize),
+    /// Dark and bright columns of that width.
+    Columns(usize),
+    /// Dark and bright rows of that height.
+    Rows(usize),
+    /// Bright squares of the first size, the second apart.
+    Dots(usize, usize),
+    /// The left half dark, the right half bright: the largest deviations.
+    Halves,
+    /// One quadrant bright.
+    Quadrant,
+    /// Brighter from pixel to pixel.
+    Ramp,
+    /// One level.
+    Flat,
+}
+
+/// Those with something in them, the richest in different values first.
+pub(super) const TEXTURES: &[Picture] = &[
+    Picture::Noise,
+    Picture::Blocks,
+    Picture::Binary,
+    Picture::Ramp,
+    Picture::Quadrant,
+    Picture::Dots(1, 3),
+    Picture::Dots(3, 5),
+    Picture::Dots(2, 4),
+    Picture::Halves,
+    Picture::Checkers(1),
+    Picture::Checkers(2),
+    Picture::Columns(1),
+    Picture::Columns(2),
+    Picture::Rows(1),
+    Picture::Rows(2),
+    Picture::Checkers(3),
+];
+
+impl Picture {
+    /// The picture as `side` x `side` pixels up to `max`, row by row; `is_negative` swaps dark and bright.
+    pub(crate) fn draw(
+        self,
+        side: usize,
+        max: u16,
+        is_negative: bool,
+        random: &mut Random,
+    ) -> Vec<u16> {
+        let seed = random.next();
+        let any = |x: usize, y: usize, max: u16| {
+            let place = seed ^ (y * side + x) as u64;
+            Random::new(place.wrapping_mul(0x9e37_79b9_7f4a_7c15)).pixel(max)
+        };
+        let extreme = |is_bright: bool| if is_bright { max } else { 0 };
+        let pixel = |x: usize, y: usize| match self {
+            Self::Noise => any(x, y, max),
+            Self::Blocks => any(x / 2 * 2, y / 2 * 2, max),
+            Self::Binary => extreme(any(x, y, 1) == 1),
+            Self::Checkers(size) => extreme((x / size + y / size) % 2 == 1),
+            Self::Columns(width) => extreme(x / width % 2 == 1),
+            Self::Rows(height) => extreme(y / height % 2 == 1),
+            Self::Dots(size, apart) => extreme(x % apart < size && y % apart < size),
+            Self::Halves => extreme(x >= side / 2),
+            Self::Quadrant => extreme(x < side / 2 && y < side / 2),
+            Self::Ramp => {
+                let steps = 2 * side - 2;
+                u16::try_from(usize::from(max) * (x + y) / steps).unwrap_or(max)
+            }
+            Self::Flat => max / 3,
+        };
+        let places = (0..side * side).map(|at| (at % side, at / side));
+        let signed = |value: u16| if is_negative { max - value } else { value };
+        places.map(|(x, y)| signed(pixel(x, y))).collect()
+    }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One RPU or an array of them: a pixel of every region at every clock, back to back.
+
+use super::player::{Applied, Model, Record};
+use crate::layout::Layout;
+use crate::stimulus::{Inputs, Machine, PipelinedCodec};
+use foveate_design::{Design, PipelinedTiming};
+use foveate_emit::Top;
+use foveate_frame::Frame;
+use foveate_model::{PipelinedRcm, PipelinedRpu, RpuOutput, region_stream};
+
+/// The only region of an array of one is at the frame's border on all sides.
+const ALL_SIDES: u8 = 0b1111;
+
+pub(super) fn model(part: &Design, top: Top) -> Box<dyn Model> {
+    let machine = match top {
+        Top::Rpu => Machine::Rpu(Box::new(PipelinedRpu::new(part))),
+        Top::Rcm => Machine::Rcm(PipelinedRcm::new(part)),
+    };
+    Box::new(Pipelined {
+        machine,
+        codec: PipelinedCodec::new(part),
+        timing: PipelinedTiming::of(part),
+        lanes: part.regions() as usize,
+        shown: Vec::new(),
+    })
+}
+
+struct Pipelined {
+    machine: Machine,
+    codec: PipelinedCodec,
+    timing: PipelinedTiming,
+    lanes: usize,
+    shown: Vec<RpuOutput>,
+}
+
+impl Model for Pipelined {
+    fn width(&self) -> usize {
+        self.lanes
+    }
+
+    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>> {
+        let mut streams = Vec::new();
+        for region in 0..part.regions() {
+            region_stream(part, frame, region, &mut streams);
+        }
+        let length = part.stream_pixels() as usize;
+        let beat = |at| streams.iter().skip(at).step_by(length).copied().collect();
+        (0..length).map(beat).collect()
+    }
+
+    fn clock(
+        &mut self,
+        applied: &Applied<'_>,
+        inputs: &Layout,
+        outputs: &Layout,
+        record: &mut Record,
+    ) {
+        let &Applied { reset, valid, pixels, thresholds } = applied;
+        let applied = Inputs { reset, valid, pixels, border: ALL_SIDES, thresholds: *thresholds };
+        self.machine.step(&applied, &mut self.shown);
+        self.codec.inputs(inputs, &applied, &mut record.input);
+        self.codec.outputs(outputs, &self.shown, &mut record.expected);
+    }
+
+    /// Never more than one edge: something may be seen at every clock.
+    fn skip(
+        &mut self,
+        applied: &Applied<'_>,
+        inputs: &Layout,
+        outputs: &Layout,
+        record: &mut Record,
+    ) {
+        self.clock(applied, inputs, outputs, record);
+    }
+
+    fn quiet_clocks(&self) -> u64 {
+        0
+    }
+
+    fn is_ready(&self) -> bool {
+        true
+    }
+
+    fn settling_clocks(&self) -> u64 {
+        u64::from(self.timing.decision_latency) + 4
+    }
+
+    fn frames_behind(&self) -> u32 {
+        self.timing.forward_frames
+    }
+}

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Plays a script to the cycle-level model, clock by clock, and records it.
+
+use super::script::{Script, Shot};
+use super::tape::Tape;
+use super::{pipelined, serial};
+use crate::error::CosimError;
+use crate::layout::Layout;
+use foveate_design::{Design, Organization};
+use foveate_emit::Top;
+use foveate_frame::Frame;
+use foveate_model::Thresholds;
+use foveate_toolchain::ToolError;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Pixels of a frame that a reset forgets.
+const FORGOTTEN: usize = 3;
+/// Every so many pixels comes one clock later.
+const PAUSE_EVERY: usize = 29;
+/// Clocks after a frame at which pixels are offered that an array at work must not take.
+const REFUSED: usize = 3;
+
+/// A cycle-level model with its values in records.
+pub(crate) trait Model {
+    /// Pixels that the port takes at once.
+    fn width(&self) -> usize;
+    /// What the pixel port takes of a frame, one after the other.
+    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>>;
+    /// One edge.
+    fn clock(
+        &mut self,
+        applied: &Applied<'_>,
+        inputs: &Layout,
+        outputs: &Layout,
+        record: &mut Record,
+    );
+    /// As many edges without a pixel as [`Model::quiet_clocks`] says, at once.
+    fn skip(
+        &mut self,
+        applied: &Applied<'_>,
+        inputs: &Layout,
+        outputs: &Layout,
+        record: &mut Record,
+    );
+    /// For how many clocks without a pixel the outputs stay as they are.
+    fn quiet_clocks(&self) -> u64;
+    /// Whether a pixel is taken.
+    fn is_ready(&self) -> bool;
+    /// Clocks after the last pixel of a frame until everything has been decided that does not wait for
+    /// another frame; more where the model is ready again before.
+    fn settling_clocks(&self) -> u64;
+    /// Frames that must follow before the pixels of a frame have left.
+    fn frames_behind(&self) -> u32;
+}
+
+/// What is applied for a clock.
+pub(crate) struct Applied<'a> {
+    pub(crate) reset: bool,
+    pub(crate) valid: bool,
+    pub(crate) pixels: &'a [u16],
+    pub(crate) thresholds: &'a Thresholds,
+}
+
+/// What goes in and what comes out, as bytes.
+pub(crate) struct Record {
+    pub(crate) input: Vec<u8>,
+    pub(crate) expected: Vec<u8>,
+}
+
+/// The model of an organization; the only place that lists them here.
+pub(crate) fn model(organization: Organization) -> fn(&Design, Top) -> Box<dyn Model> {
+    match organization {
+        Organization::Pipelined => pipelined::model,
+        Organization::Serial => serial::model,
+    }
+}
+
+/// Plays scripts.
+pub(super) struct Player<'a> {
+    part: &'a Design,
+    model: Box<dyn Model>,
+    tape: &'a mut Tape,
+    cancel: &'a AtomicBool,
+    record: Record,
+    /// What is at the pixel port while it shows nothing of use.
+    garbage: Vec<u16>,
+}
+
+impl<'a> Player<'a> {
+    pub(super) fn new(
+        part: &'a Design,
+        top: Top,
+        tape: &'a mut Tape,
+        cancel: &'a AtomicBool,
+    ) -> Self {
+        let model = model(part.organization())(part, top);
+        let max = u16::try_from(part.pixel_max()).unwrap_or(u16::MAX);
+        Self {
+            part,
+            garbage: vec![max; model.width()],
+            model,
+            record: Record { input: tape.inputs.record(), expected: tape.outputs.record() },
+            tape,
+            cancel,
+        }
+    }
+
+    /// Plays all sequences. The first begins twice: a reset forgets what was under way.
+    pub(super) fn play(&mut self, script: &Script) -> Result<(), CosimError> {
+        for (number, sequence) in script.sequences.iter().enumerate() {
+            let Some(first) = sequence.first() else { continue };
+            if number == 0 {
+                self.reset(first)?;
+                let beats = self.model.beats(self.part, &first.frame);
+                self.stream(&beats[..FORGOTTEN.min(beats.len())], &first.thresholds)?;
+            }
+            self.reset(first)?;
+            self.sequence(sequence)?;
+        }
+        Ok(())
+    }
+
+    fn reset(&mut self, shot: &Shot) -> Result<(), CosimError> {
+        let garbage = self.garbage.clone();
+        for valid in [true, false] {
+            let thresholds = &shot.thresholds;
+            self.clock(&Applied { reset: true, valid, pixels: &garbage, thresholds })?;
+        }
+        Ok(())
+    }
+
+    fn sequence(&mut self, sequence: &[Shot]) -> Result<(), CosimError> {
+        let mut before: Option<&Shot> = None;
+        for (number, shot) in sequence.iter().enumerate() {
+            if let Some(before) = before {
+                // A decision is made with the thresholds of its own clock.
+                let is_new = before.thresholds != shot.thresholds;
+                self.settle(&before.thresholds, is_new || number % 2 == 0)?;
+            }
+            let beats = self.model.beats(self.part, &shot.frame);
+            self.stream(&beats, &shot.thresholds)?;
+            before = Some(shot);
+        }
+        match before {
+            Some(last) => self.drain(last),
+            None => Ok(()),
+        }
+    }
+
+    fn stream(&mut self, beats: &[Vec<u16>], thresholds: &Thresholds) -> Result<(), CosimError> {
+        for (number, pixels) in beats.iter().enumerate() {
+            if number % PAUSE_EVERY == PAUSE_EVERY - 1 {
+                self.idle(1, thresholds)?;
+            }
+            self.wait(thresholds)?;
+            self.clock(&Applied { reset: false, valid: true, pixels, thresholds })?;
+        }
+        Ok(())
+    }
+
+    /// Between two frames: what must be done is done, pixels that are offered meanwhile are refused; with
+    /// `is_long` everything is decided before it goes on.
+    fn settle(&mut self, thresholds: &Thresholds, is_long: bool) -> Result<(), CosimError> {
+        let garbage = self.garbage.clone();
+        for _ in 0..REFUSED {
+            if !self.model.is_ready() {
+                let pixels = &garbage;
+                self.clock(&Applied { reset: false, valid: true, pixels, thresholds })?;
+            }
+        }
+        self.wait(thresholds)?;
+        if is_long {
+            self.idle(self.model.settling_clocks(), thresholds)?;
+        }
+        Ok(())
+    }
+
+    /// Lets everything leave.
+    fn drain(&mut self, last: &Shot) -> Result<(), CosimError> {
+        self.settle(&last.thresholds, true)?;
+        let beats = self.model.beats(self.part, &last.frame);
+        for _ in 0..self.model.frames_behind() {
+            self.stream(&beats, &last.thresholds)?;
+            self.settle(&last.thresholds, true)?;
+        }
+        self.idle(2, &last.thresholds)
+    }
+
+    /// Lets clocks pass until a pixel is taken.
+    fn wait(&mut self, thresholds: &Thresholds) -> Result<(), CosimError> {
+        while !self.model.is_ready() {
+            match self.model.quiet_clocks() {
+                0 | 1 => self.idle(1, thresholds)?,
+                quiet => self.skip(quiet, thresholds)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {
+        let garbage = self.garbage.clone();
+        for _ in 0..clocks {
+            self.clock(&Applied { reset: false, valid: false, pixels: &garbage, thresholds })?;
+        }
+        Ok(())
+    }
+
+    fn clock(&mut self, applied: &Applied<'_>) -> Result<(), CosimError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted.into());
+        }
+        let Self { model, tape, record, .. } = self;
+        model.clock(applied, &tape.inputs, &tape.outputs, record);
+        tape.push(&record.input, &record.expected, 1)
+    }
+
+    fn skip(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {
+        let Self { model, tape, record, garbage, .. } = self;
+        let applied = Applied { reset: false, valid: false, pixels: garbage, thresholds };
+        model.skip(&applied, &tape.inputs, &tape.outputs, record);
+        tape.push(&record.input, &record.expected, clocks)
+    }
+}

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which frames a bench shows: pictures that the design finds relevant, the same again, others, and
+//! nothing, so that regions become active, are held, and are blanked.
+
+use super::picture::{Picture, TEXTURES};
+use super::studio::{Look, Studio};
+use crate::stimulus::{Artist, Motif, Random};
+use foveate_design::{Combine, Design, Thresholds as Mode};
+use foveate_frame::Frame;
+use foveate_model::Thresholds;
+use std::ops::RangeInclusive;
+
+/// Frames that every script has; those of few clocks have more.
+pub(super) const FRAMES: u64 = 5;
+/// Pixels of all regions of a frame that show more than one level.
+const MAX_DRAWN: u32 = 16_384;
+/// Pixels of such regions, and clocks of a frame, up to which frames near the thresholds follow.
+const FEW_PIXELS: usize = 4_096;
+const FEW_CLOCKS: u64 = 20_000;
+/// What the frames near the thresholds begin with.
+const NEAR: [Motif; 4] = [Motif::Bump, Motif::Noise, Motif::Smooth, Motif::Bump];
+/// Frames that go beyond the borders of regions.
+const WIDE_FRAMES: u32 = 8;
+/// How often a picture is drawn anew before another is tried.
+const TRIALS: usize = 2;
+
+/// Frames, each with its thresholds.
+pub(super) struct Script {
+    /// Sequences; each begins with a reset.
+    pub(super) sequences: Vec<Vec<Shot>>,
+}
+
+/// A frame with the thresholds that are applied meanwhile.
+pub(super) struct Shot {
+    pub(super) frame: Frame,
+    pub(super) thresholds: Thresholds,
+}
+
+/// Thresholds under which there is something relevant, and those under which nothing is.
+#[derive(Clone, Copy)]
+struct Plan {
+    usual: Thresholds,
+    blank: Thresholds,
+}
+
+/// One region that shows something, with what it shows in turn.
+struct Actor {
+    first: Vec<u16>,
+    other: Vec<u16>,
+    last: Vec<u16>,
+    /// The scores of the other picture, and its changes against the first.
+    scores: Vec<u64>,
+    changes: u32,
+}
+
+impl Actor {
+    /// Minima that the other picture meets exactly, or misses by as much as `more` if the ports reach as far.
+    fn exact(&self, part: &Design, usual: &Thresholds, more: u32) -> Thresholds {
+        let mut exact = *usual;
+        let scores = self.scores.iter().zip(part.features());
+        for (minimum, (&score, feature)) in exact.min_score.iter_mut().zip(scores) {
+            let largest = u64::MAX >> (u64::BITS - feature.score_bits());
+            *minimum = (score + u64::from(more)).min(largest);
+        }
+        let largest = u32::MAX >> (u32::BITS - part.count_bits());
+        exact.temporal_min_count = (self.changes + more).min(largest);
+        exact
+    }
+}
+
+impl Script {
+    /// The frames for a design: `part` is one region or lane alone, or an array. With `is_wide` come frames
+    /// that go beyond the borders of regions, for regions so small that their neighbors' pixels decide.
+    pub(super) fn of(part: &Design, is_wide: bool) -> Self {
+        let (mut studio, mut random) = (Studio::new(part), Random::new(1));
+        let plan = plan(part, &mut studio, &mut random);
+        let stage = Stage::new(part);
+        let cast: Vec<Actor> = (0..stage.places.len())
+            .map(|number| actor(part, &mut studio, &plan.usual, number, &mut random))
+            .collect();
+        let flat = Picture::Flat.draw(stage.side, stage.max, false, &mut random);
+        let shot = |thresholds, square: &dyn Fn(usize, &Actor) -> Vec<u16>| {
+            let squares: Vec<_> = cast.iter().enumerate().map(|(i, a)| square(i, a)).collect();
+            Shot { frame: stage.frame(&squares, &flat), thresholds }
+        };
+        let mixed = |number: usize, actor: &Actor| match number % 3 {
+            0 => actor.other.clone(),
+            1 => actor.first.clone(),
+            _ => flat.clone(),
+        };
+        let mut sequences = vec![vec![
+            shot(plan.usual, &|_, actor| actor.first.clone()),
+            shot(plan.usual, &|_, actor| actor.first.clone()),
+            shot(plan.usual, &mixed),
+            shot(plan.blank, &|_, _| flat.clone()),
+            shot(plan.usual, &|_, actor| actor.last.clone()),
+        ]];
+        let drawn = cast.len() * stage.side * stage.side;
+        if drawn <= FEW_PIXELS && part.timing().clocks_per_frame() <= FEW_CLOCKS {
+            let mut artists: Vec<Artist> =
+                cast.iter().map(|_| Artist::new(part, part.region_size(), random.fork())).collect();
+            let near = NEAR.iter().map(|&motif| {
+                artists.iter_mut().for_each(|artist| artist.draw_near_minimum(motif));
+                let squares: Vec<_> = artists.iter().map(|artist| artist.pixels.clone()).collect();
+                Shot { frame: stage.frame(&squares, &flat), thresholds: plan.usual }
+            });
+            sequences.push(near.collect());
+            for more in [0, 1].into_iter().filter(|_| part.thresholds() == Mode::Runtime) {
+                let exact = cast[0].exact(part, &plan.usual, more);
+                sequences.push(vec![
+                    shot(exact, &|_, actor| actor.first.clone()),
+                    shot(exact, &|_, actor| actor.other.clone()),
+                ]);
+            }
+        }
+        if is_wide {
+            let shot = |turn| Shot { frame: stage.wide(turn), thresholds: plan.usual };
+            sequences.push((0..WIDE_FRAMES).map(shot).collect());
+        }
+        Self { sequences }
+    }
+}
+
+/// Where in a frame something is shown.
+struct Stage<'a> {
+    part: &'a Design,
+    /// Regions that show something, in order.
+    places: Vec<u32>,
+    side: usize,
+    max: u16,
+}
+
+impl<'a> Stage<'a> {
+    /// Everywhere in a small array, else evenly spread, the first and the last region among them.
+    fn new(part: &'a Design) -> Self {
+        let regions = part.regions();
+        let count = (MAX_DRAWN / part.region_pixels()).clamp(6, 48).min(regions);
+        let last = u64::from(count - 1).max(1);
+        let place = |number: u32| u64::from(number) * u64::from(regions - 1) / last;
+        Self {
+            part,
+            places: (0..count).map(|number| u32::try_from(place(number)).unwrap_or(0)).collect(),
+            side: part.region_size() as usize,
+            max: u16::try_from(part.pixel_max()).unwrap_or(u16::MAX),
+        }
+    }
+
+    /// A frame with these squares at the places, and `flat` elsewhere.
+    fn frame(&self, squares: &[Vec<u16>], flat: &[u16]) -> Frame {
+        let (part, side) = (self.part, self.part.region_size());
+        let pixel = |x: u32, y: u32| {
+            let region = y / side * part.columns() + x / side;
+            let square = self.places.binary_search(&region).map_or(flat, |at| &squares[at]);
+            square[(y % side * side + x % side) as usize]
+        };
+        self.drawn(pixel)
+    }
+}
+
+impl Stage<'_> {
+    /// Squares all over the frame, elsewhere each turn: their edges and corners reach every region, and a
+    /// median leaves them.
+    fn wide(&self, turn: u32) -> Frame {
+        let size = (self.part.region_size() / 2).max(3);
+        let is_bright = |at: u32, shift: u32| (at + shift) % (2 * size) < size;
+        let pixel = |x, y| match is_bright(x, turn) && is_bright(y, turn * 2 % 7) {
+            true => self.max,
+            false => 0,
+        };
+        self.drawn(pixel)
+    }
+
+    fn drawn(&self, pixel: impl FnMut(u32, u32) -> u16) -> Frame {
+        let part = self.part;
+        Frame::from_fn(part.width(), part.height(), part.pixel_bits(), pixel)
+            .unwrap_or_else(|error| unreachable!("pixels are those of the design: {error}"))
+    }
+}
+
+/// The thresholds of the design, if pictures lead to all kinds of regions under them; else, where they are
+/// inputs, the smallest that tell something from nothing.
+fn plan(part: &Design, studio: &mut Studio, random: &mut Random) -> Plan {
+    let own = Thresholds::of(part);
+    let configured = Plan { usual: own, blank: own };
+    match part.thresholds() {
+        Mode::Constant => configured,
+        Mode::Runtime if is_telling(part, studio, &own, random) => configured,
+        Mode::Runtime => least(part, studio, random),
+    }
+}
+
+/// Whether some picture is relevant, nothing is not, and a change counts.
+fn is_telling(
+    part: &Design,
+    studio: &mut Studio,
+    thresholds: &Thresholds,
+    random: &mut Random,
+) -> bool {
+    let (side, max) = size(part);
+    let flat = Picture::Flat.draw(side, max, false, random);
+    let flat = studio.look(&flat, thresholds);
+    let least = thresholds.temporal_min_count;
+    let mut good = TEXTURES.iter().filter(|texture| {
+        let picture = texture.draw(side, max, false, random);
+        let look = studio.look(&picture, thresholds);
+        look.is_relevant && look.changes(&flat, thresholds) >= least
+    });
+    !flat.is_relevant && least > 0 && good.next().is_some()
+}
+
+/// Levels of 0 and minima of 1; a feature that never finds anything (corners in 2x2 pixels behind a median)
+/// must vote with a minimum of 0 where its vote is needed.
+fn least(part: &Design, studio: &mut Studio, random: &mut Random) -> Plan {
+    let (side, max) = size(part);
+    let mut blank = Thresholds::of(part);
+    (blank.temporal_level, blank.temporal_min_count) = (0, 1);
+    for (level, minimum) in blank.level.iter_mut().zip(&mut blank.min_score) {
+        (*level, *minimum) = (0, 1);
+    }
+    let mut usual = blank;
+    let looks: Vec<Look> = TEXTURES
+        .iter()
+        .map(|texture| studio.look(&texture.draw(side, max, false, random), &blank))
+        .collect();
+    let is_needed = part.combine() == Combine::All || part.features().len() == 1;
+    for (feature, minimum) in usual.min_score.iter_mut().enumerate().take(part.features().len()) {
+        if is_needed && looks.iter().all(|look| look.scores[feature] == 0) {
+            *minimum = 0;
+        }
+    }
+    Plan { usual, blank }
+}
+
+/// Pictures for a region: relevant ones, each with enough changes against the one before.
+fn actor(
+    part: &Design,
+    studio: &mut Studio,
+    thresholds: &Thresholds,
+    number: usize,
+    random: &mut Random,
+) -> Actor {
+    let (side, max) = size(part);
+    let flat = Picture::Flat.draw(side, max, false, random);
+    let nothing = studio.look(&flat, thresholds);
+    let least = thresholds.temporal_min_count;
+    let mut pick = |from: usize, before: &Look, wanted: RangeInclusive<u32>| {
+        for step in 0..2 * TRIALS * TEXTURES.len() {
+            let texture = TEXTURES[(from + step / (2 * TRIALS)) % TEXTURES.len()];
+            let picture = texture.draw(side, max, step % 2 == 1, random);
+            let look = studio.look(&picture, thresholds);
+            let changes = look.changes(before, thresholds);
+            if look.is_relevant && wanted.contains(&changes) {
+                return Some((picture, look));
+            }
+        }
+        None
+    };
+    let all = part.region_pixels();
+    // Without a reference everything has changed.
+    let first = pick(number, &nothing, 0..=all);
+    let (first, seen) = first.unwrap_or_else(|| (flat.clone(), nothing.clone()));
+    // Better a change of some pixels than of all.
+    let other = pick(number + 1, &seen, least..=all - 1);
+    let other = other.or_else(|| pick(number + 1, &seen, least..=all));
+    let last = pick(number + 2, &nothing, least..=all).map_or_else(|| first.clone(), |last| last.0);
+    let (other, look) = other.unwrap_or_else(|| {
+        let negative: Vec<u16> = first.iter().map(|&pixel| max - pixel).collect();
+        let look = studio.look(&negative, thresholds);
+        (negative, look)
+    });
+    let (changes, scores) = (look.changes(&seen, thresholds), look.scores);
+    Actor { first, other, last, scores, changes }
+}
+
+fn size(part: &Design) -> (usize, u16) {
+    let max = u16::try_from(part.pixel_max()).unwrap_or(u16::MAX);
+    (part.region_size() as usize, max)
+}

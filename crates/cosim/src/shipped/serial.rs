@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A serial array: it takes a frame, works on it, and is ready again when everything has left.
+
+use super::player::{Applied, Model, Record};
+use crate::layout::Layout;
+use crate::stimulus::{Feed, SerialCodec};
+use foveate_design::Design;
+use foveate_emit::Top;
+use foveate_frame::Frame;
+use foveate_model::{SerialInput, SerialRcm};
+
+pub(super) fn model(part: &Design, _: Top) -> Box<dyn Model> {
+    Box::new(Serial { array: SerialRcm::new(part), codec: SerialCodec::new(part) })
+}
+
+struct Serial {
+    array: SerialRcm,
+    codec: SerialCodec,
+}
+
+impl Model for Serial {
+    fn width(&self) -> usize {
+        self.array.output().forward_valid.len()
+    }
+
+    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>> {
+        Feed::of(part, frame, || 0).beats().map(<[u16]>::to_vec).collect()
+    }
+
+    fn clock(
+        &mut self,
+        applied: &Applied<'_>,
+        inputs: &Layout,
+        outputs: &Layout,
+        record: &mut Record,
+    ) {
+        let &Applied { reset, valid, pixels, thresholds } = applied;
+        let applied = SerialInput { reset, valid, pixels, thresholds };
+        let shown = self.array.step(&applied);
+        self.codec.inputs(inputs, &applied, &mut record.input);
+        self.codec.outputs(outputs, shown, &mut record.expected);
+    }
+
+    fn skip(
+        &mut self,
+        applied: &Applied<'_>,
+        inputs: &Layout,
+        outputs: &Layout,
+        record: &mut Record,
+    ) {
+        let &Applied { reset, valid, pixels, thresholds } = applied;
+        let applied = SerialInput { reset, valid, pixels, thresholds };
+        self.codec.inputs(inputs, &applied, &mut record.input);
+        let shown = self.array.skip(self.array.quiet_clocks());
+        self.codec.outputs(outputs, shown, &mut record.expected);
+    }
+
+    fn quiet_clocks(&self) -> u64 {
+        self.array.quiet_clocks()
+    }
+
+    fn is_ready(&self) -> bool {
+        self.array.output().ready
+    }
+
+    fn settling_clocks(&self) -> u64 {
+        0
+    }
+
+    fn frames_behind(&self) -> u32 {
+        0
+    }
+}

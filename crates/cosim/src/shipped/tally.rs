@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What vectors show, counted from the expected outputs alone.
+
+use crate::layout::Layout;
+use foveate_design::{Combine, Design, PortRole, Thresholds};
+use foveate_emit::Top;
+
+/// Frames that vectors show at least.
+const MIN_FRAMES: u64 = 3;
+
+/// What vectors show.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Frames all of whose regions are decided.
+    pub frames: u64,
+    /// Decisions for an active region.
+    pub active: u64,
+    /// Decisions for a region that is relevant but has not changed, and is held.
+    pub held: u64,
+    /// Decisions for a region that is not relevant, and is blanked (or held, by `render.irrelevant`).
+    pub blank: u64,
+    /// Comparisons with an earlier frame: temporal counts below that of a region without a reference.
+    pub compared: u64,
+    /// Outputs that are never compared with anything but 0, though they can show something else.
+    pub silent: Vec<String>,
+}
+
+/// Counts while vectors are made.
+pub(super) struct Counter {
+    regions: u64,
+    region_pixels: u64,
+    tally: Tally,
+    /// Every bit that is expected to be 1 where it is compared.
+    seen: Vec<u8>,
+}
+
+impl Counter {
+    pub(super) fn new(part: &Design, outputs: &Layout) -> Self {
+        Self {
+            regions: part.regions().into(),
+            region_pixels: part.region_pixels().into(),
+            tally: Tally::default(),
+            seen: outputs.record(),
+        }
+    }
+
+    /// Takes the expected outputs of a clock.
+    pub(super) fn see(&mut self, outputs: &Layout, expected: &[u8]) {
+        let at = |role| outputs.fields().iter().find(|field| field.port.role == role);
+        let is_high = |role| at(role).is_some_and(|field| field.get(expected, 0) == 1);
+        if is_high(PortRole::DecisionValid) {
+            let lanes = at(PortRole::Srs).map_or(0, |field| field.port.lanes);
+            for lane in 0..lanes {
+                let bit = |role| at(role).is_some_and(|field| field.get(expected, lane) == 1);
+                match (bit(PortRole::Srs), bit(PortRole::Trs)) {
+                    (true, true) => self.tally.active += 1,
+                    (true, false) => self.tally.held += 1,
+                    (false, _) => self.tally.blank += 1,
+                }
+                let count = at(PortRole::TemporalCount).map(|field| field.get(expected, lane));
+                self.tally.compared += u64::from(count.is_some_and(|c| c < self.region_pixels));
+            }
+        }
+        if is_high(PortRole::ScoreValid)
+            && at(PortRole::ScoreIndex).is_some_and(|field| field.get(expected, 0) == 0)
+        {
+            let count = at(PortRole::AnyScore).map(|field| field.get(expected, 0));
+            self.tally.compared += u64::from(count.is_some_and(|c| c < self.region_pixels));
+        }
+        for field in outputs.fields() {
+            for lane in outputs.compared_lanes(field, expected) {
+                let value = field.get(expected, lane);
+                if value != 0 {
+                    let seen = field.get(&self.seen, lane);
+                    field.set(&mut self.seen, lane, seen | value);
+                }
+            }
+        }
+    }
+
+    pub(super) fn finish(self, outputs: &Layout) -> Tally {
+        let Self { regions, mut tally, seen, .. } = self;
+        tally.frames = (tally.active + tally.held + tally.blank) / regions.max(1);
+        for field in outputs.fields() {
+            let port = &field.port;
+            // The number of the only region is 0.
+            let is_numbered = matches!(port.role, PortRole::Region | PortRole::ForwardRegion);
+            if is_numbered && regions == 1 {
+                continue;
+            }
+            let silent = (0..port.lanes).filter(|&lane| field.get(&seen, lane) == 0);
+            tally.silent.extend(silent.map(|lane| match port.lanes {
+                1 => port.name.clone(),
+                _ => format!("lane {lane} of {}", port.name),
+            }));
+        }
+        tally
+    }
+}
+
+impl Tally {
+    /// What is missing, in words; `None` if the vectors show all that they can.
+    pub(super) fn shortcoming(&self, part: &Design) -> Option<String> {
+        let mut missing = Vec::new();
+        let mut need = |is_there: bool, words: String| {
+            if !is_there {
+                missing.push(words);
+            }
+        };
+        need(self.frames >= MIN_FRAMES, format!("only {} frames are decided", self.frames));
+        need(self.active > 0, "no region is active".to_owned());
+        need(self.held > 0 || always_changed(part), "no region is held".to_owned());
+        need(self.blank > 0 || always_relevant(part), "no region is blank".to_owned());
+        need(self.compared > 0, "nothing is compared with an earlier frame".to_owned());
+        let silent = self.silent.join(" and ");
+        need(self.silent.is_empty(), format!("{silent} should be other than 0 once"));
+        (!missing.is_empty()).then(|| missing.join(", "))
+    }
+
+    /// What the vectors show, as lines of a comment.
+    pub(super) fn about(&self, design: &Design, part: &Design, top: Top) -> Vec<String> {
+        let grid = |design: &Design| format!("{} x {}", design.columns(), design.rows());
+        let of = match top {
+            Top::Rcm if grid(part) != grid(design) => {
+                format!(", by parameters a part of the core's {}", grid(design))
+            }
+            Top::Rcm | Top::Rpu => String::new(),
+        };
+        vec![
+            format!("The vectors show {} frames of {} regions{of}.", self.frames, grid(part)),
+            format!(
+                "Decisions: {} active, {} held, {} blank; {} comparisons with an earlier frame.",
+                self.active, self.held, self.blank, self.compared
+            ),
+        ]
+    }
+}
+
+/// What the configuration keeps from happening, whatever the pixels are.
+pub(super) fn impossible(design: &Design) -> Vec<String> {
+    let mut list = Vec::new();
+    if always_changed(design) {
+        list.push("No region is ever held: temporal.min_count is 0.".to_owned());
+    }
+    if always_relevant(design) {
+        list.push("No region is ever blank: a min_score of 0 always votes.".to_owned());
+    }
+    list
+}
+
+fn always_changed(design: &Design) -> bool {
+    design.thresholds() == Thresholds::Constant && design.temporal().min_count == 0
+}
+
+fn always_relevant(design: &Design) -> bool {
+    let mut votes = design.features().iter().map(|feature| feature.min_score() == 0);
+    let always = match design.combine() {
+        Combine::Any => votes.any(|vote| vote),
+        Combine::All => votes.all(|vote| vote),
+    };
+    design.thresholds() == Thresholds::Constant && always
+}

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The benches that come with a core: what their vectors show, and that they fail when any output does.
+
+use foveate_cosim::ShippedBench;
+use foveate_design::{Config, Design, FeatureKind};
+use foveate_emit::{SourceFile, Top, verilog};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Tool, Toolchain};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+const TOPS: [Top; 2] = [Top::Rpu, Top::Rcm];
+
+fn design(toml: &str) -> Design {
+    Config::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
+}
+
+fn bench(design: &Design, top: Top) -> ShippedBench {
+    ShippedBench::new(design, top, &AtomicBool::new(false)).unwrap()
+}
+
+/// A frame of that many regions.
+fn frame(regions: (u32, u32), size: u32) -> String {
+    format!("frame.width = {}\nframe.height = {}\n", regions.0 * size, regions.1 * size)
+}
+
+/// Designs that differ in everything that a bench depends on.
+fn designs() -> Vec<String> {
+    let mut list = Vec::new();
+    let variants = [
+        "",
+        "denoise.filter = 'none'",
+        "region.neighborhood = 'shared'",
+        "temporal.reference = 'last-sent'",
+        "temporal.reference = 'last-sent'\nrender.irrelevant = 'hold'\nrender.payload = 'raw'",
+        "decision.combine = 'all'",
+        "hardware.thresholds = 'constant'",
+    ];
+    for size in [2, 3, 8, 20, 64] {
+        for bits in [1, 8, 16] {
+            for variant in variants {
+                // Of a pixel of one bit the default thresholds ask too much.
+                if bits != 1 || !variant.contains("constant") {
+                    let number = list.len();
+                    let toml =
+                        format!("frame.pixel_bits = {bits}\nregion.size = {size}\n{variant}\n");
+                    let features = features(number, bits, size);
+                    list.push(format!("{}{toml}{features}", frame((4, 3), size)));
+                    if size >= 4 {
+                        let fold = [1, 2, 5][number % 3];
+                        let feed = ["parallel", "raster"][number / 3 % 2];
+                        let serial = format!(
+                            "hardware.organization = 'serial'\nhardware.fold = {fold}\nhardware.feed = '{feed}'\n"
+                        );
+                        list.push(format!("{}{toml}{serial}{features}", frame((4, 3), size)));
+                    }
+                }
+            }
+        }
+    }
+    list
+}
+
+/// One feature, two, or all, with levels that the depth allows.
+fn features(number: usize, bits: u32, size: u32) -> String {
+    let level = [0, 1, 20][(bits as usize).ilog2() as usize / 2];
+    let entry = |kind: &FeatureKind| match kind {
+        FeatureKind::Edge | FeatureKind::Corner => {
+            format!("[[spatial]]\nfeature = '{kind}'\nlevel = {level}\nmin_score = 1\n")
+        }
+        FeatureKind::Mad => format!(
+            "[[spatial]]\nfeature = 'mad'\nmin_score = 0.1\nmean_fraction_bits = {}\n",
+            size.ilog2()
+        ),
+        FeatureKind::Variance => "[[spatial]]\nfeature = 'variance'\nmin_score = 0.1\n".to_owned(),
+    };
+    let all = FeatureKind::ALL;
+    let of = match number % 6 {
+        4 => all.iter().take(2).map(entry).collect::<String>(),
+        5 => all.iter().map(entry).collect(),
+        one => entry(&all[one]),
+    };
+    let level = if bits == 1 { 0 } else { 8 };
+    let count = if size == 2 { 2 } else { 5 };
+    format!("temporal.level = {level}\ntemporal.min_count = {count}\n{of}")
+}
+
+/// Corners behind a median in regions of 2x2 pixels are never found: two pixels are always alike.
+fn is_blind(design: &Design) -> bool {
+    design.region_size() == 2 && design.feature(FeatureKind::Corner).is_some()
+}
+
+#[test]
+fn every_design_shows_active_held_and_blank_regions() {
+    for toml in designs() {
+        let design = design(&toml);
+        for top in TOPS {
+            let bench = bench(&design, top);
+            let tally = &bench.tally;
+            if is_blind(&design) {
+                continue;
+            }
+            assert_eq!(bench.shortcoming, None, "{top:?}\n{toml}");
+            assert!(tally.frames >= 3 && tally.active > 0 && tally.held > 0, "{tally:?}\n{toml}");
+            assert!(tally.blank > 0 && tally.compared > 0, "{tally:?}\n{toml}");
+            let size = bench.files[1].contents.len();
+            assert!(size < 4 << 20, "{size} bytes\n{toml}");
+        }
+    }
+}
+
+/// A frame of a large array shows the same with large folds, in files that stay small.
+#[test]
+fn large_folds_show_everything() {
+    for (toml, most) in [
+        ("hardware.fold = 784", 2 << 20),
+        ("hardware.fold = 100\nhardware.feed = 'raster'", 2 << 20),
+        (
+            "frame.width = 1920\nframe.height = 1080\nhardware.fold = 8100\ndenoise.filter = 'none'",
+            8 << 20,
+        ),
+        ("region.size = 48\nhardware.fold = 25\nregion.neighborhood = 'shared'", 4 << 20),
+    ] {
+        let design = design(&format!("hardware.organization = 'serial'\n{toml}\n"));
+        for top in TOPS {
+            let bench = bench(&design, top);
+            let size = bench.files[1].contents.len();
+            assert_eq!(bench.shortcoming, None, "{top:?} {toml}");
+            assert!(size < most, "{size} bytes: {toml}");
+        }
+    }
+}
+
+/// What cannot be shown is said, and such a bench never passes.
+#[test]
+fn what_vectors_cannot_show_is_said() {
+    for (toml, words) in [
+        (
+            "hardware.thresholds = 'constant'\n[[spatial]]\nfeature = 'edge'\nlevel = 1530\nmin_score = 1",
+            "no region is active",
+        ),
+        ("hardware.thresholds = 'constant'\n[temporal]\nlevel = 255\nmin_count = 64", "a region"),
+        (
+            "frame = { width = 16384, height = 16384 }\nregion.size = 64\nhardware = { organization = 'serial', fold = 65536 }",
+            "too long for vectors",
+        ),
+    ] {
+        let design = design(toml);
+        for top in TOPS {
+            let bench = bench(&design, top);
+            let shortcoming = bench.shortcoming.unwrap_or_default();
+            if words == "a region" {
+                assert_eq!(shortcoming, "", "{toml}");
+                continue;
+            }
+            assert!(shortcoming.contains(words), "{toml}: {shortcoming}");
+            let text = &bench.files[0].contents;
+            assert!(text.contains("INCOMPLETE") && !text.contains("\"PASS"), "{text}");
+        }
+    }
+    for (toml, words) in [
+        ("[temporal]\nmin_count = 0", "No region is ever held"),
+        ("[[spatial]]\nfeature = 'edge'\nmin_score = 0", "No region is ever blank"),
+    ] {
+        let constant = format!("hardware.thresholds = 'constant'\n{toml}\n");
+        let constant = bench(&design(&constant), Top::Rpu);
+        assert_eq!(constant.shortcoming, None, "{toml}");
+        assert!(constant.files[0].contents.contains(words), "{}", constant.files[0].contents);
+        let runtime = bench(&design(toml), Top::Rpu);
+        assert!(runtime.remarks.is_empty() && runtime.shortcoming.is_none(), "{toml}");
+        assert!(runtime.tally.held > 0 && runtime.tally.blank > 0, "{toml}");
+    }
+}
+
+#[test]
+fn equal_designs_have_equal_benches() {
+    let design = design("frame = { width = 24, height = 16 }");
+    for top in TOPS {
+        assert_eq!(bench(&design, top).files, bench(&design, top).files);
+    }
+}
+
+/// The module with every output behind a switch: `+tie=I` makes output I 0.
+fn tied(files: &mut [SourceFile], top: &str) -> Vec<String> {
+    let path = format!("rtl/{top}.v");
+    let file = files.iter_mut().find(|file| file.path == path).unwrap();
+    let text = file.contents.clone();
+    let start = text.find(&format!("\nmodule {top} ")).unwrap();
+    let end = start + text[start..].find("\n);").unwrap() + 3;
+    let header = &text[start..end];
+    let ports: Vec<(bool, String, String)> = header
+        .lines()
+        .filter_map(|line| {
+            let line = line.split("//").next().unwrap().trim().trim_end_matches(',');
+            let (direction, rest) = line.split_once(" wire ")?;
+            let (range, name) = rest.rsplit_once(' ').unwrap_or(("", rest));
+            Some((direction.trim() == "output", range.trim().to_owned(), name.to_owned()))
+        })
+        .collect();
+    let mut wrapper = format!(
+        "{header}\n    integer tie;\n    initial if (!$value$plusargs(\"tie=%d\", tie)) tie = -1;\n"
+    );
+    let (mut pins, mut outputs) = (Vec::new(), Vec::new());
+    for (is_output, range, name) in &ports {
+        if *is_output {
+            let number = outputs.len();
+            wrapper += &format!(
+                "    wire {range} {name}_core;\n    assign {name} = tie == {number} ? 0 : {name}_core;\n"
+            );
+            pins.push(format!(".{name}({name}_core)"));
+            outputs.push(name.clone());
+        } else {
+            pins.push(format!(".{name}({name})"));
+        }
+    }
+    let parameters =
+        if header.contains("parameter ") { " #(.COLUMNS(COLUMNS), .ROWS(ROWS))" } else { "" };
+    wrapper += &format!(
+        "    {top}_core{parameters} u_core ({});\nendmodule\n`default_nettype wire\n",
+        pins.join(", ")
+    );
+    let core = text.replacen(&format!("\nmodule {top} "), &format!("\nmodule {top}_core "), 1);
+    file.contents = format!("{core}\n`default_nettype none\n{wrapper}");
+    outputs
+}
+
+/// What a bench says as shipped, and with each output tied to 0: whether it passed.
+fn negative_control(toml: &str, top: Top) {
+    let design = design(toml);
+    let bench = bench(&design, top);
+    assert_eq!(bench.shortcoming, None, "{toml}");
+    let mut files = verilog(&design, top);
+    let outputs = tied(&mut files, top.module());
+    let dir = tempfile::tempdir().unwrap();
+    let put = |file: &SourceFile| {
+        let path = dir.path().join(&file.path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, &file.contents).unwrap();
+    };
+    files.iter().chain(&bench.files).for_each(put);
+    let program = build(dir.path(), &files, &bench);
+    let play = |tie: &str| -> (bool, String) {
+        let toolchain = Toolchain::system();
+        let vectors = format!("+vectors={}", bench.files[1].path);
+        let run = toolchain.invocation(Tool::Vvp).unwrap().dir(dir.path());
+        let run = run.args(["-n", &program, &vectors, "+stop", tie]);
+        let output = toolchain.run(&run).unwrap();
+        (output.is_success(), output.log().clone())
+    };
+    let (is_pass, log) = play("+tie=-1");
+    let passed = log.contains(&format!("PASS {} clocks", bench.clocks));
+    assert!(is_pass && passed, "{top:?} {toml}\n{log}");
+    for (number, name) in outputs.iter().enumerate() {
+        // The number of the only region is 0, in the core too.
+        if bench.grid == (1, 1) && ["region_o", "forward_region_o"].contains(&name.as_str()) {
+            continue;
+        }
+        let (is_pass, log) = play(&format!("+tie={number}"));
+        let is_named = log.contains(&format!("port {name} "));
+        let fails = !is_pass && is_named && log.contains("\nFAIL ") && !log.contains("PASS");
+        assert!(fails, "{top:?} with {name} tied to 0 must fail: {log}\n{toml}");
+    }
+}
+
+fn build(dir: &Path, files: &[SourceFile], bench: &ShippedBench) -> String {
+    let toolchain = Toolchain::system();
+    let name = format!("{}_replay", bench.top.module());
+    let compile = toolchain.invocation(Tool::Iverilog).unwrap().dir(dir);
+    let compile = compile.args(["-g2005", "-s", &name, "-o", "simulation"]);
+    let compile = compile.args(files.iter().map(|file| file.path.clone()));
+    toolchain.run_checked(&compile.arg(&bench.files[0].path)).unwrap();
+    "simulation".to_owned()
+}
+
+fn of_organization(size: u32, serial: Option<(u32, &str)>) -> String {
+    let hardware = serial.map_or_else(String::new, |(fold, feed)| {
+        format!("hardware = {{ organization = 'serial', fold = {fold}, feed = '{feed}' }}\n")
+    });
+    let small = "temporal.min_count = 2\nspatial = [{ feature = 'edge', min_score = 2 }]\ndenoise.filter = 'none'\n";
+    format!("region.size = {size}\n{}{hardware}", if size == 2 { small } else { "" })
+}
+
+/// A sample; [`every_tied_output_fails_at_every_size`] is the whole.
+#[test]
+fn every_tied_output_fails() {
+    if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
+        return;
+    }
+    for toml in [
+        of_organization(2, None),
+        of_organization(8, None),
+        format!("denoise.filter = 'none'\n{}", of_organization(20, None)),
+        of_organization(8, Some((3, "raster"))),
+        of_organization(4, Some((7, "parallel"))),
+    ] {
+        TOPS.into_iter().for_each(|top| negative_control(&toml, top));
+    }
+}
+
+/// Sizes, folds and feeds, both organizations: `cargo test -p foveate-cosim --test cosim -- --ignored tied`.
+#[test]
+#[ignore = "takes many minutes"]
+fn every_tied_output_fails_at_every_size() {
+    if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
+        return;
+    }
+    for size in [2, 8, 20, 32, 48, 64] {
+        let mut designs = vec![of_organization(size, None)];
+        if size >= 4 {
+            for feed in ["parallel", "raster"] {
+                for fold in [1, 3, 9] {
+                    designs.push(of_organization(size, Some((fold, feed))));
+                }
+            }
+        }
+        for toml in designs {
+            for neighborhood in ["isolated", "shared"] {
+                let toml = format!("region.neighborhood = '{neighborhood}'\n{toml}");
+                for top in TOPS {
+                    negative_control(&toml, top);
+                    println!("fails with every output: {top:?} {}", toml.replace('\n', " "));
+                }
+            }
+        }
+    }
+}

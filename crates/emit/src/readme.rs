@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The README of a core, one for each organization.
+
+use crate::instance::instance;
+use crate::verilog::text_of;
+use crate::{banner, latency};
+use askama::Template;
+use foveate_design::{
+    Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, PortRole, SerialTiming, Thresholds,
+};
+
+#[derive(Template)]
+#[template(path = "README.md")]
+struct Readme {
+    banner: String,
+    width: u32,
+    height: u32,
+    p: u32,
+    n: u32,
+    columns: u32,
+    rows: u32,
+    regions: u32,
+    scores: String,
+    combine: &'static str,
+    reference: &'static str,
+    neighborhood: &'static str,
+    filter: &'static str,
+    stream_side: u32,
+    stream_pixels: u32,
+    halo: u32,
+    latency: String,
+    forward: &'static str,
+    border: bool,
+    runtime: bool,
+    rcm_ports: Vec<PortRow>,
+    thresholds: Vec<ThresholdRow>,
+    instance: Vec<String>,
+}
+
+#[derive(Template)]
+#[template(path = "serial_README.md")]
+struct SerialReadme {
+    banner: String,
+    width: u32,
+    height: u32,
+    p: u32,
+    n: u32,
+    columns: u32,
+    rows: u32,
+    regions: u32,
+    lanes: u32,
+    fold: u32,
+    scores: String,
+    combine: &'static str,
+    reference: &'static str,
+    neighborhood: &'static str,
+    filter: &'static str,
+    feed: &'static str,
+    raster: bool,
+    halo: u32,
+    stream_side: u32,
+    depth: u64,
+    memory: &'static str,
+    load_pixels: u64,
+    load_clocks: u64,
+    steps: u64,
+    clocks: u64,
+    /// Clocks in which no pixel is taken: after the last of a frame, and in between at most.
+    stall: u64,
+    pauses: u64,
+    longest_pause: u32,
+    empty: u32,
+    stream_pixels: u32,
+    rate: String,
+    runtime: bool,
+    rcm_ports: Vec<PortRow>,
+    thresholds: Vec<ThresholdRow>,
+    instance: Vec<String>,
+}
+
+struct PortRow {
+    name: String,
+    direction: &'static str,
+    bits: String,
+    doc: String,
+}
+
+struct ThresholdRow {
+    name: String,
+    value: u64,
+}
+
+pub(crate) fn pipelined_readme(design: &Design) -> String {
+    text_of(&pipelined_view(design, PipelinedTiming::of(design)))
+}
+
+pub(crate) fn serial_readme(design: &Design) -> String {
+    text_of(&serial_view(design, &SerialTiming::of(design)))
+}
+
+fn score_names(design: &Design) -> String {
+    let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
+    names.join(", ")
+}
+
+fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
+    let memory = design.lane_memory();
+    SerialReadme {
+        banner: banner(design),
+        width: design.width(),
+        height: design.height(),
+        p: design.pixel_bits(),
+        n: design.region_size(),
+        columns: design.columns(),
+        rows: design.rows(),
+        regions: design.regions(),
+        lanes: design.lanes(),
+        fold: design.fold(),
+        scores: score_names(design),
+        combine: design.combine().name(),
+        reference: design.temporal().reference.name(),
+        neighborhood: design.neighborhood().name(),
+        filter: design.filter().name(),
+        feed: design.feed().name(),
+        raster: design.feed() == Feed::Raster,
+        halo: design.halo(),
+        stream_side: design.stream_side(),
+        depth: memory.depth,
+        memory: match memory.kind {
+            MemoryKind::Distributed => "distributed RAM",
+            MemoryKind::Block => "block RAM",
+        },
+        load_pixels: timing.load_pixels(),
+        load_clocks: timing.load_clocks(),
+        steps: timing.steps(),
+        clocks: timing.clocks_per_frame(),
+        stall: timing.edges_to_ready(),
+        pauses: timing.load_clocks() - timing.load_pixels(),
+        longest_pause: longest_pause(design),
+        empty: design.lanes() * design.fold() - design.regions(),
+        stream_pixels: design.stream_pixels(),
+        rate: rate(timing.clocks_per_frame()),
+        runtime: design.thresholds() == Thresholds::Runtime,
+        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
+        instance: instance(design),
+    }
+}
+
+/// Frames per second at 100 MHz, rounded down; with a decimal where they are few.
+fn rate(clocks: u64) -> String {
+    let tenths = 1_000_000_000 / clocks;
+    if tenths < 1000 {
+        format!("{}.{}", tenths / 10, tenths % 10)
+    } else {
+        (tenths / 10).to_string()
+    }
+}
+
+/// Most clocks for which a raster feed waits after one pixel, since several regions want it.
+fn longest_pause(design: &Design) -> u32 {
+    let side = design.region_size();
+    let most = |places: fn(&Design, u32) -> u32, regions: u32| {
+        (0..regions * side).map(|at| places(design, at)).max().unwrap_or(1)
+    };
+    match design.feed() {
+        Feed::Parallel => 0,
+        Feed::Raster => {
+            most(Design::column_places, design.columns()) * most(Design::row_places, design.rows())
+                - 1
+        }
+    }
+}
+
+fn pipelined_view(design: &Design, timing: PipelinedTiming) -> Readme {
+    Readme {
+        banner: banner(design),
+        width: design.width(),
+        height: design.height(),
+        p: design.pixel_bits(),
+        n: design.region_size(),
+        columns: design.columns(),
+        rows: design.rows(),
+        regions: design.regions(),
+        scores: score_names(design),
+        combine: design.combine().name(),
+        reference: design.temporal().reference.name(),
+        neighborhood: design.neighborhood().name(),
+        filter: design.filter().name(),
+        stream_side: design.stream_side(),
+        stream_pixels: design.stream_pixels(),
+        halo: design.halo(),
+        latency: latency(design),
+        forward: if timing.forward_frames == 1 {
+            "the next frame"
+        } else {
+            "the next frame but one"
+        },
+        border: design.needs_border(),
+        runtime: design.thresholds() == Thresholds::Runtime,
+        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
+        instance: instance(design),
+    }
+}
+
+fn port_row(port: &Port) -> PortRow {
+    PortRow {
+        name: port.name.clone(),
+        direction: match port.direction {
+            Direction::Input => "in",
+            Direction::Output => "out",
+        },
+        bits: match port.lanes {
+            1 => port.width.to_string(),
+            lanes => format!("{lanes} x {}", port.width),
+        },
+        doc: port.doc.clone(),
+    }
+}
+
+fn threshold(design: &Design, port: &Port) -> Option<ThresholdRow> {
+    let value = threshold_value(design, port)?;
+    Some(ThresholdRow { name: port.name.clone(), value })
+}
+
+/// The configured value of a threshold input; `None` for other ports.
+pub(crate) fn threshold_value(design: &Design, port: &Port) -> Option<u64> {
+    let feature = |kind| design.feature(kind);
+    match port.role {
+        PortRole::Level(kind) => Some(feature(kind)?.level()?.into()),
+        PortRole::MinScore(kind) => Some(feature(kind)?.min_score()),
+        PortRole::TemporalLevel => Some(design.temporal().level.into()),
+        PortRole::TemporalMinCount => Some(design.temporal().min_count.into()),
+        _ => None,
+    }
+}

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// One lane of the serial array: a memory, one accumulator, a count and what hangs on them. It takes
+// all its decisions from signs; addresses, constants and the order of things come from the sequencer.
+//
+// The accumulator is the candidate of the median search, the difference to the reference, the half
+// gradient, the sum of a region, in turn. |acc| > level is asked by adding ~level to what is not
+// negative and level to what is: the sign stays exactly if it is so (`stays`).
+// A median is searched bit by bit. A pixel is below the candidate if acc + ~pixel keeps the sign;
+// five of nine clear the bit. `run_q` counts to five in unary, which takes no logic but its enable;
+// for `edge` its lowest bit says that one of the two comparisons of a pixel was a hit, for `corner`
+// it is the length of the run.
+`default_nettype none
+
+(* keep_hierarchy = "yes" *)
+module serial_lane #(
+    parameter WIDTH = 8,         // bits of a pixel
+    parameter WORDS = 128,       // of the memory
+    parameter ADDRESS_BITS = 7,
+    parameter BLOCK = 0,         // 1: the memory is block RAM
+    parameter ACC_BITS = 11,     // of the accumulator, which is signed
+    parameter CHAIN_BITS = 7,    // of the score on its way
+    parameter FLAGS = 1,         // bits that travel with the score
+    parameter RASTER = 0,        // 1: pixels enter by lane select and leave by the chain of scores
+    parameter COPIES = 0,        // 1: an active lane copies the region to its reference
+    parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
+    parameter MEDIAN = 1,
+    parameter EDGE = 1,
+    parameter CORNER = 0,
+    parameter MAD = 0,
+    parameter VARIANCE = 0,
+    parameter FRACTION = 0,      // fraction bits of the mean of `mad`
+    parameter AUX_BITS = 1       // of the second word of `mad` and `variance`
+) (
+    input  wire                    clk_i,
+    // Memory.
+    input  wire                    loading_i,       // pixels come from outside
+    input  wire [       WIDTH-1:0] pixel_i,
+    input  wire [ADDRESS_BITS-1:0] address_i,
+    input  wire                    write_i,
+    input  wire                    select_row_i,    // both: write the pixel
+    input  wire                    select_column_i,
+    input  wire                    write_active_i,  // write if the first flag is set
+    input  wire                    write_border_i,  // write if the side is on the frame's border
+    input  wire [             1:0] side_i,          // left, right, top, bottom
+    input  wire [             3:0] sides_i,         // {bottom, top, right, left}
+    // Accumulator.
+    input  wire [    ACC_BITS-1:0] constant_i,
+    input  wire                    from_memory_i,   // the operand is the word read, else the constant
+    input  wire                    subtract_i,      // invert the operand
+    input  wire                    by_sign_i,       // invert it if the accumulator is not negative
+    input  wire                    by_run_i,        // invert it if five were counted
+    input  wire                    carry_i,         // add one to an inverted operand
+    input  wire                    enable_i,
+    input  wire                    clear_i,
+    // Counts.
+    input  wire                    run_i,           // count in unary
+    input  wire                    run_corner_i,    // ... equal ones in a row
+    input  wire                    run_clear_i,
+    input  wire                    count_i,         // score a hit
+    input  wire                    count_corner_i,  // ... of `corner`
+    // Sums.
+    input  wire                    double_i,        // the operand is the accumulator itself
+    input  wire                    divide_i,        // keep the sum only if it is not negative
+    input  wire                    deviate_i,       // the operand is |2^FRACTION * word - aux|
+    input  wire                    masked_i,        // ... is 0 unless its bit under the constant is 1
+    input  wire                    from_aux_i,      // ... is aux
+    // Chain of scores.
+    input  wire                    shift_i,
+    input  wire                    keep_i,          // take the accumulator
+    input  wire                    fetch_i,         // take the word read
+    input  wire                    chain_clear_i,
+    input  wire [  CHAIN_BITS-1:0] word_i,
+    input  wire [       FLAGS-1:0] flags_i,
+    output wire [  CHAIN_BITS-1:0] word_o,
+    output wire [       FLAGS-1:0] flags_o,
+    // Unloading.
+    input  wire                    unload_i,
+    output wire                    leaves_o,        // the word read is a pixel of an active region
+    output wire [       WIDTH-1:0] pixel_o          // the word read
+);
+
+    localparam SUMS = MAD != 0 || VARIANCE != 0;
+
+    reg  [  ACC_BITS-1:0] acc_q;
+    reg  [CHAIN_BITS-1:0] chain_q;
+    reg  [     FLAGS-1:0] flags_q;
+    wire [  ACC_BITS-1:0] operand;
+    wire [  ACC_BITS-1:0] sum;
+    wire [     WIDTH-1:0] word;
+    wire [  AUX_BITS-1:0] aux;
+    wire                  invert;
+    wire                  hit;
+    wire                  five;
+    wire                  stays = sum[ACC_BITS-1] == acc_q[ACC_BITS-1];
+
+    assign word_o  = chain_q;
+    assign flags_o = flags_q;
+    assign pixel_o = word;
+    assign leaves_o = RASTER == 0 && unload_i && flags_q[0];
+
+    // Memory.
+    wire selected = RASTER != 0 && select_row_i && select_column_i;
+    wire copied   = COPIES != 0 && write_active_i && flags_q[0];
+    wire repeated = BORDERS != 0 && write_border_i && sides_i[side_i];
+
+    serial_memory #(
+        .WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK)
+    ) u_memory (
+        .clk_i(clk_i), .write_i(write_i || selected || copied || repeated), .address_i(address_i),
+        .data_i(loading_i ? pixel_i : acc_q[WIDTH-1:0]), .data_o(word)
+    );
+
+    // Accumulator.
+    wire [ACC_BITS-1:0] wide_word = {{(ACC_BITS - WIDTH) {1'b0}}, word};
+
+    generate
+        if (SUMS) begin : g_sums
+            wire [ACC_BITS-1:0] source;
+            wire [ACC_BITS-1:0] deviation;
+            wire                negative;
+
+            if (MAD != 0) begin : g_deviation
+                localparam MEAN_BITS = WIDTH + FRACTION;
+                wire [MEAN_BITS:0] scaled = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word} << FRACTION;
+                wire [MEAN_BITS:0] difference = scaled - {1'b0, aux[MEAN_BITS-1:0]};
+                wire unused_aux = |aux;  // one bit of two, where a mean has but one
+                assign negative = difference[MEAN_BITS];
+                assign deviation = {{(ACC_BITS - MEAN_BITS) {negative}}, difference[MEAN_BITS-1:0]};
+            end else begin : g_no_deviation
+                wire unused_deviate = deviate_i;
+                assign negative = 1'b0;
+                assign deviation = {ACC_BITS{1'b0}};
+            end
+
+            if (VARIANCE != 0) begin : g_masked
+                wire [ACC_BITS-1:0] wide_aux = {{(ACC_BITS - AUX_BITS) {1'b0}}, aux};
+                wire [ACC_BITS-1:0] plain = from_aux_i ? wide_aux : wide_word;
+                wire chosen = !masked_i || |(plain & constant_i);
+                assign source = (from_memory_i || from_aux_i) ? plain & {ACC_BITS{chosen}}
+                                                              : constant_i;
+            end else begin : g_plain
+                wire unused_masked = masked_i || from_aux_i;
+                assign source = from_memory_i ? wide_word : constant_i;
+            end
+
+            wire deviates = MAD != 0 && deviate_i;
+            wire turned = deviates ? negative : invert;
+            assign operand = double_i ? acc_q
+                                      : (deviates ? deviation : source) ^ {ACC_BITS{turned}};
+
+            carry_adder #(.WIDTH(ACC_BITS)) u_sum (
+                .plain_i(acc_q), .other_i(operand), .carry_i(turned && carry_i), .sum_o(sum)
+            );
+
+            reg [AUX_BITS-1:0] aux_q;
+            always @(posedge clk_i) begin
+                if (shift_i) aux_q <= {AUX_BITS{1'b0}};
+                else if (divide_i) aux_q <= {aux_q[AUX_BITS-2:0], stays};
+            end
+            assign aux = aux_q;
+
+            always @(posedge clk_i) begin
+                if (clear_i) acc_q <= {ACC_BITS{1'b0}};
+                else if (enable_i && (!divide_i || stays)) acc_q <= sum;
+            end
+        end else begin : g_no_sums
+            wire unused_sums = double_i || divide_i || deviate_i || masked_i || from_aux_i;
+            wire unused_aux = |aux;
+            assign aux = {AUX_BITS{1'b0}};
+            assign operand = (from_memory_i ? wide_word : constant_i) ^ {ACC_BITS{invert}};
+
+            carry_adder #(.WIDTH(ACC_BITS)) u_sum (
+                .plain_i(acc_q), .other_i(operand), .carry_i(invert && carry_i), .sum_o(sum)
+            );
+
+            always @(posedge clk_i) begin
+                if (clear_i) acc_q <= {ACC_BITS{1'b0}};
+                else if (enable_i) acc_q <= sum;
+            end
+        end
+    endgenerate
+
+    assign invert = subtract_i || (by_sign_i && !acc_q[ACC_BITS-1]) || (MEDIAN != 0 && by_run_i && five);
+
+    // Counts.
+    generate
+        if (CORNER != 0) begin : g_run_corner
+            // A run goes on with a hit of the same sign, starts anew with one of the other, and ends
+            // without. Once it has been five long it stays.
+            reg  [4:0] run_q;
+            reg        positive_q;
+            wire       on = !run_corner_i || (stays && positive_q != acc_q[ACC_BITS-1]);
+            wire       reaches = run_q[3] && on;
+            assign five = run_q[4];
+            assign hit = count_corner_i ? five || reaches : stays || run_q[0];
+
+            always @(posedge clk_i) begin
+                if (run_clear_i) run_q <= 5'b00000;
+                else if (run_i && !five && (stays || run_corner_i))
+                    run_q <= {reaches, run_q[2:0] & {3{on}}, stays};
+                if (run_i) positive_q <= !acc_q[ACC_BITS-1];
+            end
+        end else if (MEDIAN != 0) begin : g_run
+            reg [4:0] run_q;
+            assign five = run_q[4];
+            assign hit = stays || (EDGE != 0 && run_q[0]);
+
+            always @(posedge clk_i) begin
+                if (run_clear_i) run_q <= 5'b00000;
+                else if (run_i && stays) run_q <= {run_q[3:0], 1'b1};
+            end
+            wire unused_corner = run_corner_i || count_corner_i;
+        end else if (EDGE != 0) begin : g_run_edge
+            reg run_q;
+            assign five = 1'b0;
+            assign hit = stays || run_q;
+
+            always @(posedge clk_i) begin
+                if (run_clear_i) run_q <= 1'b0;
+                else if (run_i) run_q <= stays;
+            end
+            wire unused_corner = run_corner_i || count_corner_i;
+        end else begin : g_no_run
+            assign five = 1'b0;
+            assign hit = stays;
+            wire unused_run = run_i || run_clear_i || run_corner_i || count_corner_i;
+        end
+    endgenerate
+
+    // Chain of scores.
+    wire [CHAIN_BITS-1:0] summed;
+    wire [CHAIN_BITS-1:0] fetched;
+    wire [CHAIN_BITS-1:0] moved = shift_i ? word_i : fetch_i ? fetched : keep_i ? summed : chain_q;
+    wire scored = count_i && hit;
+
+    generate
+        if (SUMS) begin : g_summed
+            assign summed = acc_q[CHAIN_BITS-1:0];
+        end else begin : g_not_summed
+            assign summed = chain_q;
+        end
+        if (RASTER == 0) begin : g_not_fetched
+            assign fetched = chain_q;
+        end else if (CHAIN_BITS > WIDTH) begin : g_extended
+            assign fetched = {{(CHAIN_BITS - WIDTH) {1'b0}}, word};
+        end else begin : g_fetched
+            assign fetched = word;
+        end
+    endgenerate
+
+    always @(posedge clk_i) begin
+        if (chain_clear_i) chain_q <= {CHAIN_BITS{1'b0}};
+        else chain_q <= moved + {{(CHAIN_BITS - 1) {1'b0}}, scored};
+        if (shift_i) flags_q <= flags_i;
+    end
+
+endmodule
+
+`default_nettype wire

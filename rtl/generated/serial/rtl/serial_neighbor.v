@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Lane and slot of a region or of one of its eight neighbors. Region lane * FOLD + slot: a neighbor is
+// a constant number of lanes and slots away, and one lane more where the slots run over.
+`default_nettype none
+
+module serial_neighbor #(
+    parameter COLUMNS = 28,   // regions of a row
+    parameter FOLD = 1,
+    parameter SLOT_BITS = 1,  // at least 1
+    parameter LANE_BITS = 10
+) (
+    input  wire [LANE_BITS-1:0] lane_i,
+    input  wire [SLOT_BITS-1:0] slot_i,
+    input  wire                 left_i,
+    input  wire                 right_i,
+    input  wire                 above_i,
+    input  wire                 below_i,
+    output wire [LANE_BITS-1:0] lane_o,
+    output wire [SLOT_BITS-1:0] slot_o
+);
+
+    /* verilator lint_off UNUSEDSIGNAL */
+    // Whole lanes from a region to the one `regions` further on, which may be negative, and the rest.
+    function [LANE_BITS-1:0] lanes(input integer regions);
+        integer whole;
+        begin
+            whole = (regions + (COLUMNS + 1) * FOLD) / FOLD - (COLUMNS + 1);
+            lanes = whole[LANE_BITS-1:0];
+        end
+    endfunction
+
+    function [SLOT_BITS:0] slots(input integer regions);
+        integer rest;
+        begin
+            rest = (regions + (COLUMNS + 1) * FOLD) % FOLD;
+            slots = rest[SLOT_BITS:0];
+        end
+    endfunction
+
+    /* verilator lint_on UNUSEDSIGNAL */
+
+    reg [LANE_BITS-1:0] far;
+    reg [SLOT_BITS:0] on;
+    always @* begin
+        case ({above_i, below_i, left_i, right_i})
+            4'b0001: begin far = lanes(1); on = slots(1); end
+            4'b0010: begin far = lanes(-1); on = slots(-1); end
+            4'b0100: begin far = lanes(COLUMNS); on = slots(COLUMNS); end
+            4'b0101: begin far = lanes(COLUMNS + 1); on = slots(COLUMNS + 1); end
+            4'b0110: begin far = lanes(COLUMNS - 1); on = slots(COLUMNS - 1); end
+            4'b1000: begin far = lanes(-COLUMNS); on = slots(-COLUMNS); end
+            4'b1001: begin far = lanes(1 - COLUMNS); on = slots(1 - COLUMNS); end
+            4'b1010: begin far = lanes(-1 - COLUMNS); on = slots(-1 - COLUMNS); end
+            default: begin far = lanes(0); on = slots(0); end
+        endcase
+    end
+
+    /* verilator lint_off WIDTH */
+    localparam [SLOT_BITS:0] SLOTS = FOLD;
+    /* verilator lint_on WIDTH */
+    wire [SLOT_BITS:0] plain = {1'b0, slot_i} + on;
+    wire over = plain >= SLOTS;
+    /* verilator lint_off UNUSEDSIGNAL */
+    wire [SLOT_BITS:0] reduced = over ? plain - SLOTS : plain;  // below FOLD
+    /* verilator lint_on UNUSEDSIGNAL */
+
+    assign slot_o = reduced[SLOT_BITS-1:0];
+    assign lane_o = lane_i + far + {{(LANE_BITS - 1) {1'b0}}, over};
+
+endmodule
+
+`default_nettype wire

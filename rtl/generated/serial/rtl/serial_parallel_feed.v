@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Takes a frame with one pixel per lane at a time: the words of slot 0, then those of slot 1, ...
+// The place is that of the pixel after the next one, since the groups register the next.
+`default_nettype none
+
+module serial_parallel_feed #(
+    parameter PIXELS = 64,    // per slot
+    parameter FOLD = 1,
+    parameter WORD_BITS = 7,
+    parameter SLOT_BITS = 1   // at least 1
+) (
+    input  wire                 clk_i,
+    input  wire                 rst_i,
+    input  wire                 valid_i,
+    input  wire                 reopen_i,  // the frame before is done
+    output wire                 ready_o,
+    output wire                 open_o,    // ready after this edge
+    output wire                 last_o,    // the last pixel is taken
+    output wire [SLOT_BITS-1:0] slot_o,
+    output wire [WORD_BITS-1:0] word_o
+);
+
+    localparam LAST = PIXELS - 1;
+    localparam [WORD_BITS-1:0] SECOND = 1;
+
+    reg ready_q;
+    reg [WORD_BITS-1:0] word_q;
+    wire first_slot;
+    wire last_word = word_q == LAST[WORD_BITS-1:0];
+    wire taken = ready_q && valid_i;
+    wire moves = reopen_i || (taken && !last_o);
+
+    assign ready_o = ready_q;
+    assign last_o = taken && first_slot && word_q == {WORD_BITS{1'b0}};
+    assign open_o = rst_i || reopen_i || (ready_q && !last_o);
+    assign word_o = word_q;
+
+    always @(posedge clk_i) begin
+        ready_q <= open_o;
+        if (rst_i) word_q <= SECOND;
+        else if (moves) word_q <= last_word ? {WORD_BITS{1'b0}} : word_q + 1'b1;
+    end
+
+    generate
+        if (FOLD > 1) begin : g_slot
+            localparam LAST_SLOT = FOLD - 1;
+            reg [SLOT_BITS-1:0] slot_q;
+            assign first_slot = slot_q == {SLOT_BITS{1'b0}};
+            assign slot_o = slot_q;
+
+            always @(posedge clk_i) begin
+                if (rst_i) slot_q <= {SLOT_BITS{1'b0}};
+                else if (moves && last_word)
+                    slot_q <= slot_q == LAST_SLOT[SLOT_BITS-1:0] ? {SLOT_BITS{1'b0}} : slot_q + 1'b1;
+            end
+        end else begin : g_no_slot
+            assign first_slot = 1'b1;
+            assign slot_o = {SLOT_BITS{1'b0}};
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The places of a pixel in one direction: its own region, then a neighbor whose halo shows it, or the
+// halo that repeats it at the frame's border.
+`default_nettype none
+
+module serial_places #(
+    parameter SIDE = 8,       // of a region, at least 2 * HALO
+    parameter HALO = 1,
+    parameter SCALE = 1,      // words from one pixel to the next
+    parameter WORD_BITS = 7
+) (
+    input  wire [$clog2(SIDE)-1:0] inner_i,   // where the pixel is in its region
+    input  wire                    first_i,   // no region before
+    input  wire                    last_i,    // no region after
+    input  wire [             1:0] place_i,
+    output wire [             1:0] more_o,    // places beside the own region
+    output wire                    before_o,  // this one is in the region before
+    output wire                    after_o,
+    output wire [   WORD_BITS-1:0] offset_o   // from the pixel's word without a halo
+);
+
+    localparam INNER_BITS = $clog2(SIDE);
+    /* verilator lint_off WIDTH */
+    localparam [INNER_BITS-1:0] NEAR = HALO;
+    localparam [INNER_BITS-1:0] FAR = SIDE - HALO;
+    localparam [INNER_BITS-1:0] LAST = SIDE - 1;
+    localparam [WORD_BITS-1:0] OWN = HALO * SCALE;
+    localparam [WORD_BITS-1:0] REGION = SIDE * SCALE;
+    localparam [WORD_BITS-1:0] ONE = SCALE;
+    localparam [1:0] REPEATED = HALO;
+    /* verilator lint_on WIDTH */
+
+    wire near_first = inner_i < NEAR;
+    wire near_last = inner_i >= FAR;
+    wire repeats_first = first_i && inner_i == {INNER_BITS{1'b0}};
+    wire repeats_last = last_i && inner_i == LAST;
+    wire other = place_i != 2'd0;
+
+    assign more_o = (repeats_first || repeats_last) ? REPEATED
+        : {1'b0, (near_first && !first_i) || (near_last && !last_i)};
+    assign before_o = other && near_first && !first_i;
+    assign after_o = other && near_last && !last_i;
+
+    reg [WORD_BITS-1:0] offset;
+    always @* begin
+        offset = OWN;
+        if (before_o) offset = OWN + REGION;
+        else if (after_o) offset = OWN - REGION;
+        else if (other && repeats_first) offset = place_i == 2'd1 ? {WORD_BITS{1'b0}} : ONE;
+        else if (other && repeats_last) offset = place_i == 2'd1 ? OWN + ONE : OWN + ONE + ONE;
+    end
+    assign offset_o = offset;
+
+endmodule
+
+`default_nettype wire
