@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds the first output that differs: in two files of records, or in what a replay bench prints.
+//! Finds where outputs differ, each port for the first time: in two files of records, or in what a replay
+//! bench prints.
 
 use crate::error::CosimError;
 use crate::layout::Layout;
@@ -7,7 +8,7 @@ use crate::recording::{Recording, open};
 use std::io::Read;
 use std::path::Path;
 
-/// The first output that differs.
+/// A port that differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
     /// The clock, from 0.
@@ -24,12 +25,14 @@ pub struct Difference {
 
 /// How far two files agree.
 pub(crate) struct Compared {
-    /// Complete records that the simulator wrote, up to the first difference.
+    /// Complete records that the simulator wrote, up to the end of the sequence with the first difference.
     pub(crate) records: u64,
-    pub(crate) difference: Option<Difference>,
+    /// The first of each port until the end of that sequence.
+    pub(crate) differences: Vec<Difference>,
 }
 
-/// Compares what a simulator wrote with what the recording expects.
+/// Compares what a simulator wrote with what the recording expects, up to the end of the first sequence
+/// with a difference.
 pub(crate) fn compare(recording: &Recording, actual: &Path) -> Result<Compared, CosimError> {
     let layout = recording.outputs();
     let bytes = layout.record_bytes();
@@ -37,7 +40,7 @@ pub(crate) fn compare(recording: &Recording, actual: &Path) -> Result<Compared, 
     let expected_path = recording.expected_path();
     let (mut expected, mut actual_file) = (open(&expected_path)?, open(actual)?);
     let (mut wanted, mut got) = (vec![0; batch * bytes], vec![0; batch * bytes]);
-    let mut records = 0;
+    let (mut records, mut end, mut differences) = (0, u64::MAX, Vec::new());
     loop {
         let read =
             read_up_to(&mut actual_file, &mut got).map_err(CosimError::io("read", actual))?;
@@ -47,15 +50,19 @@ pub(crate) fn compare(recording: &Recording, actual: &Path) -> Result<Compared, 
             read_up_to(&mut expected, wanted).map_err(CosimError::io("read", &expected_path))?;
         let pairs = wanted[..filled].chunks_exact(bytes).zip(got.chunks_exact(bytes));
         for (wanted, got) in pairs {
-            if wanted != got
-                && let Some(difference) = first_difference(layout, records, wanted, got)
-            {
-                return Ok(Compared { records, difference: Some(difference) });
+            if records >= end {
+                return Ok(Compared { records, differences });
+            }
+            if wanted != got {
+                add_differences(&mut differences, layout, records, wanted, got);
+                if let Some(first) = differences.first() {
+                    end = recording.sequence(first.clock).end;
+                }
             }
             records += 1;
         }
         if complete < batch {
-            return Ok(Compared { records, difference: None });
+            return Ok(Compared { records, differences });
         }
     }
 }
@@ -73,16 +80,25 @@ fn read_up_to(file: &mut impl Read, buffer: &mut [u8]) -> std::io::Result<usize>
     Ok(filled)
 }
 
-fn first_difference(layout: &Layout, clock: u64, wanted: &[u8], got: &[u8]) -> Option<Difference> {
-    let differing = layout.fields().iter().filter(|field| field.slice(wanted) != field.slice(got));
-    differing.into_iter().find_map(|field| {
+/// Adds the ports that differ at this clock and are not among `found`, each with its first lane.
+fn add_differences(
+    found: &mut Vec<Difference>,
+    layout: &Layout,
+    clock: u64,
+    wanted: &[u8],
+    got: &[u8],
+) {
+    for field in layout.fields().iter().filter(|field| field.slice(wanted) != field.slice(got)) {
+        let is_known = found.iter().any(|difference| difference.port == field.port.name);
         let mut lanes = layout.compared_lanes(field, wanted);
-        let lane = lanes.find(|&lane| field.get(wanted, lane) != field.get(got, lane))?;
-        let digits = field.port.width.div_ceil(4) as usize;
-        let hex = |record| format!("{:0digits$x}", field.get(record, lane));
-        let port = field.port.name.clone();
-        Some(Difference { clock, port, lane, expected: hex(wanted), got: hex(got) })
-    })
+        let differs = |&lane: &u32| field.get(wanted, lane) != field.get(got, lane);
+        if let (false, Some(lane)) = (is_known, lanes.find(differs)) {
+            let digits = field.port.width.div_ceil(4) as usize;
+            let hex = |record| format!("{:0digits$x}", field.get(record, lane));
+            let port = field.port.name.clone();
+            found.push(Difference { clock, port, lane, expected: hex(wanted), got: hex(got) });
+        }
+    }
 }
 
 /// Reads a line that a replay bench prints for a mismatch.
@@ -145,12 +161,40 @@ mod tests {
         let actual = recording.folder().join("actual");
         let mut bytes: Vec<u8> = (0..200).collect();
         std::fs::write(&actual, &bytes).unwrap();
-        assert!(compare(&recording, &actual).unwrap().difference.is_none());
+        assert_eq!(compare(&recording, &actual).unwrap().differences, []);
         (bytes[0x73], bytes[0x90]) = (0x63, 0);
         std::fs::write(&actual, &bytes).unwrap();
-        let found = compare(&recording, &actual).unwrap().difference.unwrap();
+        let compared = compare(&recording, &actual).unwrap();
+        let [found] = &compared.differences[..] else { panic!("{:?}", compared.differences) };
         assert_eq!((found.clock, found.lane), (0x73, 1));
         assert_eq!((found.expected.as_str(), found.got.as_str()), ("7", "6"));
+    }
+
+    #[test]
+    fn every_port_is_found_at_its_first_clock_until_the_sequence_ends() {
+        let output = |name| port(name, Direction::Output, 8, 1);
+        let ports = [port("a_i", Direction::Input, 1, 1), output("b_o"), output("c_o")];
+        let mut recorder = Recorder::new(&ports).unwrap();
+        for clock in 0..30u8 {
+            if clock % 5 == 0 {
+                recorder.begin_frame("two frames", u64::from(clock / 5 % 2), None);
+            }
+            recorder.push(&[0], &[clock, clock]).unwrap();
+        }
+        let recording = recorder.finish().unwrap();
+        assert_eq!(recording.sequence(12), 10..20);
+        let actual = recording.folder().join("actual");
+        let found = |wrong: &[(usize, usize)]| {
+            let mut bytes: Vec<u8> = (0..30).flat_map(|clock| [clock, clock]).collect();
+            wrong.iter().for_each(|&(clock, port)| bytes[2 * clock + port] = 99);
+            std::fs::write(&actual, &bytes).unwrap();
+            let differences = compare(&recording, &actual).unwrap().differences;
+            differences.into_iter().map(|d| (d.clock, d.port)).collect::<Vec<_>>()
+        };
+        let (b, c) = ("b_o".to_owned(), "c_o".to_owned());
+        assert_eq!(found(&[(12, 1), (13, 1), (19, 0)]), [(12, c.clone()), (19, b.clone())]);
+        assert_eq!(found(&[(12, 0), (12, 1)]), [(12, b), (12, c.clone())]);
+        assert_eq!(found(&[(12, 1), (20, 0)]), [(12, c)], "a reset is between them");
     }
 
     #[test]
@@ -159,6 +203,6 @@ mod tests {
         let actual = recording.folder().join("actual");
         std::fs::write(&actual, [0, 1, 2]).unwrap();
         let compared = compare(&recording, &actual).unwrap();
-        assert_eq!((compared.records, compared.difference), (3, None));
+        assert_eq!((compared.records, compared.differences), (3, Vec::new()));
     }
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A whole co-simulation: vectors from the model, through the RTL, to a report.
 
-use crate::compare::Difference;
 use crate::error::CosimError;
 use crate::level::Level;
-use crate::locate;
+use crate::mismatch::Mismatch;
 use crate::netlist::Netlist;
 use crate::recording::Recording;
 use crate::replay::{self, About};
-use crate::report::{CosimReport, Mismatch, Seconds};
+use crate::report::{CosimReport, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
 use foveate_design::{Design, DesignError};
@@ -119,9 +118,8 @@ impl Job {
         let outcome = run.run(&dut, &recording)?;
         let mut report = self.report(&design, &recording, &outcome)?;
         report.seconds.vectors = vectors.as_secs_f64();
-        if let (Some(difference), Some(mismatch)) = (&outcome.difference, &report.mismatch) {
-            let about =
-                About { difference, mismatch: &mismatch.to_string(), fingerprint: &report.design };
+        if let Some(mismatch) = &report.mismatch {
+            let about = About { mismatch, fingerprint: &report.design };
             let folder = replay::write(&self.output, &run, &dut, &recording, &outcome, &about)?;
             report.replay = Some(folder);
         } else if let Some(waves) = &outcome.waves {
@@ -169,8 +167,7 @@ impl Job {
         outcome: &Outcome,
     ) -> Result<CosimReport, CosimError> {
         let level = self.stimulus.level;
-        let name = |difference| named(difference, design, recording, level);
-        let mismatch = outcome.difference.as_ref().map(name).transpose()?;
+        let mismatch = Mismatch::of(&outcome.differences, design, recording, level)?;
         let clocks = mismatch.as_ref().map_or(recording.clocks(), |mismatch| mismatch.clock + 1);
         Ok(CosimReport {
             name: self.name(),
@@ -196,27 +193,4 @@ impl Job {
             },
         })
     }
-}
-
-/// A difference in the words of the vectors.
-fn named(
-    difference: &Difference,
-    design: &Design,
-    recording: &Recording,
-    level: Level,
-) -> Result<Mismatch, CosimError> {
-    let span = recording.span(difference.clock);
-    let expected = recording.expected_at(difference.clock)?;
-    let first = span.and_then(|span| span.region);
-    let region = locate::region(design, level, recording.outputs(), &expected, difference, first);
-    Ok(Mismatch {
-        sequence: span.map_or_else(String::new, |span| span.sequence.clone()),
-        frame: span.map_or(0, |span| span.frame),
-        clock: difference.clock,
-        clock_in_frame: difference.clock - span.map_or(0, |span| span.first_clock),
-        region,
-        port: difference.port.clone(),
-        expected: difference.expected.clone(),
-        got: difference.got.clone(),
-    })
 }

@@ -48,9 +48,12 @@ fn status(report: &CosimReport) -> TestCaseStatus {
         None => status.set_type("nothing").set_message("nothing was compared"),
         Some(mismatch) => status.set_type("mismatch").set_message(mismatch.to_string()),
     };
-    if let Some(replay) = &report.replay {
-        status.set_description(format!("replay it with {}/replay.sh", replay.display()));
-    }
+    let ports = report.mismatch.iter().flat_map(|mismatch| &mismatch.ports);
+    let ports = ports.map(|port| format!("{port}\n")).collect::<String>();
+    let replay = report.replay.as_ref().map_or_else(String::new, |replay| {
+        format!("replay it with {}/replay.sh", replay.display())
+    });
+    status.set_description(ports + &replay);
     status
 }
 

@@ -7,6 +7,7 @@
 //! the Verilog is made from the list of ports: the byte [`Layout`] of a clock, the C++ harness and
 //! the replay bench.
 
+mod cells;
 mod compare;
 mod diagram;
 mod error;
@@ -19,6 +20,8 @@ mod junit;
 mod layout;
 mod level;
 mod locate;
+mod mismatch;
+mod moment;
 mod netlist;
 mod packer;
 mod recording;
@@ -32,6 +35,7 @@ mod summary;
 mod testing;
 mod timed;
 
+pub use cells::cell_models;
 pub use compare::Difference;
 pub use diagram::timing_diagram;
 pub use error::CosimError;
@@ -43,10 +47,11 @@ pub use job::{Job, Progress};
 pub use junit::{junit_error, junit_xml};
 pub use layout::Layout;
 pub use level::Level;
+pub use mismatch::{Mismatch, PortMismatch};
 pub use netlist::{Netlist, NetlistRecord};
 pub use packer::Packer;
 pub use recording::{Recorder, Recording, Span, vectors_hex};
-pub use report::{CosimReport, Mismatch, Seconds};
+pub use report::{CosimReport, Seconds};
 pub use shipped::{ShippedBench, Tally};
 pub use simulate::{Dut, Outcome, Run, Simulator};
 pub use stimulus::{PipelinedCodec, SerialCodec, Stimulus};

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What synthesis makes of the RTL, to be simulated in its place.
 //!
-//! It is the netlist that the area estimate counts, of the same Yosys run, under Yosys' own models of
-//! the cells. Memories start unknown, and so do registers without an initial value, so that an X which
+//! It is the netlist that the area estimate counts, of the same Yosys run, under [models](crate::cells) of
+//! its cells. Memories start unknown, and so do registers without an initial value, so that an X which
 //! the RTL would not show does not hide; registers with one start with it, as on the device.
 
+use crate::cells::cell_models;
 use crate::error::CosimError;
 use crate::job::Job;
 use foveate_emit::Top;
@@ -54,7 +55,7 @@ impl Netlist {
         let synthesis =
             EstimateJob::with_sources(&design, top, verilog).synthesize(toolchain, cache)?;
         let library = yosys::cell_models(toolchain, cache, "xilinx/cells_sim.v")?;
-        let models = models(&library, synthesis.cells()?)?;
+        let models = cell_models(&library, synthesis.cells()?)?;
         let sources =
             vec![(MODELS_FILE.to_owned(), models), (NETLIST_FILE.to_owned(), synthesis.verilog)];
         Ok(Self { tool: synthesis.tool, sources })
@@ -64,51 +65,5 @@ impl Netlist {
     pub(crate) fn record(&self) -> NetlistRecord {
         let sha256 = sources_sha256(&self.sources);
         NetlistRecord { tool: self.tool.clone(), sha256 }
-    }
-}
-
-/// Of a library the models of these cells.
-fn models(library: &str, cells: impl IntoIterator<Item = String>) -> Result<String, CosimError> {
-    let mut text = "// Models of cells, from the library of Yosys (ISC license).\n".to_owned();
-    for cell in cells {
-        let begins = |line: &str| {
-            let rest = line.strip_prefix("module ").and_then(|rest| rest.strip_prefix(&cell));
-            rest.is_some_and(|rest| {
-                rest.trim_start().starts_with(['(', '#', ';']) || rest.is_empty()
-            })
-        };
-        let mut lines = library.lines().skip_while(|line| !begins(line)).peekable();
-        if lines.peek().is_none() {
-            return Err(CosimError::NoModel { cell });
-        }
-        text.push('\n');
-        for line in lines {
-            text += line;
-            text.push('\n');
-            if line.starts_with("endmodule") {
-                break;
-            }
-        }
-    }
-    Ok(text)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const LIBRARY: &str = "module INV(\n  output O);\nendmodule\n(* x *)\nmodule LUT1(output O);\nendmodule // LUT1\nmodule X; endmodule\n";
-
-    #[test]
-    fn models_are_found_by_name() {
-        let text = models(LIBRARY, ["LUT1".to_owned()]).unwrap();
-        assert!(text.ends_with("\nmodule LUT1(output O);\nendmodule // LUT1\n"), "{text}");
-        assert!(!text.contains("INV"));
-    }
-
-    #[test]
-    fn a_cell_without_a_model_is_named() {
-        let error = models(LIBRARY, ["INV".to_owned(), "LUT".to_owned()]).unwrap_err().to_string();
-        assert!(error.contains("`LUT`"), "{error}");
     }
 }

@@ -10,6 +10,7 @@ use crate::packer::Packer;
 use foveate_design::Port;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -105,6 +106,42 @@ impl Recording {
     pub fn span(&self, clock: u64) -> Option<&Span> {
         let after = self.spans.partition_point(|span| span.first_clock <= clock);
         after.checked_sub(1).and_then(|index| self.spans.get(index))
+    }
+
+    /// The clocks of the sequence to which a clock belongs, from its reset on.
+    #[must_use]
+    pub fn sequence(&self, clock: u64) -> Range<u64> {
+        let after = self.spans.partition_point(|span| span.first_clock <= clock);
+        let (before, after) = self.spans.split_at(after);
+        let starts = |span: &&Span| span.frame == 0;
+        let start = before.iter().rfind(starts).map_or(0, |span| span.first_clock);
+        start..after.iter().find(starts).map_or(self.clocks, |span| span.first_clock)
+    }
+
+    /// Shows each of these clocks with its input record and its expected outputs.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub(crate) fn walk(
+        &self,
+        clocks: Range<u64>,
+        mut see: impl FnMut(u64, &[u8], &[u8]),
+    ) -> Result<(), CosimError> {
+        let (inputs_path, expected_path) = (self.inputs_path(), self.expected_path());
+        let (mut inputs, mut outputs) = (open(&inputs_path)?, open(&expected_path)?);
+        let (mut input, mut expected) = (self.inputs.record(), self.outputs.record());
+        inputs
+            .seek(SeekFrom::Start(clocks.start * input.len() as u64))
+            .map_err(CosimError::io("read", &inputs_path))?;
+        outputs
+            .seek(SeekFrom::Start(clocks.start * expected.len() as u64))
+            .map_err(CosimError::io("read", &expected_path))?;
+        for clock in clocks {
+            inputs.read_exact(&mut input).map_err(CosimError::io("read", &inputs_path))?;
+            outputs.read_exact(&mut expected).map_err(CosimError::io("read", &expected_path))?;
+            see(clock, &input, &expected);
+        }
+        Ok(())
     }
 
     /// The file of input records.

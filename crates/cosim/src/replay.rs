@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The folder that a failing run leaves: everything that shows the mismatch again, without Foveate.
 
-use crate::compare::Difference;
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, rendered, replay_bench};
+use crate::mismatch::Mismatch;
 use crate::recording::Recording;
 use crate::simulate::{Dut, Outcome, Run, Simulator, VECTORS_FILE, WAVES_FILE};
 use askama::Template;
@@ -20,7 +20,7 @@ const REPLAY: Kind = Kind {
     what: "a replay (its replay.sh) or waves (its waves.fst)",
     is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
 };
-/// Clocks that are kept behind the mismatch.
+/// Clocks that are kept behind the last port's first mismatch.
 const MARGIN: u64 = 16;
 
 #[derive(Template)]
@@ -41,7 +41,7 @@ struct Readme<'a> {
     top: &'a str,
     bench_file: String,
     vectors_file: &'a str,
-    mismatch: &'a str,
+    mismatch: &'a Mismatch,
     clocks: u64,
     version: &'a str,
     seed: u64,
@@ -50,8 +50,7 @@ struct Readme<'a> {
 
 /// What a replay shows, for its README.
 pub(crate) struct About<'a> {
-    pub(crate) difference: &'a Difference,
-    pub(crate) mismatch: &'a str,
+    pub(crate) mismatch: &'a Mismatch,
     pub(crate) fingerprint: &'a str,
 }
 
@@ -109,7 +108,9 @@ fn fill(
     outcome: &Outcome,
     about: &About<'_>,
 ) -> Result<(), CosimError> {
-    let limit = about.difference.clock.saturating_add(MARGIN).min(recording.clocks());
+    let last = about.mismatch.ports.iter().map(|port| port.clock).max();
+    let last = last.unwrap_or(about.mismatch.clock);
+    let limit = last.saturating_add(MARGIN).min(recording.clocks());
     let bench = replay_bench(&dut.top, &dut.ports, &dut.parameters);
     // As they stand between single quotes.
     let files = dut.sources.iter().map(|(name, _)| name.replace('\'', r"'\''")).collect();

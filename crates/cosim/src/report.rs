@@ -2,6 +2,7 @@
 //! What a co-simulation came to, for people and for machines.
 
 use crate::level::Level;
+use crate::mismatch::Mismatch;
 use crate::netlist::NetlistRecord;
 use crate::simulate::Simulator;
 use serde::{Deserialize, Serialize};
@@ -67,39 +68,6 @@ pub struct Seconds {
     pub build: f64,
     /// To simulate and compare.
     pub run: f64,
-}
-
-/// The first output that differs.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Mismatch {
-    /// The sequence of frames.
-    pub sequence: String,
-    /// The frame of the sequence that was entering, from 0.
-    pub frame: u64,
-    /// The clock edge, counted from the first of the run.
-    pub clock: u64,
-    /// The clock edge, counted from the first of the frame.
-    pub clock_in_frame: u64,
-    /// The region, unless a single RPU was fed with made-up pixels.
-    pub region: Option<u32>,
-    /// The output port.
-    pub port: String,
-    /// What the model says, hexadecimal.
-    pub expected: String,
-    /// What the simulator says, hexadecimal; `x` where it does not know.
-    pub got: String,
-}
-
-impl fmt::Display for Mismatch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { sequence, frame, clock, clock_in_frame, region, port, expected, got } = self;
-        write!(f, "sequence \"{sequence}\", frame {frame}, clock {clock_in_frame} of it")?;
-        write!(f, " ({clock} of the run)")?;
-        if let Some(region) = region {
-            write!(f, ", region {region}")?;
-        }
-        write!(f, ": {port} is 'h{got}, expected 'h{expected}")
-    }
 }
 
 impl fmt::Display for CosimReport {

@@ -99,8 +99,9 @@ pub struct Run<'a> {
 /// What a simulation came to.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The first difference, if there is any.
-    pub difference: Option<Difference>,
+    /// The first difference of each port until the end of the sequence in which the first of all is, in
+    /// order; nothing if all agree.
+    pub differences: Vec<Difference>,
     /// Waves, if they were asked for.
     pub waves: Option<PathBuf>,
     /// Version of the simulator.
@@ -174,13 +175,13 @@ impl Run<'_> {
         let program = self.build(dut)?;
         let build = start.elapsed();
         let start = Instant::now();
-        let difference = match self.simulator {
+        let differences = match self.simulator {
             Simulator::Verilator => self.verilator(&program, recording)?,
             Simulator::Iverilog => self.iverilog(&program, recording)?,
         };
         let run = start.elapsed();
         let waves = self.trace.then(|| recording.folder().join(WAVES_FILE));
-        Ok(Outcome { difference, waves, version, build, run })
+        Ok(Outcome { differences, waves, version, build, run })
     }
 
     pub(crate) fn job(&self, dut: &Dut) -> VerilatorJob {
@@ -205,7 +206,7 @@ impl Run<'_> {
         &self,
         program: &Path,
         recording: &Recording,
-    ) -> Result<Option<Difference>, CosimError> {
+    ) -> Result<Vec<Difference>, CosimError> {
         let actual = recording.folder().join("actual.bin");
         let output = self.toolchain.run(&self.harness(program, recording, &actual))?;
         if output.log().contains("cannot write the outputs") {
@@ -214,10 +215,10 @@ impl Run<'_> {
         }
         let compared = compare(recording, &actual)?;
         let complete = compared.records == recording.clocks() && output.is_success();
-        if compared.difference.is_none() && !complete {
+        if compared.differences.is_empty() && !complete {
             return Err(self.short(recording, compared.records, &output));
         }
-        Ok(compared.difference)
+        Ok(compared.differences)
     }
 
     /// The harness on the inputs of a recording; what comes out goes into `actual`.
@@ -240,24 +241,50 @@ impl Run<'_> {
         &self,
         program: &Path,
         recording: &Recording,
-    ) -> Result<Option<Difference>, CosimError> {
-        let folder = recording.folder();
-        recording.write_hex(&folder.join(VECTORS_FILE), u64::MAX)?;
+    ) -> Result<Vec<Difference>, CosimError> {
+        recording.write_hex(&recording.folder().join(VECTORS_FILE), u64::MAX)?;
+        let (output, found) = self.bench(program, recording, !self.trace)?;
+        let passed = format!("PASS {} clocks", recording.clocks());
+        let log = output.log();
+        let Some(first) = found.first() else {
+            if log.lines().any(|line| line == passed) {
+                return Ok(found);
+            }
+            let got = log.lines().find_map(parse_clocks).unwrap_or(0);
+            return Err(self.short(recording, got, &output));
+        };
+        let end = recording.sequence(first.clock).end;
+        let in_sequence = |found: Vec<Difference>| {
+            found.into_iter().filter(|difference| difference.clock < end).collect()
+        };
+        if self.trace {
+            return Ok(in_sequence(found));
+        }
+        // The run ended at the first mismatch, as most of them are to. What else differs shows again from
+        // the start, up to the end of the sequence.
+        recording.write_hex(&recording.folder().join(VECTORS_FILE), end)?;
+        Ok(in_sequence(self.bench(program, recording, false)?.1))
+    }
+
+    /// The replay bench on the vectors in the folder of the recording, and the first difference of each
+    /// port; with `stop` up to the clock of the first.
+    fn bench(
+        &self,
+        program: &Path,
+        recording: &Recording,
+        stop: bool,
+    ) -> Result<(Output, Vec<Difference>), CosimError> {
         let mut args = vec![format!("+vectors={VECTORS_FILE}")];
         if self.trace {
             args.extend(["-fst".to_owned(), format!("+waves={WAVES_FILE}")]);
-        } else {
+        }
+        if stop {
             args.push("+stop".to_owned());
         }
+        let folder = recording.folder();
         let output = iverilog::run(self.toolchain, program, &args, folder, self.limit)?;
-        let log = output.log();
-        let difference = log.lines().find_map(parse_mismatch);
-        let passed = format!("PASS {} clocks", recording.clocks());
-        if difference.is_none() && !log.lines().any(|line| line == passed) {
-            let got = log.lines().find_map(parse_clocks).unwrap_or(0);
-            return Err(self.short(recording, got, &output));
-        }
-        Ok(difference)
+        let found = output.log().lines().filter_map(parse_mismatch).collect();
+        Ok((output, found))
     }
 
     pub(crate) fn short(&self, recording: &Recording, got: u64, output: &Output) -> CosimError {

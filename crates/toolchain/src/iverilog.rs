@@ -80,18 +80,28 @@ pub fn compile(
     })
 }
 
+/// Any warning where that is asked for; always that a module lacks a parameter that is set, because
+/// the value would have no effect.
 fn refuse_warnings(
     strict: bool,
     invocation: &Invocation,
     output: &Output,
 ) -> Result<(), ToolError> {
     let full = output.log();
-    if !strict || full.trim().is_empty() {
+    let lacks = |line: &str| {
+        let warning = line.split_once(": warning: parameter ");
+        warning.is_some_and(|(_, parameter)| parameter.contains(" not found in "))
+    };
+    let status = if full.lines().any(lacks) {
+        "a parameter is set that its module does not have"
+    } else if strict && !full.trim().is_empty() {
+        "warnings count as errors"
+    } else {
         return Ok(());
-    }
+    };
     Err(ToolError::Failed {
         command: invocation.command_line(),
-        status: "warnings count as errors".to_owned(),
+        status: status.to_owned(),
         tail: log_excerpt(&full),
         full,
         log: None,

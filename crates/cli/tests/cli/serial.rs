@@ -89,7 +89,9 @@ fn edited_serial_verilog_is_caught_and_replayed() {
             &[&args[..], &["--junit", "c.xml", "--simulator", simulator]].concat(),
         );
         assert_eq!(outcome.code, 1, "{}", outcome.stderr);
-        assert!(outcome.stdout.contains("expected 'h1"), "{}", outcome.stdout);
+        for part in ["expected 'h1", "phase \"rotate edge\"", "clock "] {
+            assert!(outcome.stdout.contains(part), "{part}: {}", outcome.stdout);
+        }
         let junit = fs::read_to_string(dir.path().join("c.xml")).unwrap();
         assert!(junit.contains("<failure"), "{junit}");
         let replay = dir.path().join("foveate-replay");

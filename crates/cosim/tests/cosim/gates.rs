@@ -87,7 +87,7 @@ fn run(simulator: Simulator, verilog: String, recording: &Recording) -> Option<D
         sources: vec![("gated.v".to_owned(), verilog)],
         no_inline: Vec::new(),
     };
-    run.run(&dut, recording).unwrap().difference
+    run.run(&dut, recording).unwrap().differences.into_iter().next()
 }
 
 #[test]

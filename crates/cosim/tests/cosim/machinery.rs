@@ -107,7 +107,7 @@ fn ports_of_every_width_pass_in_both_simulators() {
         if require_tools(simulator.tools()) {
             let recording = recording(5000);
             let outcome = run(simulator, TINY, &recording, false).unwrap();
-            assert_eq!(outcome.difference, None, "{simulator}");
+            assert_eq!(outcome.differences, [], "{simulator}");
             assert!(outcome.waves.is_none());
         }
     }
@@ -123,11 +123,11 @@ fn a_planted_fault_is_found_at_its_clock_and_port() {
             continue;
         }
         let recording = recording(2000);
-        let found = run(simulator, &fault, &recording, false).unwrap().difference.unwrap();
+        let found = run(simulator, &fault, &recording, false).unwrap().differences.remove(0);
         let expected = if found.port == "bit_o" { "1" } else { "029" };
         assert_eq!(found.expected, expected, "{simulator} {found:?}");
         let clock = found.clock;
-        let found = run(simulator, &lane, &recording, false).unwrap().difference.unwrap();
+        let found = run(simulator, &lane, &recording, false).unwrap().differences.remove(0);
         assert_eq!((found.port.as_str(), found.lane, found.clock), ("d_o", 17, 1), "{simulator}");
         let hex = |text: &str| u8::from_str_radix(text, 16).unwrap();
         assert_eq!(hex(&found.expected) ^ hex(&found.got), 8, "{simulator}");
@@ -141,7 +141,7 @@ fn a_register_that_reset_forgets_is_found() {
     for simulator in Simulator::ALL {
         if require_tools(simulator.tools()) {
             let outcome = run(simulator, &forgetful, &recording(100), false).unwrap();
-            let found = outcome.difference.unwrap();
+            let found = outcome.differences[0].clone();
             assert_eq!(found.clock, 0, "{simulator}");
             assert_eq!(simulator == Simulator::Iverilog, found.got.contains('x'), "{simulator}");
         }

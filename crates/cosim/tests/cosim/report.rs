@@ -2,7 +2,8 @@
 //! Reports as text, JSON and JUnit XML.
 
 use foveate_cosim::{
-    CosimReport, Level, Mismatch, NotSimulated, Seconds, Simulator, Summary, Verdict, junit_xml,
+    CosimReport, Level, Mismatch, NotSimulated, PortMismatch, Seconds, Simulator, Summary, Verdict,
+    junit_xml,
 };
 
 fn report(mismatch: Option<Mismatch>) -> CosimReport {
@@ -35,8 +36,19 @@ fn mismatch() -> Mismatch {
         clock_in_frame: 13,
         region: Some(1),
         port: "trs_o".to_owned(),
+        score: None,
+        at: "pixel 12 of 64 (x 4, y 1) of frame 2 enters".to_owned(),
         expected: "1".to_owned(),
         got: "x".to_owned(),
+        ports: vec![PortMismatch {
+            port: "score_o".to_owned(),
+            clock: 1420,
+            region: Some(1),
+            score: Some("edge".to_owned()),
+            at: "frame 1, slot 0, phase \"rotate edge\", step 3 of 4".to_owned(),
+            expected: "0f".to_owned(),
+            got: "1f".to_owned(),
+        }],
     }
 }
 
@@ -46,6 +58,11 @@ fn a_mismatch_names_everything() {
         mismatch().to_string(),
         "sequence \"reset in a frame\", frame 2, clock 13 of it (1417 of the run), region 1: \
          trs_o is 'hx, expected 'h1"
+    );
+    assert_eq!(
+        mismatch().ports[0].to_string(),
+        "clock 1420: score_o (edge), region 1, is 'h1f, expected 'h0f; frame 1, slot 0, \
+         phase \"rotate edge\", step 3 of 4"
     );
     assert_eq!(
         report(None).to_string(),
@@ -82,6 +99,7 @@ fn junit_has_a_case_per_run_and_one_for_what_none_reached() {
         "classname=\"foveate.0123456789abcdef\" time=\"3.750\"",
         "type=\"mismatch\"",
         "trs_o is &apos;hx, expected &apos;h1",
+        "clock 1420: score_o (edge)",
         "replay it with replay/replay.sh",
         "message=\"rtl/spare.v (module spare)\" type=\"not simulated\"",
     ] {

@@ -8,6 +8,12 @@ pub(super) fn of(summary: &Summary, width: usize) -> String {
     let mut text = String::new();
     for report in &summary.runs {
         add(&mut text, &report.to_string(), "", width);
+        if let Some(mismatch) = &report.mismatch {
+            add(&mut text, "ports that differ before the sequence ends, from:", "  ", width);
+            for port in &mismatch.ports {
+                add(&mut text, &port.to_string(), "    ", width);
+            }
+        }
         add(&mut text, &about(report), "  ", width);
         if let Some(replay) = &report.replay {
             let script = replay.join("replay.sh");

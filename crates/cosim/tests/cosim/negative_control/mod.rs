@@ -127,11 +127,16 @@ fn the_replay_of_a_fault_shows_it_again() {
         assert!(folder.join("waves.fst").is_file());
         let readme = std::fs::read_to_string(folder.join("README.md")).unwrap();
         assert!(readme.contains(&mismatch.to_string()), "{readme}");
+        assert!(mismatch.ports.len() > 1, "the decision is wrong, and what follows: {mismatch:?}");
+        assert!(mismatch.at.contains("of frame "), "{mismatch:?}");
         let again = Command::new(folder.join("replay.sh")).output().unwrap();
         let log = String::from_utf8_lossy(&again.stdout).into_owned();
         assert_eq!(again.status.code(), Some(1), "{log}");
-        let line = format!("MISMATCH clock {} port {} ", mismatch.clock, mismatch.port);
-        assert!(log.contains(&line), "{line}\n{log}");
+        for port in &mismatch.ports {
+            assert!(readme.contains(&port.to_string()), "{port}\n{readme}");
+            let line = format!("MISMATCH clock {} port {} ", port.clock, port.port);
+            assert!(log.contains(&line), "{line}\n{log}");
+        }
 
         // Repaired by hand, the replay passes.
         let vote = folder.join("rtl/vote.v");

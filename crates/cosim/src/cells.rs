@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Models of the cells of a netlist: ours where Yosys has none that can be simulated, else its own.
+//!
+//! Ours are of block RAM and DSP, each for just the modes that Yosys' mapping uses of it for a design;
+//! whatever else a netlist asks of them is refused when it is compiled.
+
+use crate::error::CosimError;
+use crate::harness::rendered;
+use askama::Template;
+
+/// Text of a DSP slice that multiplies.
+const DSP: &str = include_str!("../../../tb/cells/dsp48e2.v");
+
+/// A block RAM with a single port.
+#[derive(Template)]
+#[template(path = "cells/block_ram.v")]
+struct BlockRam {
+    name: &'static str,
+    address_bits: u32,
+    /// Bytes of its widest word at one port, each with a parity bit.
+    bytes: u32,
+    /// The parameters with its contents at the start.
+    contents: Vec<String>,
+}
+
+impl BlockRam {
+    /// One of 2^`address_bits` data bits.
+    fn new(name: &'static str, address_bits: u32, bytes: u32) -> Self {
+        let slices = (1 << address_bits) / 256;
+        let parity = (0..slices / 8).map(|slice| format!("INITP_{slice:02X}"));
+        let contents = parity.chain((0..slices).map(|slice| format!("INIT_{slice:02X}"))).collect();
+        Self { name, address_bits, bytes, contents }
+    }
+}
+
+/// Our model of a cell.
+fn own(cell: &str) -> Option<String> {
+    match cell {
+        "DSP48E2" => Some(DSP.to_owned()),
+        "RAMB18E2" => Some(rendered(&BlockRam::new("RAMB18E2", 14, 2))),
+        "RAMB36E2" => Some(rendered(&BlockRam::new("RAMB36E2", 15, 4))),
+        _ => None,
+    }
+}
+
+/// The models of these cells, one after the other; `library` is the text of Yosys'.
+///
+/// # Errors
+/// When a cell has no model.
+pub fn cell_models(
+    library: &str,
+    cells: impl IntoIterator<Item = String>,
+) -> Result<String, CosimError> {
+    let mut text = "// Models of cells: those of Yosys (ISC license), and Foveate's.\n".to_owned();
+    for cell in cells {
+        let model = own(&cell).or_else(|| of_library(library, &cell));
+        text.push('\n');
+        text += &model.ok_or(CosimError::NoModel { cell })?;
+    }
+    Ok(text)
+}
+
+/// The module of that name.
+fn of_library(library: &str, cell: &str) -> Option<String> {
+    let begins = |line: &str| {
+        let rest = line.strip_prefix("module ").and_then(|rest| rest.strip_prefix(cell));
+        rest.is_some_and(|rest| rest.trim_start().starts_with(['(', '#', ';']) || rest.is_empty())
+    };
+    let mut lines = library.lines().skip_while(|line| !begins(line)).peekable();
+    lines.peek()?;
+    let mut text = String::new();
+    for line in lines {
+        text += line;
+        text.push('\n');
+        if line.starts_with("endmodule") {
+            break;
+        }
+    }
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIBRARY: &str = "module INV(\n  output O);\nendmodule\n(* x *)\nmodule LUT1(output O);\nendmodule // LUT1\nmodule X; endmodule\n";
+
+    #[test]
+    fn models_are_found_by_name() {
+        let text = cell_models(LIBRARY, ["LUT1".to_owned()]).unwrap();
+        assert!(text.ends_with("\nmodule LUT1(output O);\nendmodule // LUT1\n"), "{text}");
+        assert!(!text.contains("INV"));
+        let text = cell_models(LIBRARY, ["RAMB36E2".to_owned()]).unwrap();
+        assert!(text.contains("module RAMB36E2 #(") && text.contains("INIT_7F = 0\n"), "{text}");
+    }
+
+    #[test]
+    fn a_cell_without_a_model_is_named() {
+        let cells = ["INV".to_owned(), "LUT".to_owned()];
+        let error = cell_models(LIBRARY, cells).unwrap_err().to_string();
+        assert!(error.contains("`LUT`"), "{error}");
+    }
+}

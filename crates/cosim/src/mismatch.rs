@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A mismatch in the words of the vectors: every port that differs, where and when.
+
+use crate::compare::Difference;
+use crate::error::CosimError;
+use crate::level::Level;
+use crate::locate;
+use crate::moment::{Moment, moments};
+use crate::recording::Recording;
+use foveate_design::{Design, PortRole};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The first output that differs, and what else differs until the end of its sequence.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mismatch {
+    /// The sequence of frames.
+    pub sequence: String,
+    /// The frame of the sequence that was entering, from 0.
+    pub frame: u64,
+    /// The clock edge, counted from the first of the run.
+    pub clock: u64,
+    /// The clock edge, counted from the first of the frame.
+    pub clock_in_frame: u64,
+    /// The region, unless a single RPU was fed with made-up pixels.
+    pub region: Option<u32>,
+    /// The output port.
+    pub port: String,
+    /// Which score stands at the ports of a serial array, where the port is of such: the feature, or
+    /// `temporal count`.
+    pub score: Option<String>,
+    /// What the hardware is busy with: the pixel that enters, or slot, phase and step of its work.
+    pub at: String,
+    /// What the model says, hexadecimal.
+    pub expected: String,
+    /// What the simulator says, hexadecimal; `x` where it does not know.
+    pub got: String,
+    /// Each port that differs before the sequence ends, at its first clock; ports that differ at the same
+    /// clock in the order of the module. The first is that of the fields above.
+    pub ports: Vec<PortMismatch>,
+}
+
+/// The first time that a port differs. The fields are those of [`Mismatch`].
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "they are those of Mismatch")]
+pub struct PortMismatch {
+    pub port: String,
+    pub clock: u64,
+    pub region: Option<u32>,
+    pub score: Option<String>,
+    pub at: String,
+    pub expected: String,
+    pub got: String,
+}
+
+impl Mismatch {
+    /// Differences of one sequence, in order, in the words of the vectors; nothing if there are none.
+    pub(crate) fn of(
+        differences: &[Difference],
+        design: &Design,
+        recording: &Recording,
+        level: Level,
+    ) -> Result<Option<Self>, CosimError> {
+        let clocks: Vec<u64> = differences.iter().map(|difference| difference.clock).collect();
+        let moments = moments(design, recording, &clocks)?;
+        let named = |(difference, moment): (&Difference, &Moment)| {
+            port(difference, moment, design, recording, level)
+        };
+        let ports: Vec<PortMismatch> =
+            differences.iter().zip(&moments).map(named).collect::<Result<_, _>>()?;
+        let Some(first) = ports.first().cloned() else { return Ok(None) };
+        let span = recording.span(first.clock);
+        let PortMismatch { port, clock, region, score, at, expected, got } = first;
+        let sequence = span.map_or_else(String::new, |span| span.sequence.clone());
+        let frame = span.map_or(0, |span| span.frame);
+        let clock_in_frame = clock - span.map_or(0, |span| span.first_clock);
+        #[rustfmt::skip]
+        let mismatch = Self {
+            sequence, frame, clock, clock_in_frame, region, port, score, at, expected, got, ports,
+        };
+        Ok(Some(mismatch))
+    }
+}
+
+fn port(
+    difference: &Difference,
+    moment: &Moment,
+    design: &Design,
+    recording: &Recording,
+    level: Level,
+) -> Result<PortMismatch, CosimError> {
+    let Difference { clock, port, expected, got, .. } = difference.clone();
+    let record = recording.expected_at(clock)?;
+    let first = recording.span(clock).and_then(|span| span.region);
+    let layout = recording.outputs();
+    let region = locate::region(design, level, layout, &record, difference, first);
+    let role = layout.fields().iter().find(|field| field.port.name == port).map(|f| f.port.role);
+    let is_score = matches!(
+        role,
+        Some(PortRole::ScoreValid | PortRole::ScoreIndex | PortRole::Region | PortRole::AnyScore)
+    );
+    let score = moment.score().filter(|_| is_score).map(str::to_owned);
+    Ok(PortMismatch { port, clock, region, score, at: moment.to_string(), expected, got })
+}
+
+impl fmt::Display for PortMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { port, clock, region, score, at, expected, got } = self;
+        write!(f, "clock {clock}: {port}")?;
+        if let Some(score) = score {
+            write!(f, " ({score})")?;
+        }
+        if let Some(region) = region {
+            write!(f, ", region {region},")?;
+        }
+        write!(f, " is 'h{got}, expected 'h{expected}; {at}")
+    }
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { sequence, frame, clock, clock_in_frame, region, port, .. } = self;
+        write!(f, "sequence \"{sequence}\", frame {frame}, clock {clock_in_frame} of it")?;
+        write!(f, " ({clock} of the run)")?;
+        if let Some(region) = region {
+            write!(f, ", region {region}")?;
+        }
+        write!(f, ": {port}")?;
+        if let Some(score) = &self.score {
+            write!(f, " ({score})")?;
+        }
+        write!(f, " is 'h{}, expected 'h{}", self.got, self.expected)
+    }
+}

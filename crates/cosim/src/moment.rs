@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the hardware is busy with at a clock: which pixel enters, or which phase of its work it is in.
+//!
+//! It is counted from what the vectors put in and what the model answers, from the reset of the
+//! sequence on.
+
+use crate::error::CosimError;
+use crate::field::Field;
+use crate::layout::Layout;
+use crate::recording::Recording;
+use foveate_design::{Design, Phase, PortRole, SerialTiming};
+use std::fmt;
+
+/// What the hardware is busy with after an edge. Frames count from 0 with the reset of the sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Moment {
+    /// The reset.
+    Reset,
+    /// The edge has taken this pixel of a frame's stream: its number, column and row, negative in a halo.
+    Pixel { frame: u64, number: u64, of: u64, x: i64, y: i64 },
+    /// No pixel was taken; so many of this frame are in.
+    Waiting { frame: u64, taken: u64, of: u64 },
+    /// The lanes work on a frame.
+    Work { frame: u64, slot: u64, phase: Phase, step: u64, of: u64 },
+}
+
+impl fmt::Display for Moment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reset => write!(f, "in reset"),
+            Self::Pixel { frame, number, of, x, y } => {
+                write!(f, "pixel {number} of {of} (x {x}, y {y}) of frame {frame} enters")
+            }
+            Self::Waiting { frame, taken, of } => {
+                write!(f, "{taken} of {of} pixels of frame {frame} are in")
+            }
+            Self::Work { frame, slot, phase, step, of } => {
+                write!(f, "frame {frame}, slot {slot}, phase \"{phase}\", step {step} of {of}")
+            }
+        }
+    }
+}
+
+impl Moment {
+    /// The score that passes the ports, by name.
+    pub(crate) fn score(&self) -> Option<&'static str> {
+        match self {
+            Self::Work { phase: Phase::RotateCount, .. } => Some("temporal count"),
+            Self::Work { phase: Phase::RotateScore(kind), .. } => Some(kind.name()),
+            _ => None,
+        }
+    }
+}
+
+/// Follows a sequence clock by clock.
+pub(crate) struct Follower<'a> {
+    design: &'a Design,
+    serial: Option<SerialTiming>,
+    /// Whether the pixels are those of the frame, row by row.
+    is_raster: bool,
+    pixels: u64,
+    /// Clocks that the last pixel of a frame goes on entering.
+    lag: u64,
+    /// Pixels of this frame that are in, and frames that are.
+    taken: u64,
+    frames: u64,
+    /// Clocks since the last pixel of a serial frame was in, while the lanes work on it.
+    since: Option<u64>,
+    /// Whether a pixel is taken at the next edge.
+    is_ready: bool,
+}
+
+impl<'a> Follower<'a> {
+    fn new(design: &'a Design) -> Self {
+        // An array that is not always ready takes a frame and then works on it.
+        let ports = design.rcm_ports();
+        let has = |role| ports.iter().any(|port| port.role == role);
+        let serial = has(PortRole::Ready).then(|| SerialTiming::of(design));
+        let is_raster = has(PortRole::ForwardRegion);
+        let side = design.region_size();
+        let (x, y) = (design.columns() * side - 1, design.rows() * side - 1);
+        let places = u64::from(design.column_places(x)) * u64::from(design.row_places(y));
+        let pixels = match &serial {
+            Some(timing) => timing.load_pixels(),
+            None => design.stream_pixels().into(),
+        };
+        let lag = if is_raster { places - 1 } else { 0 };
+        let (taken, frames, since, is_ready) = (0, 0, None, true);
+        Self { design, serial, is_raster, pixels, lag, taken, frames, since, is_ready }
+    }
+
+    /// One clock: what goes in, and whether the array is ready after it.
+    fn step(&mut self, reset: bool, valid: bool, ready_after: bool) -> Moment {
+        let was_ready = std::mem::replace(&mut self.is_ready, ready_after);
+        if reset {
+            (self.taken, self.frames, self.since) = (0, 0, None);
+            return Moment::Reset;
+        }
+        if let (Some(timing), Some(since)) = (&self.serial, &mut self.since) {
+            *since += 1;
+            let first = self.lag + timing.edges_to_step(0);
+            let step = since.saturating_sub(first);
+            if step < timing.steps() {
+                return work(timing, self.frames - 1, step);
+            }
+            self.since = None;
+        }
+        let (frame, of) = (self.frames, self.pixels);
+        if !(valid && was_ready) {
+            return Moment::Waiting { frame, taken: self.taken, of };
+        }
+        let number = self.taken;
+        self.taken += 1;
+        if self.taken == self.pixels {
+            (self.taken, self.frames) = (0, self.frames + 1);
+            self.since = self.serial.is_some().then_some(0);
+        }
+        let (x, y) = self.place(number);
+        Moment::Pixel { frame, number, of, x, y }
+    }
+
+    /// Column and row of a pixel of the stream, of the frame for a raster, else of a region.
+    fn place(&self, number: u64) -> (i64, i64) {
+        let (width, halo) = if self.is_raster {
+            (u64::from(self.design.columns() * self.design.region_size()), 0)
+        } else {
+            (u64::from(self.design.stream_side()), i64::from(self.design.halo()))
+        };
+        // The slots of a lane follow each other.
+        let in_slot = if self.is_raster { number } else { number % (width * width) };
+        let signed = |value: u64| i64::try_from(value).unwrap_or(i64::MAX) - halo;
+        (signed(in_slot % width), signed(in_slot / width))
+    }
+}
+
+/// The phase of a step of a frame.
+fn work(timing: &SerialTiming, frame: u64, step: u64) -> Moment {
+    let (slot, mut left) = (step / timing.slot_steps(), step % timing.slot_steps());
+    for &(phase, of) in timing.phases() {
+        if left < of {
+            return Moment::Work { frame, slot, phase, step: left, of };
+        }
+        left -= of;
+    }
+    unreachable!("the phases of a slot take {} steps", timing.slot_steps())
+}
+
+/// What the hardware is busy with at each of these clocks, which are in order and of one sequence.
+///
+/// # Errors
+/// When the vectors cannot be read.
+pub(crate) fn moments(
+    design: &Design,
+    recording: &Recording,
+    clocks: &[u64],
+) -> Result<Vec<Moment>, CosimError> {
+    let (Some(&first), Some(&last)) = (clocks.first(), clocks.last()) else {
+        return Ok(Vec::new());
+    };
+    let start = recording.sequence(first).start;
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let (reset, valid) = (of_role(inputs, PortRole::Reset), of_role(inputs, PortRole::Valid));
+    let ready = of_role(outputs, PortRole::Ready);
+    let says = |field: Option<&Field>, record: &[u8]| field.is_some_and(|f| f.get(record, 0) == 1);
+    let mut follower = Follower::new(design);
+    let (mut moments, mut wanted) = (Vec::new(), clocks.iter().peekable());
+    recording.walk(start..last + 1, |clock, input, expected| {
+        // Without such a port every pixel is taken.
+        let ready_after = ready.is_none() || says(ready, expected);
+        let moment = follower.step(says(reset, input), says(valid, input), ready_after);
+        while wanted.next_if(|&&wanted| wanted == clock).is_some() {
+            moments.push(moment);
+        }
+    })?;
+    Ok(moments)
+}
+
+fn of_role(layout: &Layout, role: PortRole) -> Option<&Field> {
+    layout.fields().iter().find(|field| field.port.role == role)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::level::Level;
+    use crate::stimulus::Stimulus;
+    use foveate_design::Config;
+
+    /// Every clock of a recording with its moment and expected outputs, sequence after sequence.
+    fn followed(toml: &str, level: Level, mut see: impl FnMut(&Layout, Moment, &[u8])) -> u64 {
+        let design = Config::from_toml(toml).unwrap().validate().unwrap();
+        let stimulus = Stimulus { level, rounds: 1, ..Stimulus::default() };
+        let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+        let simulated = level.design(&design).unwrap();
+        let mut clock = 0;
+        while clock < recording.clocks() {
+            let sequence = recording.sequence(clock);
+            let clocks: Vec<u64> = sequence.clone().collect();
+            let mut moments = moments(&simulated, &recording, &clocks).unwrap().into_iter();
+            recording
+                .walk(sequence.clone(), |_, _, expected| {
+                    see(recording.outputs(), moments.next().unwrap(), expected);
+                })
+                .unwrap();
+            clock = sequence.end;
+        }
+        recording.clocks()
+    }
+
+    /// The model shows scores in their phases and pixels in theirs, and in no other.
+    #[test]
+    fn phases_are_those_in_which_the_model_shows_something() {
+        let base = "[frame]\nwidth = 12\nheight = 8\n[region]\nsize = 4\n[[spatial]]\n\
+                    feature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n[hardware]\n\
+                    organization = \"serial\"\n";
+        for more in ["", "fold = 4\n", "fold = 2\nfeed = \"raster\"\n"] {
+            for neighborhood in ["isolated", "shared"] {
+                let toml = base.replace(
+                    "size = 4\n",
+                    &format!("size = 4\nneighborhood = \"{neighborhood}\"\n"),
+                );
+                let (mut scores, mut pixels) = (0, 0);
+                followed(&format!("{toml}{more}"), Level::Full, |layout, moment, expected| {
+                    let says = |role| of_role(layout, role).unwrap().get(expected, 0);
+                    if says(PortRole::ScoreValid) == 1 {
+                        let names = ["temporal count", "edge", "mad"];
+                        let index = usize::try_from(says(PortRole::ScoreIndex)).unwrap();
+                        assert_eq!(moment.score(), Some(names[index]), "{moment}");
+                        scores += 1;
+                    }
+                    let valid = of_role(layout, PortRole::ForwardValid).unwrap();
+                    if valid.slice(expected).iter().any(|&byte| byte != 0) {
+                        let unload = matches!(moment, Moment::Work { phase: Phase::Unload, .. });
+                        assert!(unload, "{moment}");
+                        pixels += 1;
+                    }
+                });
+                assert!(scores > 100 && pixels > 100, "{scores} {pixels}");
+            }
+        }
+    }
+
+    /// A pipelined decision comes its latency after the last pixel of a frame.
+    #[test]
+    fn pixels_are_counted_with_their_halo() {
+        let toml = "[region]\nsize = 4\nneighborhood = \"shared\"\n[denoise]\nfilter = \"none\"\n";
+        let design = Config::from_toml(toml).unwrap().validate().unwrap();
+        let last = u64::from(design.stream_pixels()) - 1;
+        let (mut corners, mut decisions, mut open) = (0, 0, 0);
+        followed(toml, Level::Rpu, |layout, moment, expected| {
+            match moment {
+                Moment::Reset => open = 0,
+                Moment::Pixel { number: 0, x, y, .. } => {
+                    assert_eq!((x, y), (-1, -1));
+                    corners += 1;
+                }
+                Moment::Pixel { number, x, y, .. } if number == last => {
+                    assert_eq!((x, y), (4, 4));
+                    open += 1;
+                }
+                _ => {}
+            }
+            if of_role(layout, PortRole::DecisionValid).unwrap().get(expected, 0) == 1 {
+                assert!(open > 0, "a decision without a whole frame");
+                open -= 1;
+                decisions += 1;
+            }
+        });
+        assert!(corners > 20 && decisions > 20, "{corners} {decisions}");
+    }
+}
