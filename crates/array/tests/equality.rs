@@ -113,7 +113,7 @@ fn designs() -> impl Strategy<Value = Design> {
             (config.frame.width, config.frame.height) = (Some(columns * size), Some(rows * size));
             config.frame.pixel_bits = bits;
             config.region.size = size;
-            config.temporal.level = 1;
+            config.temporal.level = Some(1);
             config.temporal.min_count = size;
             config.spatial = features
                 .into_iter()

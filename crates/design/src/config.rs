@@ -4,6 +4,7 @@
 //! The defaults are the paper's design. Unknown keys are refused before serde sees them, by
 //! [`crate::keys`], so that the message can name the nearest known key.
 
+use crate::depth::{self, DEFAULT_BITS};
 use crate::{
     Combine, Decimal, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload,
     Reference, Thresholds,
@@ -63,7 +64,7 @@ pub struct FrameConfig {
 
 impl Default for FrameConfig {
     fn default() -> Self {
-        Self { width: None, height: None, pixel_bits: 8 }
+        Self { width: None, height: None, pixel_bits: DEFAULT_BITS }
     }
 }
 
@@ -97,7 +98,8 @@ pub struct DenoiseConfig {
 pub struct SpatialConfig {
     /// Which feature.
     pub feature: FeatureKind,
-    /// Per-pixel threshold of `edge` (default 100) and `corner` (default 20), in grey levels.
+    /// Per-pixel threshold of `edge` (default 100) and `corner` (default 20), in grey levels. Defaults in
+    /// grey levels are those of 8 bits, scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// Per-region threshold: hits for `edge` and `corner` (default 5), grey levels for `mad`
@@ -116,19 +118,22 @@ impl SpatialConfig {
         Self { feature, level: None, min_score: None, mean_fraction_bits: None }
     }
 
-    /// The entry with every key that applies to its feature filled in.
+    /// The entry with every key that applies to its feature filled in, for pixels of `bits` bits.
     #[must_use]
-    pub fn with_defaults(&self) -> Self {
+    pub fn with_defaults(&self, bits: u32) -> Self {
         let (level, min_score, fraction) = match self.feature {
             FeatureKind::Edge => (Some(100), 5, None),
             FeatureKind::Corner => (Some(20), 5, None),
             FeatureKind::Mad => (None, 5, Some(0)),
             FeatureKind::Variance => (None, 50, None),
         };
+        let level = level.map(|value| depth::level(value, DEFAULT_BITS, bits));
+        let min_score =
+            depth::min_score(self.feature, Decimal::whole(min_score), DEFAULT_BITS, bits);
         Self {
             feature: self.feature,
             level: self.level.or(level),
-            min_score: self.min_score.or(Some(Decimal::whole(min_score))),
+            min_score: self.min_score.or(Some(min_score)),
             mean_fraction_bits: self.mean_fraction_bits.or(fraction),
         }
     }
@@ -146,17 +151,27 @@ pub struct DecisionConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TemporalConfig {
-    /// A pixel has changed when it differs by more than this many grey levels.
-    pub level: u32,
+    /// A pixel has changed when it differs by more than this many grey levels, 0..2^P-1; left out it is 8
+    /// at 8 bits, scaled to the depth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<u32>,
     /// TRS is 1 when at least this many pixels have changed, 0..=n.
     pub min_count: u32,
     /// What a frame is compared with.
     pub reference: Reference,
 }
 
+impl TemporalConfig {
+    /// The level, its default filled in for pixels of `bits` bits.
+    #[must_use]
+    pub fn level_at(&self, bits: u32) -> u32 {
+        self.level.unwrap_or_else(|| depth::level(8, DEFAULT_BITS, bits))
+    }
+}
+
 impl Default for TemporalConfig {
     fn default() -> Self {
-        Self { level: 8, min_count: 5, reference: Reference::Previous }
+        Self { level: None, min_count: 5, reference: Reference::Previous }
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::fmt::Display;
 
+use crate::depth::{self, DEFAULT_BITS};
 use crate::width::{edge_magnitude_max, variance_score_max};
 use crate::{
     Decimal, DesignError, FeatureKind, Reciprocal, SpatialConfig, bits_for, mad_score_max,
@@ -45,15 +46,15 @@ pub struct Variance {
 }
 
 impl SpatialFeature {
-    /// The feature of entry `index`, defaults filled in, for regions of `n` pixels up to `pixel_max`.
+    /// The feature of entry `index`, defaults filled in, for regions of `n` pixels of `bits` bits.
     pub(crate) fn resolve(
         config: &SpatialConfig,
         index: usize,
         n: u64,
-        pixel_max: u32,
+        bits: u32,
     ) -> Result<Self, DesignError> {
-        let entry = Entry { config, index };
-        let max = u64::from(pixel_max);
+        let entry = Entry { config, index, bits };
+        let max = (1 << bits) - 1;
         let fraction_bits = entry.fraction_bits(n)?;
         let mean = (config.feature == FeatureKind::Mad).then(|| Mean::new(n, max, fraction_bits));
         let variance = (config.feature == FeatureKind::Variance).then(|| Variance::new(n, max));
@@ -181,6 +182,8 @@ impl Variance {
 struct Entry<'a> {
     config: &'a SpatialConfig,
     index: usize,
+    /// Bits per pixel.
+    bits: u32,
 }
 
 impl Entry<'_> {
@@ -188,15 +191,24 @@ impl Entry<'_> {
         format!("spatial[{}].{name}", self.index)
     }
 
+    /// The level, below `max`, the largest magnitude that it is compared with: it must be exceeded by some
+    /// pixel, unless a region without one votes too.
     fn level(&self, max: Option<u64>) -> Result<Option<u32>, DesignError> {
-        match (self.config.level, max) {
-            (None, _) => Ok(None),
-            (Some(level), None) => Err(self.does_not_apply("level", level)),
-            (Some(level), Some(max)) if u64::from(level) <= max => Ok(Some(level)),
-            (Some(level), Some(max)) => {
-                Err(self.out_of_range("level", &level, &format!("0..={max}")))
-            }
+        let (level, max) = match (self.config.level, max) {
+            (None, _) => return Ok(None),
+            (Some(level), None) => return Err(self.does_not_apply("level", level)),
+            (Some(level), Some(max)) => (level, max),
+        };
+        let always = self.config.min_score == Some(Decimal::whole(0));
+        let largest = if always { max } else { max - 1 };
+        let fits = |level: u32| u64::from(level) <= largest;
+        if fits(level) {
+            return Ok(Some(level));
         }
+        let scaled = depth::level(level, DEFAULT_BITS, self.bits);
+        let hint = depth::hint(&level, &scaled, fits(scaled), self.bits);
+        let valid = format!("0..={largest}, since pixels of {} bits reach {max},", self.bits);
+        Err(self.out_of_range("level", &level, &valid, &hint))
     }
 
     fn fraction_bits(&self, n: u64) -> Result<u32, DesignError> {
@@ -208,6 +220,7 @@ impl Entry<'_> {
                 "mean_fraction_bits",
                 &bits,
                 &format!("0..={max}, with regions of {n} pixels,"),
+                "",
             )),
             (Some(bits), _) => Err(self.does_not_apply("mean_fraction_bits", bits)),
         }
@@ -223,20 +236,24 @@ impl Entry<'_> {
                 problem: format!("{minimum} is no whole number; it counts pixels"),
             });
         }
-        u64::try_from(minimum.ceil_times(unit)).ok().filter(|&score| score <= score_max).ok_or_else(
-            || {
-                let max = largest_threshold(score_max, unit);
-                self.out_of_range("min_score", &minimum, &format!("0..={max}"))
-            },
-        )
+        let threshold = |minimum: Decimal| {
+            u64::try_from(minimum.ceil_times(unit)).ok().filter(|&score| score <= score_max)
+        };
+        threshold(minimum).ok_or_else(|| {
+            let max = largest_threshold(score_max, unit);
+            let scaled = depth::min_score(self.config.feature, minimum, DEFAULT_BITS, self.bits);
+            let fits = !counts && threshold(scaled).is_some();
+            let hint = depth::hint(&minimum, &scaled, fits, self.bits);
+            self.out_of_range("min_score", &minimum, &format!("0..={max}"), &hint)
+        })
     }
 
-    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str) -> DesignError {
+    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str, hint: &str) -> DesignError {
         let feature = self.config.feature;
         DesignError::Range {
             key: self.key(key),
             value: value.to_string(),
-            valid: format!("{valid} for `{feature}`"),
+            valid: format!("{valid} for `{feature}`{hint}"),
         }
     }
 

@@ -10,6 +10,7 @@ mod action;
 mod choice;
 mod config;
 mod decimal;
+mod depth;
 mod derived;
 mod design;
 mod error;

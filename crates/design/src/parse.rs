@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Reads a configuration from TOML text and `KEY=VALUE` overrides.
 
+use crate::depth::DEFAULT_BITS;
 use crate::{Config, DesignError, keys};
 use serde::Deserialize;
 use serde_path_to_error::{Path, Segment};
@@ -20,14 +21,27 @@ impl Config {
     /// an index for the array of features: `region.size=16`, `spatial.0.level=50`. A value that is
     /// no TOML is taken as a string, so that quotes can be left out.
     ///
+    /// Thresholds in grey levels belong to the depth that they are written with: an override of
+    /// `frame.pixel_bits` scales those of the text, and other overrides are taken as they are.
+    ///
     /// # Errors
     /// As [`Config::from_toml`]; also for an override that is not of that form.
     pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, DesignError> {
         let mut table: Table =
             text.parse().map_err(|e: toml::de::Error| DesignError::Syntax(one_line(&e)))?;
-        for text in overrides {
-            apply(&mut table, text.as_ref())?;
+        let written = table.clone();
+        apply_all(&mut table, overrides)?;
+        if let (Some(own), Some(other)) = (depth(&written), depth(&table))
+            && own != other
+        {
+            let scaled = Self::from_table(written)?.at_depth(other);
+            table = Table::try_from(scaled).map_err(|e| DesignError::Syntax(e.to_string()))?;
+            apply_all(&mut table, overrides)?;
         }
+        Self::from_table(table)
+    }
+
+    fn from_table(table: Table) -> Result<Self, DesignError> {
         keys::refuse_unknown(&table)?;
         let value = Value::Table(table);
         serde_path_to_error::deserialize(value.clone()).map_err(|e| {
@@ -76,6 +90,17 @@ fn one_line(error: &toml::de::Error) -> String {
     let drawn = error.to_string();
     let place = drawn.lines().next().unwrap_or_default().replace("TOML parse error ", "");
     format!("{} ({place})", error.message().replace('\n', "; "))
+}
+
+/// Bits per pixel of a configuration that is not read yet; none where they are no depth.
+fn depth(table: &Table) -> Option<u32> {
+    let bits = table.get("frame").and_then(|frame| frame.get("pixel_bits"));
+    let bits = bits.map_or(Some(DEFAULT_BITS.into()), Value::as_integer)?;
+    u32::try_from(bits).ok().filter(|bits| (1..=16).contains(bits))
+}
+
+fn apply_all<S: AsRef<str>>(table: &mut Table, overrides: &[S]) -> Result<(), DesignError> {
+    overrides.iter().try_for_each(|text| apply(table, text.as_ref()))
 }
 
 fn apply(table: &mut Table, text: &str) -> Result<(), DesignError> {

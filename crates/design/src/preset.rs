@@ -29,12 +29,12 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "corner",
         summary: "corners (FAST 5/8) instead of edges",
-        toml: "[[spatial]]\nfeature = \"corner\"\nlevel = 20\nmin_score = 2\n",
+        toml: "[[spatial]]\nfeature = \"corner\"\nmin_score = 2\n",
     },
     Preset {
         name: "mad",
         summary: "mean absolute deviation instead of edges, exact mean",
-        toml: "[[spatial]]\nfeature = \"mad\"\nmin_score = 5\nmean_fraction_bits = 6\n",
+        toml: "[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 6\n",
     },
     Preset {
         name: "steady",

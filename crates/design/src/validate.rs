@@ -3,7 +3,8 @@
 
 use std::ops::RangeInclusive;
 
-use crate::{Config, Design, DesignError, HardwareConfig, SpatialConfig, SpatialFeature, Temporal};
+use crate::depth::{self, DEFAULT_BITS};
+use crate::{Config, Design, DesignError, HardwareConfig, SpatialFeature, Temporal};
 
 /// Frame size where the configuration leaves it out.
 const DEFAULT_SIDE: u32 = 224;
@@ -35,19 +36,20 @@ impl Config {
         let hardware = rules.hardware(&self.hardware, self.region.size, regions)?;
         let n = self.region.size * self.region.size;
         let pixel_max = (1 << self.frame.pixel_bits) - 1;
-        let pixels = format!(" for pixels of {} bits", self.frame.pixel_bits);
-        in_range("temporal.level", self.temporal.level, 0..=pixel_max, &pixels)?;
+        let level = self.temporal_level(pixel_max)?;
         let region = format!(" for regions of {n} pixels");
         in_range("temporal.min_count", self.temporal.min_count, 0..=n, &region)?;
         self.check_features()?;
         let mut config = self.clone();
-        config.spatial = self.spatial.iter().map(SpatialConfig::with_defaults).collect();
-        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), pixel_max);
+        config.temporal.level = Some(level);
+        let bits = self.frame.pixel_bits;
+        config.spatial = self.spatial.iter().map(|entry| entry.with_defaults(bits)).collect();
+        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), bits);
         let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
         config.hardware = hardware;
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
         let temporal = Temporal {
-            level: self.temporal.level,
+            level,
             min_count: self.temporal.min_count,
             reference: self.temporal.reference,
         };
@@ -91,6 +93,17 @@ impl Config {
             with: format!("a frame of {width}x{height} pixels, which has {regions} regions"),
             remedy: format!("{MAX_REGIONS} regions are the most; enlarge regions or cut the frame"),
         })
+    }
+
+    /// The level of the temporal score: one that pixels can differ by more than, unless no pixel has to.
+    fn temporal_level(&self, pixel_max: u32) -> Result<u32, DesignError> {
+        let bits = self.frame.pixel_bits;
+        let level = self.temporal.level_at(bits);
+        let largest = if self.temporal.min_count == 0 { pixel_max } else { pixel_max - 1 };
+        let scaled = depth::level(level, DEFAULT_BITS, bits);
+        let hint = depth::hint(&level, &scaled, scaled <= largest, bits);
+        let why = format!(" for pixels of {bits} bits, which differ by at most {pixel_max}{hint}");
+        in_range("temporal.level", level, 0..=largest, &why).map(|()| level)
     }
 
     fn check_features(&self) -> Result<(), DesignError> {

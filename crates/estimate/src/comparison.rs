@@ -97,7 +97,7 @@ impl Comparison {
         let bram = has(|report| report.rcm.bram18);
         let mut header: Vec<String> = HEADER.map(str::to_owned).to_vec();
         header.extend(dsp.then(|| "DSP".to_owned()));
-        header.extend(bram.then(|| "BRAM".to_owned()));
+        header.extend(bram.then(|| "RAMB36".to_owned()));
         header.push("device".to_owned());
         let extras = |dsps: String, brams: String| {
             dsp.then_some(dsps).into_iter().chain(bram.then_some(brams))
@@ -177,7 +177,7 @@ fn largest(share: &Share) -> String {
         ("mem", share.lut_memory),
         ("FF", share.ff),
         ("DSP", share.dsp),
-        ("BRAM", share.bram),
+        ("RAMB36", share.bram),
     ];
     let largest = shares.into_iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
     largest.map_or_else(String::new, |(name, share)| format!("{name} {share:.2}%"))
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn block_ram_has_a_column_where_there_is_some() {
         let with = comparison().markdown();
-        assert!(with.contains("| BRAM | device |") && with.contains("| 392 |"), "{with}");
+        assert!(with.contains("| RAMB36 | device |") && with.contains("| 392 |"), "{with}");
         assert!(!with.contains("DSP |"), "{with}");
     }
 }

@@ -31,7 +31,7 @@ pub use error::EstimateError;
 pub use job::{EstimateJob, Synthesis, estimate};
 pub use levels::LogicPath;
 pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
-pub use render::{render_markdown, render_text};
+pub use render::{ramb36, render_markdown, render_text};
 pub use report::{FORMAT_VERSION, LeafArea, Paths, Report, ToolRecord};
 pub use synthesis::sources;
 pub use table::grouped;

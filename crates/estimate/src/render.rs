@@ -9,7 +9,7 @@ use crate::report::{LeafArea, Paths, Report, ToolRecord};
 use crate::table::{Table, grouped, wrap};
 use paper::paper_table;
 
-const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "BRAM"];
+const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];
 
 /// The report as tables for a terminal of `width` columns; 80 is enough.
 #[must_use]
@@ -58,7 +58,7 @@ fn area_table(report: &Report) -> Table {
         rows,
         note: Some(
             "low, high: logic LUTs with and without small ones sharing a LUT. LUT = high + memory. \
-             carry: units of CARRY4. BRAM: units of RAMB36."
+             carry: units of CARRY4. RAMB36: block RAM; half of one is a RAMB18."
                 .to_owned(),
         ),
     }
@@ -177,7 +177,9 @@ fn header(first: &str, columns: &[&str]) -> Vec<String> {
     std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
 }
 
-pub(crate) fn ramb36(bram18: u64) -> String {
+/// Block RAM as every table has it: in units of `RAMB36`, of which a `RAMB18` is half.
+#[must_use]
+pub fn ramb36(bram18: u64) -> String {
     let half = if bram18 & 1 == 1 { ".5" } else { "" };
     grouped(bram18 / 2) + half
 }

@@ -19,7 +19,6 @@ mod objective;
 mod point;
 mod report;
 mod row;
-mod scale;
 mod space;
 mod store;
 mod table;

@@ -7,7 +7,6 @@ use foveate_design::{Config, Design};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
-use crate::scale::at_depth;
 use crate::space::{Space, plain};
 
 /// A design of a space.
@@ -65,8 +64,8 @@ impl Space {
         let overrides: Vec<String> = set
             .filter_map(|(axis, value)| value.map(|value| format!("{}={value}", axis.key)))
             .collect();
-        let config = self.start.with(&overrides).map_err(|error| error.to_string())?;
-        let mut config = at_depth(&config, self.ideal.frame.pixel_bits);
+        let config = self.start.with_its_levels(&overrides);
+        let mut config = config.map_err(|error| error.to_string())?;
         config.fit_frame(width, height).map_err(|error| error.to_string())?;
         let design = config.validate().map_err(|error| error.to_string())?;
         // With every default filled in, so that equal designs are equal texts.

@@ -12,7 +12,7 @@ use crate::store::functional;
 /// Which designs to look at.
 #[derive(Clone, Debug)]
 pub struct Space {
-    /// The configuration from which every point starts, as TOML of a preset and overrides.
+    /// The configuration from which every point starts.
     pub(crate) start: Start,
     /// The camera with which designs are compared; it computes in floating point over whole frames.
     pub ideal: Config,
@@ -33,18 +33,22 @@ pub struct Axis {
     pub values: Vec<Value>,
 }
 
-/// A configuration before it is read, so that a point can add to it.
+/// A configuration as TOML, what it leaves out left out, so that a point can change it.
 #[derive(Clone, Debug)]
-pub(crate) struct Start {
-    preset: &'static str,
-    overrides: Vec<String>,
-}
+pub(crate) struct Start(String);
 
 impl Start {
-    /// The configuration with more overrides, each `key=TOML_VALUE`.
-    pub(crate) fn with(&self, more: &[String]) -> Result<Config, DesignError> {
-        let overrides: Vec<&String> = self.overrides.iter().chain(more).collect();
-        Config::from_toml_with(self.preset, &overrides)
+    /// The configuration with overrides, each `key=TOML_VALUE`. Its thresholds follow an override of the
+    /// depth; those that are overridden are in grey levels of the new one.
+    pub(crate) fn with(&self, overrides: &[String]) -> Result<Config, DesignError> {
+        Config::from_toml_with(&self.0, overrides)
+    }
+
+    /// The same with thresholds in grey levels of the start, those that are overridden too.
+    pub(crate) fn with_its_levels(&self, overrides: &[String]) -> Result<Config, DesignError> {
+        let (depth, others): (Vec<String>, Vec<String>) =
+            overrides.iter().cloned().partition(|text| text.starts_with("frame.pixel_bits="));
+        Self(self.with(&others)?.to_toml()).with(&depth)
     }
 }
 
@@ -102,10 +106,10 @@ impl Space {
             wrong(format!("{} ({place})", error.message().replace('\n', "; ")))
         })?;
         let preset = Preset::find(file.preset.as_deref().unwrap_or("paper"))?.toml;
-        let start = Start { preset, overrides: overrides(&file.design) };
         let section = |name| move |error| ExploreError::Section { section: name, error };
         // Whether it is a design depends on the size of the clips and on what varies.
-        start.with(&[]).map_err(section("design"))?;
+        let start = Config::from_toml_with(preset, &overrides(&file.design));
+        let start = Start(start.map_err(section("design"))?.to_toml());
         // What the ideal sees does not depend on how an array is built.
         let ideal = start.with(&overrides(&file.ideal)).map_err(section("ideal"))?;
         let ideal = functional(&ideal);

@@ -16,7 +16,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
 use crate::ExploreError;
-use crate::row::Row;
+use crate::row::{Row, real};
 
 /// A value of the table. Numbers that are not there are empty in CSV and null in Parquet.
 #[derive(Clone, Debug, PartialEq)]
@@ -175,7 +175,7 @@ pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
             ("lut", of(|area| area.array.lut_total_packed)),
             ("ff", of(|area| area.array.ff)),
             ("lutram", of(|area| area.array.lut_memory_packed)),
-            ("bram18", of(|area| area.array.bram18)),
+            ("ramb36", Cell::Real(area.map(|area| real(area.array.bram18) / 2.0))),
             ("dsp", of(|area| area.array.dsp)),
             ("logic_levels", of(|area| area.levels.into())),
             ("simulated_per_second", Cell::Real(Some(row.simulated_per_second))),

@@ -12,7 +12,7 @@ pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[Feature
     (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
     config.frame.pixel_bits = bits;
     config.region.size = side;
-    config.temporal.level = (1u32 << bits) / 32;
+    config.temporal.level = Some((1u32 << bits) / 32);
     config.temporal.min_count = 3;
     config.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
     for spatial in &mut config.spatial {

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use foveate_estimate::ramb36;
 use foveate_explore::{ExploreError, Figures, Fit, FitRequest, FittedDesign, Held, fit};
 use foveate_footage::ImagesAs;
 use foveate_staging::{check_file, write_file};
@@ -97,7 +98,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
         unit.ff,
         array.lut_total_packed,
         array.ff,
-        array.bram18.div_ceil(2),
+        ramb36(array.bram18),
         design.clocks_per_frame,
         design.frames_per_second,
         args.constraints.clock,

@@ -121,3 +121,26 @@ fn real_images_run() {
     let share = summary["srs_share"].as_f64().unwrap();
     assert!(share > 0.01 && share < 0.99, "real images have edges here and there: {share}");
 }
+
+/// Thresholds follow the depth, whether the file leaves them out or has every key.
+#[test]
+fn a_camera_of_five_bits_sees_as_much_as_one_of_eight() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("camera.toml"), succeed_in(dir.path(), &["presets", "paper"]))
+        .unwrap();
+    let active = |more: &[&str]| {
+        let frame = ["--frames", "6", "--no-rendered", "--force", "--json"];
+        let size = ["--set", "frame.width=128", "--set", "frame.height=96"];
+        let args = [&["simulate", "scene:street", "-o", "out"], &frame[..], &size, more].concat();
+        let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+        summary["shares"]["active"].as_f64().unwrap()
+    };
+    let eight = active(&[]);
+    assert!(eight > 0.1, "{eight}");
+    let five = ["--set", "frame.pixel_bits=5"];
+    for share in [active(&five), active(&[&["--config", "camera.toml"], &five[..]].concat())] {
+        assert!((share / eight - 1.0).abs() < 0.1, "{share} of {eight}");
+    }
+    let args = ["check", "--set", "frame.pixel_bits=5", "--set", "temporal.level=40"];
+    fail_in(dir.path(), 2, &args, &["`temporal.level` = 40", "0..=30", "40 of 8 bits is 5 of 5"]);
+}

@@ -287,7 +287,7 @@ fn the_largest_gradient_meets_its_level() {
         config.region.size = 4;
         config.denoise.filter = Filter::None;
         config.spatial[0].level = Some(1);
-        config.temporal.level = 0;
+        config.temporal.level = Some(0);
         let design = design(&config, GRID);
         let recording = record(&design, &directed(LEVEL, 1));
         let largest = 6 * u64::from(design.pixel_max());

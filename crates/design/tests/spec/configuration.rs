@@ -133,7 +133,7 @@ fn ranges_name_key_value_and_range() {
         ),
         (
             "[[spatial]]\nfeature = \"edge\"\nlevel = 1531\n",
-            "`spatial[0].level` = 1531 is out of range; valid is 0..=1530 for `edge`",
+            "`spatial[0].level` = 1531 is out of range; valid is 0..=1529, since pixels of 8 bits reach 1530, for `edge`",
         ),
         (
             "[[spatial]]\nfeature = \"mad\"\nmin_score = 127.6\n",

@@ -25,7 +25,7 @@ pub(crate) fn designs() -> impl Strategy<Value = Design> {
             },
         );
         let max = (1u32 << bits) - 1;
-        let temporal = (small(max), small(side * side));
+        let temporal = (small(max - 1).prop_map(Some), small(side * side));
         let switches = proptest::array::uniform6(any::<bool>());
         (width, height, features, temporal, switches).prop_map(
             move |(width, height, features, temporal, on)| {
@@ -72,7 +72,7 @@ fn feature(kind: FeatureKind, side: u32, bits: u32) -> BoxedStrategy<SpatialConf
         FeatureKind::Variance => (0, small(max * (max / 6)).boxed()),
     };
     let fraction_max = (0..).find(|bits| 1 << bits >= n).unwrap();
-    (small(level_max), minimum, 0u32..=fraction_max)
+    (small(level_max.saturating_sub(1)), minimum, 0u32..=fraction_max)
         .prop_map(move |(level, minimum, fraction_bits)| SpatialConfig {
             feature: kind,
             level: (level_max > 0).then_some(level),

@@ -29,7 +29,7 @@ pub struct Constraints {
     pub max_ff: Option<u64>,
     /// LUTs of the array.
     pub max_array_lut: Option<u64>,
-    /// Block RAM of the array in units of `RAMB36`.
+    /// Block RAM of the array in units of `RAMB36`, of which a `RAMB18` is half.
     pub max_bram: Option<u64>,
 }
 
@@ -117,14 +117,14 @@ impl Constraints {
     pub fn on_silicon(&self, silicon: &Silicon) -> Vec<Held> {
         let Silicon { unit, array, .. } = silicon;
         [
-            ("max-lut", unit.lut_total_packed, self.max_lut),
-            ("max-ff", unit.ff, self.max_ff),
-            ("max-array-lut", array.lut_total_packed, self.max_array_lut),
-            ("max-bram", array.bram18.div_ceil(2), self.max_bram),
+            ("max-lut", real(unit.lut_total_packed), self.max_lut),
+            ("max-ff", real(unit.ff), self.max_ff),
+            ("max-array-lut", real(array.lut_total_packed), self.max_array_lut),
+            ("max-bram", real(array.bram18) / 2.0, self.max_bram),
         ]
         .into_iter()
         .filter_map(|(name, value, limit)| {
-            limit.map(|limit| Held::at_most(name, real(value), real(limit)))
+            limit.map(|limit| Held::at_most(name, value, real(limit)))
         })
         .collect()
     }

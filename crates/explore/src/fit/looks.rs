@@ -15,7 +15,6 @@ use crate::ExploreError;
 use crate::Progress;
 use crate::footage::Footage;
 use crate::row::together;
-use crate::scale::at_depth;
 
 /// Sides of regions that are tried beside the task's.
 const SIDES: [u32; 3] = [4, 8, 16];
@@ -155,8 +154,7 @@ impl<'a> Search<'a> {
                         config.region.neighborhood = neighborhood;
                         config.denoise.filter = filter;
                         config.temporal.reference = reference;
-                        config.frame.pixel_bits = bits;
-                        found.push(at_depth(&config, depth));
+                        found.push(config.at_depth(bits));
                     }
                 }
             }
@@ -227,11 +225,10 @@ fn counts(count: u32, from: u32, to: u32) -> Vec<u32> {
     found
 }
 
-/// The task's features with their counts of hits for another region size.
+/// The task's features, with every default filled in, with their counts of hits for another region size.
 fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<SpatialConfig>> {
     let mut found: Vec<Vec<SpatialConfig>> = vec![Vec::new()];
     for entry in features {
-        let entry = entry.with_defaults();
         let hits =
             entry.min_score.and_then(Decimal::as_whole).and_then(|hits| hits.try_into().ok());
         let choices: Vec<SpatialConfig> = match (entry.level, hits) {
@@ -242,7 +239,7 @@ fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<Spa
                     ..entry.clone()
                 })
                 .collect(),
-            _ => vec![entry],
+            _ => vec![entry.clone()],
         };
         found = found
             .iter()
@@ -263,11 +260,7 @@ fn exact_fraction(side: u32) -> u32 {
 
 /// Thresholds of a feature that the task does not have, those of 8 bits at another depth.
 fn ladder(feature: FeatureKind, bits: u32) -> Vec<Vec<SpatialConfig>> {
-    let scaled = |spatial| {
-        let mut config = Config { spatial, ..Config::default() };
-        config.frame.pixel_bits = bits;
-        at_depth(&config, 8).spatial
-    };
+    let scaled = |spatial| Config { spatial, ..Config::default() }.at_depth(bits).spatial;
     ladder_of_8_bits(feature).into_iter().map(scaled).collect()
 }
 

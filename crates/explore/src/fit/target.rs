@@ -72,9 +72,10 @@ fn scaled(task: &Config, octaves: f64) -> Config {
     let factor = octaves.exp2();
     let level = |level: u32| rounded(f64::from(level) * factor);
     let mut config = task.clone();
-    config.temporal.level = level(config.temporal.level);
+    let bits = task.frame.pixel_bits;
+    config.temporal.level = Some(level(config.temporal.level_at(bits)));
     for entry in &mut config.spatial {
-        *entry = entry.with_defaults();
+        *entry = entry.with_defaults(bits);
         let in_levels = entry.level.is_none();
         entry.level = entry.level.map(level);
         if in_levels {
@@ -151,7 +152,7 @@ mod tests {
     fn scaling_is_of_grey_levels_and_of_their_squares() {
         let text = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
         let twice = scaled(&Config::from_toml(text).unwrap(), 1.0);
-        assert_eq!((twice.temporal.level, twice.temporal.min_count), (16, 5));
+        assert_eq!((twice.temporal.level, twice.temporal.min_count), (Some(16), 5));
         assert_eq!(twice.spatial[0].level, Some(200));
         let scores: Vec<String> =
             twice.spatial.iter().map(|entry| entry.min_score.unwrap().to_string()).collect();

@@ -2,13 +2,13 @@
 //! Why a design was chosen: what one step to something simpler would do.
 
 use foveate_design::{Config, Filter, Neighborhood, Reference};
+use foveate_estimate::ramb36;
 
 use super::FitRequest;
 use super::build::{Built, Candidate};
 use super::constraints::Held;
 use super::looks::{Look, Search};
 use crate::row::real;
-use crate::scale::at_depth;
 
 /// The design in a few words.
 pub(super) fn summary(config: &Config) -> String {
@@ -81,8 +81,7 @@ fn steps(chosen: &Config) -> Vec<(String, Config)> {
     };
     let bits = chosen.frame.pixel_bits;
     step(format!("{} bits per pixel", bits - 1), &|config| {
-        config.frame.pixel_bits = bits - 1;
-        *config = at_depth(config, bits);
+        *config = config.at_depth(bits - 1);
     });
     step("without the median".to_owned(), &|config| config.denoise.filter = Filter::None);
     step("windows of their own".to_owned(), &|config| {
@@ -159,7 +158,7 @@ fn price(candidate: &Candidate) -> String {
     format!(
         "{} LUTs and {} RAMB36, {:.3} % of the device",
         area.lut_total_packed,
-        area.bram18.div_ceil(2),
+        ramb36(area.bram18),
         candidate.cost() * 100.0
     )
 }
@@ -173,7 +172,9 @@ impl Held {
             "max-flips" | "max-missed" => format!("{:.2} %", value * 100.0),
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
-            "fps" => format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned(),
+            "fps" | "max-bram" => {
+                format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
+            }
             _ => format!("{value:.0}"),
         };
         let what = match self.name {

@@ -188,3 +188,22 @@ fn what_cannot_be_explored_is_refused_before_work() {
     assert!(refused.to_string().contains("region.size = 1"), "{refused}");
     assert!(!output.exists());
 }
+
+/// Thresholds that are left out are those of the depth, so that a camera of fewer bits goes on seeing.
+#[test]
+fn a_camera_of_any_depth_sees_about_as_much() {
+    let folder = tempfile::tempdir().unwrap();
+    let space = "[design]\nframe.width = 128\nframe.height = 96\ntemporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [16, 12, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1]\n";
+    let output = folder.path().join("out");
+    let found = run(space, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    let active =
+        |bits: &str| found.rows.iter().find(|row| row.settings[0] == bits).unwrap().figures.active;
+    for row in &found.rows {
+        let share = row.figures.active;
+        // With 4 bits and fewer a level is as large as the changes of the scene.
+        if row.config.frame.pixel_bits >= 5 {
+            assert!((share / active("8") - 1.0).abs() < 0.05, "{} bits: {share}", row.settings[0]);
+        }
+        assert!((0.05..0.5).contains(&share), "{} bits: {share}", row.settings[0]);
+    }
+}

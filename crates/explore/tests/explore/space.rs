@@ -53,20 +53,32 @@ fn one_at_a_time_starts_from_the_start() {
 }
 
 #[test]
-fn thresholds_are_in_grey_levels_of_the_ideal() {
+fn thresholds_are_in_grey_levels_of_the_start() {
     let text = "[design]\nspatial = [{ feature = 'edge', level = 101, min_score = 5 }, { feature = 'mad', min_score = 5 }, { feature = 'variance', min_score = 50 }]\n\
                 temporal.level = 9\n[vary]\nframe.pixel_bits = [8, 5, 10]\n";
     let (configs, _) = points(text);
     let of = |config: &Config| {
         let [edge, mad, variance] = config.spatial.as_slice() else { panic!("three features") };
         let score = |entry: &foveate_design::SpatialConfig| entry.min_score.unwrap();
-        (edge.level.unwrap(), config.temporal.level, score(edge), score(mad), score(variance))
+        (
+            edge.level.unwrap(),
+            config.temporal.level.unwrap(),
+            score(edge),
+            score(mad),
+            score(variance),
+        )
     };
     let whole = Decimal::whole;
     assert_eq!(of(&configs[0]), (101, 9, whole(5), whole(5), whole(50)));
     let eighths = |value| Decimal::from_f64(value).unwrap();
     assert_eq!(of(&configs[1]), (12, 1, whole(5), eighths(0.625), eighths(0.78125)));
     assert_eq!(of(&configs[2]), (404, 36, whole(5), whole(20), whole(800)));
+    // Those that vary, too; and the ideal follows its own depth.
+    let text = "[design]\nframe.pixel_bits = 6\ntemporal.level = 3\n[ideal]\nframe.pixel_bits = 8\n[vary]\nframe.pixel_bits = [6, 5]\ntemporal.level = [2, 10]\n";
+    let levels: Vec<u32> =
+        points(text).0.iter().map(|config| config.temporal.level.unwrap()).collect();
+    assert_eq!(levels, [2, 10, 1, 5]);
+    assert_eq!(Space::from_toml(text).unwrap().ideal.temporal.level, Some(12));
 }
 
 #[test]

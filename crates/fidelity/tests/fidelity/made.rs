@@ -16,7 +16,7 @@ pub(crate) fn config((width, height): (u32, u32), side: u32, bits: u32) -> Confi
     (config.region.size, config.frame.pixel_bits) = (side, bits);
     config.spatial[0].level = Some(1 << (bits - 1));
     config.spatial[0].min_score = Some(foveate_design::Decimal::whole(2));
-    (config.temporal.level, config.temporal.min_count) = ((1 << bits) / 32, 2);
+    (config.temporal.level, config.temporal.min_count) = (Some((1 << bits) / 32), 2);
     config
 }
 

@@ -202,7 +202,7 @@ proptest! {
         let (own, other) = (sides.0, if sides.2 { sides.0 } else { sides.1 });
         let mut ideal = config(size, own, bits.0);
         let max = (1_u32 << bits.0) - 1;
-        ideal.temporal.level = max * thresholds.0 / 3;
+        ideal.temporal.level = Some((max * thresholds.0 / 3).min(max - 1));
         ideal.temporal.min_count = (own * own * thresholds.1 / 6).min(own * own);
         let ideal = ideal.validate().unwrap();
         check(&ideal, &config(size, other, bits.1).validate().unwrap(), seed, count);

@@ -11,7 +11,7 @@ use crate::made::{blank, blank_ideal, config, pixels, raster, tally};
 fn fading(reference: Reference) -> Design {
     let mut config = config((16, 8), 8, 8);
     config.spatial[0].min_score = Some(Decimal::whole(0));
-    config.temporal.level = 2;
+    config.temporal.level = Some(2);
     config.temporal.reference = reference;
     config.validate().unwrap()
 }
@@ -65,7 +65,7 @@ fn watched(config: &Config, frames: &[(bool, usize)], cut: Option<usize>) -> Sta
 #[test]
 fn a_frame_that_is_not_relevant_or_not_stale_ends_a_run() {
     let mut config = config((8, 8), 8, 8);
-    (config.temporal.level, config.temporal.min_count) = (8, 3);
+    (config.temporal.level, config.temporal.min_count) = (Some(8), 3);
     let run = |frames: &[(bool, usize)]| {
         let staleness = watched(&config, frames, None);
         (staleness.longest, staleness.share)
@@ -76,14 +76,14 @@ fn a_frame_that_is_not_relevant_or_not_stale_ends_a_run() {
     assert_eq!(run(&[(false, 64); 3]), (0, 0.0));
     let cut = watched(&config, &[(true, 3); 5], Some(2));
     assert_eq!((cut.longest, cut.share), (3, 1.0), "a clip ends every run");
-    config.temporal.level = 9;
+    config.temporal.level = Some(9);
     assert_eq!(watched(&config, &[(true, 64)], None).share, 0.0, "9 is not more than 9");
 }
 
 #[test]
 fn a_minimum_of_zero_is_one_and_more_than_there_are_is_all() {
     let mut config = config((8, 8), 8, 8);
-    (config.temporal.level, config.temporal.min_count) = (8, 0);
+    (config.temporal.level, config.temporal.min_count) = (Some(8), 0);
     assert_eq!(watched(&config, &[(true, 0), (true, 1)], None).share, 0.5);
     // 2x3 pixels of an 8x8 region are inside of the frame.
     (config.frame.width, config.frame.height) = (Some(2), Some(3));

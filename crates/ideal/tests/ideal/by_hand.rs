@@ -115,7 +115,7 @@ fn a_fade_is_sent_once_it_has_gone_far_enough() {
     config.spatial = vec![SpatialConfig::new(FeatureKind::Mad)];
     config.spatial[0].min_score = Some(Decimal::whole(0));
     config.temporal.reference = Reference::LastSent;
-    config.temporal.level = 2;
+    config.temporal.level = Some(2);
     let design = config.validate().unwrap();
     let mut camera = IdealCamera::new(&design);
     let mut sent = Vec::new();

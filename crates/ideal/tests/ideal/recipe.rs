@@ -56,14 +56,14 @@ pub(crate) fn designs(rounded: bool) -> impl Strategy<Value = Design> {
         let (max, n) = ((1_u32 << bits) - 1, side * side);
         let size = (1..=3 * side + 2, 1..=2 * side + 3);
         let on = proptest::array::uniform5(any::<bool>());
-        (size, features, small(max), small(n), on).prop_map(
+        (size, features, small(max - 1), small(n), on).prop_map(
             move |(size, features, level, min_count, on)| {
                 let mut config = Config::default();
                 (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
                 (config.frame.pixel_bits, config.region.size) = (bits, side);
                 config.region.neighborhood = Neighborhood::Shared;
                 config.spatial = features;
-                (config.temporal.level, config.temporal.min_count) = (level, min_count);
+                (config.temporal.level, config.temporal.min_count) = (Some(level), min_count);
                 config.denoise.filter = if on[0] { Filter::None } else { Filter::Median3x3 };
                 config.decision.combine = if on[1] { Combine::All } else { Combine::Any };
                 config.temporal.reference =
@@ -95,7 +95,7 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrat
         let value = f64::from(whole) + f64::from(part % unit) / 100.0;
         Decimal::from_f64((value * 100.0).round() / 100.0)
     };
-    (small(level_max), small(min_max), 0..100_u32, fraction)
+    (small(level_max.saturating_sub(1)), small(min_max), 0..100_u32, fraction)
         .prop_map(move |(level, whole, part, fraction)| SpatialConfig {
             feature: kind,
             level: (level_max > 0).then_some(level),

@@ -117,7 +117,7 @@ pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Val
             });
         let switches = proptest::array::uniform8(any::<bool>());
         let max = (1i64 << bits) - 1;
-        let temporal = (small(max), small(side * side));
+        let temporal = (small(max - 1), small(side * side));
         ((size.clone(), size), features, switches, temporal).prop_map(
             move |((width, height), features, on, (temporal_level, temporal_min))| Recipe {
                 width,
@@ -148,8 +148,8 @@ fn feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<FeatureRec
     let (max, n) = ((1i64 << bits) - 1, side * side);
     // Permille of the pixel range (or its square) that some region is sure to reach.
     let (level_max, minimum) = match name {
-        "edge" => (6 * max, small(n).prop_map(|hits| 1000 * hits).boxed()),
-        "corner" => (max, small(n).prop_map(|hits| 1000 * hits).boxed()),
+        "edge" => (6 * max - 1, small(n).prop_map(|hits| 1000 * hits).boxed()),
+        "corner" => (max - 1, small(n).prop_map(|hits| 1000 * hits).boxed()),
         "mad" => (0, small(400).prop_map(move |permille| permille * max).boxed()),
         _ => (0, small(200).prop_map(move |permille| permille * max * max).boxed()),
     };

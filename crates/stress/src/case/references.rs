@@ -21,7 +21,7 @@ fn textured(light: u32) -> Frame {
 fn with(reference: Reference) -> Config {
     let mut config = config(SIZE, SIDE, 8, &[FeatureKind::Edge]);
     config.denoise.filter = Filter::None;
-    config.temporal.level = 8;
+    config.temporal.level = Some(8);
     config.temporal.min_count = 5;
     config.temporal.reference = reference;
     config

@@ -105,7 +105,7 @@ fn counts(rounds: u64) -> Row {
         for level in [by - 1, by, by + 1] {
             for min in [changed.saturating_sub(1), changed, (changed + 1).min(SIDE * SIDE)] {
                 let mut config = bare(FeatureKind::Edge);
-                (config.temporal.level, config.temporal.min_count) = (level, min);
+                (config.temporal.level, config.temporal.min_count) = (Some(level), min);
                 let trs = ask(&config, [&still, &moved], |o| o.trs[0], |o| o.trs[0]);
                 let count = if by > level { changed } else { 0 };
                 answers.push(trs == Some(count >= min));

@@ -83,15 +83,18 @@ fn min_score(config: &Config) -> Key {
 fn level(config: &Config) -> Key {
     let point = |value| {
         let mut config = config.clone();
-        config.temporal.level = u32::try_from(value).unwrap_or(u32::MAX);
+        config.temporal.level = Some(u32::try_from(value).unwrap_or(u32::MAX));
         (value, config)
     };
+    // A level of the largest pixel or more is no design: nothing differs by more.
+    let max = (1_u64 << config.frame.pixel_bits.min(16)) - 1;
+    let reachable = scaled(&LEVELS, config).into_iter().filter(|&value| value < max);
     Key {
         name: "temporal.level".to_owned(),
         axis: "temporal.level [grey levels]",
         file: "threshold-level",
         temporal: true,
-        points: scaled(&LEVELS, config).into_iter().map(point).collect(),
+        points: reachable.map(point).collect(),
     }
 }
 

@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use foveate_estimate::ramb36;
 use foveate_explore::{Exploration, Row};
 
 /// A column: its name, and what stands in it.
@@ -67,7 +68,7 @@ fn array(row: &Row) -> String {
     let figures = row.silicon.as_ref().map(|silicon| &silicon.array);
     figures.map_or_else(String::new, |array| match array.bram18 {
         0 => array.lut_total_packed.to_string(),
-        bram => format!("{} + {} RAMB36", array.lut_total_packed, bram.div_ceil(2)),
+        bram => format!("{} + {} RAMB36", array.lut_total_packed, ramb36(bram)),
     })
 }
 

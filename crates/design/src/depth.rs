@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds in grey levels at another depth. One rule for defaults, files, overrides, spaces and fits:
+//!
+//! * Defaults are those of 8 bits, scaled to the depth of the design.
+//! * What is written is in grey levels of the depth that it is written with. An override of
+//!   `frame.pixel_bits` alone scales what the file says; a threshold that is overridden too is taken as it is.
+//! * A level that no pixel can exceed is refused.
+//!
+//! Fewer bits drop low bits, x' = floor(x / 2^k), and a difference of pixels shrinks by 2^k. Hits are
+//! differences above a level; as whole numbers m' > L / 2^k exactly when m' > floor(L / 2^k), so levels are
+//! divided and rounded down. `min_score` of `mad` is a mean of differences, divided by 2^k; that of
+//! `variance` is a mean of their squares, divided by 4^k; both are rounded up at the ninth digit. Counts of
+//! pixels stay as they are.
+
+use std::fmt::Display;
+
+use crate::{Config, Decimal, FeatureKind, SpatialConfig};
+
+/// The depth of which defaults are.
+pub(crate) const DEFAULT_BITS: u32 = 8;
+
+impl Config {
+    /// The same camera at `bits` bits per pixel, 1..=16: thresholds that are written are scaled from the
+    /// configuration's own depth, those that are left out stay so.
+    #[must_use]
+    pub fn at_depth(&self, bits: u32) -> Self {
+        let from = self.frame.pixel_bits;
+        let mut config = self.clone();
+        config.frame.pixel_bits = bits;
+        config.temporal.level = self.temporal.level.map(|value| level(value, from, bits));
+        config.spatial = self.spatial.iter().map(|entry| entry.at_depth(from, bits)).collect();
+        config
+    }
+}
+
+impl SpatialConfig {
+    /// The entry of a configuration of `from` bits for one of `to` bits.
+    pub(crate) fn at_depth(&self, from: u32, to: u32) -> Self {
+        Self {
+            level: self.level.map(|value| level(value, from, to)),
+            min_score: self.min_score.map(|value| min_score(self.feature, value, from, to)),
+            ..self.clone()
+        }
+    }
+}
+
+/// A level of `from` bits at `to` bits.
+pub(crate) fn level(value: u32, from: u32, to: u32) -> u32 {
+    if to >= from {
+        u32::try_from(u64::from(value) << (to - from)).unwrap_or(u32::MAX)
+    } else {
+        value.checked_shr(from - to).unwrap_or(0)
+    }
+}
+
+/// A minimum score of `from` bits at `to` bits.
+pub(crate) fn min_score(feature: FeatureKind, value: Decimal, from: u32, to: u32) -> Decimal {
+    match feature {
+        FeatureKind::Edge | FeatureKind::Corner => value,
+        FeatureKind::Mad => times_power_of_two(value, from, to, 1),
+        FeatureKind::Variance => times_power_of_two(value, from, to, 2),
+    }
+}
+
+/// `value * 2^(power * (to - from))`, to nine digits after the point, rounded up.
+fn times_power_of_two(value: Decimal, from: u32, to: u32, power: u32) -> Decimal {
+    const UNIT: u64 = 1_000_000_000;
+    let billionths = value.ceil_times(UNIT);
+    let scaled = if to >= from {
+        billionths << (power * (to - from))
+    } else {
+        billionths.div_ceil(1 << (power * (from - to)))
+    };
+    Decimal::billionths(u64::try_from(scaled).unwrap_or(u64::MAX))
+}
+
+/// What a threshold of 8 bits is at `bits`, as the end of a message about one that is out of range at
+/// fewer bits; empty where that would not help.
+pub(crate) fn hint(value: &dyn Display, scaled: &dyn Display, fits: bool, bits: u32) -> String {
+    if bits >= DEFAULT_BITS || !fits {
+        return String::new();
+    }
+    format!("; {value} of {DEFAULT_BITS} bits is {scaled} of {bits}")
+}

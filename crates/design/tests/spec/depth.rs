@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds in grey levels and the depth of pixels.
+
+use foveate_design::{Config, Decimal, Design, FeatureKind, PRESETS, SpatialConfig};
+
+fn with(text: &str, overrides: &[&str]) -> Config {
+    Config::from_toml_with(text, overrides).unwrap()
+}
+
+fn design(text: &str, overrides: &[&str]) -> Design {
+    with(text, overrides).validate().unwrap()
+}
+
+fn refusal(text: &str, overrides: &[&str]) -> String {
+    with(text, overrides).validate().unwrap_err().to_string()
+}
+
+/// Every preset and every feature alone, with its own thresholds left out.
+fn starts() -> Vec<(String, String)> {
+    let presets = PRESETS.iter().map(|preset| (preset.name.to_owned(), preset.toml.to_owned()));
+    let features = FeatureKind::ALL
+        .iter()
+        .map(|kind| (format!("feature {kind}"), format!("[[spatial]]\nfeature = \"{kind}\"\n")));
+    presets.chain(features).collect()
+}
+
+/// They were printed before thresholds followed the depth, and have been written into generated cores.
+#[test]
+fn designs_of_8_bits_are_what_they_were() {
+    let expected = [
+        ("paper", "255bc91bb78cefb8"),
+        ("bare", "66e14cece51feeb9"),
+        ("corner", "9abed96a27bb8b42"),
+        ("mad", "71c2743b4d3d7c48"),
+        ("steady", "ba7daa8b3b091ae1"),
+        ("seamless", "dec984bdadd23ebc"),
+        ("serial", "0d4380c4bb901499"),
+        ("feature edge", "255bc91bb78cefb8"),
+        ("feature corner", "95e675a6e3999482"),
+        ("feature mad", "a08d32530e3ba710"),
+        ("feature variance", "358f63961f2266c8"),
+    ];
+    let found: Vec<(String, String)> =
+        starts().into_iter().map(|(name, text)| (name, design(&text, &[]).fingerprint())).collect();
+    let expected: Vec<(String, String)> =
+        expected.map(|(name, print)| (name.to_owned(), print.to_owned())).into();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn defaults_follow_the_depth_and_are_within_reach_at_every_one() {
+    for (name, text) in starts() {
+        let eight = design(&text, &[]);
+        for bits in 1..=16 {
+            let own = design(&text, &[&format!("frame.pixel_bits={bits}")]);
+            // Of 2^P levels as many as of 256, rounded down by less than one.
+            let near = |level: u32, of_8: u32| {
+                let exact = f64::from(of_8) * f64::from(own.pixel_max() + 1) / 256.0;
+                (f64::from(level)..f64::from(level) + 1.0).contains(&exact)
+            };
+            let temporal = own.temporal().level;
+            assert!(temporal < own.pixel_max(), "{name}, {bits} bits");
+            assert!(near(temporal, eight.temporal().level), "{name}, {bits}: {temporal}");
+            for (feature, of_8) in own.features().iter().zip(eight.features()) {
+                assert!(feature.min_score() <= feature.score_max(), "{name}, {bits} bits");
+                if let (Some(level), Some(of_8)) = (feature.level(), of_8.level()) {
+                    assert!(near(level, of_8), "{name}, {bits} bits: {level}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn defaults_of_some_depths_by_hand() {
+    let at = |bits: u32| {
+        let all = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\"},{feature=\"variance\"}]";
+        let design = design("", &[&format!("frame.pixel_bits={bits}"), all]);
+        let spatial = &design.config().spatial;
+        let text = |entry: &SpatialConfig| entry.min_score.unwrap().to_string();
+        (
+            design.temporal().level,
+            spatial[0].level.unwrap(),
+            spatial[1].level.unwrap(),
+            text(&spatial[2]),
+            text(&spatial[3]),
+        )
+    };
+    let row = |temporal, edge, corner, mad: &str, variance: &str| {
+        (temporal, edge, corner, mad.to_owned(), variance.to_owned())
+    };
+    assert_eq!(at(8), row(8, 100, 20, "5", "50"));
+    assert_eq!(at(5), row(1, 12, 2, "0.625", "0.78125"));
+    assert_eq!(at(1), row(0, 0, 0, "0.0390625", "0.003051758"));
+    assert_eq!(at(10), row(32, 400, 80, "20", "800"));
+    assert_eq!(at(16), row(2048, 25_600, 5_120, "1280", "3276800"));
+}
+
+#[test]
+fn a_file_with_every_key_follows_an_override_of_the_depth() {
+    for (name, text) in starts() {
+        let mut every_key = design(&text, &[]).config().clone();
+        (every_key.frame.width, every_key.frame.height) = (None, None);
+        for bits in 1..=16 {
+            let bits = format!("frame.pixel_bits={bits}");
+            let short = design(&text, &[&bits]);
+            assert_eq!(design(&every_key.to_toml(), &[&bits]), short, "{name}, {bits}");
+        }
+    }
+}
+
+#[test]
+fn what_is_written_is_in_levels_of_the_depth_that_it_is_written_with() {
+    let five = "[frame]\npixel_bits = 5\n[temporal]\nlevel = 2\n";
+    assert_eq!(design(five, &[]).temporal().level, 2);
+    assert_eq!(design(five, &["frame.pixel_bits=8"]).temporal().level, 16);
+    assert_eq!(design(five, &["frame.pixel_bits=8", "temporal.level=3"]).temporal().level, 3);
+    assert_eq!(design("", &["frame.pixel_bits=5", "temporal.level=3"]).temporal().level, 3);
+    assert_eq!(design("", &["temporal.level=3", "frame.pixel_bits=5"]).temporal().level, 3);
+    // A table that replaces all of `frame` has the default depth.
+    assert_eq!(design(five, &["frame={width=64}"]).temporal().level, 16);
+    let scores = "[[spatial]]\nfeature = \"variance\"\nmin_score = 8\n";
+    let six = with(scores, &["frame.pixel_bits=6"]);
+    assert_eq!(six.spatial[0].min_score, Decimal::from_f64(0.5));
+    // An error is told as it is in the file, whatever the depth.
+    let wrong = Config::from_toml_with("[temporal]\nlevel = \"high\"\n", &["frame.pixel_bits=5"]);
+    assert!(wrong.unwrap_err().to_string().contains("`temporal.level`: \"high\" is not valid"));
+}
+
+#[test]
+fn what_no_pixel_can_reach_is_refused_with_the_value_to_use() {
+    let five = "frame.pixel_bits=5";
+    for (overrides, message) in [
+        (
+            [five, "temporal.level=40"],
+            "`temporal.level` = 40 is out of range; valid is 0..=30 for pixels of 5 bits, which differ by at most 31; 40 of 8 bits is 5 of 5",
+        ),
+        (
+            ["frame.pixel_bits=8", "temporal.level=255"],
+            "`temporal.level` = 255 is out of range; valid is 0..=254 for pixels of 8 bits, which differ by at most 255",
+        ),
+        (
+            ["frame.pixel_bits=3", "spatial.0.level=100"],
+            "`spatial[0].level` = 100 is out of range; valid is 0..=41, since pixels of 3 bits reach 42, for `edge`; 100 of 8 bits is 3 of 3",
+        ),
+        (
+            [five, "spatial=[{feature=\"corner\",level=31}]"],
+            "`spatial[0].level` = 31 is out of range; valid is 0..=30, since pixels of 5 bits reach 31, for `corner`; 31 of 8 bits is 3 of 5",
+        ),
+        (
+            [five, "spatial=[{feature=\"mad\",min_score=20}]"],
+            "`spatial[0].min_score` = 20 is out of range; valid is 0..=15.5 for `mad`; 20 of 8 bits is 2.5 of 5",
+        ),
+        (
+            [five, "spatial=[{feature=\"variance\",min_score=300}]"],
+            "`spatial[0].min_score` = 300 is out of range; valid is 0..=240.25 for `variance`; 300 of 8 bits is 4.6875 of 5",
+        ),
+        (
+            [five, "spatial.0.min_score=65"],
+            "`spatial[0].min_score` = 65 is out of range; valid is 0..=64 for `edge`",
+        ),
+    ] {
+        assert_eq!(refusal("", &overrides), message);
+    }
+}
+
+/// Where no pixel has to exceed it, a level decides nothing and may be anything that its port holds.
+#[test]
+fn a_level_that_decides_nothing_may_be_the_largest() {
+    let temporal = design("", &["temporal.level=255", "temporal.min_count=0"]);
+    assert_eq!(temporal.temporal().level, 255);
+    let spatial = design("", &["spatial.0.level=1530", "spatial.0.min_score=0"]);
+    assert_eq!(spatial.features()[0].level(), Some(1530));
+    assert!(refusal("", &["spatial.0.level=1531", "spatial.0.min_score=0"]).contains("0..=1530"));
+}
