@@ -37,7 +37,6 @@
   all('table.sortable').forEach(function (table) {
     var heads = all('thead th', table);
     heads.forEach(function (head, column) {
-      if (head.classList.contains('plain')) { return; }
       head.tabIndex = 0;
       var sort = function () {
         var down = head.getAttribute('aria-sort') === 'ascending';
@@ -91,9 +90,67 @@
     });
   });
 
+  // Says where a table goes on to the right.
+  all('.wide').forEach(function (wide) {
+    var inside = wide.querySelector('.scroll');
+    var look = function () {
+      var hidden = inside.scrollWidth - inside.clientWidth - inside.scrollLeft;
+      wide.classList.toggle('more', hidden > 4);
+    };
+    inside.addEventListener('scroll', look, { passive: true });
+    addEventListener('resize', look);
+    look();
+  });
+
+  // The mark nearest to a finger; of equally near ones that which lies above.
+  var REACH = 28;
+  var nearest = function (figure, x, y) {
+    var found = null;
+    var least = REACH;
+    all('a[data-n]', figure).forEach(function (link) {
+      var box = link.querySelector('.mark').getBoundingClientRect();
+      var away = Math.hypot(box.left + box.width / 2 - x, box.top + box.height / 2 - y);
+      if (least >= away) { found = link; least = away; }
+    });
+    return found;
+  };
+
+  // The figures of a mark below its plot, for fingers and keyboards, which cannot point at it.
+  var tell = function (figure, link) {
+    var tip = figure.querySelector('.tip');
+    all('.here').forEach(function (one) { one.classList.remove('here'); });
+    tip.hidden = !link;
+    if (!link) { return; }
+    var number = link.dataset.n;
+    tip.textContent = link.querySelector('title').textContent + '\n';
+    [['p', 'its row'], ['c', 'its configuration']].forEach(function (target) {
+      var to = document.createElement('a');
+      to.href = '#' + target[0] + number;
+      to.textContent = target[1];
+      tip.appendChild(to);
+    });
+    all('[data-n="' + number + '"]').forEach(function (same) { same.classList.add('here'); });
+  };
+  var mouse = true;
+  addEventListener('pointerdown', function (event) { mouse = event.pointerType === 'mouse'; }, true);
+  addEventListener('keydown', function () { mouse = true; }, true);
+  all('figure.plot').forEach(function (figure) {
+    var picture = figure.querySelector('svg');
+    picture.addEventListener('click', function (event) {
+      if (mouse) { return; }
+      event.preventDefault();
+      tell(figure, nearest(figure, event.clientX, event.clientY));
+    });
+    picture.addEventListener('focusin', function (event) {
+      var link = event.target.closest('a[data-n]');
+      if (link ? link.matches(':focus-visible') : false) { tell(figure, link); }
+    });
+  });
+
   // Shows the same point everywhere.
   var show = function (on) {
     return function (event) {
+      if (event.pointerType === 'touch') { return; }
       var one = event.target.closest('[data-n]');
       if (one) {
         all('[data-n="' + one.dataset.n + '"]').forEach(function (same) { same.classList.toggle('here', on); });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A point with all that is known of it.
 
+use foveate_estimate::ramb36;
+
 use super::number::{grouped, percent, real};
 use super::setting::Settings;
 use super::table::decibels;
@@ -54,13 +56,14 @@ impl Card {
             facts.push((
                 "Area",
                 format!(
-                    "{} units; unit {} LUTs, {} FF; array {} LUTs, {} FF, {} DSP; {} logic levels",
+                    "{} units; unit {} LUTs, {} FF; array {} LUTs, {} FF, {} DSP, {} RAMB36; {} logic levels",
                     grouped(silicon.units),
                     grouped(silicon.unit.lut_total_packed),
                     grouped(silicon.unit.ff),
                     grouped(array.lut_total_packed),
                     grouped(array.ff),
                     grouped(array.dsp),
+                    ramb36(array.bram18),
                     silicon.levels
                 ),
             ));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colours of points: one grouping for each axis, of which the page shows one at a time.
 
-use super::setting::Settings;
+use super::setting::{Settings, set};
 use crate::Row;
 
 /// Colours of the page that can be told apart; after them the same with square marks.
@@ -47,10 +47,8 @@ pub(crate) fn groupings(settings: &Settings, rows: &[&Row]) -> Vec<Grouping> {
         Grouping::new(settings.names[axis].clone(), &values)
     };
     let mut all: Vec<Grouping> = Vec::new();
-    let most = rows.iter().map(|row| settings.set(row).count()).max().unwrap_or(0);
-    if axes.len() > 1 && most < 2 {
-        let changed =
-            |row: &&Row| settings.set(row).next().map(|axis| settings.names[axis].clone());
+    if settings.one_at_a_time {
+        let changed = |row: &&Row| set(row).next().map(|axis| settings.names[axis].clone());
         let values = rows.iter().map(|row| changed(row).unwrap_or_else(|| "the start".to_owned()));
         let values: Vec<String> = values.collect();
         all.push(Grouping::new("what is changed".to_owned(), &values));

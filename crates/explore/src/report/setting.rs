@@ -18,6 +18,8 @@ pub(crate) struct Settings {
     start: Vec<String>,
     /// What it is in the ideal.
     ideal: Vec<String>,
+    /// Whether there are several axes of which no point sets two.
+    pub(crate) one_at_a_time: bool,
 }
 
 impl Settings {
@@ -32,7 +34,8 @@ impl Settings {
         let start = start.and_then(|row| row.config.to_toml().parse::<Table>().ok());
         let ideal = complete(&exploration.ideal).parse::<Table>().unwrap_or_default();
         let (start, ideal) = (of(start.unwrap_or_default()), of(ideal));
-        Self { keys, names, start, ideal }
+        let most = exploration.rows.iter().map(|row| set(row).count()).max().unwrap_or(0);
+        Self { one_at_a_time: keys.len() > 1 && most == 1, keys, names, start, ideal }
     }
 
     /// The value of an axis; that of the start where the point does not set it, empty if nobody knows.
@@ -55,12 +58,12 @@ impl Settings {
         let words: Vec<String> = words.collect();
         if words.is_empty() { START.to_owned() } else { words.join(" · ") }
     }
+}
 
-    /// The axes that a point sets.
-    pub(crate) fn set<'a>(&self, row: &'a Row) -> impl Iterator<Item = usize> + use<'a> {
-        let set = row.settings.iter().enumerate().filter(|(_, text)| !text.is_empty());
-        set.map(|(axis, _)| axis)
-    }
+/// The axes that a point sets.
+pub(crate) fn set(row: &Row) -> impl Iterator<Item = usize> {
+    let set = row.settings.iter().enumerate().filter(|(_, text)| !text.is_empty());
+    set.map(|(axis, _)| axis)
 }
 
 /// The last part of a key, if no other key has it.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Points as rows of a table.
 
+use foveate_estimate::ramb36;
+
 use super::number::{NONE, grouped, percent, real};
-use super::setting::Settings;
+use super::setting::{Settings, set};
 use crate::row::real as number;
 use crate::{Row, Silicon};
 
@@ -52,18 +54,22 @@ const AREA: [(&str, &str, &str); 5] = [
     ("LUT", "array", "LUTs of the array, those used as memory included"),
     ("FF", "array", "flip-flops of the array"),
     ("LUTRAM", "array", "LUTs of the array used as memory, two SRL16 in one"),
-    ("BRAM18", "array", "block RAM of the array in units of RAMB18"),
+    ("RAMB36", "array", "block RAM of the array; half of one is a RAMB18"),
 ];
 
 /// The headings after the number; with `area` those of the area.
 pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
-    let axes = settings.names.iter().zip(&settings.keys);
-    let axes = axes.map(|(name, key)| Column {
-        name: name.clone(),
+    let axis = |name: &str, title: &str| Column {
+        name: name.to_owned(),
         unit: "",
-        title: key.clone(),
+        title: title.to_owned(),
         numbers: false,
-    });
+    };
+    let axes: Vec<Column> = if settings.one_at_a_time {
+        vec![axis("what is changed", "the one setting that is not that of the start")]
+    } else {
+        settings.names.iter().zip(&settings.keys).map(|(name, key)| axis(name, key)).collect()
+    };
     let figure = |(name, unit, title): (&str, &'static str, &str)| Column {
         name: name.to_owned(),
         unit,
@@ -72,7 +78,8 @@ pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
     };
     let speed = ("frames", "/s", "frames per second at the clock of the exploration");
     let areas = if area { &AREA[..] } else { &[] };
-    axes.chain(FIGURES.into_iter().chain([speed]).map(figure))
+    axes.into_iter()
+        .chain(FIGURES.into_iter().chain([speed]).map(figure))
         .chain(areas.iter().copied().map(figure))
         .collect()
 }
@@ -80,14 +87,19 @@ pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
 /// The row of a point, with as many cells as there are headings.
 pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
     let figures = &row.figures;
-    let axes = (0..settings.names.len()).map(|axis| {
-        let text = settings.value(row, axis);
-        let set = row.settings.get(axis).is_some_and(|text| !text.is_empty());
-        Cell { sort: text.clone(), text, class: if set { "" } else { "start" } }
-    });
+    let setting = |text: String, set: bool| {
+        let class = if set { "" } else { "start" };
+        Cell { sort: text.clone(), text, class }
+    };
+    let is_set = |axis: usize| row.settings.get(axis).is_some_and(|text| !text.is_empty());
+    let mut cells: Vec<Cell> = if settings.one_at_a_time {
+        vec![setting(settings.described(row, None), set(row).next().is_some())]
+    } else {
+        let axes = 0..settings.names.len();
+        axes.map(|axis| setting(settings.value(row, axis), is_set(axis))).collect()
+    };
     let share = |value: f64| cell(percent(value), Some(value));
     let count = |value: u64| cell(grouped(value), Some(number(value)));
-    let mut cells: Vec<Cell> = axes.collect();
     cells.extend([
         share(figures.action_flips),
         share(figures.missed),
@@ -111,7 +123,12 @@ pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
             of(|silicon| silicon.array.lut_total_packed),
             of(|silicon| silicon.array.ff),
             of(|silicon| silicon.array.lut_memory_packed),
-            of(|silicon| silicon.array.bram18),
+            match &row.silicon {
+                Some(Silicon { array, .. }) => {
+                    cell(ramb36(array.bram18), Some(number(array.bram18)))
+                }
+                None => cell(NONE.to_owned(), None),
+            },
         ]);
     }
     Line { number: row.number, front: row.front.all, cells }

@@ -8,7 +8,7 @@ use super::colour::look;
 use super::number::percent;
 use super::plot::{Field, Line, Mark, Plot, text, through};
 use super::scatter::stack;
-use super::setting::Settings;
+use super::setting::{Settings, set};
 use crate::Row;
 
 /// Lines of a plot that can be told apart.
@@ -108,7 +108,7 @@ fn sweeps<'a>(settings: &Settings, rows: &[&'a Row], axis: usize) -> Vec<Sweep<'
         let others = row.settings.iter().enumerate().filter(|(other, _)| *other != axis);
         let others: Vec<&str> = others.map(|(_, text)| text.as_str()).collect();
         let new = || {
-            let set = || settings.set(row).filter(|other| *other != axis);
+            let set = || set(row).filter(|other| *other != axis);
             let as_ideal = |other: &usize| {
                 settings.ideal(*other) == Some(settings.value(row, *other).as_str())
             };
