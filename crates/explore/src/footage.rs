@@ -101,18 +101,22 @@ impl<'a> Footage<'a> {
     }
 
     /// For every design its figures over the first halves of all clips; `halves` says for each clip how
-    /// many frames that is.
+    /// many frames that is. `before` designs count as done already.
     pub(crate) fn first_halves(
         &self,
         designs: &[Design],
         halves: &[(u64, u64)],
-        tell: &(dyn Fn() -> Progress + Sync),
+        before: usize,
     ) -> Result<Vec<Figures>, ExploreError> {
         let mut found = Vec::new();
+        let all = before + designs.len();
         for some in designs.chunks(TOGETHER) {
             let mut sums: Vec<Option<Tally>> = vec![None; some.len()];
+            let done = before + found.len();
+            let tell = || Progress::Measuring { done, all };
             for (subject, &(half, _)) in self.subjects.iter().zip(halves) {
-                let measured = self.parts(subject, some, std::slice::from_ref(&(0..half)), tell)?;
+                let measured =
+                    self.parts(subject, some, std::slice::from_ref(&(0..half)), &tell)?;
                 for (sum, part) in sums.iter_mut().zip(measured.into_iter().flatten()) {
                     match sum {
                         Some(sum) => sum.merge(&part.tally),

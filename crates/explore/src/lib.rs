@@ -37,6 +37,11 @@ pub use space::{Axis, BUILT_IN, BuiltIn, Space};
 /// How far an exploration is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
+    /// Clips are read, to know how long they are.
+    Reading {
+        /// Frames that are read.
+        frames: u64,
+    },
     /// Designs over clips.
     Measuring {
         /// Pairs of a clip and a design that are done.

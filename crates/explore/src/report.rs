@@ -13,6 +13,8 @@ mod table;
 mod threshold;
 
 #[cfg(test)]
+mod browser;
+#[cfg(test)]
 pub(crate) mod sample;
 #[cfg(test)]
 mod tests;

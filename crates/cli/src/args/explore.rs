@@ -43,7 +43,7 @@ pub(crate) struct ExploreArgs {
     /// Print all points as a Markdown table
     #[arg(long)]
     pub(crate) markdown: bool,
-    /// No progress
+    /// Neither progress nor a report; what --json and --markdown ask for is printed
     #[arg(long, short)]
     pub(crate) quiet: bool,
     #[command(flatten)]

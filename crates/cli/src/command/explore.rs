@@ -60,6 +60,8 @@ fn tell(args: &ExploreArgs, folder: &Path, found: &Exploration) -> Result<(), Cl
         output::json(found)
     } else if args.markdown {
         output::text(&table::markdown(found))
+    } else if args.quiet {
+        Ok(())
     } else {
         output::text(&table::text(folder, found, output::width()))
     }
@@ -109,6 +111,9 @@ impl Terminal {
 impl Hooks for Terminal {
     fn progress(&self, progress: Progress) {
         let (what, done, all) = match progress {
+            Progress::Reading { frames } => {
+                return self.shown.frames(frames, None, "reading the clips");
+            }
             Progress::Measuring { done, all } => ("designs over clips", done, all),
             Progress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
         };

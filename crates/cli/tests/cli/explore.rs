@@ -12,8 +12,8 @@ const SPACE: &str = "method = 'each'\n[design]\nframe.width = 64\nframe.height =
      region.neighborhood = 'shared'\n[vary]\nframe.pixel_bits = [6, 4]\nregion.neighborhood = ['shared']\n\
      hardware.fold = [2]\n";
 
-const RUN: [&str; 9] =
-    ["explore", "space.toml", "scene:street", "-o", "out", "--frames", "6", "--no-area", "--quiet"];
+const RUN: [&str; 8] =
+    ["explore", "space.toml", "scene:street", "-o", "out", "--frames", "6", "--no-area"];
 
 fn folder_with_space() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
@@ -55,6 +55,17 @@ fn the_page_carries_every_configuration_and_loads_nothing() {
     for outside in ["src=\"http", "href=\"http", "@import", "url(http"] {
         assert!(!page.contains(outside), "{outside}");
     }
+}
+
+#[test]
+fn quiet_is_quiet() {
+    let dir = folder_with_space();
+    let quiet = [&RUN[..], &["--quiet"]].concat();
+    let run = run_in(dir.path(), &quiet);
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+    assert!(dir.path().join("out/report.html").exists());
+    let json = succeed_in(dir.path(), &[&quiet[..], &["--json"]].concat());
+    assert!(json.starts_with('{'), "{json}");
 }
 
 #[test]

@@ -133,7 +133,7 @@ fn a_camera_of_five_bits_sees_as_much_as_one_of_eight() {
         let size = ["--set", "frame.width=128", "--set", "frame.height=96"];
         let args = [&["simulate", "scene:street", "-o", "out"], &frame[..], &size, more].concat();
         let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
-        summary["shares"]["active"].as_f64().unwrap()
+        summary["active_share"].as_f64().unwrap()
     };
     let eight = active(&[]);
     assert!(eight > 0.1, "{eight}");

@@ -2,8 +2,8 @@
 //! Where the first half of every clip ends.
 
 use crate::ExploreError;
-use crate::Hooks;
 use crate::footage::Footage;
+use crate::{Hooks, Progress};
 
 /// Clips and where they are divided.
 #[derive(Clone, Debug, Default)]
@@ -20,12 +20,15 @@ const LEAST: u64 = 4;
 /// Counts the frames of every clip; what a container says may be wrong.
 pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves, ExploreError> {
     let mut found = Halves::default();
+    let mut read = 0;
     for subject in &footage.subjects {
         let mut source = footage.open(subject)?;
         let mut frames = 0;
         while let Some(frame) = source.next_frame()? {
             source.give_back(frame);
             frames += 1;
+            read += 1;
+            hooks.progress(Progress::Reading { frames: read });
             if hooks.cancelled() {
                 return Err(ExploreError::Cancelled);
             }

@@ -176,9 +176,8 @@ impl<'a> Search<'a> {
             .filter(|(text, _)| !self.seen.contains_key(text))
             .collect();
         let designs_new: Vec<_> = new.values().cloned().collect();
-        let done = self.seen.len();
-        let tell = || Progress::Measuring { done, all: done + designs_new.len() };
-        let figures = self.footage.first_halves(&designs_new, &self.halves.frames, &tell)?;
+        let figures =
+            self.footage.first_halves(&designs_new, &self.halves.frames, self.seen.len())?;
         for ((text, design), figures) in new.iter().zip(figures) {
             let held = self.constraints.on_figures(design, &figures);
             let look = Look { config: design.config().clone(), figures, held };

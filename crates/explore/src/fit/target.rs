@@ -10,8 +10,8 @@ use foveate_design::{Config, Decimal, Neighborhood};
 use super::FitRequest;
 use super::held_out::Halves;
 use super::report::Target;
+use crate::ExploreError;
 use crate::footage::Footage;
-use crate::{ExploreError, Progress};
 
 /// Steps of the factor: quarters of a power of two, from 1/32 to 32.
 const STEPS: std::ops::RangeInclusive<i32> = -20..=20;
@@ -56,8 +56,7 @@ fn nearest(
     // A scaled threshold can be out of range; that is no task.
     let (tasks, designs): (Vec<Config>, Vec<_>) =
         tasks.into_iter().filter_map(|task| Some((task.clone(), design(&task).ok()?))).unzip();
-    let tell = || Progress::Measuring { done: 0, all: designs.len() };
-    let shares = footage.first_halves(&designs, &halves.frames, &tell)?;
+    let shares = footage.first_halves(&designs, &halves.frames, 0)?;
     let found = tasks.into_iter().zip(shares.iter().map(|figures| figures.active));
     let best = found
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
@@ -108,7 +107,7 @@ mod tests {
     use foveate_toolchain::{Cache, Toolchain};
 
     use super::*;
-    use crate::{Constraints, Hooks, Synthesizer};
+    use crate::{Constraints, Hooks, Progress, Synthesizer};
 
     struct Quiet;
 

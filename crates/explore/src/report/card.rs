@@ -41,11 +41,13 @@ impl Card {
             (
                 "Stale",
                 format!(
-                    "{} of the relevant regions; by up to {} grey levels",
+                    "{} of the relevant regions; by up to {} grey levels, for up to {} frames",
                     share(figures.staleness.share),
-                    real(figures.staleness.max, 0)
+                    real(figures.staleness.max, 0),
+                    grouped(figures.staleness.longest)
                 ),
             ),
+            ("Clocks per frame", grouped(row.clocks_per_frame)),
             (
                 "Engine",
                 format!("{} frames/s on one thread here", real(row.simulated_per_second, 1)),

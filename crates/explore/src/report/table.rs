@@ -35,7 +35,7 @@ pub(crate) struct Line {
 }
 
 /// Name, unit and meaning of every figure, as the table has them.
-const FIGURES: [(&str, &str, &str); 10] = [
+const FIGURES: [(&str, &str, &str); 8] = [
     ("flipped", "%", "regions that are treated otherwise on the screen than by the ideal"),
     ("missed", "%", "of what is active in the ideal, not active here"),
     ("false", "%", "of what is active here, not active in the ideal"),
@@ -43,9 +43,7 @@ const FIGURES: [(&str, &str, &str); 10] = [
     ("PSNR", "dB", "screen against the screen of the ideal; = where they are equal"),
     ("SSIM", "", "screen against the screen of the ideal, 1 is equal"),
     ("stale", "levels", "mean difference of screen and scene in relevant regions, in grey levels"),
-    ("longest", "frames", "longest time that one region was relevant and stale"),
     ("bytes", "/frame", "bytes per frame that leave the array"),
-    ("clocks", "/frame", "clocks from one frame to the next"),
 ];
 
 /// Name and meaning of every part of the area.
@@ -108,9 +106,7 @@ pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
         decibels(figures.psnr_ideal),
         cell(real(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
         cell(real(figures.staleness.mean, 2), Some(figures.staleness.mean)),
-        count(figures.staleness.longest),
         cell(real(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
-        count(row.clocks_per_frame),
         count(row.frames_per_second),
     ]);
     if area {
