@@ -142,6 +142,15 @@ choice! {
     }
 }
 choice! {
+    /// Of what the memory of a lane of the serial organization is built.
+    MemoryKind {
+        /// Distributed memory: data in the clock of its address.
+        Distributed = "distributed",
+        /// Block memory: data a clock after its address.
+        Block = "block",
+    }
+}
+choice! {
     /// Where the thresholds of a core come from.
     Thresholds {
         /// Input ports.

@@ -6,8 +6,8 @@
 
 use crate::depth::{self, DEFAULT_BITS};
 use crate::{
-    Combine, Decimal, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload,
-    Reference, Thresholds,
+    Combine, Decimal, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
+    Organization, Payload, Reference, Thresholds,
 };
 use serde::{Deserialize, Serialize};
 
@@ -197,6 +197,11 @@ pub struct HardwareConfig {
     /// is serial: `pipelined` knows no other.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feed: Option<Feed>,
+    /// Of what the memories of the serial organization's lanes are built, which sets its cycle counts.
+    /// Left out it is distributed while that takes at most 128 memory LUTs, block above; see
+    /// [`crate::LaneMemory`]. `pipelined` has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub memory: Option<MemoryKind>,
     /// Whether thresholds are inputs of the core or constants in it.
     pub thresholds: Thresholds,
 }
@@ -207,6 +212,7 @@ impl Default for HardwareConfig {
             organization: Organization::default(),
             fold: 1,
             feed: None,
+            memory: None,
             thresholds: Thresholds::Runtime,
         }
     }

@@ -2,8 +2,8 @@
 //! The keys of a configuration, to refuse unknown ones by name and with the nearest known one.
 
 use crate::{
-    Combine, DesignError, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization,
-    Payload, Reference, Thresholds,
+    Combine, DesignError, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
+    Organization, Payload, Reference, Thresholds,
 };
 use Takes::{Names, Text};
 use toml::{Table, Value};
@@ -37,6 +37,7 @@ const KEYS: &[(&str, Takes)] = &[
     ("hardware.organization", Names(Organization::one_of)),
     ("hardware.fold", Text("a whole number >= 1")),
     ("hardware.feed", Names(Feed::one_of)),
+    ("hardware.memory", Names(MemoryKind::one_of)),
     ("hardware.thresholds", Names(Thresholds::one_of)),
 ];
 

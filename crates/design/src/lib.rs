@@ -30,8 +30,8 @@ mod width;
 
 pub use action::Action;
 pub use choice::{
-    Combine, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
-    Thresholds,
+    Combine, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood, Organization,
+    Payload, Reference, Thresholds,
 };
 pub use config::{
     Config, DecisionConfig, DenoiseConfig, FrameConfig, HardwareConfig, RegionConfig, RenderConfig,
@@ -46,6 +46,6 @@ pub use pipelined::PipelinedTiming;
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
 pub use reciprocal::Reciprocal;
-pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryKind, Phase, SerialTiming};
+pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, SerialTiming};
 pub use timing::Timing;
 pub use width::{bits_for, index_bits, mad_score_max};

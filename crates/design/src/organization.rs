@@ -5,7 +5,7 @@
 //! all questions in a module of its own, as an implementation of [`Rules`]; [`Organization::rules`] is the
 //! only place that lists them.
 
-use crate::{Design, DesignError, Feed, HardwareConfig, Organization, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Organization, Port, Timing};
 use crate::{pipelined::Pipelined, serial::Serial};
 
 /// What an array is made of, as often as it needs: an RPU, a lane.
@@ -34,6 +34,8 @@ pub(crate) trait Rules {
     fn unit_name(&self) -> &'static str;
     /// How pixels may enter, the default first; none where there is no choice.
     fn feeds(&self) -> &'static [Feed];
+    /// Of what the memory of a unit may be built, `hardware.memory`; none where there is no choice.
+    fn memories(&self) -> &'static [MemoryKind];
     /// Whether regions may share a unit, `hardware.fold`.
     fn folds(&self) -> bool;
     /// `[hardware]` for a frame of so many `regions` of `size` x `size` pixels, its keys filled in.
@@ -72,6 +74,12 @@ impl Organization {
     #[must_use]
     pub fn feeds(self) -> &'static [Feed] {
         self.rules().feeds()
+    }
+
+    /// The values that `hardware.memory` may have; none where it may not be given.
+    #[must_use]
+    pub fn memories(self) -> &'static [MemoryKind] {
+        self.rules().memories()
     }
 
     /// Whether regions may share a unit: `hardware.fold` may be more than 1.
@@ -122,6 +130,7 @@ impl HardwareConfig {
         let default = self.organization.feeds().first().copied();
         words.extend(self.feed.or(default).map(|feed| format!("{feed} feed")));
         words.extend(self.organization.folds().then(|| format!("fold {}", self.fold)));
+        words.extend(self.memory.map(|memory| format!("{memory} memory")));
         words.join(", ")
     }
 }

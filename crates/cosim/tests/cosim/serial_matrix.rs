@@ -6,8 +6,8 @@ use crate::common::serial::{config, name};
 use crate::common::{agrees, design, directed, feature, in_parallel, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
-    Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Payload,
-    Reference, Thresholds,
+    Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind,
+    Neighborhood, Payload, Reference, Thresholds,
 };
 
 use FeatureKind::{Corner, Edge, Mad, Variance};
@@ -184,6 +184,37 @@ fn depths_sizes_memories_and_constants_agree() {
         config.denoise.filter = Filter::ALL[turn % 2];
         config.temporal.reference = Reference::ALL[turn / 2];
         cases.push(Case::array(config, (2, 2)));
+    }
+    check_all(&cases);
+}
+
+/// The memory that the configuration names, where the rule would choose the other kind: every filter x
+/// reference x feed, block memory for small regions, distributed for large ones.
+#[test]
+fn the_memory_that_is_named_agrees() {
+    let mut cases = Vec::new();
+    for &filter in Filter::ALL {
+        for &reference in Reference::ALL {
+            for &feed in Feed::ALL {
+                let turn = cases.len();
+                for (memory, size, fold) in
+                    [(MemoryKind::Block, [4, 5][turn % 2], 2), (MemoryKind::Distributed, 8, 6)]
+                {
+                    let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn / 2 % 3];
+                    let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
+                    config.denoise.filter = filter;
+                    config.temporal.reference = reference;
+                    config.hardware.feed = Some(feed);
+                    config.hardware.fold = fold;
+                    config.region.size = size;
+                    config.region.neighborhood = Neighborhood::ALL[(turn / 4 + turn) % 2];
+                    let ruled = design(&config, (3, 2)).lane_memory().kind;
+                    assert_ne!(ruled, memory, "the rule would choose it, too");
+                    config.hardware.memory = Some(memory);
+                    cases.push(Case::array(config, (3, 2)));
+                }
+            }
+        }
     }
     check_all(&cases);
 }

@@ -7,7 +7,7 @@ mod timing;
 pub use timing::PipelinedTiming;
 
 use crate::organization::{Rules, Unit};
-use crate::{Design, DesignError, Feed, HardwareConfig, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 
 /// The organization as the answers to [`Rules`].
 pub(crate) struct Pipelined;
@@ -32,6 +32,10 @@ impl Rules for Pipelined {
         &[]
     }
 
+    fn memories(&self) -> &'static [MemoryKind] {
+        &[]
+    }
+
     fn folds(&self) -> bool {
         false
     }
@@ -45,6 +49,11 @@ impl Rules for Pipelined {
         if asked.fold != 1 {
             let remedy = "only the serial organization folds; use 1";
             return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));
+        }
+        if let Some(memory) = asked.memory {
+            let remedy = "only the lanes of the serial organization have a memory of either kind; \
+                          leave the key out";
+            return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
         }
         match asked.feed {
             None | Some(Feed::Parallel) => Ok(HardwareConfig { feed: None, ..asked.clone() }),

@@ -3,9 +3,10 @@
 
 use std::fmt;
 
-use crate::{Design, Filter, Reference, index_bits};
+use crate::{Design, Filter, MemoryKind, Reference, index_bits};
 
-/// Memory LUTs up to which a lane's memory is distributed.
+/// Memory LUTs up to which a lane's memory is distributed, unless the configuration says otherwise. A
+/// RAMB18 is to the VU9P's block RAM what 137 memory LUTs are to its distributed RAM.
 const MAX_MEMORY_LUTS: u64 = 128;
 /// Words of one bit that a memory LUT holds.
 const LUT_WORDS: u64 = 64;
@@ -50,15 +51,6 @@ impl Area {
     }
 }
 
-/// Of what a lane's memory is built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MemoryKind {
-    /// Distributed memory: data in the clock of its address.
-    Distributed,
-    /// Block memory: data a clock after its address.
-    Block,
-}
-
 impl MemoryKind {
     /// Q: clocks from address to data.
     #[must_use]
@@ -67,15 +59,6 @@ impl MemoryKind {
             Self::Distributed => 0,
             Self::Block => 1,
         }
-    }
-}
-
-impl fmt::Display for MemoryKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Distributed => "distributed",
-            Self::Block => "block",
-        })
     }
 }
 
@@ -94,6 +77,17 @@ pub struct LaneMemory {
     pub luts: u64,
     /// Of what it is built.
     pub kind: MemoryKind,
+    /// Why of that.
+    pub why: MemoryChoice,
+}
+
+/// Why a lane's memory is of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MemoryChoice {
+    /// The configuration says so, `hardware.memory`.
+    Configured,
+    /// It says nothing: distributed memory while it takes at most so many memory LUTs, block above.
+    Limit(u64),
 }
 
 impl LaneMemory {
@@ -120,9 +114,14 @@ impl LaneMemory {
         let slot_words = words.next_power_of_two();
         let depth = u64::from(design.fold()) * u64::from(slot_words);
         let luts = u64::from(design.pixel_bits()) * depth.div_ceil(LUT_WORDS);
-        let kind =
-            if luts <= MAX_MEMORY_LUTS { MemoryKind::Distributed } else { MemoryKind::Block };
-        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, kind }
+        let (kind, why) = match design.config().hardware.memory {
+            Some(kind) => (kind, MemoryChoice::Configured),
+            None if luts <= MAX_MEMORY_LUTS => {
+                (MemoryKind::Distributed, MemoryChoice::Limit(MAX_MEMORY_LUTS))
+            }
+            None => (MemoryKind::Block, MemoryChoice::Limit(MAX_MEMORY_LUTS)),
+        };
+        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, kind, why }
     }
 
     /// The area of that kind, if a slot has it.

@@ -11,7 +11,7 @@ mod rules;
 mod timing;
 mod widths;
 
-pub use memory::{Area, AreaKind, LaneMemory, MemoryKind};
+pub use memory::{Area, AreaKind, LaneMemory, MemoryChoice};
 pub(crate) use rules::Serial;
 pub use timing::{Phase, SerialTiming};
 pub use widths::LaneWidths;

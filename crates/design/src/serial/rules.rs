@@ -4,7 +4,7 @@
 use super::{SerialTiming, ports::ports};
 use crate::organization::{Rules, Unit};
 use crate::validate::in_range;
-use crate::{Design, DesignError, Feed, HardwareConfig, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 
 /// Smallest side of a region.
 const MIN_SIDE: u32 = 4;
@@ -31,6 +31,10 @@ impl Rules for Serial {
 
     fn feeds(&self) -> &'static [Feed] {
         Feed::ALL
+    }
+
+    fn memories(&self) -> &'static [MemoryKind] {
+        MemoryKind::ALL
     }
 
     fn folds(&self) -> bool {

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::{Config, FeatureKind, Feed, Neighborhood, Qualifier};
+use crate::{Config, FeatureKind, Feed, MemoryKind, Neighborhood, Qualifier};
 use Phase::{
     Border, Copy, DenoiseTemporal, Pass, RotateCount, RotateScore, Temporal as Compare, Unload,
 };
@@ -105,6 +105,33 @@ fn without_denoising_the_reference_is_compared_by_itself() {
     assert_eq!((phases[0], memory.luts, memory.kind), ((Compare, 256), 144, MemoryKind::Block));
     let (phases, _) = steps("temporal.reference=last-sent", "hardware.fold=9");
     assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 192)));
+}
+
+#[test]
+fn the_configuration_may_name_the_memory() {
+    let of = |overrides: &[&str]| {
+        let design = design(overrides);
+        (design.lane_memory(), timing(&design))
+    };
+    let (ruled, plain) = of(&[]);
+    assert_eq!((ruled.kind, ruled.why), (MemoryKind::Distributed, MemoryChoice::Limit(128)));
+    let (same, steps) = of(&["hardware.memory=distributed"]);
+    assert_eq!((same.kind, same.why), (MemoryKind::Distributed, MemoryChoice::Configured));
+    assert_eq!(steps, plain);
+    // Each of the 64 medians waits a clock for the word that it replaces.
+    let (block, steps) = of(&["hardware.memory=block"]);
+    assert_eq!((block.kind, block.why), (MemoryKind::Block, MemoryChoice::Configured));
+    assert_eq!((block.read_latency(), steps.steps()), (1, plain.steps() + 64));
+    // Nine slots of 128 words are over the limit; what the configuration says goes for every fold.
+    let folded = ["frame.width=8", "frame.height=80", "hardware.fold=9"];
+    let (ruled, slow) = of(&folded);
+    let (named, steps) = of(&[&folded[..], &["hardware.memory=distributed"]].concat());
+    assert_eq!((ruled.kind, named.kind), (MemoryKind::Block, MemoryKind::Distributed));
+    assert_eq!((ruled.luts, named.luts), (144, 144));
+    assert_eq!(steps.steps(), slow.steps() - 9 * 64);
+    let design = design(&["hardware.memory=block"]);
+    let folded = design.with_fold(2).unwrap().lane_memory();
+    assert_eq!((folded.kind, design.one_lane().lane_memory().kind), (block.kind, block.kind));
 }
 
 #[test]

@@ -44,8 +44,10 @@ fn fingerprints_tell_designs_apart() {
     assert_eq!(paper, design("[hardware]\nfeed = \"parallel\"\n").fingerprint());
     let serial = |keys: &str| design(&format!("[hardware]\norganization = \"serial\"\n{keys}"));
     assert_eq!(serial("").fingerprint(), serial("feed = \"parallel\"\n").fingerprint());
-    let names = ["", "fold = 2\n", "feed = \"raster\"\n"].map(|keys| serial(keys).fingerprint());
-    assert!(names[0] != paper && names[0] != names[1] && names[0] != names[2]);
+    let keys = ["", "fold = 2\n", "feed = \"raster\"\n", "memory = \"block\"\n"];
+    let names = keys.map(|keys| serial(keys).fingerprint());
+    assert_eq!(names[0], "0d4380c4bb901499");
+    assert!(names[0] != paper && names[1..].iter().all(|name| *name != names[0]));
 }
 
 #[test]
@@ -159,6 +161,14 @@ fn impossible_combinations_say_what_to_do() {
             "`region.size` = 3 cannot be combined with organization = \"serial\"; use 4..=64",
         ),
         ("[hardware]\nfold = 2\n", "use 1"),
+        (
+            "[hardware]\nmemory = \"block\"\n",
+            "`hardware.memory` = \"block\" cannot be combined with organization = \"pipelined\"; only the lanes",
+        ),
+        (
+            "[hardware]\norganization = \"serial\"\nmemory = \"flash\"\n",
+            "it takes \"distributed\" or \"block\"",
+        ),
         ("spatial = []\n", "one to four features"),
         ("[frame]\nwidth = 16384\nheight = 16384\n[region]\nsize = 2\n", "67108864 regions"),
     ] {

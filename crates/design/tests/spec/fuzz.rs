@@ -87,6 +87,7 @@ const KEYS: &[&str] = &[
     "render.payload",
     "hardware.fold",
     "hardware.feed",
+    "hardware.memory",
     "hardware.organization",
     "hardware.thresholds",
     "hardware",

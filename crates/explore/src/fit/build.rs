@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Looks as silicon: what could be built of them, what it costs, which is cheapest.
 
-use foveate_design::{Config, Design, FeatureKind, Filter, Neighborhood, Organization, Reference};
+use foveate_design::{
+    Config, Design, FeatureKind, Filter, MemoryKind, Neighborhood, Organization, Reference,
+};
 use foveate_estimate::Device;
 
 use super::FitRequest;
@@ -68,25 +70,35 @@ impl Candidate {
     }
 }
 
+/// What the ways to build a camera are bounded by.
+#[derive(Clone, Copy)]
+struct Bounds {
+    /// Clocks that a frame may take.
+    max_clocks: Option<u64>,
+    /// Of what the memories of lanes are to be built; each design's own rule where it is not said.
+    memory: Option<MemoryKind>,
+}
+
 /// Builds what may be cheapest.
 pub(super) fn build(
     search: &Search<'_>,
     request: &FitRequest<'_>,
+    memory: Option<MemoryKind>,
     hooks: &dyn Hooks,
 ) -> Result<Built, ExploreError> {
     let holding: Vec<&Look> = search.all().filter(|look| look.holds()).collect();
     let looks = simplest(&holding);
     let max_clocks = request.constraints.min_fps.map(|fps| clocks(request.clock_hz, fps));
-    let (mut candidates, mut left_out) =
-        in_batches(&looks, max_clocks, request.most, request, hooks)?;
+    let bounds = Bounds { max_clocks, memory };
+    let (mut candidates, mut left_out) = in_batches(&looks, bounds, request.most, request, hooks)?;
     if !candidates.iter().any(Candidate::holds) {
         // The nearest that do not hold, and what would hold if it might be slower: for what binds.
         let mut others: Vec<&Look> = search.all().filter(|look| !look.holds()).collect();
         others.sort_by(|one, other| one.excess().total_cmp(&other.excess()));
         others.truncate(NEAREST);
-        for (looks, max_clocks) in [(&others, max_clocks), (&looks, None)] {
+        for (looks, bounds) in [(&others, bounds), (&looks, Bounds { max_clocks: None, memory })] {
             let most = request.most.min(BATCH);
-            let (built, left) = in_batches(looks, max_clocks, most, request, hooks)?;
+            let (built, left) = in_batches(looks, bounds, most, request, hooks)?;
             candidates.extend(built);
             left_out += left;
         }
@@ -145,14 +157,14 @@ fn complexity(config: &Config) -> Complexity {
 /// how many are left.
 fn in_batches(
     looks: &[&Look],
-    max_clocks: Option<u64>,
+    bounds: Bounds,
     most: usize,
     request: &FitRequest<'_>,
     hooks: &dyn Hooks,
 ) -> Result<(Vec<Candidate>, usize), ExploreError> {
     let mut designs: Vec<(&Look, Design)> = Vec::new();
     for look in looks {
-        let ways = ways(&look.config, request.task, max_clocks);
+        let ways = ways(&look.config, request.task, bounds);
         designs.extend(ways.into_iter().map(|design| (*look, design)));
     }
     designs.sort_by(|(_, one), (_, other)| rough(one).total_cmp(&rough(other)));
@@ -201,13 +213,15 @@ fn clocks(clock_hz: u64, fps: f64) -> u64 {
 /// Ways to build a camera. Where regions may share a unit: of each feed the deepest fold that is fast
 /// enough and its halvings, since units do not only shrink with their number. Where that is nowhere fast
 /// enough, the organizations in which they do not.
-fn ways(look: &Config, task: &Config, max_clocks: Option<u64>) -> Vec<Design> {
+fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
+    let Bounds { max_clocks, memory } = bounds;
     let with = |organization: Organization, feed| {
         let mut config = look.clone();
         config.hardware = task.hardware.clone();
         config.hardware.organization = organization;
         config.hardware.fold = 1;
         config.hardware.feed = feed;
+        config.hardware.memory = memory.filter(|kind| organization.memories().contains(kind));
         config.validate().ok()
     };
     let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());

@@ -63,7 +63,7 @@ pub struct FitRequest<'a> {
 /// cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
     // How the task would be built is no matter of what it is to see.
-    let thresholds = request.task.hardware.thresholds;
+    let HardwareConfig { thresholds, memory, .. } = request.task.hardware;
     let hardware = HardwareConfig { thresholds, ..HardwareConfig::default() };
     let task = Config { hardware, ..request.task.clone() };
     let request = &FitRequest { task: &task, ..request.clone() };
@@ -76,7 +76,7 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let footage = Footage::new(request.inputs, request.input, &task, hooks)?;
     let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
     search.run()?;
-    let built = build(&search, request, hooks)?;
+    let built = build(&search, request, memory, hooks)?;
     let chosen = built.chosen();
     let second = search.second_half(&chosen.look)?;
     Ok(report::fit(request, &search, &built, chosen, target, second, &lengths))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card that is about silicon against speed: lanes, memory, frames per second, folds.
 
-use foveate_design::{Area, Design};
+use foveate_design::{Area, Design, LaneMemory, MemoryChoice};
 use serde::Serialize;
 
 use crate::args::{Clock, Rate};
@@ -19,7 +19,9 @@ pub(super) struct Array {
 /// The memory of a lane, in words of a pixel.
 #[derive(Serialize)]
 pub(super) struct Memory {
-    pub(super) kind: String,
+    pub(super) kind: &'static str,
+    /// Why it is of that kind, in words.
+    pub(super) why: String,
     pub(super) read_latency: u32,
     pub(super) words: u64,
     pub(super) slot_words: u32,
@@ -71,12 +73,25 @@ impl Array {
             fold: design.fold(),
             feed: design.feed().name(),
             memory: Memory {
-                kind: memory.kind.to_string(),
+                kind: memory.kind.name(),
+                why: why(&memory),
                 read_latency: memory.read_latency(),
                 words: memory.depth,
                 slot_words: memory.slot_words,
                 areas: memory.areas.iter().map(row).collect(),
             },
+        }
+    }
+}
+
+/// Why a lane's memory is of its kind.
+fn why(memory: &LaneMemory) -> String {
+    match memory.why {
+        MemoryChoice::Configured => "as hardware.memory says".to_owned(),
+        MemoryChoice::Limit(most) => {
+            let luts = memory.luts;
+            let side = if luts <= most { "within" } else { "above" };
+            format!("{luts} memory LUTs as distributed, {side} {most}; hardware.memory chooses")
         }
     }
 }

@@ -95,12 +95,13 @@ fn lanes_line(array: &Array) -> String {
 fn memory_line(design: &Design, memory: &Memory) -> String {
     let areas = memory.areas.iter().map(|row| format!("{0} {1}x{1}", row.area, row.side));
     format!(
-        "{} words of {} bits, {}; {} per slot for {}",
+        "{} words of {} bits, {} per slot for {}; {} ({})",
         memory.words,
         design.pixel_bits(),
-        memory.kind,
         memory.slot_words,
-        areas.collect::<Vec<_>>().join(", ")
+        areas.collect::<Vec<_>>().join(", "),
+        memory.kind,
+        memory.why
     )
 }
 

@@ -13,9 +13,10 @@ pub(crate) fn config(features: &[SpatialConfig]) -> Config {
 /// What tells it from others.
 pub(crate) fn name(config: &Config, grid: (u32, u32)) -> String {
     format!(
-        "{} {:?} fold {} of {}x{}",
+        "{} {:?} {:?} fold {} of {}x{}",
         super::name(config),
         config.hardware.feed,
+        config.hardware.memory,
         config.hardware.fold,
         grid.0,
         grid.1,
