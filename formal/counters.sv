@@ -6,7 +6,7 @@ module counter_properties #(parameter SIDE = 2) (
 );
     `include "reset.vh"
     localparam PIXELS = SIDE * SIDE;
-    localparam SLOT_BITS = $clog2(PIXELS);
+    localparam ADDRESS_BITS = $clog2(PIXELS);
     localparam COUNT_BITS = $clog2(PIXELS + 1);
     wire last, done;
     wire [15:0] place, seen;
@@ -14,15 +14,15 @@ module counter_properties #(parameter SIDE = 2) (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .last_o(last), .done_o(done), .place_o(place), .seen_o(seen)
     );
 
-    // Slots are the positions, so that nothing is written outside the region.
-    wire [SLOT_BITS-1:0] slot;
-    wire slot_last;
-    position_counter #(.PIXELS(PIXELS), .SLOT_BITS(SLOT_BITS)) u_position (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .slot_o(slot), .last_o(slot_last)
+    // Addresses are the positions, so that nothing is written outside the region.
+    wire [ADDRESS_BITS-1:0] address;
+    wire address_last;
+    position_counter #(.PIXELS(PIXELS), .ADDRESS_BITS(ADDRESS_BITS)) u_position (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .address_o(address), .last_o(address_last)
     );
     always @* if (started) begin
-        assert(slot == place);
-        assert(slot_last == last);
+        assert(address == place);
+        assert(address_last == last);
     end
 
     // Hits are counted exactly, at most one for each pixel.

@@ -3,7 +3,7 @@
 // remembers of it.
 module decision_properties #(parameter FEATURES = 1, parameter ALL = 0) (
     input wire clk_i, rst_i, valid,
-    input wire [6:0] minimum, trs_minimum, previous_count, kept_count,
+    input wire [6:0] minimum, trs_minimum, previous_count, sent_count,
     input wire [7*FEATURES-1:0] scores,
     input wire previous_sent, referenced
 );
@@ -19,7 +19,7 @@ module decision_properties #(parameter FEATURES = 1, parameter ALL = 0) (
     wire trs_vote, srs, trs, active, forward;
     candidate_count #(.WIDTH(7), .PIXELS(64)) u_count (
         .previous_sent_i(previous_sent), .valid_i(referenced), .previous_count_i(previous_count),
-        .kept_count_i(kept_count), .count_o(count)
+        .sent_count_i(sent_count), .count_o(count)
     );
     vote #(.WIDTH(7)) u_trs (.score_i(count), .minimum_i(trs_minimum), .vote_o(trs_vote));
     decision #(.FEATURES(FEATURES), .ALL(ALL)) dut (
@@ -39,7 +39,7 @@ module decision_properties #(parameter FEATURES = 1, parameter ALL = 0) (
         end
     end
     wire relevant = ALL != 0 ? every : any;
-    wire changed = (previous_sent ? previous_count : referenced ? kept_count : 7'd64) >= trs_minimum;
+    wire changed = (previous_sent ? previous_count : referenced ? sent_count : 7'd64) >= trs_minimum;
     always @* begin
         assert(srs == (valid && relevant));
         assert(trs == (valid && changed));
@@ -57,7 +57,7 @@ endmodule
 
 module properties (
     input wire clk_i, rst_i, valid, previous_sent, referenced,
-    input wire [6:0] minimum, trs_minimum, previous_count, kept_count,
+    input wire [6:0] minimum, trs_minimum, previous_count, sent_count,
     input wire [27:0] scores
 );
     genvar i;
@@ -65,12 +65,12 @@ module properties (
         for (i = 1; i <= 4; i = i + 1) begin : g_features
             decision_properties #(.FEATURES(i), .ALL(0)) u_any (
                 .clk_i(clk_i), .rst_i(rst_i), .valid(valid), .minimum(minimum), .trs_minimum(trs_minimum),
-                .previous_count(previous_count), .kept_count(kept_count), .scores(scores[7*i-1:0]),
+                .previous_count(previous_count), .sent_count(sent_count), .scores(scores[7*i-1:0]),
                 .previous_sent(previous_sent), .referenced(referenced)
             );
             decision_properties #(.FEATURES(i), .ALL(1)) u_all (
                 .clk_i(clk_i), .rst_i(rst_i), .valid(valid), .minimum(minimum), .trs_minimum(trs_minimum),
-                .previous_count(previous_count), .kept_count(kept_count), .scores(scores[7*i-1:0]),
+                .previous_count(previous_count), .sent_count(sent_count), .scores(scores[7*i-1:0]),
                 .previous_sent(previous_sent), .referenced(referenced)
             );
         end

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // What is read is what was written last at that place, whatever is written at others, in one bank or many.
-module properties #(parameter PIXELS = 64, parameter SLOT_BITS = $clog2(PIXELS)) (
-    input wire clk_i, rst_i, write, input wire [SLOT_BITS-1:0] slot, input wire data
+module properties #(parameter PIXELS = 64, parameter ADDRESS_BITS = $clog2(PIXELS)) (
+    input wire clk_i, rst_i, write, input wire [ADDRESS_BITS-1:0] address, input wire data
 );
-    (* anyconst *) wire [SLOT_BITS-1:0] place;
+    (* anyconst *) wire [ADDRESS_BITS-1:0] place;
     always @* begin
-        assume(slot < PIXELS);  // proven of every counter that gives slots
+        assume(address < PIXELS);  // proven of every counter that gives addresses
         assume(place < PIXELS);
     end
     wire read;
-    frame_store #(.WIDTH(1), .PIXELS(PIXELS), .SLOT_BITS(SLOT_BITS)) dut (
-        .clk_i(clk_i), .write_i(write), .slot_i(slot), .data_i(data), .data_o(read)
+    frame_store #(.WIDTH(1), .PIXELS(PIXELS), .ADDRESS_BITS(ADDRESS_BITS)) dut (
+        .clk_i(clk_i), .write_i(write), .address_i(address), .data_i(data), .data_o(read)
     );
     reg written = 1'b0;
     reg last;
-    always @(posedge clk_i) if (write && slot == place) begin
+    always @(posedge clk_i) if (write && address == place) begin
         written <= 1'b1;
         last <= data;
     end
-    always @* if (written && slot == place) assert(read == last);
+    always @* if (written && address == place) assert(read == last);
 endmodule

@@ -5,8 +5,8 @@ module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
 );
     `include "reset.vh"
     localparam PIXELS = SIDE * SIDE;
-    localparam SLOT_BITS = $clog2(PIXELS);
-    (* anyconst *) wire [SLOT_BITS-1:0] watched;
+    localparam ADDRESS_BITS = $clog2(PIXELS);
+    (* anyconst *) wire [ADDRESS_BITS-1:0] watched;
     always @* assume(watched < PIXELS);
     wire last, done;
     wire [15:0] place, seen;
@@ -18,8 +18,8 @@ module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
     wire forward = done ? srs && trs : active_q;
     always @(posedge clk_i) active_q <= !rst_i && forward;
     wire reference, valid;
-    last_sent #(.WIDTH(1), .PIXELS(PIXELS), .SLOT_BITS(SLOT_BITS), .BLANKS(BLANKS)) dut (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .slot_i(place[SLOT_BITS-1:0]), .decided_i(done),
+    last_sent #(.WIDTH(1), .PIXELS(PIXELS), .ADDRESS_BITS(ADDRESS_BITS), .BLANKS(BLANKS)) dut (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .address_i(place[ADDRESS_BITS-1:0]), .decided_i(done),
         .srs_i(srs), .forward_i(forward), .pixel_i(pixel), .reference_o(reference), .valid_o(valid)
     );
     // By the contract.

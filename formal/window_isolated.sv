@@ -2,22 +2,22 @@
 // The window of docs/timing.md, told with pixels taken and centers owed: when it advances, which center
 // steps, which clamps apply. `taken` are pixels of the frame that enters; `owed` are centers of the
 // frame before.
-module properties #(parameter SIDE = 8, parameter SLOT_BITS = $clog2(SIDE * SIDE)) (
+module properties #(parameter SIDE = 8, parameter ADDRESS_BITS = $clog2(SIDE * SIDE)) (
     input wire clk_i, rst_i, valid
 );
     `include "reset.vh"
     localparam PIXELS = SIDE * SIDE;
     wire advance, step, last, top, bottom, left, right;
-    wire [SLOT_BITS-1:0] slot;
-    window_isolated #(.SIDE(SIDE), .SLOT_BITS(SLOT_BITS)) dut (
-        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid), .advance_o(advance), .step_o(step), .slot_o(slot),
+    wire [ADDRESS_BITS-1:0] address;
+    window_isolated #(.SIDE(SIDE), .ADDRESS_BITS(ADDRESS_BITS)) dut (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid), .advance_o(advance), .step_o(step), .address_o(address),
         .last_o(last), .top_o(top), .bottom_o(bottom), .left_o(left), .right_o(right)
     );
-    reg [SLOT_BITS:0] taken, owed;
+    reg [ADDRESS_BITS:0] taken, owed;
     wire flushes = taken == 0 && owed != 0;
     wire gives_old = (valid || flushes) && owed != 0;
     wire gives_new = valid && taken >= SIDE + 1;
-    wire [SLOT_BITS:0] center = gives_old ? PIXELS - owed : taken - (SIDE + 1);
+    wire [ADDRESS_BITS:0] center = gives_old ? PIXELS - owed : taken - (SIDE + 1);
     always @(posedge clk_i) begin
         if (rst_i) begin
             taken <= 0;
@@ -29,7 +29,7 @@ module properties #(parameter SIDE = 8, parameter SLOT_BITS = $clog2(SIDE * SIDE
         end
     end
     // The incoming column is that of pixel middle, which is the right neighbor of the center.
-    wire [SLOT_BITS:0] middle = center + 1;
+    wire [ADDRESS_BITS:0] middle = center + 1;
     always @* if (started) begin
         assert(taken < PIXELS);
         assert(owed <= SIDE + 1);
@@ -39,7 +39,7 @@ module properties #(parameter SIDE = 8, parameter SLOT_BITS = $clog2(SIDE * SIDE
         if (step) begin
             assert(center < PIXELS);
             assert(last == (center == PIXELS - 1));
-            assert(slot == (last ? 0 : middle));  // each number once, none outside the region
+            assert(address == (last ? 0 : middle));  // each number once, none outside the region
             assert(right == (center % SIDE == SIDE - 1));
             if (!last) begin
                 assert(left == (middle % SIDE == 0));
@@ -51,6 +51,6 @@ module properties #(parameter SIDE = 8, parameter SLOT_BITS = $clog2(SIDE * SIDE
         if (advance && !step && taken == SIDE) assert(left && top && !bottom);
         // So does that of a frame that enters while the last center of the one before leaves.
         if (step && last && taken == SIDE) assert(left && top && !bottom);
-        assert(slot < PIXELS);
+        assert(address < PIXELS);
     end
 endmodule

@@ -6,16 +6,21 @@
 module corner_detector #(
     parameter WIDTH = 8  // bits of a pixel
 ) (
-    input  wire             clk_i,
-    input  wire             advance_i,
-    input  wire             left_i,    // the incoming column is the first of its row
-    input  wire             right_i,   // the center is the last of its row
-    input  wire [WIDTH-1:0] upper_i,   // the incoming column
-    input  wire [WIDTH-1:0] middle_i,
-    input  wire [WIDTH-1:0] lower_i,
-    input  wire [WIDTH-1:0] level_i,
-    output wire             hit_o      // of the center, with the incoming column on its right
+    input  wire             clk_i,      // clock, rising edge
+    input  wire             advance_i,  // the window moves by one column
+    input  wire             left_i,     // the incoming column is the first of its row
+    input  wire             right_i,    // the center is the last of its row
+    input  wire [WIDTH-1:0] upper_i,    // the incoming column, top
+    input  wire [WIDTH-1:0] middle_i,   // ... middle
+    input  wire [WIDTH-1:0] lower_i,    // ... bottom
+    input  wire [WIDTH-1:0] level_i,    // a neighbor differs when by more than this
+    output wire             hit_o       // of the center, with the incoming column on its right
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+    endgenerate
 
     localparam COLUMN = 3 * WIDTH;
 

@@ -7,16 +7,22 @@ module decision #(
     parameter FEATURES = 1,  // number of votes
     parameter ALL = 0        // 1: every feature must vote; 0: one vote is enough
 ) (
-    input  wire                clk_i,
-    input  wire                rst_i,
-    input  wire                valid_i,  // the votes are those of a whole frame
-    input  wire [FEATURES-1:0] votes_i,
-    input  wire                trs_i,
-    output wire                srs_o,
-    output wire                trs_o,
-    output wire                active_o,
+    input  wire                clk_i,     // clock, rising edge
+    input  wire                rst_i,     // synchronous reset, active high
+    input  wire                valid_i,   // the votes are those of a whole frame
+    input  wire [FEATURES-1:0] votes_i,   // of the features
+    input  wire                trs_i,     // temporal relevance
+    output wire                srs_o,     // spatial relevance; 0 unless valid_i
+    output wire                trs_o,     // temporal relevance; 0 unless valid_i
+    output wire                active_o,  // both; 0 unless valid_i
     output wire                forward_o  // the frame decided last is active
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
+    endgenerate
 
     reg active_q;
 

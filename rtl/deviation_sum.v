@@ -9,15 +9,27 @@ module deviation_sum #(
     parameter MEAN_BITS = 8,  // bits of the mean
     parameter SUM_BITS = 14   // bits of the sum
 ) (
-    input  wire                 clk_i,
-    input  wire                 rst_i,
+    input  wire                 clk_i,      // clock, rising edge
+    input  wire                 rst_i,      // synchronous reset, active high
     input  wire                 enable_i,   // there is a stored frame; without one the sum stays 0
     input  wire                 restart_i,  // the sum is that of a whole frame
-    input  wire                 step_i,
+    input  wire                 step_i,     // a pixel of the stored frame is read
     input  wire [    WIDTH-1:0] pixel_i,    // of the stored frame
     input  wire [MEAN_BITS-1:0] mean_i,     // of the stored frame
-    output reg  [ SUM_BITS-1:0] sum_o
+    output reg  [ SUM_BITS-1:0] sum_o       // of the deviations so far
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
+        if (MEAN_BITS < WIDTH + FRACTION) begin : g_mean_bits
+            MEAN_BITS_must_be_WIDTH_and_FRACTION_or_more u_refused ();
+        end
+        if (SUM_BITS < MEAN_BITS) begin : g_sum_bits
+            SUM_BITS_must_be_MEAN_BITS_or_more u_refused ();
+        end
+    endgenerate
 
     wire [MEAN_BITS-1:0] scaled = {{(MEAN_BITS - WIDTH) {1'b0}}, pixel_i} << FRACTION;
     wire [MEAN_BITS-1:0] deviation = scaled < mean_i ? mean_i - scaled : scaled - mean_i;

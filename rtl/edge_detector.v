@@ -16,16 +16,24 @@ module edge_detector #(
     parameter WIDTH = 8,       // bits of a pixel
     parameter LEVEL_BITS = 11  // bits of the level, at most WIDTH + 3
 ) (
-    input  wire             clk_i,
-    input  wire             advance_i,
-    input  wire             left_i,    // the incoming column is the first of its row
-    input  wire             right_i,   // the center is the last of its row
-    input  wire [WIDTH-1:0] upper_i,   // the incoming column
-    input  wire [WIDTH-1:0] middle_i,
-    input  wire [WIDTH-1:0] lower_i,
-    input  wire [LEVEL_BITS-1:0] level_i,
-    output wire             hit_o      // of the center, with the incoming column on its right
+    input  wire                  clk_i,      // clock, rising edge
+    input  wire                  advance_i,  // the window moves by one column
+    input  wire                  left_i,     // the incoming column is the first of its row
+    input  wire                  right_i,    // the center is the last of its row
+    input  wire [     WIDTH-1:0] upper_i,    // the incoming column, top
+    input  wire [     WIDTH-1:0] middle_i,   // ... middle
+    input  wire [     WIDTH-1:0] lower_i,    // ... bottom
+    input  wire [LEVEL_BITS-1:0] level_i,    // a hit is more than this
+    output wire                  hit_o       // of the center, with the incoming column on its right
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (LEVEL_BITS < 2 || LEVEL_BITS > WIDTH + 3) begin : g_level_bits
+            LEVEL_BITS_must_be_2_to_WIDTH_and_3 u_refused ();
+        end
+    endgenerate
 
     localparam SUM_BITS = WIDTH + 3;  // -3 * (2^WIDTH - 1) .. 3 * (2^WIDTH - 1), signed
 

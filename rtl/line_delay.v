@@ -6,11 +6,17 @@ module line_delay #(
     parameter WIDTH = 8,  // bits of one word
     parameter DEPTH = 8   // advances from data_i to data_o, at least 2
 ) (
-    input  wire             clk_i,
+    input  wire             clk_i,      // clock, rising edge
     input  wire             advance_i,  // the line moves by one word
-    input  wire [WIDTH-1:0] data_i,
+    input  wire [WIDTH-1:0] data_i,     // the word that enters
     output wire [WIDTH-1:0] data_o      // data_i of DEPTH advances ago
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (DEPTH < 2) begin : g_depth DEPTH_must_be_2_or_more u_refused (); end
+    endgenerate
 
     reg [WIDTH*DEPTH-1:0] line_q;
 

@@ -3,29 +3,37 @@
 `default_nettype none
 
 module position_counter #(
-    parameter PIXELS = 64,   // pixels of a region
-    parameter SLOT_BITS = 6  // ceil(log2(PIXELS))
+    parameter PIXELS = 64,      // pixels of a region
+    parameter ADDRESS_BITS = 6  // ceil(log2(PIXELS))
 ) (
-    input  wire                 clk_i,
-    input  wire                 rst_i,
-    input  wire                 step_i,
-    output wire [SLOT_BITS-1:0] slot_o,  // number of the pixel that steps
-    output wire                 last_o   // it is the last of the frame
+    input  wire                    clk_i,      // clock, rising edge
+    input  wire                    rst_i,      // synchronous reset, active high
+    input  wire                    step_i,     // a pixel enters the store
+    output wire [ADDRESS_BITS-1:0] address_o,  // number of the pixel that steps
+    output wire                    last_o      // it is the last of the frame
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (PIXELS < 2) begin : g_pixels PIXELS_must_be_2_or_more u_refused (); end
+        if (ADDRESS_BITS != $clog2(PIXELS)) begin : g_address_bits
+            ADDRESS_BITS_must_be_clog2_of_PIXELS u_refused ();
+        end
+    endgenerate
 
     localparam LAST = PIXELS - 1;
 
     // The initial value keeps synthesis from moving this register into the store's address port,
     // which would cost the store a second port.
-    reg [SLOT_BITS-1:0] slot_q = {SLOT_BITS{1'b0}};
+    reg [ADDRESS_BITS-1:0] address_q = {ADDRESS_BITS{1'b0}};
 
     always @(posedge clk_i) begin
-        if (rst_i) slot_q <= {SLOT_BITS{1'b0}};
-        else if (step_i) slot_q <= last_o ? {SLOT_BITS{1'b0}} : slot_q + 1'b1;
+        if (rst_i) address_q <= {ADDRESS_BITS{1'b0}};
+        else if (step_i) address_q <= last_o ? {ADDRESS_BITS{1'b0}} : address_q + 1'b1;
     end
 
-    assign slot_o = slot_q;
-    assign last_o = slot_q == LAST[SLOT_BITS-1:0];
+    assign address_o = address_q;
+    assign last_o = address_q == LAST[ADDRESS_BITS-1:0];
 
 endmodule
 

@@ -3,17 +3,23 @@
 `default_nettype none
 
 module region_sum #(
-    parameter WIDTH = 8,    // bits of a value
-    parameter SUM_BITS = 14 // bits of the sum
+    parameter WIDTH = 8,     // bits of a value
+    parameter SUM_BITS = 14  // bits of the sum
 ) (
-    input  wire                clk_i,
-    input  wire                rst_i,
-    input  wire                step_i,
+    input  wire                clk_i,    // clock, rising edge
+    input  wire                rst_i,    // synchronous reset, active high
+    input  wire                step_i,   // a value comes in
     input  wire                last_i,   // it is the last of the frame
-    input  wire [   WIDTH-1:0] value_i,
+    input  wire [   WIDTH-1:0] value_i,  // that value
     output reg                 done_o,   // the sum is that of a whole frame
-    output reg  [SUM_BITS-1:0] sum_o
+    output reg  [SUM_BITS-1:0] sum_o     // of the values so far
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (SUM_BITS < WIDTH) begin : g_sum_bits SUM_BITS_must_be_WIDTH_or_more u_refused (); end
+    endgenerate
 
     wire [SUM_BITS-1:0] value = {{(SUM_BITS - WIDTH) {1'b0}}, value_i};
 

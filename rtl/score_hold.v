@@ -5,12 +5,17 @@
 module score_hold #(
     parameter WIDTH = 7  // bits of the score
 ) (
-    input  wire             clk_i,
-    input  wire             rst_i,
-    input  wire             load_i,
-    input  wire [WIDTH-1:0] score_i,
-    output reg  [WIDTH-1:0] score_o
+    input  wire             clk_i,    // clock, rising edge
+    input  wire             rst_i,    // synchronous reset, active high
+    input  wire             load_i,   // take score_i at this edge
+    input  wire [WIDTH-1:0] score_i,  // the score of a frame
+    output reg  [WIDTH-1:0] score_o   // the one taken last
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+    endgenerate
 
     always @(posedge clk_i) begin
         if (rst_i) score_o <= {WIDTH{1'b0}};

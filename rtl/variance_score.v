@@ -3,19 +3,32 @@
 `default_nettype none
 
 module variance_score #(
-    parameter PIXELS = 64,            // pixels of a region
-    parameter SUM_BITS = 14,          // bits of the sum
-    parameter SQUARE_SUM_BITS = 22,   // bits of the sum of squares
-    parameter PRODUCT_BITS = 28,      // bits of pixels * (sum of squares)
-    parameter SCORE_BITS = 26         // bits of the score
+    parameter PIXELS = 64,           // pixels of a region
+    parameter SUM_BITS = 14,         // bits of the sum
+    parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares
+    parameter PRODUCT_BITS = 28,     // bits of pixels * (sum of squares)
+    parameter SCORE_BITS = 26        // bits of the score
 ) (
-    input  wire                       clk_i,
-    input  wire                       rst_i,
-    input  wire                       done_i,  // the sums are those of a whole frame
-    input  wire [       SUM_BITS-1:0] sum_i,
-    input  wire [SQUARE_SUM_BITS-1:0] square_sum_i,
-    output reg  [     SCORE_BITS-1:0] score_o  // of the last whole frame
+    input  wire                       clk_i,         // clock, rising edge
+    input  wire                       rst_i,         // synchronous reset, active high
+    input  wire                       done_i,        // the sums are those of a whole frame
+    input  wire [       SUM_BITS-1:0] sum_i,         // of the pixels
+    input  wire [SQUARE_SUM_BITS-1:0] square_sum_i,  // of their squares
+    output reg  [     SCORE_BITS-1:0] score_o        // of the last whole frame
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (PRODUCT_BITS < SUM_BITS) begin : g_product_bits
+            PRODUCT_BITS_must_be_SUM_BITS_or_more u_refused ();
+        end
+        if (PRODUCT_BITS < SQUARE_SUM_BITS) begin : g_product_bits_2
+            PRODUCT_BITS_must_be_SQUARE_SUM_BITS_or_more u_refused ();
+        end
+        if (SCORE_BITS < 1 || SCORE_BITS > PRODUCT_BITS) begin : g_score_bits
+            SCORE_BITS_must_be_1_to_PRODUCT_BITS u_refused ();
+        end
+    endgenerate
 
     localparam [PRODUCT_BITS-1:0] FACTOR = PIXELS;
 

@@ -5,10 +5,15 @@
 module vote #(
     parameter WIDTH = 7  // bits of the score
 ) (
-    input  wire [WIDTH-1:0] score_i,
-    input  wire [WIDTH-1:0] minimum_i,
-    output wire             vote_o
+    input  wire [WIDTH-1:0] score_i,    // of the feature
+    input  wire [WIDTH-1:0] minimum_i,  // the feature votes from this score on
+    output wire             vote_o      // score_i >= minimum_i
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+    endgenerate
 
     assign vote_o = score_i >= minimum_i;
 

@@ -7,23 +7,34 @@
 `default_nettype none
 
 module window_shared #(
-    parameter SIDE = 10,      // pixels of a row of the stream, at least 4
-    parameter SIDE_BITS = 4,  // ceil(log2(SIDE))
-    parameter SLOT_BITS = 6   // ceil(log2((SIDE-2) * (SIDE-2)))
+    parameter SIDE = 10,        // pixels of a row of the stream, at least 4
+    parameter SIDE_BITS = 4,    // ceil(log2(SIDE))
+    parameter ADDRESS_BITS = 6  // ceil(log2((SIDE-2) * (SIDE-2)))
 ) (
-    input  wire                 clk_i,
-    input  wire                 rst_i,
-    input  wire                 valid_i,    // a pixel comes in
-    input  wire [          3:0] border_i,   // sides outside the frame: {bottom, top, right, left}
-    output wire                 advance_o,  // lines and columns move at this edge
-    output wire                 step_o,     // with it a center is complete
-    output wire [SLOT_BITS-1:0] slot_o,     // a number of its own for each center of a region
-    output wire                 last_o,     // it is the last of the frame
-    output wire                 top_o,      // the incoming column lacks its upper pixel
-    output wire                 bottom_o,   // ... its lower pixel
-    output wire                 left_o,     // the incoming column stands for its left neighbor too
-    output wire                 right_o     // the center's column stands for its right neighbor too
+    input  wire                    clk_i,      // clock, rising edge
+    input  wire                    rst_i,      // synchronous reset, active high
+    input  wire                    valid_i,    // a pixel comes in
+    input  wire [             3:0] border_i,   // sides outside the frame: {bottom, top, right, left}
+    output wire                    advance_o,  // lines and columns move at this edge
+    output wire                    step_o,     // with it a center is complete
+    output wire [ADDRESS_BITS-1:0] address_o,  // a number of its own for each center of a region
+    output wire                    last_o,     // it is the last of the frame
+    output wire                    top_o,      // the incoming column lacks its upper pixel
+    output wire                    bottom_o,   // ... its lower pixel
+    output wire                    left_o,     // the incoming column stands for its left neighbor too
+    output wire                    right_o     // the center's column stands for its right neighbor too
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (SIDE < 4) begin : g_side SIDE_must_be_4_or_more u_refused (); end
+        if (SIDE_BITS != $clog2(SIDE)) begin : g_side_bits
+            SIDE_BITS_must_be_clog2_of_SIDE u_refused ();
+        end
+        if (ADDRESS_BITS != $clog2((SIDE - 2) * (SIDE - 2))) begin : g_address_bits
+            ADDRESS_BITS_must_be_clog2_of_the_centers u_refused ();
+        end
+    endgenerate
 
     localparam LAST = SIDE - 1;
     localparam [SIDE_BITS-1:0] FIRST_CENTER = 1;
@@ -32,25 +43,25 @@ module window_shared #(
     reg [SIDE_BITS-1:0] row_q;
     // The initial value keeps synthesis from moving this register into the store's address port,
     // which would cost the store a second port.
-    reg [SLOT_BITS-1:0] slot_q = {SLOT_BITS{1'b0}};
+    reg [ADDRESS_BITS-1:0] address_q = {ADDRESS_BITS{1'b0}};
 
     wire last_column = column_q == LAST[SIDE_BITS-1:0];
     wire last_row = row_q == LAST[SIDE_BITS-1:0];
 
     assign advance_o = valid_i;
     assign step_o = valid_i && row_q > FIRST_CENTER && column_q > FIRST_CENTER;
-    assign slot_o = slot_q;
+    assign address_o = address_q;
     assign last_o = last_row && last_column;
 
     always @(posedge clk_i) begin
         if (rst_i) begin
-            column_q <= {SIDE_BITS{1'b0}};
-            row_q    <= {SIDE_BITS{1'b0}};
-            slot_q   <= {SLOT_BITS{1'b0}};
+            column_q  <= {SIDE_BITS{1'b0}};
+            row_q     <= {SIDE_BITS{1'b0}};
+            address_q <= {ADDRESS_BITS{1'b0}};
         end else if (valid_i) begin
             column_q <= last_column ? {SIDE_BITS{1'b0}} : column_q + 1'b1;
             if (last_column) row_q <= last_row ? {SIDE_BITS{1'b0}} : row_q + 1'b1;
-            if (step_o) slot_q <= last_o ? {SLOT_BITS{1'b0}} : slot_q + 1'b1;
+            if (step_o) address_q <= last_o ? {ADDRESS_BITS{1'b0}} : address_q + 1'b1;
         end
     end
 

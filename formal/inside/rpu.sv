@@ -257,7 +257,7 @@ end
 // Properties that are proven without a bound.
 always @* if (started) begin
     assert(f_steps < F_PIXELS);
-    if (tail_step) assert(tail_slot < F_PIXELS);  // nothing is written outside the region
+    if (tail_step) assert(tail_address < F_PIXELS);  // nothing is written outside the region
     assert(done == f_second_last);                // so between two decisions there are n steps
     if (decision_valid_o) assert(done);
     assert(temporal_count_o <= F_PIXELS);

@@ -4,20 +4,20 @@
 `include "reset.vh"
 localparam F_N = SIDE * SIDE;
 localparam F_RAW = RAW_SIDE * RAW_SIDE;
-localparam F_CLEAN = CLEAN_SIDE * CLEAN_SIDE;
-localparam F_HAS_KEPT = MEDIAN == 0 || LAST_SENT != 0;
-localparam F_WORDS = F_HAS_KEPT ? KEPT_BASE + F_N : CLEAN_BASE + F_CLEAN;
+localparam F_DENOISED = DENOISED_SIDE * DENOISED_SIDE;
+localparam F_HAS_REFERENCE = MEDIAN == 0 || LAST_SENT != 0;
+localparam F_WORDS = F_HAS_REFERENCE ? REFERENCE_BASE + F_N : DENOISED_BASE + F_DENOISED;
 
 // The areas of a slot lie one after the other, and a slot holds them.
 always @* begin
-    if (MEDIAN != 0) assert(CLEAN_BASE >= F_RAW);
-    if (F_HAS_KEPT) assert(KEPT_BASE >= (MEDIAN != 0 ? CLEAN_BASE + F_CLEAN : F_RAW));
+    if (MEDIAN != 0) assert(DENOISED_BASE >= F_RAW);
+    if (F_HAS_REFERENCE) assert(REFERENCE_BASE >= (MEDIAN != 0 ? DENOISED_BASE + F_DENOISED : F_RAW));
     assert(F_WORDS <= (1 << WORD_BITS));
 end
 
 // Places. A frame enters or is worked on, never both.
-wire f_in_kept = F_HAS_KEPT && word >= KEPT_BASE && word < KEPT_BASE + F_N;
-wire f_in_clean = MEDIAN != 0 && word >= CLEAN_BASE && word < CLEAN_BASE + F_CLEAN;
+wire f_in_reference = F_HAS_REFERENCE && word >= REFERENCE_BASE && word < REFERENCE_BASE + F_N;
+wire f_in_denoised = MEDIAN != 0 && word >= DENOISED_BASE && word < DENOISED_BASE + F_DENOISED;
 always @* if (started) begin
     assert(!(working && ready_o));
     if (RASTER != 0) assert(!(working && place));
@@ -32,9 +32,9 @@ always @* if (started) begin
         assert(slot < FOLD);
     end
     if (write || write_active || write_border) assert(working);
-    if (write) assert(MEDIAN != 0 ? f_in_clean : f_in_kept);
-    if (write_border) assert(f_in_clean);
-    if (write_active) assert(f_in_kept);
+    if (write) assert(MEDIAN != 0 ? f_in_denoised : f_in_reference);
+    if (write_border) assert(f_in_denoised);
+    if (write_active) assert(f_in_reference);
 end
 
 // Rotations: for each slot, each score, each lane, without a gap from lane to lane. Then the pixels of the slot.
@@ -94,7 +94,7 @@ endfunction
 localparam F_Q = BLOCK != 0;
 localparam F_SENT = LAST_SENT != 0;
 localparam F_STEPS = FOLD * (
-    (MEDIAN != 0 ? F_CLEAN * (10 * WIDTH + 3 + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
+    (MEDIAN != 0 ? F_DENOISED * (10 * WIDTH + 3 + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
     + (BORDERS ? 4 * (SIDE + 2) * (2 + F_Q) : 0)
     + LANES * (FEATURES + 1)
     + f_pass(KINDS[1:0]) + (FEATURES > 1 ? f_pass(KINDS[3:2]) : 0)

@@ -20,7 +20,7 @@ always @* if (started) begin
     assert(column_q == f_x && row_q == f_y);
     assert(advance_o == valid_i);
     assert(step_o == (valid_i && f_inside));
-    assert(slot_o == (f_given == F_INNER * F_INNER ? 0 : f_given));
+    assert(address_o == (f_given == F_INNER * F_INNER ? 0 : f_given));
     if (step_o) begin
         assert(last_o == (f_given == F_INNER * F_INNER - 1));
         assert(right_o == (border_i[1] && f_x - 1 == F_INNER));  // center in the last column

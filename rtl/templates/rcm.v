@@ -14,6 +14,12 @@ module rcm #(
 {%- endfor %}
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+    endgenerate
+
     wire [COLUMNS*ROWS-1:0] decision_valid;
 
     genvar row, column;

@@ -22,22 +22,22 @@ module rpu (
     // Denoise.
     wire raw_advance, raw_step, raw_top, raw_bottom, raw_left, raw_right;
     wire [{= p - 1 =}:0] raw_upper, raw_middle, raw_lower, raw_center;
-    wire [{= median_slot_bits - 1 =}:0] unused_raw_slot;
+    wire [{= median_address_bits - 1 =}:0] unused_raw_address;
     wire unused_raw_last;
-    wire clean_valid;
-    wire [{= p - 1 =}:0] clean_pixel;
+    wire denoised_valid;
+    wire [{= p - 1 =}:0] denoised_pixel;
     {%- if shared %}
 
-    window_shared #(.SIDE({= stream_side =}), .SIDE_BITS({= stream_side_bits =}), .SLOT_BITS({= median_slot_bits =})) u_raw_window (
+    window_shared #(.SIDE({= stream_side =}), .SIDE_BITS({= stream_side_bits =}), .ADDRESS_BITS({= median_address_bits =})) u_raw_window (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .border_i(4'b0000),
-        .advance_o(raw_advance), .step_o(raw_step), .slot_o(unused_raw_slot), .last_o(unused_raw_last),
+        .advance_o(raw_advance), .step_o(raw_step), .address_o(unused_raw_address), .last_o(unused_raw_last),
         .top_o(raw_top), .bottom_o(raw_bottom), .left_o(raw_left), .right_o(raw_right)
     );
     {%- else %}
 
-    window_isolated #(.SIDE({= n =}), .SLOT_BITS({= slot_bits =})) u_raw_window (
+    window_isolated #(.SIDE({= n =}), .ADDRESS_BITS({= address_bits =})) u_raw_window (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i),
-        .advance_o(raw_advance), .step_o(raw_step), .slot_o(unused_raw_slot), .last_o(unused_raw_last),
+        .advance_o(raw_advance), .step_o(raw_step), .address_o(unused_raw_address), .last_o(unused_raw_last),
         .top_o(raw_top), .bottom_o(raw_bottom), .left_o(raw_left), .right_o(raw_right)
     );
     {%- endif %}
@@ -51,22 +51,22 @@ module rpu (
         .clk_i(clk_i), .rst_i(rst_i), .advance_i(raw_advance), .step_i(raw_step),
         .left_i(raw_left), .right_i(raw_right),
         .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower),
-        .valid_o(clean_valid), .median_o(clean_pixel)
+        .valid_o(denoised_valid), .median_o(denoised_pixel)
     );
     {%- if keeps_raw %}
 
     // The raw center keeps step with the median.
-    wire [{= p - 1 =}:0] clean_raw;
-    line_delay #(.WIDTH({= p =}), .DEPTH(2)) u_clean_raw (
-        .clk_i(clk_i), .advance_i(1'b1), .data_i(raw_center), .data_o(clean_raw)
+    wire [{= p - 1 =}:0] denoised_raw;
+    line_delay #(.WIDTH({= p =}), .DEPTH(2)) u_denoised_raw (
+        .clk_i(clk_i), .advance_i(1'b1), .data_i(raw_center), .data_o(denoised_raw)
     );
     {%- else %}
     wire unused_raw_center = |raw_center;
     {%- endif %}
 {%- else %}
 
-    wire clean_valid = valid_i;
-    wire [{= p - 1 =}:0] clean_pixel = pixel_i;
+    wire denoised_valid = valid_i;
+    wire [{= p - 1 =}:0] denoised_pixel = pixel_i;
 {%- endif %}
 {%- if window %}
 
@@ -75,7 +75,7 @@ module rpu (
     wire [{= p - 1 =}:0] window_upper, window_middle, window_lower;
 {%- endif %}
     wire front_step, front_last;
-    wire [{= slot_bits - 1 =}:0] front_slot;
+    wire [{= address_bits - 1 =}:0] front_address;
     wire [{= p - 1 =}:0] front_pixel;
 {%- if keeps_raw %}
     wire [{= p - 1 =}:0] front_raw;
@@ -83,40 +83,40 @@ module rpu (
 {%- if window %}
     {%- if shared %}
 
-    window_shared #(.SIDE({= window_side =}), .SIDE_BITS({= window_side_bits =}), .SLOT_BITS({= slot_bits =})) u_window (
-        .clk_i(clk_i), .rst_i(rst_i), .valid_i(clean_valid), .border_i({% if border %}border_i{% else %}4'b0000{% endif %}),
-        .advance_o(window_advance), .step_o(front_step), .slot_o(front_slot), .last_o(front_last),
+    window_shared #(.SIDE({= window_side =}), .SIDE_BITS({= window_side_bits =}), .ADDRESS_BITS({= address_bits =})) u_window (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(denoised_valid), .border_i({% if border %}border_i{% else %}4'b0000{% endif %}),
+        .advance_o(window_advance), .step_o(front_step), .address_o(front_address), .last_o(front_last),
         .top_o(window_top), .bottom_o(window_bottom), .left_o(window_left), .right_o(window_right)
     );
     {%- else %}
 
-    window_isolated #(.SIDE({= n =}), .SLOT_BITS({= slot_bits =})) u_window (
-        .clk_i(clk_i), .rst_i(rst_i), .valid_i(clean_valid),
-        .advance_o(window_advance), .step_o(front_step), .slot_o(front_slot), .last_o(front_last),
+    window_isolated #(.SIDE({= n =}), .ADDRESS_BITS({= address_bits =})) u_window (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(denoised_valid),
+        .advance_o(window_advance), .step_o(front_step), .address_o(front_address), .last_o(front_last),
         .top_o(window_top), .bottom_o(window_bottom), .left_o(window_left), .right_o(window_right)
     );
     {%- endif %}
 
     window_column #(.WIDTH({= p =}), .SIDE({= window_side =})) u_column (
         .clk_i(clk_i), .advance_i(window_advance), .top_i(window_top), .bottom_i(window_bottom),
-        .pixel_i(clean_pixel), .upper_o(window_upper), .middle_o(window_middle),
+        .pixel_i(denoised_pixel), .upper_o(window_upper), .middle_o(window_middle),
         .lower_o(window_lower), .center_o(front_pixel)
     );
     {%- if keeps_raw %}
 
     line_delay #(.WIDTH({= p =}), .DEPTH({= window_side + 1 =})) u_front_raw (
-        .clk_i(clk_i), .advance_i(window_advance), .data_i(clean_raw), .data_o(front_raw)
+        .clk_i(clk_i), .advance_i(window_advance), .data_i(denoised_raw), .data_o(front_raw)
     );
     {%- endif %}
 {%- else %}
-    assign front_step = clean_valid;
-    assign front_pixel = clean_pixel;
+    assign front_step = denoised_valid;
+    assign front_pixel = denoised_pixel;
     {%- if keeps_raw %}
-    assign front_raw = clean_raw;
+    assign front_raw = denoised_raw;
     {%- endif %}
 
-    position_counter #(.PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_position (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .slot_o(front_slot), .last_o(front_last)
+    position_counter #(.PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =})) u_position (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .address_o(front_address), .last_o(front_last)
     );
 {%- endif %}
 {%- for feature in windowed %}
@@ -142,7 +142,7 @@ module rpu (
 
     // The tail runs a clock behind, so that every score is final at once.
     reg tail_step, tail_last;
-    reg [{= slot_bits - 1 =}:0] tail_slot = {= slot_bits =}'d0;  // initial value: keeps it out of the store's port
+    reg [{= address_bits - 1 =}:0] tail_address = {= address_bits =}'d0;  // initial value: keeps it out of the store's port
     reg [{= p - 1 =}:0] tail_pixel;
     {%- if keeps_raw %}
     reg [{= p - 1 =}:0] tail_raw;
@@ -153,7 +153,7 @@ module rpu (
     always @(posedge clk_i) begin
         tail_step <= front_step && !rst_i;
         tail_last <= front_last;
-        tail_slot <= front_slot;
+        tail_address <= front_address;
         tail_pixel <= front_pixel;
         {%- if keeps_raw %}
         tail_raw <= front_raw;
@@ -166,7 +166,7 @@ module rpu (
 
     wire tail_step = front_step;
     wire tail_last = front_last;
-    wire [{= slot_bits - 1 =}:0] tail_slot = front_slot;
+    wire [{= address_bits - 1 =}:0] tail_address = front_address;
     wire [{= p - 1 =}:0] tail_pixel = front_pixel;
     {%- if keeps_raw %}
     wire [{= p - 1 =}:0] tail_raw = front_raw;
@@ -187,24 +187,24 @@ module rpu (
 
     // The frames before this one, read as they are overwritten.
     wire [{= p - 1 =}:0] previous_pixel;
-    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_previous (
-        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(tail_pixel), .data_o(previous_pixel)
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =})) u_previous (
+        .clk_i(clk_i), .write_i(tail_step), .address_i(tail_address), .data_i(tail_pixel), .data_o(previous_pixel)
     );
 {%- if keeps_second %}
     wire [{= p - 1 =}:0] second_pixel;
-    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_second (
-        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(previous_pixel), .data_o(second_pixel)
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =})) u_second (
+        .clk_i(clk_i), .write_i(tail_step), .address_i(tail_address), .data_i(previous_pixel), .data_o(second_pixel)
     );
 {%- endif %}
 {%- if keeps_raw %}
     wire [{= p - 1 =}:0] previous_raw;
-    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_previous_raw (
-        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(tail_raw), .data_o(previous_raw)
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =})) u_previous_raw (
+        .clk_i(clk_i), .write_i(tail_step), .address_i(tail_address), .data_i(tail_raw), .data_o(previous_raw)
     );
     {%- if second_pass %}
     wire [{= p - 1 =}:0] second_raw;
-    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =})) u_second_raw (
-        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(previous_raw), .data_o(second_raw)
+    frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =})) u_second_raw (
+        .clk_i(clk_i), .write_i(tail_step), .address_i(tail_address), .data_i(previous_raw), .data_o(second_raw)
     );
     {%- endif %}
 {%- endif %}
@@ -213,8 +213,8 @@ module rpu (
 {%- if last_sent %}
     wire [{= p - 1 =}:0] sent_pixel;
     wire sent_valid;
-    last_sent #(.WIDTH({= p =}), .PIXELS({= pixels =}), .SLOT_BITS({= slot_bits =}), .BLANKS({= blanks =})) u_last_sent (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .slot_i(tail_slot), .decided_i(decided),
+    last_sent #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =}), .BLANKS({= blanks =})) u_last_sent (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .address_i(tail_address), .decided_i(decided),
         .srs_i(srs), .forward_i(forward), .pixel_i({= decided_pixel =}),
         .reference_o(sent_pixel), .valid_o(sent_valid)
     );
@@ -235,7 +235,7 @@ module rpu (
     wire [{= count_bits - 1 =}:0] temporal_count;
     candidate_count #(.WIDTH({= count_bits =}), .PIXELS({= pixels =})) u_temporal_count (
         .previous_sent_i(forward), .valid_i(sent_valid),
-        .previous_count_i(previous_count), .kept_count_i(sent_count), .count_o(temporal_count)
+        .previous_count_i(previous_count), .sent_count_i(sent_count), .count_o(temporal_count)
     );
 {%- else %}
     wire [{= count_bits - 1 =}:0] temporal_count = {= references[0].name =}_count;

@@ -22,12 +22,23 @@ module {= module =} #(
     localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
 {%- endfor %}
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+{%- if fold > 1 %}
+        if (COLUMNS * ROWS < {= fold =}) begin : g_fold
+            COLUMNS_times_ROWS_must_be_{= fold =}_or_more u_refused ();
+        end
+{%- endif %}
+    endgenerate
+
     localparam LANES = {= lanes =};
     localparam SLOTS = {= slots =};  // empty ones, too
 
     wire [{= slot_range =}:0] region;
     wire [{= center_bits - 1 =}:0] position;
-    wire [{= fold_bits - 1 =}:0] slot;
+    wire [{= slot_bits - 1 =}:0] slot;
     wire unused_beside = |region || |position || |slot{% if half_level %} || edge_level_i[0]{% endif %};
 
     serial_array #(

@@ -3,7 +3,7 @@
 
 1. Records the vectors of every design of mutation/designs.txt once, as co-simulation gives them to Icarus (design.py).
 2. Makes the mutants: one edit each, from a seed, spread over all leaves and rendered modules of an organization (mutants.py).
-   The edits are those of edits.py; parameter defaults, clocks and loop steps are left alone, declared ranges only become narrower.
+   The edits are those of edits.py; parameter defaults, limits, clocks and loop steps are left alone, declared ranges only become narrower.
 3. Replays the vectors of the designs that contain the module, smallest first, until a mismatch (verdicts.py). A replay that
    takes 12 times the processor time of the unmutated one counts as a mismatch, too.
 4. Where Icarus makes the same program, the mutant is not in the design. A survivor is equivalent if Yosys makes the same netlist

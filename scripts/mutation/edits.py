@@ -13,7 +13,7 @@ def edits(text, is_top, pick):
     first, depths = statements(stream, other)
     names = declared(stream, other)
     header = next((i for i, token in enumerate(stream) if token.text == ";"), 0)
-    # What is left alone: the steps of loops, and defaults of parameters.
+    # What is left alone: the steps of loops, limits, and defaults of parameters.
     alone = set()
     for index, token in enumerate(stream):
         if token.text == "for":
@@ -22,6 +22,10 @@ def edits(text, is_top, pick):
             alone.update(range(semicolons[1], other[index + 1] + 1))
         elif token.text == "@" and stream[index + 1].text == "(":
             alone.update(range(index, other[index + 1] + 1))
+        elif token.kind == "word" and "_must_" in token.text:
+            # A limit of a parameter, which no design is out of.
+            start = max(i for i in range(index) if stream[i].text == "if")
+            alone.update(range(start, next(i for i in range(index, len(stream)) if stream[i].text == ";") + 1))
     assigned_at, ranges = {}, {}
     for index, token in enumerate(stream):
         if depths[index] == 0 and token.text in ("=", "<=") and first[index] not in assigned_at:

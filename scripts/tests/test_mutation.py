@@ -83,6 +83,12 @@ class Edits(unittest.TestCase):
             self.assertNotIn("clk_i", (was, now), operator)
             self.assertNotIn(was, ("4", "9"), operator)
 
+    def test_limits_are_left_alone(self):
+        limit = "    generate if (WIDTH < 7) begin : g_width WIDTH_must_be_7_or_more u_refused (); end endgenerate\n"
+        self.assertEqual(made(MODULE.replace("    always", limit + "    always")), made(MODULE))
+        loose = limit.replace("_must_", "_may_")
+        self.assertNotEqual(made(MODULE.replace("    always", loose + "    always")), made(MODULE))
+
     def test_an_edit_changes_its_line_only(self):
         operator, start, end, replacement = next(edit for edit in edits(MODULE, False, first) if edit[0] == "drop")
         mutant = Mutant("counter", None, MODULE, operator, start, end, replacement)

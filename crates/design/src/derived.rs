@@ -114,7 +114,7 @@ impl Design {
 
     /// Bits of the number of a pixel in its region, 0..n.
     #[must_use]
-    pub fn slot_bits(&self) -> u32 {
+    pub fn position_bits(&self) -> u32 {
         index_bits(self.region_pixels().into())
     }
 

@@ -51,7 +51,7 @@ impl Design {
 
     /// Bits of the number of a slot of a lane, 0..K; at least one.
     #[must_use]
-    pub fn fold_bits(&self) -> u32 {
+    pub fn slot_bits(&self) -> u32 {
         number_bits(self.fold())
     }
 

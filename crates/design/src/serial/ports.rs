@@ -53,12 +53,12 @@ pub(crate) fn ports(design: &Design) -> Vec<Port> {
     let doc = "that pixel; only with forward_valid_o";
     list.push(fed(leaving(PortRole::ForwardPixel, pixel, doc)));
     let doc = "its number in its region; only with forward_valid_o";
-    list.push(leaving(PortRole::ForwardPosition, design.slot_bits(), doc));
+    list.push(leaving(PortRole::ForwardPosition, design.position_bits(), doc));
     match design.feed() {
         Feed::Parallel => {
             if design.fold() > 1 {
                 let doc = "slot of its region in its lane; only with forward_valid_o";
-                list.push(leaving(PortRole::ForwardSlot, design.fold_bits(), doc));
+                list.push(leaving(PortRole::ForwardSlot, design.slot_bits(), doc));
             }
         }
         Feed::Raster => {

@@ -138,14 +138,14 @@ fn the_configuration_may_name_the_memory() {
 fn the_widths_of_the_ports_hold_their_numbers() {
     let wide = design(&["hardware.fold=3", "spatial=[{feature=\"edge\"},{feature=\"variance\"}]"]);
     assert_eq!(
-        (wide.lanes(), wide.region_bits(), wide.lane_bits(), wide.fold_bits()),
+        (wide.lanes(), wide.region_bits(), wide.lane_bits(), wide.slot_bits()),
         (262, 10, 9, 2)
     );
     assert_eq!((wide.score_count(), wide.score_index_bits()), (3, 2));
     assert_eq!(wide.any_score_bits(), wide.features()[1].score_bits());
     assert_eq!((wide.region_of(261, 0), wide.region_of(261, 1)), (Some(783), None));
     let one = design(&["frame.width=8", "frame.height=8"]);
-    assert_eq!((one.region_bits(), one.lane_bits(), one.fold_bits()), (1, 1, 1));
+    assert_eq!((one.region_bits(), one.lane_bits(), one.slot_bits()), (1, 1, 1));
     assert_eq!((one.score_index_bits(), one.any_score_bits()), (1, 7));
 }
 

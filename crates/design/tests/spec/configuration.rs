@@ -16,7 +16,7 @@ fn the_default_is_the_paper() {
     let paper = design("");
     assert_eq!((paper.columns(), paper.rows(), paper.regions()), (28, 28, 784));
     assert_eq!((paper.region_pixels(), paper.stream_pixels(), paper.pixel_max()), (64, 64, 255));
-    assert_eq!((paper.count_bits(), paper.slot_bits()), (7, 6));
+    assert_eq!((paper.count_bits(), paper.position_bits()), (7, 6));
     assert_eq!(paper.timing().clocks_per_frame(), 64);
     assert_eq!(PipelinedTiming::of(&paper).decision_latency, 20);
 }

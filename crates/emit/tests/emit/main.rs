@@ -4,4 +4,5 @@
 
 mod common;
 mod emission;
+mod limits;
 mod lint;

@@ -3,9 +3,9 @@
 `default_nettype none
 
 module frame_progress (
-    input  wire clk_i,
-    input  wire rst_i,
-    input  wire step_i,
+    input  wire clk_i,     // clock, rising edge
+    input  wire rst_i,     // synchronous reset, active high
+    input  wire step_i,    // a pixel enters the store
     input  wire last_i,    // it is the last of the frame
     output reg  done_o,    // for one clock: the counts are those of a whole frame
     output reg  stored_o,  // the store holds a whole frame

@@ -6,12 +6,17 @@
 module hit_counter #(
     parameter WIDTH = 7  // bits of the count
 ) (
-    input  wire             clk_i,
-    input  wire             rst_i,
+    input  wire             clk_i,      // clock, rising edge
+    input  wire             rst_i,      // synchronous reset, active high
     input  wire             restart_i,  // the count is that of a whole frame
-    input  wire             hit_i,
-    output reg  [WIDTH-1:0] count_o
+    input  wire             hit_i,      // count one
+    output reg  [WIDTH-1:0] count_o     // hits so far
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+    endgenerate
 
     wire [WIDTH-1:0] hit = {{(WIDTH - 1) {1'b0}}, hit_i};
 

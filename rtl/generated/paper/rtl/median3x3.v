@@ -9,18 +9,23 @@
 module median3x3 #(
     parameter WIDTH = 8  // bits of a pixel
 ) (
-    input  wire             clk_i,
-    input  wire             rst_i,
-    input  wire             advance_i,
-    input  wire             step_i,    // the window is complete with the incoming column
-    input  wire             left_i,    // the incoming column is the first of its row
-    input  wire             right_i,   // the center is the last of its row
-    input  wire [WIDTH-1:0] upper_i,   // the incoming column
-    input  wire [WIDTH-1:0] middle_i,
-    input  wire [WIDTH-1:0] lower_i,
-    output reg              valid_o,   // a result, two clocks after step_i
-    output reg  [WIDTH-1:0] median_o
+    input  wire             clk_i,      // clock, rising edge
+    input  wire             rst_i,      // synchronous reset, active high
+    input  wire             advance_i,  // the window moves by one column
+    input  wire             step_i,     // the window is complete with the incoming column
+    input  wire             left_i,     // the incoming column is the first of its row
+    input  wire             right_i,    // the center is the last of its row
+    input  wire [WIDTH-1:0] upper_i,    // the incoming column, top
+    input  wire [WIDTH-1:0] middle_i,   // ... middle
+    input  wire [WIDTH-1:0] lower_i,    // ... bottom
+    output reg              valid_o,    // a result, two clocks after step_i
+    output reg  [WIDTH-1:0] median_o    // that result
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+    endgenerate
 
     function [WIDTH-1:0] lesser(input [WIDTH-1:0] a, input [WIDTH-1:0] b);
         lesser = a < b ? a : b;

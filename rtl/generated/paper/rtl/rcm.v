@@ -27,6 +27,12 @@ module rcm #(
     output wire [COLUMNS*ROWS*8-1:0] forward_pixel_o    // that pixel; 0 unless forward_valid_o; region i in lane i
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+    endgenerate
+
     wire [COLUMNS*ROWS-1:0] decision_valid;
 
     genvar row, column;

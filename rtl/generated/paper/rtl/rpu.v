@@ -31,14 +31,14 @@ module rpu (
     // Denoise.
     wire raw_advance, raw_step, raw_top, raw_bottom, raw_left, raw_right;
     wire [7:0] raw_upper, raw_middle, raw_lower, raw_center;
-    wire [5:0] unused_raw_slot;
+    wire [5:0] unused_raw_address;
     wire unused_raw_last;
-    wire clean_valid;
-    wire [7:0] clean_pixel;
+    wire denoised_valid;
+    wire [7:0] denoised_pixel;
 
-    window_isolated #(.SIDE(8), .SLOT_BITS(6)) u_raw_window (
+    window_isolated #(.SIDE(8), .ADDRESS_BITS(6)) u_raw_window (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i),
-        .advance_o(raw_advance), .step_o(raw_step), .slot_o(unused_raw_slot), .last_o(unused_raw_last),
+        .advance_o(raw_advance), .step_o(raw_step), .address_o(unused_raw_address), .last_o(unused_raw_last),
         .top_o(raw_top), .bottom_o(raw_bottom), .left_o(raw_left), .right_o(raw_right)
     );
 
@@ -51,7 +51,7 @@ module rpu (
         .clk_i(clk_i), .rst_i(rst_i), .advance_i(raw_advance), .step_i(raw_step),
         .left_i(raw_left), .right_i(raw_right),
         .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower),
-        .valid_o(clean_valid), .median_o(clean_pixel)
+        .valid_o(denoised_valid), .median_o(denoised_pixel)
     );
     wire unused_raw_center = |raw_center;
 
@@ -59,18 +59,18 @@ module rpu (
     wire window_advance, window_top, window_bottom, window_left, window_right;
     wire [7:0] window_upper, window_middle, window_lower;
     wire front_step, front_last;
-    wire [5:0] front_slot;
+    wire [5:0] front_address;
     wire [7:0] front_pixel;
 
-    window_isolated #(.SIDE(8), .SLOT_BITS(6)) u_window (
-        .clk_i(clk_i), .rst_i(rst_i), .valid_i(clean_valid),
-        .advance_o(window_advance), .step_o(front_step), .slot_o(front_slot), .last_o(front_last),
+    window_isolated #(.SIDE(8), .ADDRESS_BITS(6)) u_window (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(denoised_valid),
+        .advance_o(window_advance), .step_o(front_step), .address_o(front_address), .last_o(front_last),
         .top_o(window_top), .bottom_o(window_bottom), .left_o(window_left), .right_o(window_right)
     );
 
     window_column #(.WIDTH(8), .SIDE(8)) u_column (
         .clk_i(clk_i), .advance_i(window_advance), .top_i(window_top), .bottom_i(window_bottom),
-        .pixel_i(clean_pixel), .upper_o(window_upper), .middle_o(window_middle),
+        .pixel_i(denoised_pixel), .upper_o(window_upper), .middle_o(window_middle),
         .lower_o(window_lower), .center_o(front_pixel)
     );
 
@@ -83,7 +83,7 @@ module rpu (
 
     wire tail_step = front_step;
     wire tail_last = front_last;
-    wire [5:0] tail_slot = front_slot;
+    wire [5:0] tail_address = front_address;
     wire [7:0] tail_pixel = front_pixel;
     wire tail_edge_hit = edge_hit;
 
@@ -98,8 +98,8 @@ module rpu (
 
     // The frames before this one, read as they are overwritten.
     wire [7:0] previous_pixel;
-    frame_store #(.WIDTH(8), .PIXELS(64), .SLOT_BITS(6)) u_previous (
-        .clk_i(clk_i), .write_i(tail_step), .slot_i(tail_slot), .data_i(tail_pixel), .data_o(previous_pixel)
+    frame_store #(.WIDTH(8), .PIXELS(64), .ADDRESS_BITS(6)) u_previous (
+        .clk_i(clk_i), .write_i(tail_step), .address_i(tail_address), .data_i(tail_pixel), .data_o(previous_pixel)
     );
 
     // Temporal score.

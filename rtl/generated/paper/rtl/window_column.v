@@ -5,18 +5,23 @@
 
 module window_column #(
     parameter WIDTH = 8,  // bits of a pixel
-    parameter SIDE  = 8   // pixels of a row of the stream
+    parameter SIDE = 8    // pixels of a row of the stream
 ) (
-    input  wire             clk_i,
-    input  wire             advance_i,
-    input  wire             top_i,     // no row above the middle
-    input  wire             bottom_i,  // no row below the middle
-    input  wire [WIDTH-1:0] pixel_i,
-    output wire [WIDTH-1:0] upper_o,
-    output wire [WIDTH-1:0] middle_o,
-    output wire [WIDTH-1:0] lower_o,
-    output wire [WIDTH-1:0] center_o   // the middle one advance ago: the center of the window
+    input  wire             clk_i,      // clock, rising edge
+    input  wire             advance_i,  // the window moves by one column
+    input  wire             top_i,      // no row above the middle
+    input  wire             bottom_i,   // no row below the middle
+    input  wire [WIDTH-1:0] pixel_i,    // the newest pixel
+    output wire [WIDTH-1:0] upper_o,    // the column, top
+    output wire [WIDTH-1:0] middle_o,   // ... middle
+    output wire [WIDTH-1:0] lower_o,    // ... bottom
+    output wire [WIDTH-1:0] center_o    // the middle one advance ago: the center of the window
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (SIDE < 2) begin : g_side SIDE_must_be_2_or_more u_refused (); end
+    endgenerate
 
     wire [WIDTH-1:0] middle;
     wire [WIDTH-1:0] above;

@@ -10,35 +10,43 @@
 `default_nettype none
 
 module window_isolated #(
-    parameter SIDE = 8,      // pixels of a row of the region, at least 2
-    parameter SLOT_BITS = 6  // ceil(log2(SIDE * SIDE))
+    parameter SIDE = 8,         // pixels of a row of the region, at least 2
+    parameter ADDRESS_BITS = 6  // ceil(log2(SIDE * SIDE))
 ) (
-    input  wire                 clk_i,
-    input  wire                 rst_i,
-    input  wire                 valid_i,    // a pixel comes in
-    output wire                 advance_o,  // lines and columns move at this edge
-    output wire                 step_o,     // with it a center is complete
-    output wire [SLOT_BITS-1:0] slot_o,     // a number of its own for each center of a region
-    output wire                 last_o,     // it is the last of the frame
-    output wire                 top_o,      // the incoming column is centered on the first row
-    output wire                 bottom_o,   // ... on the last row
-    output wire                 left_o,     // the incoming column is the first of its row
-    output wire                 right_o     // the center is the last of its row
+    input  wire                    clk_i,      // clock, rising edge
+    input  wire                    rst_i,      // synchronous reset, active high
+    input  wire                    valid_i,    // a pixel comes in
+    output wire                    advance_o,  // lines and columns move at this edge
+    output wire                    step_o,     // with it a center is complete
+    output wire [ADDRESS_BITS-1:0] address_o,  // a number of its own for each center of a region
+    output wire                    last_o,     // it is the last of the frame
+    output wire                    top_o,      // the incoming column is centered on the first row
+    output wire                    bottom_o,   // ... on the last row
+    output wire                    left_o,     // the incoming column is the first of its row
+    output wire                    right_o     // the center is the last of its row
 );
 
-    localparam PIXELS = SIDE * SIDE;
-    localparam [SLOT_BITS-1:0] LAST = PIXELS - 1;
-    localparam [SLOT_BITS-1:0] LEAD = SIDE;
-    localparam [SLOT_BITS-1:0] LAST_ROW = PIXELS - SIDE;
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (SIDE < 2) begin : g_side SIDE_must_be_2_or_more u_refused (); end
+        if (ADDRESS_BITS != $clog2(SIDE * SIDE)) begin : g_address_bits
+            ADDRESS_BITS_must_be_clog2_of_the_pixels u_refused ();
+        end
+    endgenerate
 
-    reg  [SLOT_BITS-1:0] taken_q;   // pixels taken of the current frame
+    localparam PIXELS = SIDE * SIDE;
+    localparam [ADDRESS_BITS-1:0] LAST = PIXELS - 1;
+    localparam [ADDRESS_BITS-1:0] LEAD = SIDE;
+    localparam [ADDRESS_BITS-1:0] LAST_ROW = PIXELS - SIDE;
+
+    reg  [ADDRESS_BITS-1:0] taken_q;   // pixels taken of the current frame
     // The initial value keeps synthesis from moving this register into the store's address port,
     // which would cost the store a second port.
-    reg [SLOT_BITS-1:0] middle_q = {SLOT_BITS{1'b0}};  // position of the middle of the incoming column
+    reg [ADDRESS_BITS-1:0] middle_q = {ADDRESS_BITS{1'b0}};  // position of the middle of the incoming column
     reg                  center_q;  // there is a center, one pixel behind
 
-    wire middle_first = middle_q == {SLOT_BITS{1'b0}};
-    wire between = taken_q == {SLOT_BITS{1'b0}};
+    wire middle_first = middle_q == {ADDRESS_BITS{1'b0}};
+    wire between = taken_q == {ADDRESS_BITS{1'b0}};
     wire flush = between && (!middle_first || center_q);
     wire middle_moves = !middle_first || taken_q == LEAD;
 
@@ -47,14 +55,14 @@ module window_isolated #(
 
     always @(posedge clk_i) begin
         if (rst_i) begin
-            taken_q  <= {SLOT_BITS{1'b0}};
-            middle_q <= {SLOT_BITS{1'b0}};
+            taken_q  <= {ADDRESS_BITS{1'b0}};
+            middle_q <= {ADDRESS_BITS{1'b0}};
             center_q <= 1'b0;
         end else begin
-            if (valid_i) taken_q <= taken_q == LAST ? {SLOT_BITS{1'b0}} : taken_q + 1'b1;
+            if (valid_i) taken_q <= taken_q == LAST ? {ADDRESS_BITS{1'b0}} : taken_q + 1'b1;
             if (advance_o) begin
                 center_q <= middle_moves;
-                if (middle_moves) middle_q <= middle_q == LAST ? {SLOT_BITS{1'b0}} : middle_q + 1'b1;
+                if (middle_moves) middle_q <= middle_q == LAST ? {ADDRESS_BITS{1'b0}} : middle_q + 1'b1;
             end
         end
     end
@@ -63,20 +71,20 @@ module window_isolated #(
     wire row_start;
     generate
         if ((SIDE & (SIDE - 1)) == 0) begin : g_power_of_two
-            assign row_start = middle_q[SLOT_BITS/2-1:0] == {(SLOT_BITS / 2) {1'b0}};
+            assign row_start = middle_q[ADDRESS_BITS/2-1:0] == {(ADDRESS_BITS / 2) {1'b0}};
         end else begin : g_counted
-            localparam [SLOT_BITS-1:0] LAST_COLUMN = SIDE - 1;
-            reg [SLOT_BITS-1:0] column_q;
+            localparam [ADDRESS_BITS-1:0] LAST_COLUMN = SIDE - 1;
+            reg [ADDRESS_BITS-1:0] column_q;
             always @(posedge clk_i) begin
-                if (rst_i) column_q <= {SLOT_BITS{1'b0}};
+                if (rst_i) column_q <= {ADDRESS_BITS{1'b0}};
                 else if (advance_o && middle_moves)
-                    column_q <= column_q == LAST_COLUMN ? {SLOT_BITS{1'b0}} : column_q + 1'b1;
+                    column_q <= column_q == LAST_COLUMN ? {ADDRESS_BITS{1'b0}} : column_q + 1'b1;
             end
-            assign row_start = column_q == {SLOT_BITS{1'b0}};
+            assign row_start = column_q == {ADDRESS_BITS{1'b0}};
         end
     endgenerate
 
-    assign slot_o   = middle_q;
+    assign address_o   = middle_q;
     assign last_o   = middle_first;
     assign top_o    = middle_q < LEAD;
     assign bottom_o = middle_q >= LAST_ROW;

@@ -91,7 +91,9 @@ fn why(memory: &LaneMemory) -> String {
         MemoryChoice::Limit(most) => {
             let luts = memory.luts;
             let side = if luts <= most { "within" } else { "above" };
-            format!("{luts} memory LUTs as distributed, {side} {most}; hardware.memory chooses")
+            format!(
+                "{luts} LUTs if distributed, {side} the limit of {most}; hardware.memory overrides"
+            )
         }
     }
 }

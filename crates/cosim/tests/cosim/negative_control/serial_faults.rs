@@ -53,7 +53,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Block, "serial_memory", "data_q <= pixels_q[address_i];", "data_q <= pixels_q[address_i ^ 1'b1];"),
     fault("width", Block, "serial_memory", "pixels_q[address_i] <= data_i", "pixels_q[address_i] <= {1'b0, data_i[WIDTH-2:0]}"),
     fault("constant", Block, "serial_memory", "reg [WIDTH-1:0] pixels_q[0:WORDS-1];", "reg [WIDTH-1:0] pixels_q[0:WORDS/2-1];"),
-    fault("width", Paper, "serial_memory", ".SLOT_BITS(ADDRESS_BITS)", ".SLOT_BITS(ADDRESS_BITS - 1)"),
+    fault("width", Paper, "serial_memory", ".data_i(data_i)", ".data_i({1'b0, data_i[WIDTH-2:0]})"),
 
     fault("constant", Paper, "serial_parallel_feed", "LAST = PIXELS - 1;", "LAST = PIXELS - 2;"),
     fault("reset", Paper, "serial_parallel_feed", "if (rst_i) word_q <= SECOND;\n        else if", "if"),
@@ -92,8 +92,12 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("width", Many, "serial_group", "8'd1 << lane[5:3]", "8'd1 << lane[4:3]"),
     fault("width", Many, "serial_group", "8'd1 << lane[2:0]", "8'd1 << lane[1:0]"),
 
-    fault("reset", Paper, "serial_registers", "if (rst_i) bit_q <= 1'b0;\n                    else bit_q", "bit_q"),
-    fault("constant", Corner, "serial_registers", "assign bits_o[i] = bit_q;", "assign bits_o[i] = i == 17 ? 1'b0 : bit_q;"),
+    fault("constant", Mad, "serial_group", ".USED(MAD), .LATE(BLOCK)) u_deviate", ".USED(VARIANCE), .LATE(BLOCK)) u_deviate"),
+    fault("index", Paper, "serial_group", ".bits_i(run_clear_i)", ".bits_i(count_i)"),
+
+    fault("reset", Paper, "serial_control", "if (rst_i) bits_q <= {WIDTH{1'b0}};\n                else bits_q", "bits_q"),
+    fault("constant", Paper, "serial_control", "if (USED == 0)", "if (USED == 0 || WIDTH > 1)"),
+    fault("index", Block, "serial_control", "late_q <= bits_q", "late_q <= bits_i"),
     fault("reset", Paper, "serial_shown", "if (rst_i) bits_q <= {WIDTH{1'b0}};\n        else bits_q", "bits_q"),
     fault("reset", Block, "serial_shown", "if (rst_i) late_q <= {WIDTH{1'b0}};\n                else late_q", "late_q"),
 
@@ -108,7 +112,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Corner, "serial_decision", "flags_i[1] && vote : flags_i[1] || vote", "flags_i[1] || vote : flags_i[1] || vote"),
     fault("constant", Corner, "serial_decision", "temporal ? ALL != 0 : srs", "srs"),
     fault("operator", Sent, "serial_decision", "active || (reference && (srs || BLANKS == 0))", "active || reference"),
-    fault("constant", Sent, "serial_decision", "reference = kept && !first_q;", "reference = kept;"),
+    fault("constant", Sent, "serial_decision", "reference = referenced && !first_q;", "reference = referenced;"),
     fault("index", Corner, "serial_decision", "minima_i[index_i*SCORE_BITS+:SCORE_BITS]", "minima_i[0+:SCORE_BITS]"),
     fault("operator", Paper, "serial_decision", "flags_i[0] && srs && region_valid_o", "srs && region_valid_o"),
 
