@@ -19,6 +19,19 @@ step_quickstart() { scripts/quickstart.sh "$log/quickstart"; }
 step_cosim() {
     foveate cosim --full --preset paper scene:street
     foveate cosim --full --preset serial scene:street
+    foveate cosim --full --preset serial --set hardware.fold=38 --set "hardware.feed='raster'" --rounds 0 scene:street
+    # The negative control: only the last regions of the whole array get wrong pixels, which no smaller grid shows.
+    foveate generate --preset paper --output "$log/miswired" --force
+    sed -i 's/pixel_i\[REGION\*8+:8\]/pixel_i[(REGION^512)*8+:8]/' "$log/miswired/rtl/rcm.v"
+    grep -q 'REGION^512' "$log/miswired/rtl/rcm.v"
+    local ended=0
+    foveate cosim --config "$log/miswired/design.toml" --rtl "$log/miswired/rtl" --replay "$log/replay" --full --rounds 0 scene:street ||
+        ended=$?
+    [ "$ended" -eq 1 ] || { echo "the miswired array ended with $ended, not with a mismatch" && return 1; }
+}
+step_benches() {
+    # Every output of the shipped benches tied to 0, over sizes, folds and feeds.
+    cargo test --locked --package foveate-cosim --test cosim -- --ignored tied
 }
 step_netlists() {
     local array=(--level rcm --rounds 1)
@@ -26,10 +39,10 @@ step_netlists() {
     foveate cosim --netlist --preset paper --rounds 1
     foveate cosim --netlist --preset bare "${array[@]}" --grid 3x2
     foveate cosim --netlist --preset serial --rounds 1
-    # Block RAM, and the DSP blocks of `variance`.
-    foveate cosim --netlist --preset serial "${array[@]}" --grid 4x4 --set hardware.feed="'raster'" \
-        --set hardware.fold=4 --set hardware.memory="'block'"
-    foveate cosim --netlist --preset bare --rounds 1 --set "spatial=[{feature='variance',min_score=30}]"
+    # DSP blocks, and block RAM.
+    foveate cosim --netlist --preset bare --rounds 1 --set "spatial=[{feature='variance'}]"
+    foveate cosim --netlist --preset serial "${array[@]}" --set "denoise.filter='none'" --set region.size=4 \
+        --set "hardware.feed='raster'" --set hardware.fold=4 --set "hardware.memory='block'"
 }
 step_area() { foveate estimate --compare --markdown; }
 step_lint() { scripts/lint.sh; }
@@ -42,7 +55,7 @@ step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart cosim netlists area lint formal coverage newer mutation memory bench)
+steps=(test quickstart cosim benches netlists area lint formal coverage newer mutation memory bench)
 
 case ${1:-} in
 -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
