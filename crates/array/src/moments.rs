@@ -39,6 +39,15 @@ impl<S: Sum> Moments<S> {
         })
     }
 
+    /// The scores of a feature, where they are formed.
+    pub(crate) fn scores(&self, kind: FeatureKind) -> &Row<S> {
+        match kind {
+            FeatureKind::Mad => &self.deviations,
+            FeatureKind::Variance => &self.variance,
+            FeatureKind::Edge | FeatureKind::Corner => unreachable!("{kind} counts hits"),
+        }
+    }
+
     pub(crate) fn reset(&mut self) {
         let Self { sum, square_sum, mean, variance, deviations, .. } = self;
         for row in [Some(sum), square_sum.as_mut(), mean.as_mut(), Some(variance), Some(deviations)]

@@ -51,10 +51,7 @@ impl Plan {
             feature_window: design.has_feature_window(),
             needs_border: design.needs_border(),
             keeps_raw: design.filter() != Filter::None && design.payload() == Payload::Raw,
-            delayed_tail: features.iter().any(|kind| match kind {
-                FeatureKind::Edge | FeatureKind::Corner => false,
-                FeatureKind::Mad | FeatureKind::Variance => true,
-            }),
+            delayed_tail: features.iter().any(|kind| kind.score_latency() > 1),
             features,
             fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
             second_pass: design.has_second_pass(),

@@ -74,13 +74,14 @@ impl<Y: Types> Tail<Y> {
     pub(crate) fn new(plan: &Plan) -> Self {
         let counter = |&kind: &FeatureKind| row(if kind.has_window() { plan.lanes } else { 0 });
         let hits: Vec<_> = plan.features.iter().map(counter).collect();
-        let variances = if plan.place(FeatureKind::Variance).is_some() { plan.lanes } else { 0 };
+        let moments = Moments::of(plan);
+        let variances = moments.as_ref().map_or(0, |moments| moments.variance.len());
         let ports = || row(plan.lanes);
         Self {
             position: 0,
             done: false,
             store: Store::new(plan, keeps_sent(plan)),
-            moments: Moments::of(plan),
+            moments,
             temporal: TemporalScore::new(plan),
             held: plan.second_pass.then(|| Held { hits: hits.clone(), variance: row(variances) }),
             hits,
@@ -217,18 +218,16 @@ impl<Y: Types> Tail<Y> {
 
     /// What the score ports of the feature at `place` show.
     pub(crate) fn scores(&self, plan: &Plan, place: usize) -> Scores<'_, Y> {
-        let moments = self.moments.as_ref();
-        match plan.features[place] {
-            FeatureKind::Edge | FeatureKind::Corner => {
-                let held = self.held.as_ref().map(|held| &held.hits);
-                Scores::Counts(&held.unwrap_or(&self.hits)[place])
-            }
-            FeatureKind::Mad => Scores::Sums(moments.map_or(&[], |moments| &moments.deviations)),
-            FeatureKind::Variance => Scores::Sums(match &self.held {
-                Some(held) => &held.variance,
-                None => moments.map_or(&[], |moments| &moments.variance),
-            }),
+        let kind = plan.features[place];
+        if kind.has_window() {
+            let held = self.held.as_ref().map(|held| &held.hits);
+            return Scores::Counts(&held.unwrap_or(&self.hits)[place]);
         }
+        Scores::Sums(match (&self.held, &self.moments) {
+            (Some(held), _) if !kind.has_second_pass() => &held.variance,
+            (_, Some(moments)) => moments.scores(kind),
+            (_, None) => unreachable!("a feature that counts no hits has sums"),
+        })
     }
 
     /// What the temporal count ports show.

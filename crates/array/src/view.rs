@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The output ports of all RPUs, as they are after an edge.
 
+use foveate_design::FeatureKind;
 use foveate_model::RpuOutput;
 
 use crate::tail::Decision;
@@ -66,7 +67,7 @@ impl<'a> Outputs<'a> {
     pub fn rpu(self, region: usize) -> RpuOutput {
         assert!(region < self.regions, "region {region} of {}", self.regions);
         let decision = self.core.decision();
-        let mut scores = [0; 4];
+        let mut scores = [0; FeatureKind::COUNT];
         for (place, score) in scores.iter_mut().enumerate().take(self.core.features()) {
             *score = self.core.score(place, region);
         }

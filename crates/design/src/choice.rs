@@ -66,8 +66,10 @@ choice! {
 }
 choice! {
     /// A spatial feature.
+    #[derive(Default)]
     FeatureKind {
         /// 3x3 Sobel: pixels with |Gx| + |Gy| > level.
+        #[default]
         Edge = "edge",
         /// FAST 5/8: pixels with 5 contiguous neighbors all brighter or all darker by > level.
         Corner = "corner",

@@ -21,7 +21,7 @@ pub struct Config {
     pub region: RegionConfig,
     /// The filter in front of every score.
     pub denoise: DenoiseConfig,
-    /// One to four spatial features, each at most once.
+    /// One or more spatial features, each at most once.
     pub spatial: Vec<SpatialConfig>,
     /// How the votes of several features become SRS.
     pub decision: DecisionConfig,
@@ -39,7 +39,7 @@ impl Default for Config {
             frame: FrameConfig::default(),
             region: RegionConfig::default(),
             denoise: DenoiseConfig::default(),
-            spatial: vec![SpatialConfig::new(FeatureKind::Edge)],
+            spatial: vec![SpatialConfig::new(FeatureKind::default())],
             decision: DecisionConfig::default(),
             temporal: TemporalConfig::default(),
             render: RenderConfig::default(),
@@ -121,20 +121,15 @@ impl SpatialConfig {
     /// The entry with every key that applies to its feature filled in, for pixels of `bits` bits.
     #[must_use]
     pub fn with_defaults(&self, bits: u32) -> Self {
-        let (level, min_score, fraction) = match self.feature {
-            FeatureKind::Edge => (Some(100), 5, None),
-            FeatureKind::Corner => (Some(20), 5, None),
-            FeatureKind::Mad => (None, 5, Some(0)),
-            FeatureKind::Variance => (None, 50, None),
-        };
-        let level = level.map(|value| depth::level(value, DEFAULT_BITS, bits));
-        let min_score =
-            depth::min_score(self.feature, Decimal::whole(min_score), DEFAULT_BITS, bits);
+        let defaults = self.feature.defaults();
+        let level = defaults.level.map(|value| depth::level(value, DEFAULT_BITS, bits));
+        let min_score = Decimal::whole(defaults.min_score);
+        let min_score = depth::min_score(self.feature, min_score, DEFAULT_BITS, bits);
         Self {
             feature: self.feature,
             level: self.level.or(level),
             min_score: self.min_score.or(Some(min_score)),
-            mean_fraction_bits: self.mean_fraction_bits.or(fraction),
+            mean_fraction_bits: self.mean_fraction_bits.or(defaults.mean_fraction_bits),
         }
     }
 }

@@ -55,10 +55,9 @@ pub(crate) fn level(value: u32, from: u32, to: u32) -> u32 {
 
 /// A minimum score of `from` bits at `to` bits.
 pub(crate) fn min_score(feature: FeatureKind, value: Decimal, from: u32, to: u32) -> Decimal {
-    match feature {
-        FeatureKind::Edge | FeatureKind::Corner => value,
-        FeatureKind::Mad => times_power_of_two(value, from, to, 1),
-        FeatureKind::Variance => times_power_of_two(value, from, to, 2),
+    match feature.measure().power() {
+        0 => value,
+        power => times_power_of_two(value, from, to, power),
     }
 }
 

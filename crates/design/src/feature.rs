@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A spatial feature with its thresholds as integers and its widths. Adding a feature starts here.
+//! A spatial feature with its thresholds as integers and its widths. What sets features apart is in
+//! [`crate::kind`].
 
 use std::fmt::Display;
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::width::{edge_magnitude_max, variance_score_max};
-use crate::{
-    Decimal, DesignError, FeatureKind, Reciprocal, SpatialConfig, bits_for, mad_score_max,
-};
+use crate::{Decimal, DesignError, FeatureKind, Reciprocal, SpatialConfig, bits_for};
 
 /// One feature of a design.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpatialFeature {
     kind: FeatureKind,
     level: Option<u32>,
-    level_bits: u32,
+    level_max: Option<u32>,
+    unit: u64,
     min_score: u64,
     score_max: u64,
     mean: Option<Mean>,
@@ -54,24 +53,18 @@ impl SpatialFeature {
         bits: u32,
     ) -> Result<Self, DesignError> {
         let entry = Entry { config, index, bits };
-        let max = (1 << bits) - 1;
+        let pixel_max = (1 << bits) - 1;
+        let max = u64::from(pixel_max);
         let fraction_bits = entry.fraction_bits(n)?;
-        let mean = (config.feature == FeatureKind::Mad).then(|| Mean::new(n, max, fraction_bits));
-        let variance = (config.feature == FeatureKind::Variance).then(|| Variance::new(n, max));
-        let (unit, score_max) = match config.feature {
-            FeatureKind::Edge | FeatureKind::Corner => (1, n),
-            FeatureKind::Mad => (n << fraction_bits, mad_score_max(n, max, fraction_bits)),
-            FeatureKind::Variance => (n * n, variance_score_max(n, max)),
-        };
-        let level_max = match config.feature {
-            FeatureKind::Edge => Some(edge_magnitude_max(max)),
-            FeatureKind::Corner => Some(max),
-            FeatureKind::Mad | FeatureKind::Variance => None,
-        };
+        let (kind, level_max) = (config.feature, config.feature.level_max(pixel_max));
+        let (mean, variance) = kind.sums(n, max, fraction_bits);
+        let unit = kind.unit(n, fraction_bits);
+        let score_max = kind.score_max(n, max, fraction_bits);
         Ok(Self {
-            kind: config.feature,
+            kind,
             level: entry.level(level_max)?,
-            level_bits: bits_for(level_max.unwrap_or(0)),
+            level_max,
+            unit,
             min_score: entry.min_score(unit, score_max)?,
             score_max,
             mean,
@@ -91,10 +84,23 @@ impl SpatialFeature {
         self.level
     }
 
-    /// Bits of the per-pixel threshold.
+    /// Bits of the per-pixel threshold; 0 where there is none.
     #[must_use]
     pub fn level_bits(&self) -> u32 {
-        self.level_bits
+        self.level_max.map_or(0, |max| bits_for(max.into()))
+    }
+
+    /// The largest per-pixel threshold that a window can reach, where there is one.
+    #[must_use]
+    pub fn level_max(&self) -> Option<u32> {
+        self.level_max
+    }
+
+    /// Units of the score that are one unit of `min_score` in the configuration, a pixel, a grey level or
+    /// its square.
+    #[must_use]
+    pub fn unit(&self) -> u64 {
+        self.unit
     }
 
     /// The per-region threshold in units of the score: the feature votes when score >= this.
@@ -128,36 +134,8 @@ impl SpatialFeature {
     }
 }
 
-impl FeatureKind {
-    /// Whether the feature looks at 3x3 windows.
-    #[must_use]
-    pub fn has_window(self) -> bool {
-        match self {
-            Self::Edge | Self::Corner => true,
-            Self::Mad | Self::Variance => false,
-        }
-    }
-
-    /// Whether the score needs the region a second time, once its mean is known.
-    #[must_use]
-    pub fn has_second_pass(self) -> bool {
-        match self {
-            Self::Mad => true,
-            Self::Edge | Self::Corner | Self::Variance => false,
-        }
-    }
-
-    /// Clocks from the step of the last pixel until the score is final.
-    pub(crate) fn score_latency(self) -> u32 {
-        match self {
-            Self::Edge | Self::Corner => 1,
-            Self::Mad | Self::Variance => 2,
-        }
-    }
-}
-
 impl Mean {
-    fn new(n: u64, pixel_max: u64, fraction_bits: u32) -> Self {
+    pub(crate) fn new(n: u64, pixel_max: u64, fraction_bits: u32) -> Self {
         let dividend_max = ((n * pixel_max) << fraction_bits) + n / 2;
         Self {
             fraction_bits,
@@ -169,7 +147,7 @@ impl Mean {
 }
 
 impl Variance {
-    fn new(n: u64, pixel_max: u64) -> Self {
+    pub(crate) fn new(n: u64, pixel_max: u64) -> Self {
         Self {
             square_bits: bits_for(pixel_max * pixel_max),
             square_sum_bits: bits_for(n * pixel_max * pixel_max),
@@ -193,7 +171,7 @@ impl Entry<'_> {
 
     /// The level, below `max`, the largest magnitude that it is compared with: it must be exceeded by some
     /// pixel, unless a region without one votes too.
-    fn level(&self, max: Option<u64>) -> Result<Option<u32>, DesignError> {
+    fn level(&self, max: Option<u32>) -> Result<Option<u32>, DesignError> {
         let (level, max) = match (self.config.level, max) {
             (None, _) => return Ok(None),
             (Some(level), None) => return Err(self.does_not_apply("level", level)),
@@ -201,7 +179,7 @@ impl Entry<'_> {
         };
         let always = self.config.min_score == Some(Decimal::whole(0));
         let largest = if always { max } else { max - 1 };
-        let fits = |level: u32| u64::from(level) <= largest;
+        let fits = |level: u32| level <= largest;
         if fits(level) {
             return Ok(Some(level));
         }
@@ -213,22 +191,23 @@ impl Entry<'_> {
 
     fn fraction_bits(&self, n: u64) -> Result<u32, DesignError> {
         let max = crate::width::index_bits(n);
-        match (self.config.mean_fraction_bits, self.config.feature) {
-            (None, _) => Ok(0),
-            (Some(bits), FeatureKind::Mad) if bits <= max => Ok(bits),
-            (Some(bits), FeatureKind::Mad) => Err(self.out_of_range(
+        let applies = self.config.feature.defaults().mean_fraction_bits.is_some();
+        match self.config.mean_fraction_bits {
+            None => Ok(0),
+            Some(bits) if !applies => Err(self.does_not_apply("mean_fraction_bits", bits)),
+            Some(bits) if bits <= max => Ok(bits),
+            Some(bits) => Err(self.out_of_range(
                 "mean_fraction_bits",
                 &bits,
                 &format!("0..={max}, with regions of {n} pixels,"),
                 "",
             )),
-            (Some(bits), _) => Err(self.does_not_apply("mean_fraction_bits", bits)),
         }
     }
 
     /// The integer threshold; `unit` score units are one unit of the configuration.
     fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, DesignError> {
-        let minimum = self.config.min_score.unwrap_or(Decimal::whole(0));
+        let minimum = self.config.min_score.expect("the defaults are filled in before");
         let counts = self.config.feature.has_window();
         if counts && minimum.as_whole().is_none() {
             return Err(DesignError::Type {

@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::{Config, Design, DesignError, HardwareConfig, SpatialFeature, Temporal};
+use crate::{Config, Design, DesignError, FeatureKind, HardwareConfig, SpatialFeature, Temporal};
 
 /// Frame size where the configuration leaves it out.
 const DEFAULT_SIDE: u32 = 224;
@@ -111,7 +111,7 @@ impl Config {
             return Err(DesignError::Range {
                 key: "spatial".to_owned(),
                 value: "[]".to_owned(),
-                valid: "one to four features".to_owned(),
+                valid: format!("1..={} features", FeatureKind::COUNT),
             });
         }
         for (index, entry) in self.spatial.iter().enumerate() {

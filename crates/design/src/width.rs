@@ -16,7 +16,7 @@ pub const fn index_bits(n: u64) -> u32 {
 /// Largest `|Gx| + |Gy|` of a 3x3 Sobel on pixels up to `pixel_max`.
 ///
 /// It is `max(|Gx + Gy|, |Gx - Gy|)`, and both sums are `2 * (three pixels - three others)`.
-pub(crate) const fn edge_magnitude_max(pixel_max: u64) -> u64 {
+pub(crate) const fn edge_magnitude_max(pixel_max: u32) -> u32 {
     6 * pixel_max
 }
 

@@ -6,8 +6,8 @@ use crate::verilog::{PortLine, text_of};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, PipelinedTiming, PortRole,
-    Reference, SpatialFeature, bits_for, index_bits,
+    Combine, Design, Filter, Irrelevant, Neighborhood, PipelinedTiming, PortRole, Reference,
+    SpatialFeature, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -139,8 +139,8 @@ fn view(design: &Design) -> Rpu {
         windowed: features.iter().filter_map(|f| windowed(design, f)).collect(),
         sums: features.iter().any(|f| f.mean().is_some() || f.variance().is_some()),
         sum_bits: design.pixel_sum_bits(),
-        mad: design.feature(FeatureKind::Mad).and_then(mad),
-        variance: design.feature(FeatureKind::Variance).and_then(variance),
+        mad: features.iter().find_map(mad),
+        variance: features.iter().find_map(variance),
         references: candidates(last_sent, second_pass),
         temporal_level: signal(design, PortRole::TemporalLevel),
         scores: scores(design),
@@ -159,10 +159,11 @@ fn view(design: &Design) -> Rpu {
 
 fn windowed(design: &Design, feature: &SpatialFeature) -> Option<Windowed> {
     let kind = feature.kind();
-    let parameters = match kind {
-        FeatureKind::Edge => format!(", .LEVEL_BITS({})", feature.level_bits()),
-        FeatureKind::Corner => String::new(),
-        FeatureKind::Mad | FeatureKind::Variance => return None,
+    feature.level()?;
+    // A level that is no pixel has a width of its own.
+    let parameters = match feature.level_bits() {
+        bits if bits == design.pixel_bits() => String::new(),
+        bits => format!(", .LEVEL_BITS({bits})"),
     };
     let level = signal(design, PortRole::Level(kind));
     Some(Windowed { name: kind.name(), level, parameters })

@@ -141,7 +141,7 @@ fn parameters(design: &Design) -> Vec<(&'static str, String)> {
     let median = design.filter() == Filter::Median3x3;
     let region = design.region_size();
     let base = |kind| memory.area(kind).map_or(0, |area| area.base);
-    let fraction = design.feature(FeatureKind::Mad).and_then(SpatialFeature::mean);
+    let fraction = design.features().iter().find_map(SpatialFeature::mean);
     let kinds: Vec<u32> = design.features().iter().map(|f| kind(f.kind())).collect();
     let kinds = kinds.iter().rev().fold(0, |sum, kind| sum << 2 | kind);
     let flag = |condition: bool| u32::from(condition);
@@ -180,7 +180,10 @@ fn parameters(design: &Design) -> Vec<(&'static str, String)> {
     list
 }
 
-/// How the Verilog numbers the features.
+// Parameter KINDS has a place of two bits for each.
+const _: () = assert!(FeatureKind::COUNT <= 4, "widen KINDS of serial_sequencer.v");
+
+/// How the Verilog numbers the features, in two bits each.
 fn kind(kind: FeatureKind) -> u32 {
     match kind {
         FeatureKind::Edge => 0,
@@ -195,7 +198,7 @@ fn edge_half(design: &Design) -> String {
     let width = design.pixel_bits() + 2;
     let Some(edge) = design.feature(FeatureKind::Edge) else { return format!("{width}'d0") };
     match design.thresholds() {
-        Thresholds::Constant => format!("{width}'d{}", edge.level().unwrap_or(0) / 2),
+        Thresholds::Constant => format!("{width}'d{}", edge.level().expect("edge has a level") / 2),
         Thresholds::Runtime => {
             let half = format!("edge_level_i[{}:1]", edge.level_bits() - 1);
             padded(&half, edge.level_bits() - 1, width)

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
+use foveate_design::FeatureKind;
 use foveate_fidelity::Figures;
 use foveate_simulator::csv_field;
 use foveate_staging::write_file;
@@ -221,7 +222,7 @@ pub(crate) fn errors(figures: &Figures) -> Cells {
     ]
     .map(|(name, cell)| (name.to_owned(), cell))
     .into();
-    for feature in SCORES {
+    for feature in score_names() {
         let score = figures.scores.iter().find(|score| score.feature == feature);
         let of = |take: fn(&foveate_fidelity::ScoreError) -> f64| Cell::Real(score.map(take));
         cells.push((format!("{feature}_max"), of(|score| score.max)));
@@ -232,7 +233,9 @@ pub(crate) fn errors(figures: &Figures) -> Cells {
 }
 
 /// Every score that can be compared; the same columns for all spaces, so that tables can be joined.
-const SCORES: [&str; 5] = ["edge", "corner", "mad", "variance", "temporal"];
+fn score_names() -> impl Iterator<Item = &'static str> {
+    FeatureKind::ALL.iter().map(|kind| kind.name()).chain(["temporal"])
+}
 
 fn count(value: u64) -> Cell {
     Cell::Count(Some(value))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Errors of the scores that both designs have, region by region; only where regions are the same.
 
-use foveate_design::{Design, FeatureKind};
+use foveate_design::{Design, Measure};
 use foveate_engine::Outcome;
 use foveate_ideal::IdealOutcome;
 use serde::{Deserialize, Serialize};
@@ -68,17 +68,16 @@ impl Pair {
             let kind = feature.kind();
             let Some((other, feature)) = find(kind) else { continue };
             let base = Self { places: Some((at, other)), name: kind.name(), ..hits };
-            pairs.push(match kind {
-                FeatureKind::Edge | FeatureKind::Corner => base,
-                FeatureKind::Mad => {
-                    let bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
-                    let divisor = n * f64::from(1_u32 << bits);
-                    Self { unit: "grey levels", divisor, depth: levels, share: 1.0, ..base }
-                }
-                FeatureKind::Variance => {
-                    let (divisor, depth) = (n * n, levels * levels);
-                    Self { unit: "squared grey levels", divisor, depth, share: 1.0, ..base }
-                }
+            let measure = kind.measure();
+            pairs.push(match measure {
+                Measure::Pixels => base,
+                Measure::Levels | Measure::SquaredLevels => Self {
+                    unit: measure.name(),
+                    divisor: real(feature.unit()),
+                    depth: (0..measure.power()).map(|_| levels).product(),
+                    share: 1.0,
+                    ..base
+                },
             });
         }
         pairs.push(hits);

@@ -126,7 +126,7 @@ impl Camera {
         let Self { design, references, outcome, .. } = self;
         let at = index(region);
         for (feature, scores) in design.features().iter().zip(&mut outcome.scores) {
-            scores[at] = feature::score(design, feature, &outcome.denoised, region);
+            scores[at] = feature::of_region(design, feature, &outcome.denoised, region);
         }
         let votes = design
             .features()

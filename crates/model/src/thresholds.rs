@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The threshold inputs of a core; every organization has the same.
 
-use foveate_design::Design;
+use foveate_design::{Design, FeatureKind};
 
 /// What is applied to the threshold inputs in one clock. Features are numbered in the order of the
 /// design; places that it does not use are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Thresholds {
-    /// Per-pixel thresholds of `edge` and `corner`.
-    pub level: [u32; 4],
+    /// Per-pixel thresholds of the features that count hits.
+    pub level: [u32; FeatureKind::COUNT],
     /// Per-region thresholds in units of the scores.
-    pub min_score: [u64; 4],
+    pub min_score: [u64; FeatureKind::COUNT],
     /// A pixel has changed above this difference.
     pub temporal_level: u32,
     /// TRS from this count on.
@@ -23,14 +23,15 @@ impl Thresholds {
     pub fn of(design: &Design) -> Self {
         let temporal = design.temporal();
         let mut thresholds = Self {
-            level: [0; 4],
-            min_score: [0; 4],
+            level: [0; FeatureKind::COUNT],
+            min_score: [0; FeatureKind::COUNT],
             temporal_level: temporal.level,
             temporal_min_count: temporal.min_count,
         };
         let places = thresholds.level.iter_mut().zip(&mut thresholds.min_score);
         for (feature, (level, min_score)) in design.features().iter().zip(places) {
-            *level = feature.level().unwrap_or_default();
+            // A feature without a level has no such input.
+            *level = feature.level().unwrap_or(0);
             *min_score = feature.min_score();
         }
         thresholds

@@ -3,17 +3,19 @@
 
 use super::gauge::{filtered, window};
 use super::random::Random;
-use foveate_design::{Design, FeatureKind, Filter};
+use foveate_design::{Design, FeatureKind, Filter, SpatialFeature};
 use foveate_model::Thresholds;
-use foveate_model::feature::{corner::strength, edge::magnitude};
+use foveate_model::feature::decisive_level;
 use foveate_model::window::Window;
 
 /// The largest value of every threshold port.
 #[derive(Clone, Debug)]
 pub(crate) struct Ranges {
     kinds: Vec<FeatureKind>,
-    level: [u32; 4],
-    min_score: [u64; 4],
+    level: [u32; FeatureKind::COUNT],
+    min_score: [u64; FeatureKind::COUNT],
+    /// The largest level that pixels can reach, of each feature that has one.
+    steepest: Vec<Option<u32>>,
     temporal_level: u32,
     temporal_min_count: u32,
     denoise: bool,
@@ -23,7 +25,7 @@ impl Ranges {
     pub(crate) fn of(design: &Design) -> Self {
         let top = |bits: u32| u64::MAX >> (64 - bits.clamp(1, 64));
         let top_u32 = |bits: u32| u32::try_from(top(bits)).unwrap_or(u32::MAX);
-        let (mut level, mut min_score) = ([0; 4], [0; 4]);
+        let (mut level, mut min_score) = ([0; FeatureKind::COUNT], [0; FeatureKind::COUNT]);
         for (index, feature) in design.features().iter().enumerate() {
             level[index] = feature.level().map_or(0, |_| top_u32(feature.level_bits()));
             min_score[index] = top(feature.score_bits());
@@ -32,6 +34,7 @@ impl Ranges {
             kinds: design.features().iter().map(|feature| feature.kind()).collect(),
             level,
             min_score,
+            steepest: design.features().iter().map(SpatialFeature::level_max).collect(),
             temporal_level: design.pixel_max(),
             temporal_min_count: top_u32(design.count_bits()),
             denoise: design.filter() == Filter::Median3x3,
@@ -69,12 +72,11 @@ impl Ranges {
     }
 
     fn aim_at_window(&self, window: &Window, thresholds: &mut Thresholds, random: &mut Random) {
-        for (index, kind) in self.kinds.iter().enumerate() {
-            let value = match kind {
-                FeatureKind::Edge => magnitude(window),
-                FeatureKind::Corner => strength(window).unwrap_or(0),
-                FeatureKind::Mad | FeatureKind::Variance => continue,
-            };
+        for (index, &kind) in self.kinds.iter().enumerate() {
+            if !kind.has_window() {
+                continue;
+            }
+            let value = decisive_level(kind, window).unwrap_or(0);
             let max = self.level[index].into();
             thresholds.level[index] = narrow(near(value.into(), max, random));
         }
@@ -93,14 +95,10 @@ impl Ranges {
 
     /// Levels one below the largest value that pixels can have; every fifth turn that value itself.
     pub(crate) fn aim_largest_levels(&self, turn: u32, thresholds: &mut Thresholds) {
-        let max = u16::try_from(self.temporal_level).unwrap_or(u16::MAX);
-        let steepest = magnitude(&[max, max, 0, max, 0, 0, 0, 0, 0]);
         let less = u32::from(turn % 5 != 4);
-        for (level, kind) in thresholds.level.iter_mut().zip(&self.kinds) {
-            match kind {
-                FeatureKind::Edge => *level = steepest - less,
-                FeatureKind::Corner => *level = self.temporal_level - less,
-                FeatureKind::Mad | FeatureKind::Variance => {}
+        for (level, steepest) in thresholds.level.iter_mut().zip(&self.steepest) {
+            if let Some(steepest) = steepest {
+                *level = steepest - less;
             }
         }
         thresholds.temporal_level = self.temporal_level - less;
@@ -122,7 +120,7 @@ impl Ranges {
     /// Minima for scores that are decided now.
     pub(crate) fn aim_minima(
         &self,
-        scores: &[u64; 4],
+        scores: &[u64; FeatureKind::COUNT],
         temporal_count: u32,
         thresholds: &mut Thresholds,
         random: &mut Random,

@@ -2,9 +2,9 @@
 //! Scores of a square of pixels under the configured thresholds, to draw squares that meet a
 //! minimum exactly. Only the choice of vectors depends on it: the model says what is right.
 
-use foveate_design::{Design, FeatureKind, Filter};
+use foveate_design::{Design, Filter, SpatialFeature};
 use foveate_model::denoise::median;
-use foveate_model::feature::{is_hit, mad, variance};
+use foveate_model::feature::score;
 use foveate_model::window::Window;
 
 /// Reads the scores of squares of one size.
@@ -17,44 +17,19 @@ pub(super) struct Gauge {
     margin: usize,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Meter {
-    /// Pixels whose window is a hit above the level.
-    Hits {
-        kind: FeatureKind,
-        level: u32,
-        minimum: u64,
-    },
-    /// Sum of deviations from a mean with that many fraction bits.
-    Deviation {
-        fraction_bits: u32,
-        minimum: u64,
-    },
-    Variance {
-        minimum: u64,
-    },
+    /// The score of a feature.
+    Spatial(SpatialFeature),
     /// Pixels that have changed by more than the level.
-    Changes {
-        level: u32,
-        minimum: u64,
-    },
+    Changes { level: u32, minimum: u64 },
 }
 
 impl Gauge {
     pub(super) fn of(design: &Design, side: usize) -> Self {
         let mut meters = Vec::new();
         for feature in design.features() {
-            let (kind, minimum) = (feature.kind(), feature.min_score());
-            meters.push(match kind {
-                FeatureKind::Edge | FeatureKind::Corner => {
-                    Meter::Hits { kind, level: feature.level().unwrap_or(0), minimum }
-                }
-                FeatureKind::Mad => {
-                    let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
-                    Meter::Deviation { fraction_bits, minimum }
-                }
-                FeatureKind::Variance => Meter::Variance { minimum },
-            });
+            meters.push(Meter::Spatial(feature.clone()));
         }
         let temporal = design.temporal();
         let (level, minimum) = (temporal.level, temporal.min_count.into());
@@ -70,11 +45,9 @@ impl Gauge {
 
     /// The minimum of a score.
     pub(super) fn minimum(&self, meter: usize) -> u64 {
-        match self.meters[meter] {
-            Meter::Hits { minimum, .. }
-            | Meter::Deviation { minimum, .. }
-            | Meter::Variance { minimum }
-            | Meter::Changes { minimum, .. } => minimum,
+        match &self.meters[meter] {
+            Meter::Spatial(feature) => feature.min_score(),
+            Meter::Changes { minimum, .. } => *minimum,
         }
     }
 
@@ -85,22 +58,15 @@ impl Gauge {
             let own = self.margin..self.side - self.margin;
             own.clone().flat_map(move |y| own.clone().map(move |x| y * self.side + x))
         };
-        let n = places().count() as u64;
-        let sum = || places().map(|at| u64::from(now[at])).sum();
-        match self.meters[meter] {
-            Meter::Hits { kind, level, .. } => {
-                let hit = |at: &usize| is_hit(kind, &window(&now, *at), level);
-                places().filter(hit).count() as u64
+        match &self.meters[meter] {
+            Meter::Spatial(feature) => {
+                let n = places().count() as u64;
+                let windows = places().map(|at| window(&now, at));
+                // Of a feature without a level it means nothing.
+                let level = feature.level().unwrap_or(0);
+                score(feature, level, n, || places().map(|at| now[at]), windows)
             }
-            Meter::Deviation { fraction_bits, .. } => {
-                let mean = mad::mean(sum(), n, fraction_bits);
-                places().map(|at| mad::deviation(now[at], mean, fraction_bits)).sum()
-            }
-            Meter::Variance { .. } => {
-                let squares = places().map(|at| variance::square(now[at])).sum();
-                variance::score(n, sum(), squares)
-            }
-            Meter::Changes { level, .. } => {
+            &Meter::Changes { level, .. } => {
                 let before = self.scored(before);
                 let changed = |at: &usize| u32::from(now[*at].abs_diff(before[*at])) > level;
                 places().filter(changed).count() as u64

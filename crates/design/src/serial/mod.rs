@@ -4,6 +4,7 @@
 //! K regions share a lane; L lanes work in step. Every number of this module is defined for every
 //! design; for a pipelined one it is that of the design whose lanes are its RPUs.
 
+mod feature;
 mod folds;
 mod memory;
 mod ports;

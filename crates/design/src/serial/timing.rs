@@ -3,7 +3,8 @@
 
 use std::fmt;
 
-use crate::{Design, FeatureKind, Feed, Filter, Reference, SpatialFeature, Timing};
+use super::feature;
+use crate::{Design, FeatureKind, Feed, Filter, Reference, Timing};
 
 /// What the lanes do for one slot, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -190,7 +191,7 @@ fn phases(design: &Design) -> Vec<(Phase, u64)> {
     }
     list.push((Phase::RotateCount, lanes));
     for feature in design.features() {
-        list.push((Phase::Pass(feature.kind()), pass(design, feature)));
+        list.push((Phase::Pass(feature.kind()), feature::pass_steps(design, feature)));
         list.push((Phase::RotateScore(feature.kind()), lanes));
     }
     if last_sent {
@@ -202,23 +203,4 @@ fn phases(design: &Design) -> Vec<(Phase, u64)> {
     };
     list.push((Phase::Unload, unload));
     list
-}
-
-/// Steps of the pass of a feature.
-fn pass(design: &Design, feature: &SpatialFeature) -> u64 {
-    let n = u64::from(design.region_pixels());
-    let pixel_bits = u64::from(design.pixel_bits());
-    match feature.kind() {
-        FeatureKind::Edge => 14 * n,
-        FeatureKind::Corner => 36 * n,
-        FeatureKind::Mad => {
-            let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
-            2 * n + pixel_bits + 2 * u64::from(fraction_bits) + 3
-        }
-        FeatureKind::Variance => {
-            let ones = u64::from(n.count_ones());
-            let (sum, count) = (u64::from(design.pixel_sum_bits()), u64::from(design.count_bits()));
-            n + pixel_bits * n * ones + 2 * sum + pixel_bits + count + 2
-        }
-    }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bits of the registers of a serial lane and of the sequencer.
 
-use crate::{Design, FeatureKind, Feed, Filter, index_bits};
+use crate::{Design, Feed, Filter, index_bits};
 
 /// Bits of the registers of a serial array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,28 +38,13 @@ impl LaneWidths {
             }),
         };
         for feature in design.features() {
-            match feature.kind() {
-                // Three pixels less three others.
-                FeatureKind::Edge => widths.at_least(pixel + 3, 0, 0),
-                FeatureKind::Corner => {}
-                FeatureKind::Mad => {
-                    let mean = feature.mean();
-                    let dividend = mean.map_or(0, |mean| mean.dividend_bits);
-                    let mean_bits = pixel + mean.map_or(0, |mean| mean.fraction_bits);
-                    let divisor = design.count_bits() + mean_bits - 1;
-                    widths.at_least((dividend + 1).max(chain), mean_bits, divisor);
-                }
-                FeatureKind::Variance => {
-                    let sum = design.pixel_sum_bits();
-                    let scale = pixel + design.count_bits();
-                    widths.at_least((sum + 1).max(chain), sum, scale);
-                }
-            }
+            super::feature::widen(&mut widths, design, feature);
         }
         widths
     }
 
-    fn at_least(&mut self, accumulator: u32, second: u32, scale: u32) {
+    /// Makes registers at least so wide.
+    pub(super) fn at_least(&mut self, accumulator: u32, second: u32, scale: u32) {
         self.accumulator = self.accumulator.max(accumulator);
         self.second = self.second.max(second);
         self.scale = self.scale.max(scale);

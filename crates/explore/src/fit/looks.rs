@@ -272,14 +272,11 @@ fn ladder_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
             ..SpatialConfig::new(feature)
         }]
     };
-    let hits = |levels: [u32; 4]| {
-        let pairs = levels.into_iter().flat_map(|level| [1, 2, 5, 10].map(|hits| (level, hits)));
-        pairs.map(|(level, hits)| entry(Some(level), hits)).collect()
-    };
-    match feature {
-        FeatureKind::Edge => hits([50, 75, 100, 150]),
-        FeatureKind::Corner => hits([8, 12, 20, 30]),
-        FeatureKind::Mad => LEVELS.map(|level| entry(None, level)).into(),
-        FeatureKind::Variance => LEVELS.map(|level| entry(None, level * level)).into(),
+    let levels = feature.trial_levels();
+    if levels.is_empty() {
+        let power = feature.measure().power();
+        return LEVELS.map(|level| entry(None, level.pow(power))).into();
     }
+    let pairs = levels.iter().flat_map(|&level| [1, 2, 5, 10].map(|hits| (level, hits)));
+    pairs.map(|(level, hits)| entry(Some(level), hits)).collect()
 }

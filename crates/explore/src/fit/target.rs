@@ -78,11 +78,8 @@ fn scaled(task: &Config, octaves: f64) -> Config {
         let in_levels = entry.level.is_none();
         entry.level = entry.level.map(level);
         if in_levels {
-            // Mean deviations scale with contrast, variances with its square.
-            let factor = match entry.feature {
-                foveate_design::FeatureKind::Variance => factor * factor,
-                _ => factor,
-            };
+            // Deviations scale with contrast, their squares with its square.
+            let factor = (0..entry.feature.measure().power()).map(|_| factor).product::<f64>();
             let scale = |score: Decimal| {
                 let score: f64 = score.to_string().parse().unwrap_or_default();
                 Decimal::from_f64((score * factor * 1000.0).round() / 1000.0)

@@ -10,7 +10,7 @@ use crate::Thresholds;
 use crate::number::index;
 
 /// Most features that a design can have.
-pub(super) const FEATURES: usize = 4;
+pub(super) const FEATURES: usize = FeatureKind::COUNT;
 
 /// What the blocks of one RPU need to know of the design.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ impl Plan {
             filter: design.filter(),
             has_feature_window: design.has_feature_window(),
             needs_border: design.needs_border(),
-            delayed_tail: features.into_iter().flatten().any(is_late),
+            delayed_tail: features.into_iter().flatten().any(|kind| kind.score_latency() > 1),
             features,
             fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
             second_pass: design.has_second_pass(),
@@ -79,13 +79,5 @@ impl Plan {
     /// The thresholds that the core sees: its inputs, or its constants where it has no such inputs.
     pub(super) fn seen<'a>(&'a self, applied: &'a Thresholds) -> &'a Thresholds {
         self.constants.as_ref().unwrap_or(applied)
-    }
-}
-
-/// Whether a feature makes the tail one clock late.
-fn is_late(kind: FeatureKind) -> bool {
-    match kind {
-        FeatureKind::Edge | FeatureKind::Corner => false,
-        FeatureKind::Mad | FeatureKind::Variance => true,
     }
 }

@@ -38,7 +38,7 @@ pub struct RpuOutput {
     /// `active_o`.
     pub active: bool,
     /// The score ports, by number of the feature in the design; 0 where there is none.
-    pub scores: [u64; 4],
+    pub scores: [u64; FEATURES],
     /// `temporal_count_o`.
     pub temporal_count: u32,
     /// `forward_valid_o`.

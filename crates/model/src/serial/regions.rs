@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the array keeps of every region from frame to frame, and what it thinks of it.
 
-use foveate_design::{Design, Reference};
+use foveate_design::{Action, Design, FeatureKind, Reference};
 
 use super::scorer::RegionScorer;
 use crate::Thresholds;
 use crate::decision::{action, combined};
 use crate::number::index;
-use foveate_design::Action;
 
 /// Scores and decision of a region, for the last frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Verdict {
-    pub(super) scores: [u64; 4],
+    pub(super) scores: [u64; FeatureKind::COUNT],
     pub(super) temporal_count: u32,
     pub(super) srs: bool,
     pub(super) trs: bool,

@@ -6,7 +6,7 @@ use foveate_design::{Design, FeatureKind, Filter, SpatialFeature};
 use super::square::Square;
 use crate::Thresholds;
 use crate::denoise::median;
-use crate::feature::{is_hit, mad, variance};
+use crate::feature::score;
 use crate::number::{count, index};
 
 /// Scores one region after the other. Whoever wants to know a frame's scores before the array
@@ -63,8 +63,8 @@ impl RegionScorer {
 
     /// The scores of the features, in the order of the design.
     #[must_use]
-    pub fn scores(&self, thresholds: &Thresholds) -> [u64; 4] {
-        let mut scores = [0; 4];
+    pub fn scores(&self, thresholds: &Thresholds) -> [u64; FeatureKind::COUNT] {
+        let mut scores = [0; FeatureKind::COUNT];
         let features = self.features.iter().zip(&thresholds.level);
         for (score, (feature, &level)) in scores.iter_mut().zip(features) {
             *score = self.score(feature, level);
@@ -84,28 +84,7 @@ impl RegionScorer {
     }
 
     fn score(&self, feature: &SpatialFeature, level: u32) -> u64 {
-        match feature.kind() {
-            kind @ (FeatureKind::Edge | FeatureKind::Corner) => {
-                let windows = self.scored.windows(self.side);
-                count(windows.map(|window| is_hit(kind, &window, level))).into()
-            }
-            FeatureKind::Mad => {
-                let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
-                let mean = mad::mean(self.sum(), self.count(), fraction_bits);
-                self.pixels().map(|pixel| mad::deviation(pixel, mean, fraction_bits)).sum()
-            }
-            FeatureKind::Variance => {
-                let square_sum = self.pixels().map(variance::square).sum();
-                variance::score(self.count(), self.sum(), square_sum)
-            }
-        }
-    }
-
-    fn sum(&self) -> u64 {
-        self.pixels().map(u64::from).sum()
-    }
-
-    fn count(&self) -> u64 {
-        self.pixels().map(|_| 1).sum()
+        let n = u64::from(count(self.pixels().map(|_| true)));
+        score(feature, level, n, || self.pixels(), self.scored.windows(self.side))
     }
 }

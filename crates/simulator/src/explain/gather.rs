@@ -2,9 +2,9 @@
 //! Takes an explanation from the outcome of a frame, and the hits of single pixels from the model's
 //! arithmetic.
 
-use foveate_design::{Design, FeatureKind, Irrelevant, SpatialFeature};
+use foveate_design::{Design, Irrelevant, SpatialFeature};
 use foveate_frame::Frame;
-use foveate_model::feature::{corner_strengths, edge_magnitudes, mad};
+use foveate_model::feature::{hits, mad};
 use foveate_model::{Outcome, region_pixels};
 
 use super::{Change, Explanation, Place, Rows, Spatial};
@@ -74,33 +74,20 @@ impl Spatial {
         score: u64,
     ) -> Self {
         let n = u64::from(design.region_pixels());
-        let level = feature.level().unwrap_or_default();
         let denoised = &outcome.denoised;
-        let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
-        let (hits, mean, unit) = match feature.kind() {
-            FeatureKind::Edge => {
-                let magnitudes = edge_magnitudes(design, denoised, region).into_iter();
-                (Some(magnitudes.map(|magnitude| magnitude > level).collect()), None, 1)
-            }
-            FeatureKind::Corner => {
-                let strengths = corner_strengths(design, denoised, region).into_iter();
-                let hit = |strength: Option<u32>| strength.is_some_and(|most| level <= most);
-                (Some(strengths.map(hit).collect()), None, 1)
-            }
-            FeatureKind::Mad => {
-                let sum = pixels(design, denoised, region).into_iter().map(u64::from).sum();
-                (None, Some(mad::mean(sum, n, fraction_bits)), n << fraction_bits)
-            }
-            FeatureKind::Variance => (None, None, n * n),
-        };
+        let hits = hits(design, feature, denoised, region);
+        let mean = feature.mean().map(|mean| {
+            let sum = pixels(design, denoised, region).into_iter().map(u64::from).sum();
+            mad::mean(sum, n, mean.fraction_bits)
+        });
         Self {
             feature: feature.kind(),
             level: feature.level(),
-            hits: hits.map(|hits: Vec<bool>| rows(design, &hits)),
+            hits: hits.map(|hits| rows(design, &hits)),
             mean,
             score,
             min_score: feature.min_score(),
-            unit,
+            unit: feature.unit(),
             vote: score >= feature.min_score(),
         }
     }

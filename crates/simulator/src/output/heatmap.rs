@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Maps of one score: every region in the colour of its score, on the perceptually uniform scale
 //! viridis, dark for 0. The scale is that of the design, not of the frame, so that pictures can be
-//! compared: 0 to the largest possible score, by its square root for `variance`, which makes it the
-//! standard deviation. The bar below has a tick at the threshold.
+//! compared: 0 to the largest possible score, by its square root where it is in squares, which makes of a
+//! variance the standard deviation. The bar below has a tick at the threshold.
 
 use colorous::VIRIDIS;
-use foveate_design::{Design, FeatureKind, SpatialFeature};
+use foveate_design::{Design, Measure};
 use foveate_palette::Colour;
 
 use super::canvas::{Canvas, Layout, TEXT};
@@ -28,8 +28,8 @@ pub(super) struct Heatmap {
 
 #[derive(Clone, Copy)]
 enum Score {
-    /// By number of the feature, with its kind.
-    Spatial(usize, FeatureKind),
+    /// By number of the feature, with what it measures.
+    Spatial(usize, Measure),
     Temporal,
 }
 
@@ -38,10 +38,10 @@ impl Heatmap {
     pub(super) fn all(design: &Design) -> Vec<(String, Self)> {
         let n = u64::from(design.region_pixels());
         let spatial = design.features().iter().enumerate().map(|(index, feature)| Self {
-            score: Score::Spatial(index, feature.kind()),
+            score: Score::Spatial(index, feature.kind().measure()),
             title: feature.kind().to_string(),
             max: feature.score_max(),
-            label: (feature.score_max() / unit(feature, n)).to_string(),
+            label: (feature.score_max() / feature.unit()).to_string(),
             threshold: feature.min_score(),
         });
         let temporal = Self {
@@ -67,9 +67,10 @@ impl Heatmap {
         let last = u128::from(STEPS - 1);
         let (score, max) = (u128::from(score.min(self.max)), u128::from(self.max.max(1)));
         let place = match self.score {
-            Score::Spatial(_, FeatureKind::Variance) => (score * last * last / max).isqrt(),
-            Score::Spatial(_, FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad)
-            | Score::Temporal => score * last / max,
+            Score::Spatial(_, Measure::SquaredLevels) => (score * last * last / max).isqrt(),
+            Score::Spatial(_, Measure::Pixels | Measure::Levels) | Score::Temporal => {
+                score * last / max
+            }
         };
         u64::try_from(place).unwrap_or(STEPS - 1)
     }
@@ -109,15 +110,6 @@ impl Painter for Heatmap {
         }
         self.draw_bar(&mut canvas, layout);
         canvas
-    }
-}
-
-/// What a score is divided by to be in grey levels, or their square.
-fn unit(feature: &SpatialFeature, n: u64) -> u64 {
-    match feature.kind() {
-        FeatureKind::Edge | FeatureKind::Corner => 1,
-        FeatureKind::Mad => n << feature.mean().map_or(0, |mean| mean.fraction_bits),
-        FeatureKind::Variance => n * n,
     }
 }
 

@@ -12,8 +12,8 @@ use crate::report::Findings;
 use crate::table::Table;
 use crate::watch::Watcher;
 
-const COLUMNS: [&str; 8] =
-    ["set", "images", "regions", "edge", "corner", "mad", "variance", "design"];
+/// Columns around those of the features.
+const COLUMNS: ([&str; 3], [&str; 1]) = (["set", "images", "regions"], ["design"]);
 
 /// Regions, and those below the threshold of every feature.
 #[derive(Default)]
@@ -33,7 +33,9 @@ pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
             *sum += u64::try_from(low).unwrap_or(u64::MAX);
         }
     })?;
-    let mut table = Table::new(&COLUMNS);
+    let names = FeatureKind::ALL.iter().map(|kind| kind.name());
+    let columns: Vec<_> = COLUMNS.0.into_iter().chain(names).chain(COLUMNS.1).collect();
+    let mut table = Table::new(&columns);
     for set in &watched {
         for (design, below) in &set.points {
             let mut row = vec![set.name.clone(), set.frames.to_string(), below.all.to_string()];

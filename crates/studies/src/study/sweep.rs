@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Active share against one number of the design: region size, and each threshold by itself.
 
-use foveate_design::{Config, Decimal, FeatureKind};
+use foveate_design::{Config, Decimal, FeatureKind, Measure};
 use foveate_footage::Kind;
 
 use super::Study;
@@ -24,7 +24,7 @@ const SQUARES: [u64; 9] = [1, 5, 10, 25, 50, 100, 200, 400, 800];
 struct Key {
     name: String,
     /// What it means, with its unit, for the axis.
-    axis: &'static str,
+    axis: String,
     /// Of the charts.
     file: &'static str,
     /// Whether it is about change, of which a set has none.
@@ -40,7 +40,7 @@ pub(super) fn size(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     };
     let key = Key {
         name: "region.size".to_owned(),
-        axis: "region size N [pixels]",
+        axis: "region size N [pixels]".to_owned(),
         file: "size",
         temporal: false,
         points: SIZES.iter().map(point).collect(),
@@ -59,15 +59,13 @@ pub(super) fn threshold(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
 /// Of the first feature; the others keep theirs.
 fn min_score(config: &Config) -> Key {
     let n = pixels(config);
-    let kind = config.spatial.first().map_or(FeatureKind::Edge, |entry| entry.feature);
-    let (axis, values) = match kind {
-        FeatureKind::Edge => ("min_score of edge [pixels of a region]", within(&COUNTS, n)),
-        FeatureKind::Corner => ("min_score of corner [pixels of a region]", within(&COUNTS, n)),
-        FeatureKind::Mad => ("min_score of mad [grey levels]", scaled(&COUNTS, config)),
-        FeatureKind::Variance => {
-            ("min_score of variance [grey levels squared]", scaled(&SQUARES, config))
-        }
+    let kind = config.spatial.first().map_or(FeatureKind::default(), |entry| entry.feature);
+    let values = match kind.measure() {
+        Measure::Pixels => within(&COUNTS, n),
+        Measure::Levels => scaled(&COUNTS, config),
+        Measure::SquaredLevels => scaled(&SQUARES, config),
     };
+    let axis = format!("min_score of {kind} [{}]", kind.measure().name());
     let point = |value| {
         let mut config = config.clone();
         if let Some(entry) = config.spatial.first_mut() {
@@ -91,7 +89,7 @@ fn level(config: &Config) -> Key {
     let reachable = scaled(&LEVELS, config).into_iter().filter(|&value| value < max);
     Key {
         name: "temporal.level".to_owned(),
-        axis: "temporal.level [grey levels]",
+        axis: "temporal.level [grey levels]".to_owned(),
         file: "threshold-level",
         temporal: true,
         points: reachable.map(point).collect(),
@@ -106,7 +104,7 @@ fn min_count(config: &Config) -> Key {
     };
     Key {
         name: "temporal.min_count".to_owned(),
-        axis: "temporal.min_count [pixels of a region]",
+        axis: "temporal.min_count [pixels of a region]".to_owned(),
         file: "threshold-count",
         temporal: true,
         points: within(&COUNTS, pixels(config)).into_iter().map(point).collect(),
@@ -157,7 +155,7 @@ fn run(study: Study, watcher: &Watcher<'_>, keys: &[Key]) -> Result<Findings, St
         charts.push(Chart {
             file: key.file.to_owned(),
             title: format!("Active regions against {}", key.name),
-            x: key.axis.to_owned(),
+            x: key.axis.clone(),
             y: "active share of regions [%]".to_owned(),
             caption: String::new(),
             shape: Shape::Lines(lines),

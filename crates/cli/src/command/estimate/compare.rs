@@ -88,13 +88,14 @@ fn with_feature(base: &Config, kind: FeatureKind, filter: Filter) -> Config {
     config
 }
 
-/// Median and edges, one pixel at a time, in as few lanes as still do that many frames per second.
+/// Median and the default feature, one pixel at a time, in as few lanes as still do that many frames per second.
 fn folded(base: &Config, rate: u64, comparison: &Comparison) -> Wanted {
-    let edge = with_feature(base, FeatureKind::Edge, Filter::Median3x3).to_toml();
+    let feature = FeatureKind::default();
+    let one = with_feature(base, feature, Filter::Median3x3).to_toml();
     let with_fold = |fold: u32| {
         let serial = ["organization=\"serial\"", "feed=\"raster\"", &format!("fold={fold}")]
             .map(|key| format!("hardware.{key}"));
-        Config::from_toml_with(&edge, &serial)?.validate()
+        Config::from_toml_with(&one, &serial)?.validate()
     };
     let fast = |design: &Design| comparison.rate(design.timing().clocks_per_frame()) >= rate;
     let design = with_fold(1).map(|single| {
@@ -103,7 +104,7 @@ fn folded(base: &Config, rate: u64, comparison: &Comparison) -> Wanted {
     });
     let fold = design.as_ref().map_or(1, |design| design.config().hardware.fold);
     Wanted {
-        name: format!("serial edge median raster fold {fold}"),
+        name: format!("serial {feature} median raster fold {fold}"),
         family: "serial with raster feed".to_owned(),
         design,
     }

@@ -4,7 +4,7 @@
 use super::super::aim::Ranges;
 use super::super::random::Random;
 use super::feed::Feed;
-use foveate_design::Design;
+use foveate_design::{Design, FeatureKind};
 use foveate_model::{RegionScorer, SerialRcm, Thresholds, region_border};
 
 /// How the thresholds of a frame are chosen, where they are ports.
@@ -74,6 +74,11 @@ impl Aimer {
 
     /// Levels of 0 and minima of 1.
     pub(super) fn least() -> Thresholds {
-        Thresholds { level: [0; 4], min_score: [1; 4], temporal_level: 0, temporal_min_count: 1 }
+        Thresholds {
+            level: [0; FeatureKind::COUNT],
+            min_score: [1; FeatureKind::COUNT],
+            temporal_level: 0,
+            temporal_min_count: 1,
+        }
     }
 }
