@@ -109,7 +109,12 @@ impl PipelinedArray {
 fn fits_narrow(design: &Design) -> bool {
     let n = u64::from(design.region_pixels());
     let max = u64::from(design.pixel_max());
-    let widest = design.features().iter().map(|feature| feature.score_bits()).max().unwrap_or(1);
+    let widest = design
+        .features()
+        .iter()
+        .map(|feature| feature.score_bits())
+        .max()
+        .expect("a design has a feature");
     let fraction_bits = design.features().iter().find_map(|feature| feature.mean());
     let fraction_bits = fraction_bits.map_or(0, |mean| mean.fraction_bits);
     n <= 255

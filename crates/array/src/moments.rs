@@ -34,7 +34,7 @@ impl<S: Sum> Moments<S> {
             mean: mad.then(|| row(plan.lanes)),
             variance: lanes(variance),
             deviations: lanes(mad),
-            n: u64::try_from(plan.pixels).unwrap_or(u64::MAX),
+            n: plan.pixels as u64,
             fraction_bits: plan.fraction_bits,
         })
     }

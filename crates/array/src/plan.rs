@@ -78,5 +78,5 @@ impl Plan {
 
 /// A number of the design as an index.
 pub(crate) fn index(value: u32) -> usize {
-    usize::try_from(value).unwrap_or(usize::MAX)
+    usize::try_from(value).expect("an index has 32 bits or more")
 }

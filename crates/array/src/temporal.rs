@@ -108,8 +108,8 @@ impl<Y: Types> TemporalScore<Y> {
             }
             return;
         };
-        let all = u64::try_from(plan.pixels).unwrap_or(u64::MAX);
-        let all = Y::Count::minimum(all).unwrap_or_default();
+        let all =
+            Y::Count::minimum(plan.pixels as u64).expect("a count holds all pixels of a region");
         for (lane, held) in held.iter_mut().enumerate() {
             if decided.active[lane] != 0 {
                 continue;

@@ -77,7 +77,8 @@ impl<'a> Outputs<'a> {
             trs: decision.trs[region] != 0,
             active: decision.active[region] != 0,
             scores,
-            temporal_count: u32::try_from(self.core.temporal_count(region)).unwrap_or(u32::MAX),
+            temporal_count: u32::try_from(self.core.temporal_count(region))
+                .expect("a region has at most 4096 pixels"),
             forward_valid: self.core.forward_valid()[region] != 0,
             forward_pixel: self.core.forward_pixel(region),
         }
@@ -107,6 +108,6 @@ impl<Y: Types> Ports for crate::core::Core<Y> {
 
     fn forward_pixel(&self, lane: usize) -> u16 {
         let pixel: u64 = self.tail.forward.pixels[lane].into();
-        u16::try_from(pixel).unwrap_or(u16::MAX)
+        u16::try_from(pixel).expect("a pixel has at most 16 bits")
     }
 }

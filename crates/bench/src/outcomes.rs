@@ -20,7 +20,7 @@ pub(crate) fn agreement(
     let last = frames.len().saturating_sub(1);
     let mut camera = Camera::new(design);
     let mut outcomes = Vec::new();
-    for number in 0..usize::try_from(streamed).unwrap_or(usize::MAX) {
+    for number in 0..usize::try_from(streamed).expect("they were in memory") {
         let frame = frames.get(number.min(last)).ok_or(BenchError::NoFrames)?;
         outcomes.push(camera.step(frame)?.clone());
     }
@@ -74,9 +74,12 @@ impl<'a> Judge<'a> {
         if self.value(record, PortRole::ScoreValid, 0) != Some(1) {
             return;
         }
-        let number = |role| self.value(record, role, 0).unwrap_or(0);
-        let region = usize::try_from(number(PortRole::Region)).unwrap_or(usize::MAX);
-        let place = usize::try_from(number(PortRole::ScoreIndex)).unwrap_or(usize::MAX);
+        let number = |role| {
+            let value = self.value(record, role, 0).expect("what numbers regions numbers scores");
+            usize::try_from(value).expect("a number of at most 32 bits")
+        };
+        let region = number(PortRole::Region);
+        let place = number(PortRole::ScoreIndex);
         let score = self.value(record, PortRole::AnyScore, 0);
         self.check(region, score, |outcome| match place.checked_sub(1) {
             None => outcome.temporal_count[region].into(),

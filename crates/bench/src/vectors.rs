@@ -44,14 +44,19 @@ impl Vectors {
             taken += u64::from(control.valid && is_ready && !control.reset);
             is_ready = ready.is_none_or(|field| field.get(expected, 0) == 1);
             controls.push(control);
+            let narrow = |value: u64| u16::try_from(value).expect("a pixel has at most 16 bits");
             let lanes = pixel.map_or(0, |field| field.port.lanes);
             let value = |lane| pixel.map_or(0, |field| field.get(input, lane));
-            pixels.extend((0..lanes).map(|lane| u16::try_from(value(lane)).unwrap_or(u16::MAX)));
+            pixels.extend((0..lanes).map(|lane| narrow(value(lane))));
         })?;
-        let bytes = pixels.iter().map(|&pixel| u8::try_from(pixel).unwrap_or(u8::MAX));
+        let byte = |&pixel| u8::try_from(pixel).expect("a pixel of at most 8 bits");
         Ok(Self {
             width: pixels.len() / controls.len().max(1),
-            narrow: if design.pixel_bits() <= 8 { bytes.collect() } else { Vec::new() },
+            narrow: if design.pixel_bits() <= 8 {
+                pixels.iter().map(byte).collect()
+            } else {
+                Vec::new()
+            },
             streamed: taken / design.timing().pixels_per_frame(),
             controls,
             pixels,
@@ -79,7 +84,7 @@ impl Control {
         let mut thresholds = Thresholds::of(design);
         let (mut reset, mut valid) = (false, false);
         let place = |kind| design.features().iter().position(|feature| feature.kind() == kind);
-        let word = |value: u64| u32::try_from(value).unwrap_or(u32::MAX);
+        let word = |value: u64| u32::try_from(value).expect("a level has at most 32 bits");
         for field in layout.fields() {
             let value = || field.get(input, 0);
             match field.port.role {

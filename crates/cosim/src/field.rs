@@ -60,7 +60,7 @@ impl Field {
             *to = *from;
         }
         let value = (u128::from_le_bytes(word) >> shift) & u128::from(mask(self.port.width));
-        u64::try_from(value).unwrap_or(u64::MAX)
+        u64::try_from(value).expect("the mask has 64 bits")
     }
 
     /// Its bytes.

@@ -151,10 +151,9 @@ fn clock_name(ports: &[Port]) -> &str {
     ports.iter().find(is_clock).map_or("clk_i", |port| port.name.as_str())
 }
 
-/// A filled template, ending in the newline that askama drops. Rendering into a string fails only
-/// when a template calls something that can fail; none does.
+/// A filled template, ending in the newline that askama drops.
 pub(crate) fn rendered(template: &impl Template) -> String {
-    template.render().unwrap_or_default() + "\n"
+    template.render().expect("no template calls something that can fail") + "\n"
 }
 
 #[cfg(test)]

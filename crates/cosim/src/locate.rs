@@ -19,7 +19,8 @@ pub(crate) fn region(
 ) -> Option<u32> {
     let in_array = in_array(design, layout, expected, difference);
     match level {
-        Level::Rpu => first.map(|first| first + in_array.unwrap_or(0)),
+        Level::Rpu if design.unit().regions == 1 => first,
+        Level::Rpu => Some(first? + in_array?),
         Level::Rcm { .. } | Level::Full => in_array,
     }
 }

@@ -118,6 +118,12 @@ impl SpatialConfig {
         Self { feature, level: None, min_score: None, mean_fraction_bits: None }
     }
 
+    /// Whether `mean_fraction_bits` applies to the feature.
+    #[must_use]
+    pub fn has_mean(&self) -> bool {
+        self.feature.defaults().mean_fraction_bits.is_some()
+    }
+
     /// The entry with every key that applies to its feature filled in, for pixels of `bits` bits.
     #[must_use]
     pub fn with_defaults(&self, bits: u32) -> Self {

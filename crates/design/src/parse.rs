@@ -54,7 +54,7 @@ impl Config {
     /// The configuration as a TOML file.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).unwrap_or_default()
+        toml::to_string(self).expect("TOML has a form for every value of a configuration")
     }
 }
 
@@ -140,7 +140,8 @@ fn place<'a>(table: &'a mut Table, steps: &[&str]) -> Result<&'a mut Value, Stri
 }
 
 fn default_features() -> Value {
-    Value::try_from(&Config::default().spatial).unwrap_or_else(|_| Value::Array(Vec::new()))
+    let features = Value::try_from(&Config::default().spatial);
+    features.expect("TOML has a form for every value of a configuration")
 }
 
 fn literal(text: &str) -> Value {

@@ -28,9 +28,10 @@ impl Reciprocal {
         };
         // At 2^shift > divisor * x_max the condition always holds, so the search ends.
         let shift = (0..=bits_for(x_max) + bits_for(divisor)).find(|&shift| holds(shift));
-        let shift = shift.unwrap_or(bits_for(x_max) + bits_for(divisor));
+        let shift = shift.expect("2^shift is above divisor * x_max at the end");
         let multiplier = (1u128 << shift).div_ceil(u128::from(divisor));
-        Self { divisor, x_max, multiplier: u64::try_from(multiplier).unwrap_or(u64::MAX), shift }
+        let multiplier = u64::try_from(multiplier).expect("shift is at most 48 + 13");
+        Self { divisor, x_max, multiplier, shift }
     }
 
     /// The divisor.
@@ -61,7 +62,7 @@ impl Reciprocal {
     #[must_use]
     pub fn divide(self, x: u64) -> u64 {
         let product = u128::from(x) * u128::from(self.multiplier);
-        u64::try_from(product >> self.shift).unwrap_or(u64::MAX)
+        u64::try_from(product >> self.shift).expect("a quotient is at most its dividend")
     }
 }
 

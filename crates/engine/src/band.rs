@@ -172,7 +172,7 @@ impl<T: Lane> Band<'_, T> {
         let n = u64::from(self.plan.region_pixels());
         let mean = |sum| {
             let mean = mad::mean(sum, n, fraction_bits) >> fraction_bits;
-            threshold(u32::try_from(mean).unwrap_or(u32::MAX))
+            threshold(u32::try_from(mean).expect("a mean is within the range of pixels"))
         };
         sums::spread(&scratch.sums.sum, self.plan.side, mean, &mut scratch.columns.mean);
     }

@@ -67,7 +67,11 @@ impl<T: Lane> Plan<T> {
         let side = index(design.region_size());
         let columns = index(design.columns());
         let blocks = (columns * side).div_ceil(BLOCK);
-        let level = |kind| design.feature(kind).map(|feature| feature.level().unwrap_or_default());
+        let level = |kind| {
+            design
+                .feature(kind)
+                .map(|feature| feature.level().expect("a feature that counts hits has a level"))
+        };
         Self {
             width: index(design.width()),
             height: index(design.height()),
@@ -82,7 +86,7 @@ impl<T: Lane> Plan<T> {
             corner: level(FeatureKind::Corner).map(threshold),
             mad: design
                 .feature(FeatureKind::Mad)
-                .map(|feature| feature.mean().map_or(0, |mean| mean.fraction_bits)),
+                .map(|feature| feature.mean().expect("mad has a mean").fraction_bits),
             variance: design.feature(FeatureKind::Variance).is_some(),
             features: design
                 .features()
@@ -138,7 +142,7 @@ impl<T: Lane> Plan<T> {
 
     /// Pixels of a region.
     pub(crate) fn region_pixels(&self) -> u32 {
-        u32::try_from(self.side * self.side).unwrap_or(u32::MAX)
+        u32::try_from(self.side * self.side).expect("a region has at most 4096 pixels")
     }
 
     /// The rows that windows of a row in band `band` may reach: first and last.

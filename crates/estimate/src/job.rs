@@ -92,7 +92,7 @@ pub fn estimate(
     let units = job.units(&netlist)?;
     let without: Vec<&str> = units.iter().map(String::as_str).collect();
     let paths = longest_paths(NETLIST, &synthesis.json, &[without[0], &job.array])?;
-    let [unit, array] = paths.try_into().unwrap_or_default();
+    let [unit, array] = paths.try_into().expect("a path for each of the two modules");
     Ok(Report::new(
         synthesis.tool,
         Rtl { sha256: sources_sha256(&job.sources), rpu_sha256: job.rpu_sha256.clone() },
@@ -126,7 +126,7 @@ impl EstimateJob {
     ) -> Result<Synthesis, EstimateError> {
         let version = toolchain.find(Tool::Yosys)?.banner;
         let mut run = yosys::run(toolchain, cache, &self.whole())?;
-        let verilog = run.files.remove(VERILOG).unwrap_or_default();
+        let verilog = run.files.remove(VERILOG).expect("it is one of the wanted files");
         Ok(Synthesis {
             tool: ToolRecord {
                 name: "Yosys".into(),
@@ -136,7 +136,7 @@ impl EstimateJob {
                     self.unit
                 ),
             },
-            json: run.files.remove(NETLIST).unwrap_or_default(),
+            json: run.files.remove(NETLIST).expect("it is one of the wanted files"),
             verilog: String::from_utf8_lossy(&verilog).into_owned(),
         })
     }
@@ -208,5 +208,5 @@ impl EstimateJob {
 }
 
 fn file<'a>(run: &'a YosysRun, name: &str) -> &'a [u8] {
-    run.files.get(name).map(Vec::as_slice).unwrap_or_default()
+    run.files.get(name).expect("it is one of the wanted files")
 }

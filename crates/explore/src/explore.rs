@@ -224,6 +224,8 @@ fn write(
     }
     write_file(&output.join("report.html"), crate::report::page(exploration)?.as_bytes())?;
     // Last, since it says that all is there. Plain data with text keys: this cannot fail.
-    let json = serde_json::to_string_pretty(exploration).unwrap_or_default() + "\n";
+    let json = serde_json::to_string_pretty(exploration)
+        .expect("it has no map with other keys than text")
+        + "\n";
     Ok(write_file(&output.join(MARK), json.as_bytes())?)
 }

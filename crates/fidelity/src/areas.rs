@@ -52,7 +52,7 @@ impl Areas {
     /// Adds what a table of areas holds.
     pub(crate) fn count(&mut self, table: &Table) {
         for (at, &area) in table.iter().enumerate().filter(|(_, area)| **area > 0) {
-            let bits = |shift: usize| u8::try_from(at >> shift & 15).unwrap_or_default();
+            let bits = |shift: usize| u8::try_from(at >> shift & 15).expect("four bits");
             let (ideal, candidate) = (bits(STATE_BITS), bits(0));
             let differs = |mask: u8| if (ideal ^ candidate) & mask == 0 { 0 } else { area };
             let active = |state: u8| state & (SRS | TRS) == SRS | TRS;

@@ -32,7 +32,7 @@ pub(crate) struct Pictures<'p, T> {
 impl<T: Sample> Planes<T> {
     pub(crate) fn new(ideal: &Design, candidate: &Design) -> Self {
         let (from, to) = (candidate.pixel_bits(), ideal.pixel_bits());
-        let values = 0..=u16::try_from(candidate.pixel_max()).unwrap_or(u16::MAX);
+        let values = 0..=u16::try_from(candidate.pixel_max()).expect("a pixel has at most 16 bits");
         let depths = match from == to {
             true => Vec::new(),
             false => values.map(|value| T::of(convert_depth(value, from, to))).collect(),

@@ -116,7 +116,7 @@ impl Pair {
             sum += error;
             squares += error * error;
         }
-        tally.count += u64::try_from(ideal.len()).unwrap_or(u64::MAX);
+        tally.count += ideal.len() as u64;
         tally.max = tally.max.max(Exact::nearest(max));
         tally.sum.add(Exact::nearest(sum));
         tally.squares.add(Exact::nearest(squares));

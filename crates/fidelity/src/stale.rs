@@ -59,7 +59,7 @@ impl<T: Sample> Watch<T> {
             height: ideal.height() as usize,
             side: ideal.region_size() as usize,
             columns: ideal.columns() as usize,
-            level: T::of(u16::try_from(ideal.temporal().level).unwrap_or(u16::MAX)),
+            level: T::of(u16::try_from(ideal.temporal().level).expect("a level is a pixel")),
             min_count: ideal.temporal().min_count.max(1),
             runs: vec![0; ideal.regions() as usize],
             sums: vec![T::Sum::default(); width],

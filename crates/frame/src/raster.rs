@@ -177,7 +177,8 @@ fn check_values<T: Copy + Ord + Into<u16>>(
         return Ok(());
     }
     let place = pixels.iter().position(|&pixel| pixel.into() > max).expect("the largest is above");
-    let at = |place: usize| u32::try_from(place).unwrap_or(u32::MAX);
+    let at =
+        |place: usize| u32::try_from(place).expect("a frame has its width and height in 32 bits");
     let (x, y) = (at(place % index(width)), at(place / index(width)));
     Err(FrameError::PixelRange { x, y, value: pixels[place].into(), bits, max })
 }

@@ -63,7 +63,7 @@ impl Plane {
             for (value, &pixel) in own.iter_mut().zip(source) {
                 *value = pixel.into();
             }
-            padding.fill(own.last().copied().unwrap_or_default());
+            padding.fill(*own.last().expect("a frame has pixels"));
         }
     }
 

@@ -27,8 +27,9 @@ impl Rules {
     pub(crate) fn of(design: &Design) -> Self {
         let feature = |entry: &foveate_design::SpatialConfig| Feature {
             kind: entry.feature,
-            level: f64::from(entry.level.unwrap_or_default()),
-            min_score: entry.min_score.map_or(0.0, real),
+            // A feature that counts no hits does not ask for it.
+            level: f64::from(entry.level.unwrap_or(0)),
+            min_score: real(entry.min_score.expect("a design has every key filled in")),
         };
         Self {
             features: design.config().spatial.iter().map(feature).collect(),
@@ -67,5 +68,5 @@ impl Rules {
 
 /// The nearest `f64`; a decimal prints as digits that are one.
 fn real(decimal: Decimal) -> f64 {
-    decimal.to_string().parse().unwrap_or_default()
+    decimal.to_string().parse().expect("a decimal is written as a number")
 }

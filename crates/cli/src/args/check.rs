@@ -84,7 +84,7 @@ impl Rate {
 
     /// As a number to calculate with.
     pub(crate) fn per_second(self) -> f64 {
-        self.0.to_string().parse().unwrap_or_default()
+        self.0.to_string().parse().expect("a decimal is written as a number")
     }
 
     /// The most clocks that a frame may take.

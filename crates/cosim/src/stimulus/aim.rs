@@ -24,7 +24,7 @@ pub(crate) struct Ranges {
 impl Ranges {
     pub(crate) fn of(design: &Design) -> Self {
         let top = |bits: u32| u64::MAX >> (64 - bits.clamp(1, 64));
-        let top_u32 = |bits: u32| u32::try_from(top(bits)).unwrap_or(u32::MAX);
+        let top_u32 = |bits: u32| u32::try_from(top(bits)).expect("a level has at most 32 bits");
         let (mut level, mut min_score) = ([0; FeatureKind::COUNT], [0; FeatureKind::COUNT]);
         for (index, feature) in design.features().iter().enumerate() {
             level[index] = feature.level().map_or(0, |_| top_u32(feature.level_bits()));
@@ -147,9 +147,9 @@ fn near(value: u64, max: u64, random: &mut Random) -> u64 {
 }
 
 fn place_in(square: &[u16], random: &mut Random) -> usize {
-    usize::try_from(random.up_to(square.len().saturating_sub(1) as u64)).unwrap_or(0)
+    random.index(square.len() - 1)
 }
 
 fn narrow(value: u64) -> u32 {
-    u32::try_from(value).unwrap_or(u32::MAX)
+    u32::try_from(value).expect("levels and counts have at most 32 bits")
 }

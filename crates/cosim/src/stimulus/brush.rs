@@ -39,12 +39,11 @@ impl Artist {
         if self.random.one_in(4) {
             return self.random.pixel(self.max);
         }
-        self.random.of(&self.amounts).unwrap_or(1)
+        self.random.of(&self.amounts).expect("there are some")
     }
 
     fn place(&mut self) -> usize {
-        let last = self.side - 1;
-        usize::try_from(self.random.up_to(last as u64)).unwrap_or(0)
+        self.random.index(self.side - 1)
     }
 
     /// A difference of a pixel from what it was before.
@@ -52,7 +51,7 @@ impl Artist {
         if self.random.one_in(2) {
             return self.amount();
         }
-        self.random.of(&self.changes).unwrap_or(1)
+        self.random.of(&self.changes).expect("there are some")
     }
 
     /// Two values that differ by a chosen amount.
@@ -72,9 +71,9 @@ impl Artist {
 
     pub(super) fn step(&mut self) -> Vec<u16> {
         let (near, far) = self.pair();
-        let (at, kind) = (self.place() + 1, self.random.up_to(2));
+        let (at, kind) = (self.place() + 1, self.random.index(2));
         self.fill(|_, (x, y)| {
-            let along = [x, y, (x + y) / 2][usize::try_from(kind).unwrap_or(0)];
+            let along = [x, y, (x + y) / 2][kind];
             if along < at { near } else { far }
         })
     }
@@ -103,11 +102,11 @@ impl Artist {
         const RING: [(usize, usize); 8] =
             [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
         let (center, around) = self.pair();
-        let (first, length) = (self.random.up_to(7), 4 + self.random.up_to(4));
+        let (first, length) = (self.random.index(7), 4 + self.random.index(4));
         let (x, y) = (self.place(), self.place());
         let mut pixels = self.fill(|_, _| center);
         for number in first..first + length {
-            let (dx, dy) = RING[usize::try_from(number % 8).unwrap_or(0)];
+            let (dx, dy) = RING[number % 8];
             let (x, y) = (x + dx, y + dy);
             if (1..=self.side).contains(&x) && (1..=self.side).contains(&y) {
                 pixels[(y - 1) * self.side + x - 1] = around;
@@ -122,7 +121,7 @@ impl Artist {
         let low = self.random.pixel(self.max - 1);
         let wanted = [0, 1, self.count - 1];
         let remainder = |more: usize| (self.mean_unit * more + self.count / 2) % self.count;
-        let start = usize::try_from(self.random.up_to(self.count as u64)).unwrap_or(0);
+        let start = self.random.index(self.count);
         let more = (0..self.count).map(|step| (start + step) % self.count);
         let more =
             more.into_iter().find(|&more| wanted.contains(&remainder(more))).unwrap_or(start);
@@ -132,7 +131,7 @@ impl Artist {
     pub(super) fn two_point(&mut self) -> Vec<u16> {
         let full = self.random.one_in(2);
         let (low, high) = if full { (0, self.max) } else { self.pair() };
-        let any = usize::try_from(self.random.up_to(self.count as u64)).unwrap_or(0);
+        let any = self.random.index(self.count);
         let split = if full { self.count / 2 } else { any };
         self.fill(|_, (x, y)| if self.rank(y * self.side + x) < split { low } else { high })
     }
@@ -140,9 +139,9 @@ impl Artist {
     pub(super) fn smooth(&mut self) -> Vec<u16> {
         let mut corner = || i64::from(self.random.pixel(self.max));
         let (a, b, c, d) = (corner(), corner(), corner(), corner());
-        let span = i64::try_from(self.side).unwrap_or(1);
+        let span = i64::try_from(self.side).expect("a square is small");
         self.fill(|max, (x, y)| {
-            let (x, y) = (i64::try_from(x).unwrap_or(0), i64::try_from(y).unwrap_or(0));
+            let (x, y) = [x, y].map(|at| i64::try_from(at).expect("a square is small")).into();
             let upper = a * (span - x) + b * x;
             let lower = c * (span - x) + d * x;
             let value = (upper * (span - y) + lower * y) / (span * span);
@@ -152,7 +151,7 @@ impl Artist {
 
     pub(super) fn bump(&mut self, mut pixels: Vec<u16>) -> Vec<u16> {
         let (amount, up) = (self.change(), self.random.one_in(2));
-        let count = self.random.of(&self.counts).unwrap_or(0) as usize;
+        let count = self.random.of(&self.counts).expect("there are some") as usize;
         for (at, pixel) in pixels.iter_mut().enumerate() {
             if self.rank(at) < count {
                 *pixel = moved(*pixel, amount, up, self.max);

@@ -79,7 +79,7 @@ pub(crate) struct Artist {
 impl Artist {
     /// An artist for squares of `side` pixels, who starts with a black one.
     pub(crate) fn new(design: &Design, side: u32, random: Random) -> Self {
-        let max = u16::try_from(design.pixel_max()).unwrap_or(u16::MAX);
+        let max = u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits");
         let (side, own) = (side as usize, design.region_size() as usize);
         let mean = design.features().iter().find_map(|feature| feature.mean());
         let levels = design.features().iter().filter_map(|feature| feature.level());
@@ -163,11 +163,11 @@ impl Artist {
         let before = self.pixels.clone();
         self.draw(motif);
         let last = self.gauge.meters() - 1;
-        let meter = usize::try_from(self.random.up_to(last as u64)).unwrap_or(0);
+        let meter = self.random.index(last);
         let wanted = (self.gauge.minimum(meter) + self.random.up_to(2)).saturating_sub(1);
         let drawn = std::mem::take(&mut self.pixels);
         let step = self.count.div_ceil(TRIALS);
-        let offset = usize::try_from(self.random.up_to(step as u64)).unwrap_or(0);
+        let offset = self.random.index(step);
         let mixed = |kept: usize| -> Vec<u16> {
             let pairs = drawn.iter().zip(&before).enumerate();
             pairs.map(|(at, (&new, &old))| if self.rank(at) < kept { new } else { old }).collect()

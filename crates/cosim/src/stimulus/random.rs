@@ -34,12 +34,17 @@ impl Random {
 
     /// A number in `0..=max`.
     pub(crate) fn up_to_u32(&mut self, max: u32) -> u32 {
-        u32::try_from(self.up_to(max.into())).unwrap_or(max)
+        u32::try_from(self.up_to(max.into())).expect("it is at most `max`")
+    }
+
+    /// A number in `0..=max`, as an index.
+    pub(crate) fn index(&mut self, max: usize) -> usize {
+        usize::try_from(self.up_to(max as u64)).expect("it is at most `max`")
     }
 
     /// A pixel in `0..=max`.
     pub(crate) fn pixel(&mut self, max: u16) -> u16 {
-        u16::try_from(self.up_to(max.into())).unwrap_or(max)
+        u16::try_from(self.up_to(max.into())).expect("it is at most `max`")
     }
 
     /// True once in `count` times.
@@ -50,8 +55,7 @@ impl Random {
     /// One of some things.
     pub(crate) fn of<T: Copy>(&mut self, things: &[T]) -> Option<T> {
         let last = things.len().checked_sub(1)?;
-        let chosen = usize::try_from(self.up_to(last as u64)).unwrap_or(last);
-        things.get(chosen).copied()
+        Some(things[self.index(last)])
     }
 }
 

@@ -95,7 +95,7 @@ impl<'a> Graph<'a> {
     fn net(&mut self, instance: &Instance<'a>, nets: &mut Nets, local: u32) -> u32 {
         *nets.entry(local).or_insert_with(|| {
             self.nets.push(Net { instance: instance.clone(), local });
-            u32::try_from(self.nets.len() - 1).unwrap_or(u32::MAX)
+            u32::try_from(self.nets.len() - 1).expect("fewer than 2^32 nets fit into memory")
         })
     }
 }

@@ -65,7 +65,7 @@ fn arrivals(graph: &Graph<'_>) -> Result<Vec<Option<Arrival>>, EstimateError> {
     };
     let mut waiting = vec![0_u32; graph.net_count()];
     graph.arcs.iter().for_each(|arc| waiting[arc.to as usize] += 1);
-    let nets = 0..u32::try_from(graph.net_count()).unwrap_or(u32::MAX);
+    let nets = 0..u32::try_from(graph.net_count()).expect("the graph numbers its nets in 32 bits");
     let mut ready: Vec<u32> = nets.clone().filter(|&net| waiting[net as usize] == 0).collect();
     while let Some(net) = ready.pop() {
         for by in leaving(net) {

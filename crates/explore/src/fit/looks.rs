@@ -132,7 +132,7 @@ impl<'a> Search<'a> {
                 let mut config = exact.clone();
                 config.temporal.min_count = count;
                 config.spatial.clone_from(spatial);
-                for entry in config.spatial.iter_mut().filter(|e| e.feature == FeatureKind::Mad) {
+                for entry in config.spatial.iter_mut().filter(|entry| entry.has_mean()) {
                     entry.mean_fraction_bits = Some(exact_fraction(side));
                 }
                 found.push(config);
@@ -160,7 +160,7 @@ impl<'a> Search<'a> {
             }
         }
         let coarse = found.clone().into_iter().filter_map(|mut config| {
-            let means = config.spatial.iter_mut().filter(|entry| entry.feature == FeatureKind::Mad);
+            let means = config.spatial.iter_mut().filter(|entry| entry.has_mean());
             means.map(|entry| entry.mean_fraction_bits = Some(0)).count().gt(&0).then_some(config)
         });
         let coarse: Vec<Config> = coarse.collect();

@@ -22,11 +22,11 @@ pub fn strength(window: &Window) -> Option<u32> {
     let over = RING.map(|place| i32::from(window[place]) - center);
     let arcs = (0..over.len()).map(|start| {
         let arc = || (start..start + ARC).map(|place| over[place % over.len()]);
-        let brighter = arc().min().unwrap_or_default();
-        let darker = arc().max().unwrap_or_default();
+        let brighter = arc().min().expect("an arc has pixels");
+        let darker = arc().max().expect("an arc has pixels");
         brighter.max(-darker)
     });
-    let best = arcs.max().unwrap_or_default();
+    let best = arcs.max().expect("there are arcs");
     u32::try_from(best - 1).ok()
 }
 

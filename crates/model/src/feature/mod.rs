@@ -46,6 +46,7 @@ pub(crate) fn of_region(
 ) -> u64 {
     let view = RegionView::new(design, denoised, region);
     let n = u64::from(design.region_pixels());
+    // A feature without a level does not ask for one.
     score(feature, feature.level().unwrap_or(0), n, || view.pixels(), view.windows())
 }
 

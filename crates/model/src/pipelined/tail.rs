@@ -128,7 +128,7 @@ impl Tail {
 
     /// n as a count of pixels.
     fn count_of_all(&self) -> u32 {
-        u32::try_from(self.plan.pixels).unwrap_or(u32::MAX)
+        u32::try_from(self.plan.pixels).expect("a region has at most 4096 pixels")
     }
 
     /// What the ports show.

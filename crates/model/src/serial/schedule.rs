@@ -151,5 +151,5 @@ fn visible(design: &Design, phases: &[(Phase, u64)]) -> Vec<Visible> {
 
 /// Numbers of slots, lanes and positions fit into 32 bits.
 fn narrow(value: u64) -> u32 {
-    u32::try_from(value).unwrap_or(u32::MAX)
+    u32::try_from(value).expect("slots, lanes and positions are numbered in 32 bits")
 }

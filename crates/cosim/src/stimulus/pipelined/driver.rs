@@ -63,7 +63,7 @@ impl<'a> Driver<'a> {
             aim: Aim::Design,
             turn: 0,
             border: 0,
-            max: u16::try_from(design.pixel_max()).unwrap_or(u16::MAX),
+            max: u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits"),
             garbage: vec![0; lanes],
             outputs: Vec::with_capacity(lanes),
         }
@@ -163,7 +163,7 @@ impl<'a> Driver<'a> {
                 // What is decided after this edge does not depend on the minima of this edge, so that
                 // a copy can look ahead; it is made here alone, because an array is large.
                 self.machine.clone().step(&inputs, &mut self.outputs);
-                let lane = usize::try_from(lane).unwrap_or(0);
+                let lane = usize::try_from(lane).expect("it is a lane");
                 if let Some(output) = self.outputs.get(lane) {
                     let (scores, count) = (&output.scores, output.temporal_count);
                     self.ranges.aim_minima(scores, count, &mut self.thresholds, &mut self.random);

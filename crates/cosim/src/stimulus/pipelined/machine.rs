@@ -31,7 +31,7 @@ impl Machine {
                 let input = RpuInput {
                     reset: inputs.reset,
                     valid: inputs.valid,
-                    pixel: inputs.pixels.first().copied().unwrap_or(0),
+                    pixel: inputs.pixels[0],
                     border: inputs.border,
                 };
                 outputs.push(rpu.step(&input, &inputs.thresholds));
@@ -60,7 +60,10 @@ impl PipelinedCodec {
     }
 
     fn index(&self, kind: FeatureKind) -> usize {
-        self.kinds.iter().position(|&own| own == kind).unwrap_or(0)
+        self.kinds
+            .iter()
+            .position(|&own| own == kind)
+            .expect("a port is of a feature of the design")
     }
 
     pub(crate) fn inputs(&self, layout: &Layout, inputs: &Inputs<'_>, record: &mut [u8]) {

@@ -78,7 +78,7 @@ impl<'a> Session<'a> {
         number: usize,
     ) -> Result<(), CosimError> {
         let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
-        let border = u8::try_from(self.random.up_to(15)).unwrap_or(0);
+        let border = u8::try_from(self.random.up_to(15)).expect("four bits");
         self.driver.name(sequence.name, 0, None);
         self.driver.begin(sequence.thresholds, border)?;
         let configured = self.driver.thresholds_are_configured();
@@ -103,7 +103,7 @@ impl<'a> Session<'a> {
                 (End::InFrame, true) => self.random.up_to(u64::from(self.design.stream_pixels())),
                 _ => u64::MAX,
             };
-            self.driver.stream(&streams, usize::try_from(cut).unwrap_or(usize::MAX), gaps)?;
+            self.driver.stream(&streams, usize::try_from(cut).expect("less than a frame"), gaps)?;
             if frame < last {
                 let pause = gaps.between_frames(self.drain, &mut self.random);
                 self.driver.idle(pause)?;

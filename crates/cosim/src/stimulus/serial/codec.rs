@@ -19,7 +19,10 @@ impl SerialCodec {
     }
 
     fn index(&self, kind: FeatureKind) -> usize {
-        self.kinds.iter().position(|&own| own == kind).unwrap_or(0)
+        self.kinds
+            .iter()
+            .position(|&own| own == kind)
+            .expect("a port is of a feature of the design")
     }
 
     pub(crate) fn inputs(&self, layout: &Layout, input: &SerialInput<'_>, record: &mut [u8]) {

@@ -71,7 +71,7 @@ impl<'a> Driver<'a> {
             aim: Aim::Design,
             turn: 0,
             manners: Manners::Quiet,
-            max: u16::try_from(design.pixel_max()).unwrap_or(u16::MAX),
+            max: u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits"),
             garbage: vec![0; model.output().forward_valid.len()],
             model,
         }

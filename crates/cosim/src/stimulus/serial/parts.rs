@@ -13,7 +13,7 @@ const MAX_CLOCKS: u64 = 1 << 21;
 pub(super) fn first_regions(design: &Design, clocks: u64) -> Vec<u32> {
     let lanes = u64::from(design.lanes());
     let affordable = (MAX_CLOCKS / clocks.max(1)).clamp(1, lanes);
-    let nth = |number: u64| u32::try_from(number * lanes / affordable).unwrap_or(0);
+    let nth = |number: u64| u32::try_from(number * lanes / affordable).expect("it is a lane");
     (0..affordable).map(|number| nth(number) * design.fold()).collect()
 }
 

@@ -223,6 +223,6 @@ impl<'a> Session<'a> {
     }
 
     fn below(&mut self, count: usize) -> usize {
-        usize::try_from(self.random.up_to(count.saturating_sub(1) as u64)).unwrap_or(0)
+        self.random.index(count.saturating_sub(1))
     }
 }
