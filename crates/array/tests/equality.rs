@@ -95,7 +95,8 @@ fn compare(design: &Design, level: Level, seed: u64, fault: Option<u64>) -> Resu
 }
 
 fn designs() -> impl Strategy<Value = Design> {
-    let features = proptest::sample::subsequence(FeatureKind::ALL.to_vec(), 1..=4).prop_shuffle();
+    let features = proptest::sample::subsequence(FeatureKind::ALL.to_vec(), 1..=FeatureKind::COUNT)
+        .prop_shuffle();
     let modes = (
         select(vec![Neighborhood::Isolated, Neighborhood::Shared]),
         select(vec![Filter::None, Filter::Median3x3]),

@@ -76,7 +76,7 @@ fn what_the_matrix_leaves_out_agrees() {
         &[Edge, Corner],
         &[Mad, Edge],
         &[Variance, Corner, Edge],
-        &[Edge, Corner, Mad, Variance],
+        FeatureKind::ALL,
         &[Mad, Variance],
     ];
     let mut configs = Vec::new();

@@ -197,7 +197,7 @@ fn hard_cases(width: u32, height: u32, bits: u32) -> Vec<Frame> {
 fn configs() -> Vec<Config> {
     use FeatureKind::{Corner, Edge, Mad, Variance};
     let sets: [&[FeatureKind]; 6] =
-        [&[Edge], &[Corner], &[Mad], &[Variance], &[Edge, Corner, Mad, Variance], &[Mad, Edge]];
+        [&[Edge], &[Corner], &[Mad], &[Variance], FeatureKind::ALL, &[Mad, Edge]];
     let mut configs = Vec::new();
     for (turn, kinds) in sets.into_iter().enumerate() {
         let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();

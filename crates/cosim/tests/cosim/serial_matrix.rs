@@ -104,7 +104,7 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
         &[Edge, Corner],
         &[Mad, Edge],
         &[Variance, Corner, Edge],
-        &[Edge, Corner, Mad, Variance],
+        FeatureKind::ALL,
         &[Mad, Variance],
     ];
     let mut cases = Vec::new();

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{design, matrix, serial_matrix};
-use foveate_design::{Direction, SerialTiming};
+use foveate_design::{Direction, FeatureKind, SerialTiming};
 use foveate_emit::{LEAVES, SourceFile, Top, core, verilog};
 
 fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
@@ -68,6 +68,16 @@ fn exactly_the_modules_that_are_used_are_emitted() {
         let used = files.iter().flat_map(|file| instantiated(&file.contents));
         let used: BTreeSet<&str> = used.chain(["rcm"]).collect();
         assert_eq!(emitted, used, "{toml}");
+    }
+}
+
+#[test]
+fn every_feature_is_in_the_matrices() {
+    for (name, designs) in [("pipelined", matrix()), ("serial", serial_matrix())] {
+        for &kind in FeatureKind::ALL {
+            let has = |text: &String| design(text).feature(kind).is_some();
+            assert!(designs.iter().any(has), "no {name} design has {kind}; see tests/emit/common");
+        }
     }
 }
 

@@ -19,11 +19,11 @@ pub(crate) fn designs() -> impl Strategy<Value = Design> {
     (side, bits).prop_flat_map(|(side, bits)| {
         let width = prop_oneof![1..=3 * side, 60u32..=70, 120u32..=260, 190u32..=194];
         let height = 1..=3 * side + 1;
-        let features = subsequence(FeatureKind::ALL.to_vec(), 1..=4).prop_shuffle().prop_flat_map(
-            move |kinds| {
+        let features = subsequence(FeatureKind::ALL.to_vec(), 1..=FeatureKind::COUNT)
+            .prop_shuffle()
+            .prop_flat_map(move |kinds| {
                 kinds.into_iter().map(|kind| feature(kind, side, bits)).collect::<Vec<_>>()
-            },
-        );
+            });
         let max = (1u32 << bits) - 1;
         let temporal = (small(max - 1).prop_map(Some), small(side * side));
         let switches = proptest::array::uniform6(any::<bool>());

@@ -26,6 +26,7 @@ pub(crate) fn assert_same(recipe: &Recipe, outcome: &Outcome, seen: &Seen) {
         assert_eq!(outcome.srs[index], region.srs, "srs of region {index}");
         assert_eq!(outcome.trs[index], region.trs, "trs of region {index}");
         assert_eq!(outcome.active[index], region.active, "active of region {index}");
+        assert_eq!(outcome.actions[index].name(), region.action, "action of region {index}");
     }
     assert_eq!(image(&outcome.rendered), seen.rendered);
 }

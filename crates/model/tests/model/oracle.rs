@@ -26,6 +26,8 @@ pub(crate) struct SeenRegion {
     pub(crate) trs: bool,
     pub(crate) payload: Vec<i64>,
     pub(crate) active: bool,
+    /// What becomes of the region on the screen.
+    pub(crate) action: &'static str,
 }
 
 /// The history of every frame of a film.
@@ -140,7 +142,13 @@ fn look_at_region(
     let trs = temporal_count >= recipe.temporal_min;
     let payload = cut(recipe, payload, region);
     let active = srs && trs;
-    SeenRegion { terms, scores, temporal_hits, temporal_count, srs, trs, payload, active }
+    let blank = !srs && recipe.blank_irrelevant;
+    let action = match (active, blank) {
+        (true, _) => "forward",
+        (false, true) => "blank",
+        (false, false) => "hold",
+    };
+    SeenRegion { terms, scores, temporal_hits, temporal_count, srs, trs, payload, active, action }
 }
 
 fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64) -> Vec<i64> {
@@ -174,7 +182,9 @@ fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64
             let mean = (pixels.iter().sum::<i64>() * scale + recipe.n() / 2) / recipe.n();
             pixels.iter().map(|pixel| (pixel * scale - mean).abs()).collect()
         }
-        _ => vec![0; places.len()],
+        // It is no sum over pixels.
+        "variance" => vec![0; places.len()],
+        other => panic!("the oracle does not know {other}"),
     }
 }
 

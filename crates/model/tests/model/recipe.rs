@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Config, Design};
+use foveate_design::{Config, Design, FeatureKind};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
@@ -110,9 +110,9 @@ pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Val
     let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
     (sides, bits).prop_flat_map(|(side, bits)| {
         let size = 1..=2 * side + 1;
-        let features = subsequence(vec!["edge", "corner", "mad", "variance"], 1..=4)
-            .prop_shuffle()
-            .prop_flat_map(move |names| {
+        let names: Vec<_> = FeatureKind::ALL.iter().map(|kind| kind.name()).collect();
+        let features =
+            subsequence(names, 1..=FeatureKind::COUNT).prop_shuffle().prop_flat_map(move |names| {
                 names.into_iter().map(|name| feature(name, side, bits)).collect::<Vec<_>>()
             });
         let switches = proptest::array::uniform8(any::<bool>());

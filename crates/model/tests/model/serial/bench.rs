@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Applies frames to an array and compares every port after every edge.
 
+use foveate_design::FeatureKind;
 use foveate_frame::Frame;
 use foveate_model::{SerialInput, SerialRcm, Thresholds, pad, region_stream};
 
@@ -167,8 +168,8 @@ impl Bench {
     fn shake(&mut self) {
         self.noise.temporal_level = self.random.below(2) as u32;
         self.noise.temporal_min_count = self.random.below(5) as u32;
-        self.noise.level = [self.random.below(9) as u32; 4];
-        self.noise.min_score = [self.random.below(9) as u64; 4];
+        self.noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
+        self.noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
     }
 
     /// Pixels that nobody may look at.

@@ -2,6 +2,7 @@
 //! Every port after every edge, for every kind of design: with gaps, pauses, pixels that are not
 //! taken, thresholds that change between frames, skipped clocks, and resets at any edge.
 
+use foveate_design::FeatureKind;
 use foveate_model::{SerialInput, SerialRcm, Thresholds};
 use proptest::prelude::*;
 
@@ -40,7 +41,7 @@ fn changed(recipe: &Recipe, seed: u64) -> Recipe {
 /// What is at the threshold inputs; anything where the core has constants.
 fn applied_thresholds(recipe: &Recipe) -> Thresholds {
     if recipe.constant {
-        let (level, min_score) = ([1; 4], [1; 4]);
+        let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
         return Thresholds { level, min_score, temporal_level: 0, temporal_min_count: 1 };
     }
     Thresholds::of(&recipe.design())

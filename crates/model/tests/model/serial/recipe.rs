@@ -113,10 +113,11 @@ impl SerialRecipe {
             "edge" => 14 * n,
             "corner" => 36 * n,
             "mad" => 2 * n + p + 2 * i64::from(feature.fraction_bits) + 3,
-            _ => {
+            "variance" => {
                 let ones = (0..13).filter(|bit| n >> bit & 1 == 1).count() as i64;
                 n + p * n * ones + 2 * bits(n * self.base.pixel_max()) + p + bits(n) + 2
             }
+            other => panic!("docs/serial.md says no steps of {other}"),
         }
     }
 
