@@ -14,6 +14,8 @@ scripts/install_tools.sh
 export FOVEATE_REQUIRE_TOOLS=1
 step "format"
 cargo fmt --all --check
+step "places that know which variant it is"
+scripts/variant_cost.py --check
 step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "shell, Python, dependencies"

@@ -15,8 +15,12 @@ pub(super) fn rough(design: &Design) -> f64 {
     let median = design.filter() == Filter::Median3x3;
     match design.organization() {
         Organization::Pipelined => {
-            let features: f64 =
-                kinds.map(|kind| if kind == FeatureKind::Corner { 30.0 } else { 10.0 }).sum();
+            let features: f64 = kinds
+                .map(|kind| match kind {
+                    FeatureKind::Corner => 30.0,
+                    FeatureKind::Edge | FeatureKind::Mad | FeatureKind::Variance => 10.0,
+                })
+                .sum();
             let unit = 8.0 + features + if median { 37.0 } else { 0.0 };
             f64::from(design.regions()) * unit * bits / real(device.lut)
         }
