@@ -186,6 +186,15 @@ pub enum ToolError {
     #[error("no place for the build cache; set FOVEATE_CACHE to a folder, or to `off`")]
     NoCache,
 
+    /// The limit of the cache is no size.
+    #[error(
+        "FOVEATE_CACHE_SIZE is `{value}`; expected a size of at least 1M such as 500M or 5G, or `none`"
+    )]
+    CacheSize {
+        /// The value of the variable.
+        value: String,
+    },
+
     /// A file or process could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {
@@ -213,7 +222,9 @@ impl ToolError {
     pub fn is_environment(&self) -> bool {
         use std::io::ErrorKind::{PermissionDenied, ReadOnlyFilesystem, StorageFull};
         match self {
-            Self::Place { .. } | Self::NoCache | Self::Unusable { .. } => true,
+            Self::Place { .. } | Self::NoCache | Self::CacheSize { .. } | Self::Unusable { .. } => {
+                true
+            }
             Self::Io { action, source, .. } => {
                 let kind = source.kind();
                 *action != "run"

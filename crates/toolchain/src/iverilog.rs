@@ -44,7 +44,8 @@ impl IverilogJob {
     }
 }
 
-/// Compiles the simulation, or finds it in the cache, and returns the program for [`run`].
+/// Compiles the simulation, or finds it in the cache, and returns the program for [`run`], which stays as
+/// long as the cache.
 ///
 /// # Errors
 /// When Icarus is missing or refuses the sources.
@@ -60,7 +61,7 @@ pub fn compile(
         .field("exact ports", format!("{:?}", job.exact_ports))
         .sources(&job.sources)
         .finish();
-    cache.get_or_build(&key, PROGRAM, |dir| {
+    cache.keep_or_build(&key, PROGRAM, |dir| {
         let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
         files::write_sources(work.path(), &job.sources)?;
         let invocation = toolchain

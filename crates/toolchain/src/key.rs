@@ -7,6 +7,9 @@ use sha2::{Digest as _, Sha256};
 
 use crate::files::Source;
 
+/// Hexadecimal digits of a SHA-256.
+const HASH_DIGITS: usize = 64;
+
 /// The name of a cache entry: what made it, and the hash of all that went into it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Key(String);
@@ -16,6 +19,14 @@ impl Key {
     #[must_use]
     pub fn builder(kind: &str) -> KeyBuilder {
         KeyBuilder { kind: kind.to_owned(), hash: Sha256::new() }
+    }
+
+    /// Whether this could be the name of a key: a kind and a hash.
+    pub(crate) fn is_name(name: &str) -> bool {
+        let digit = |c: u8| c.is_ascii_digit() || (b'a'..=b'f').contains(&c);
+        name.rsplit_once('-').is_some_and(|(kind, hash)| {
+            !kind.is_empty() && hash.len() == HASH_DIGITS && hash.bytes().all(digit)
+        })
     }
 
     /// The key as the name of a folder.
@@ -125,5 +136,7 @@ mod tests {
         assert_ne!(key(&[("a", "b"), ("c", "d")]), key(&[("a", "b1:c1:d")]));
         assert_eq!(key(&[("a", "b")]), key(&[("a", "b")]));
         assert!(key(&[]).as_str().starts_with("t-"));
+        assert!(Key::is_name(key(&[]).as_str()));
+        assert!(!Key::is_name("thesis-2026") && !Key::is_name(&sha256_hex("")));
     }
 }

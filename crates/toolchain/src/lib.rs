@@ -7,6 +7,7 @@
 
 pub mod cache;
 mod error;
+mod family;
 mod files;
 mod host;
 mod invocation;
@@ -22,7 +23,7 @@ mod toolchain;
 pub mod verilator;
 pub mod yosys;
 
-pub use cache::Cache;
+pub use cache::{Cache, Entry};
 pub use error::ToolError;
 pub use files::Source;
 pub use host::{Host, SystemHost};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs one child process. Input and output go through files, never through pipes: a child that
-//! writes much before it reads cannot block, and a grandchild that lives on cannot hold us.
+//! writes much before it reads cannot block, and a grandchild that lives on cannot hold us. What stops the
+//! child stops all that it started.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{Read as _, Seek as _, Write as _};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,6 +11,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::error::ToolError;
+use crate::family;
 use crate::invocation::{Input, Invocation, Output};
 
 /// Runs to the end, or to the time limit.
@@ -31,6 +33,7 @@ pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<Output
     if let Some(dir) = &invocation.dir {
         command.current_dir(dir);
     }
+    family::found(&mut command);
     let mut child = command.spawn().map_err(ToolError::io("run", program))?;
     let status = wait(&mut child, invocation, cancel)?;
     Ok(Output {
@@ -51,15 +54,15 @@ fn wait(
     let start = Instant::now();
     loop {
         if let Some(status) = child.try_wait().map_err(failed)? {
-            let stopped = !status.success() && (by_keyboard(status) || soon(cancel));
+            let stopped = !status.success() && (asked_to_stop(status) || soon(cancel));
             return if stopped { Err(ToolError::Interrupted) } else { Ok(status) };
         }
         if cancel.load(Ordering::Relaxed) {
-            stop(child);
+            family::end(child);
             return Err(ToolError::Interrupted);
         }
         if let Some(limit) = invocation.timeout.filter(|&limit| start.elapsed() >= limit) {
-            stop(child);
+            family::end(child);
             return Err(ToolError::TimedOut { command: invocation.command_line(), limit });
         }
         // Looking ever more rarely, a short run is not made longer by much.
@@ -67,7 +70,7 @@ fn wait(
     }
 }
 
-/// An interrupt from the keyboard goes to the child too, which may be gone before the flag is set.
+/// Whoever stops a job may tell every process of it, and the child may be gone before the flag is set.
 fn soon(cancel: &AtomicBool) -> bool {
     let start = Instant::now();
     while !cancel.load(Ordering::Relaxed) && start.elapsed() < Duration::from_millis(20) {
@@ -77,41 +80,16 @@ fn soon(cancel: &AtomicBool) -> bool {
 }
 
 #[cfg(unix)]
-fn by_keyboard(status: ExitStatus) -> bool {
+fn asked_to_stop(status: ExitStatus) -> bool {
+    use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt as _;
-    const SIGINT: i32 = 2;
-    status.signal() == Some(SIGINT)
+    let asking = [Signal::INT, Signal::TERM, Signal::HUP].map(Signal::as_raw);
+    status.signal().is_some_and(|signal| asking.contains(&signal))
 }
 
 #[cfg(not(unix))]
-fn by_keyboard(_: ExitStatus) -> bool {
+fn asked_to_stop(_: ExitStatus) -> bool {
     false
-}
-
-/// Ends the child and what it started: verilator, yosys and iverilog are drivers of other programs.
-fn stop(child: &mut Child) {
-    let below = descendants(child.id());
-    // Each can only fail because the process has ended already.
-    let _ = child.kill();
-    if !below.is_empty() {
-        let pids: Vec<String> = below.iter().map(u32::to_string).collect();
-        let script = format!("kill -KILL {}", pids.join(" "));
-        let _ = Command::new("sh").args(["-c", &script]).stderr(Stdio::null()).status();
-    }
-    let _ = child.wait();
-}
-
-/// All processes below `root`, as far as /proc tells.
-fn descendants(root: u32) -> Vec<u32> {
-    let mut found = vec![root];
-    let mut next = 0;
-    while let Some(&pid) = found.get(next) {
-        let path = format!("/proc/{pid}/task/{pid}/children");
-        let children = fs::read_to_string(path).unwrap_or_default();
-        found.extend(children.split_whitespace().filter_map(|word| word.parse::<u32>().ok()));
-        next += 1;
-    }
-    found.split_off(1)
 }
 
 fn stdin(input: &Input) -> Result<Stdio, ToolError> {
@@ -182,54 +160,71 @@ mod tests {
         assert_eq!((merged.stdout.as_slice(), merged.stderr.len()), (&b"a\nb\nc\n"[..], 0));
     }
 
+    /// A grandchild that holds the pipe `alive` of its folder open as long as it lives.
+    const FAMILY: &str = "sh -c 'sleep 60; true' > alive & wait";
+
+    /// A folder with that pipe, and its other side: the pipe ends when nobody holds it any more.
+    #[allow(clippy::unwrap_used, reason = "helper of tests")]
+    fn pipe() -> (tempfile::TempDir, std::sync::mpsc::Receiver<()>) {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("alive");
+        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+        let (sender, ended) = std::sync::mpsc::channel();
+        std::thread::spawn(move || {
+            let read = File::open(path).and_then(|mut pipe| pipe.read_to_end(&mut Vec::new()));
+            read.map(|_| sender.send(()))
+        });
+        (dir, ended)
+    }
+
+    fn assert_ended(ended: &std::sync::mpsc::Receiver<()>) {
+        let ended = ended.recv_timeout(Duration::from_secs(20));
+        assert!(ended.is_ok(), "the grandchild lives on");
+    }
+
     #[test]
     fn time_limit_ends_the_whole_family() {
-        let dir = tempfile::tempdir().unwrap();
-        let script = "sh -c 'echo $$ > pid; sleep 60; true' & wait";
+        let (dir, ended) = pipe();
         let limit = Duration::from_millis(500);
-        let error = run(&sh(script).dir(dir.path()).timeout(limit)).unwrap_err();
+        let error = run(&sh(FAMILY).dir(dir.path()).timeout(limit)).unwrap_err();
         assert!(matches!(error, ToolError::TimedOut { .. }), "{error}");
-        assert_ended(dir.path());
+        assert_ended(&ended);
     }
 
     #[test]
     fn an_interrupt_ends_the_whole_family() {
-        let dir = tempfile::tempdir().unwrap();
-        let script = sh("sh -c 'echo $$ > pid; sleep 60; true' & wait").dir(dir.path());
+        let (dir, ended) = pipe();
+        let script = sh(FAMILY).dir(dir.path());
         let cancel = AtomicBool::new(false);
         let start = Instant::now();
         std::thread::scope(|scope| {
             let running = scope.spawn(|| super::run(&script, &cancel));
             sleep(Duration::from_millis(500));
+            assert!(ended.try_recv().is_err(), "the grandchild lives until it is stopped");
             cancel.store(true, Ordering::Relaxed);
             assert!(running.join().unwrap().unwrap_err().is_interrupted());
         });
         assert!(start.elapsed() < Duration::from_secs(30));
-        assert_ended(dir.path());
-        assert!(run(&sh("kill -INT $$")).unwrap_err().is_interrupted());
+        assert_ended(&ended);
     }
 
-    /// The process whose number is in the file `pid` is gone, or will be soon.
-    #[allow(clippy::unwrap_used, reason = "helper of tests")]
-    fn assert_ended(dir: &std::path::Path) {
-        let pid = fs::read_to_string(dir.join("pid")).unwrap();
-        let stat = format!("/proc/{}/stat", pid.trim());
-        let ended = || fs::read_to_string(&stat).map_or(true, |state| state.contains(") Z "));
-        let patience = Instant::now() + Duration::from_secs(10);
-        while !ended() {
-            assert!(Instant::now() < patience, "the grandchild lives on");
-            sleep(Duration::from_millis(10));
+    #[test]
+    fn a_child_that_is_told_to_stop_was_interrupted() {
+        for signal in ["INT", "TERM", "HUP"] {
+            let error = run(&sh(&format!("kill -{signal} $$"))).unwrap_err();
+            assert!(error.is_interrupted(), "{signal}: {error}");
         }
+        assert_eq!(run(&sh("kill -KILL $$")).unwrap().code, None);
     }
 
     #[test]
     fn files_and_folder_are_used() {
         let dir = tempfile::tempdir().unwrap();
         let (input, result) = (dir.path().join("in"), dir.path().join("out"));
-        fs::write(&input, "text").unwrap();
+        std::fs::write(&input, "text").unwrap();
         let output = run(&sh("cat; pwd").dir(dir.path()).stdin_file(&input).stdout_file(&result));
         assert!(output.unwrap().stdout.is_empty());
-        assert!(fs::read_to_string(&result).unwrap().starts_with("text/"));
+        assert!(std::fs::read_to_string(&result).unwrap().starts_with("text/"));
     }
 
     #[test]

@@ -11,6 +11,7 @@ use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{self, Receiver, Sender};
 
 use crate::error::ToolError;
+use crate::family;
 use crate::invocation::Invocation;
 
 /// Longest line that is kept whole.
@@ -66,7 +67,7 @@ impl Stream {
 
     /// Ends the program, whatever it was about to write.
     pub fn stop(&mut self) {
-        end(&mut self.running.child);
+        family::end(&mut self.running.child);
     }
 }
 
@@ -124,7 +125,7 @@ impl Running {
         if let Some(dir) = &invocation.dir {
             command.current_dir(dir);
         }
-        apart(&mut command);
+        family::found(&mut command);
         let child = command.spawn().map_err(ToolError::io("run", &invocation.program))?;
         let (sender, lines) = mpsc::channel();
         // From here on the child ends with what holds it.
@@ -143,7 +144,7 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        end(&mut self.child);
+        family::end(&mut self.child);
     }
 }
 
@@ -164,12 +165,6 @@ fn widen(pipe: &impl std::os::fd::AsFd) {
 #[cfg(not(target_os = "linux"))]
 fn widen<T>(_: &T) {}
 
-fn end(child: &mut Child) {
-    // Each can only fail because the process has ended already.
-    let _ = child.kill();
-    let _ = child.wait();
-}
-
 fn collect(stderr: ChildStderr, lines: &Sender<String>) {
     let mut reader = BufReader::new(stderr);
     let mut line = Vec::new();
@@ -179,18 +174,6 @@ fn collect(stderr: ChildStderr, lines: &Sender<String>) {
         line.clear();
     }
 }
-
-/// Puts a program that is to be started into a process group of its own: an interrupt from the
-/// terminal goes to whoever reads or feeds it alone, which decides how to end.
-#[cfg(unix)]
-fn apart(command: &mut Command) {
-    use std::os::unix::process::CommandExt as _;
-    command.process_group(0);
-}
-
-/// Elsewhere there are no process groups.
-#[cfg(not(unix))]
-fn apart(_: &mut Command) {}
 
 #[cfg(all(test, unix))]
 mod tests {
@@ -219,7 +202,8 @@ mod tests {
         let stream = Stream::start(&shell("echo $$ >&2; exec sleep 60")).unwrap();
         let pid = stream.next_line().unwrap();
         drop(stream);
-        assert!(!std::path::Path::new(&format!("/proc/{pid}")).exists());
+        let alive = Command::new("kill").args(["-0", &pid]).stderr(Stdio::null()).status();
+        assert!(!alive.unwrap().success());
     }
 
     #[test]

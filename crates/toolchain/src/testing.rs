@@ -25,21 +25,39 @@ pub fn require_tools(tools: &[Tool]) -> bool {
     let Some(error) = tools.iter().find_map(|&tool| toolchain.find(tool).err()) else {
         return true;
     };
-    let required = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
-    assert!(!required, "FOVEATE_REQUIRE_TOOLS is 1, but {error}");
+    assert!(!is_strict(), "FOVEATE_REQUIRE_TOOLS is 1, but {error}");
     skip(&error.to_string());
     false
 }
 
 /// The folder of real images and video that the environment variable `FOVEATE_DATA` names. Without
 /// one, says on the terminal that the test is skipped.
+///
+/// # Panics
+/// When the variable names something else than a folder and `FOVEATE_REQUIRE_TOOLS` is `1`. What is missing
+/// in the folder is for the test to fail on.
 #[must_use]
 pub fn data_folder() -> Option<PathBuf> {
-    let folder = std::env::var_os("FOVEATE_DATA").map(PathBuf::from).filter(|path| path.is_dir());
-    if folder.is_none() {
-        skip("FOVEATE_DATA names no folder");
+    named_folder(std::env::var_os("FOVEATE_DATA"), is_strict())
+}
+
+fn named_folder(named: Option<OsString>, strict: bool) -> Option<PathBuf> {
+    let Some(path) = named.filter(|name| !name.is_empty()).map(PathBuf::from) else {
+        skip("FOVEATE_DATA is not set");
+        return None;
+    };
+    if path.is_dir() {
+        return Some(path);
     }
-    folder
+    let problem = format!("FOVEATE_DATA is `{}`, which is no folder", path.display());
+    assert!(!strict, "FOVEATE_REQUIRE_TOOLS is 1, but {problem}");
+    skip(&problem);
+    None
+}
+
+/// Whether tests that lack something fail instead of being skipped.
+fn is_strict() -> bool {
+    std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1")
 }
 
 /// Says that a test is skipped, and why, past the capture of the test harness.
@@ -136,4 +154,24 @@ impl Host for MockHost {
 
 fn is_version_flag(flag: &str) -> bool {
     Tool::ALL.iter().any(|tool| tool.version_flag() == flag)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn data_that_is_not_named_is_skipped() {
+        assert_eq!(named_folder(None, true), None);
+        assert_eq!(named_folder(Some(OsString::new()), true), None);
+        assert_eq!(named_folder(Some("/nowhere".into()), false), None);
+        let dir = tempfile::tempdir().unwrap();
+        assert_eq!(named_folder(Some(dir.path().into()), true).unwrap(), dir.path());
+    }
+
+    #[test]
+    #[should_panic(expected = "FOVEATE_DATA is `/nowhere`, which is no folder")]
+    fn data_that_is_named_and_missing_fails() {
+        let _ = named_folder(Some("/nowhere".into()), true);
+    }
 }

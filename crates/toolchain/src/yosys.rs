@@ -51,7 +51,7 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<Yosys
         .sources(&job.sources)
         .finish();
     let log = cache.get_or_build(&key, LOG, |dir| run_in(toolchain, job, dir))?;
-    let dir = log.parent().unwrap_or(Path::new("."));
+    let dir = log.path().parent().unwrap_or(Path::new("."));
     let read = |name: &str| {
         let path = dir.join(name);
         fs::read(&path).map_err(ToolError::io("read", &path))

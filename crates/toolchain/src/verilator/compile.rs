@@ -76,7 +76,7 @@ impl<'a> Compiler<'a> {
                 .field("file", name)
                 .finish();
             let object = format!("{name}.o");
-            cache.get_or_build(&key, &object, |dir| {
+            cache.keep_or_build(&key, &object, |dir| {
                 let source = self.include.join(format!("{name}.cpp"));
                 let object = dir.join(&object);
                 self.compile(dir, &Unit { source, object, flag: RUN_TIME_FLAG, header: None })
@@ -92,7 +92,7 @@ impl<'a> Compiler<'a> {
             .field("include", self.include.as_os_str().as_encoded_bytes())
             .field("text", HEADER)
             .finish();
-        let compiled = cache.get_or_build(&key, COMPILED_HEADER, |dir| {
+        let compiled = cache.keep_or_build(&key, COMPILED_HEADER, |dir| {
             files::write(dir, HEADER_FILE, HEADER.as_bytes())?;
             let invocation = self
                 .command(dir)?

@@ -89,7 +89,8 @@ pub struct VerilatorJob {
     pub extra_args: Vec<String>,
 }
 
-/// Builds the simulator, or finds it in the cache, and returns its executable.
+/// Builds the simulator, or finds it in the cache, and returns its executable, which stays as long as the
+/// cache.
 ///
 /// # Errors
 /// When a tool is missing, or Verilator or the compiler refuses the sources.
@@ -99,7 +100,7 @@ pub fn build(
     job: &VerilatorJob,
 ) -> Result<PathBuf, ToolError> {
     let key = job.key(toolchain)?;
-    cache.get_or_build(&key, EXECUTABLE, |dir| {
+    cache.keep_or_build(&key, EXECUTABLE, |dir| {
         let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
         let built = build_in(toolchain, cache, job, work.path())?;
         let kept = dir.join(EXECUTABLE);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How much a cache may hold, and when it is looked at.
+
+use std::path::Path;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::evict;
+use crate::error::ToolError;
+
+/// The variable that says how much.
+pub(super) const VARIABLE: &str = "FOVEATE_CACHE_SIZE";
+const MIB: u64 = 1 << 20;
+const LEAST: u64 = MIB;
+const DEFAULT: u64 = 5 << 30;
+/// The folder is looked through when this part of the limit has been built, and then as much is made free:
+/// a build that fills it does not look through it every time.
+const SLACK: u64 = 16;
+
+/// The most bytes of a cache, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Limit(Option<u64>);
+
+impl Default for Limit {
+    fn default() -> Self {
+        Self(Some(DEFAULT))
+    }
+}
+
+impl Limit {
+    pub(super) const NONE: Self = Self(None);
+
+    #[cfg(test)]
+    pub(super) fn bytes(bytes: u64) -> Self {
+        Self(Some(bytes))
+    }
+
+    /// `500M`, `5G` or `1T`, in powers of 1,024; `none`.
+    pub(super) fn parse(text: &str) -> Result<Self, ToolError> {
+        if text.trim() == "none" {
+            return Ok(Self::NONE);
+        }
+        let text = text.trim();
+        let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        let unit = match text[digits.len()..].to_ascii_uppercase().as_str() {
+            "M" | "MB" | "MIB" => Some(MIB),
+            "G" | "GB" | "GIB" => Some(MIB << 10),
+            "T" | "TB" | "TIB" => Some(MIB << 20),
+            _ => None,
+        };
+        let bytes = digits.parse::<u64>().ok().zip(unit);
+        bytes
+            .and_then(|(number, unit)| number.checked_mul(unit))
+            .filter(|&bytes| bytes >= LEAST)
+            .map(|bytes| Self(Some(bytes)))
+            .ok_or_else(|| ToolError::CacheSize { value: text.to_owned() })
+    }
+
+    /// Something of `bytes` was built: makes room where that may be needed. `built` is what this process
+    /// has built since it looked. Nothing depends on it, so that a failure is none.
+    pub(super) fn enforce(self, root: &Path, built: &OnceLock<AtomicU64>, bytes: u64) {
+        let Some(limit) = self.0 else { return };
+        let part = limit / SLACK;
+        let first = built.get().is_none();
+        let built = built.get_or_init(AtomicU64::default);
+        let due = built.fetch_add(bytes, Ordering::Relaxed) + bytes >= part;
+        if first || due {
+            built.store(0, Ordering::Relaxed);
+            evict::evict(root, limit, limit - part);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_have_units() {
+        for (text, bytes) in
+            [("1M", MIB), (" 500mb ", 500 * MIB), ("2GiB", 2 << 30), ("1T", 1 << 40)]
+        {
+            assert_eq!(Limit::parse(text).unwrap(), Limit(Some(bytes)), "{text}");
+        }
+        assert_eq!(Limit::parse("none").unwrap(), Limit::NONE);
+        for text in ["", "0M", "500", "5K", "-1G", "1.5G", "G", "all", "99999999999T", "1µ"] {
+            let error = Limit::parse(text).unwrap_err();
+            assert!(error.is_environment());
+            assert!(
+                error.to_string().contains(&format!("FOVEATE_CACHE_SIZE is `{text}`")),
+                "{error}"
+            );
+        }
+    }
+}
