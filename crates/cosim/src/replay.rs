@@ -19,6 +19,8 @@ const TITLE: &str = "# A mismatch, to replay";
 const REPLAY: Kind = Kind {
     what: "a replay (its replay.sh) or waves (its waves.fst)",
     is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
+    // What the script builds in it may go with it.
+    listed: false,
 };
 /// Clocks that are kept behind the last port's first mismatch.
 const MARGIN: u64 = 16;

@@ -99,7 +99,14 @@ impl Simulation {
                 return Err(FootageError::NoFrames { inputs }.into());
             }
             (Ok(End::Cancelled), _) => Some(INTERRUPTED.to_owned()),
-            (Ok(End::Source), _) => self.source.problem(),
+            // Whoever stopped us may have stopped ffmpeg, too.
+            (Ok(End::Source), _) => self
+                .source
+                .problem()
+                .map(|problem| if hooks.cancelled() { INTERRUPTED.to_owned() } else { problem }),
+            (Err(SimulatorError::VideoOutput { .. }), 1..) if hooks.cancelled() => {
+                Some(INTERRUPTED.to_owned())
+            }
             (Err(error), 1..) if error.is_full() => Some(full(&error, recorder.frames())),
             (Err(error), _) => return Err(error),
         };
@@ -159,7 +166,7 @@ impl std::fmt::Debug for Simulation {
 
 /// What a run leaves, and what it may replace.
 pub(crate) const SIMULATION: FolderKind =
-    FolderKind { what: "a simulation (its summary.json)", is: is_simulation };
+    FolderKind { what: "a simulation (its summary.json)", is: is_simulation, listed: true };
 
 fn is_simulation(folder: &Path) -> bool {
     let summary = std::fs::read(folder.join("summary.json")).unwrap_or_default();

@@ -33,6 +33,28 @@ pub enum StagingError {
         /// What it should hold.
         what: &'static str,
     },
+    /// The folder is of the right kind, but nothing says which of its files may go.
+    #[error(
+        "output folder `{}` has no list of what Foveate wrote there (its .foveate), so it is not replaced; \
+         choose another, or delete it",
+        path.display()
+    )]
+    NoList {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder is of the right kind, and holds other files too.
+    #[error(
+        "output folder `{}` holds files that Foveate did not write there, so it is not replaced: {names}; \
+         move them away, or choose another folder",
+        path.display()
+    )]
+    Mixed {
+        /// The folder.
+        path: PathBuf,
+        /// The first of them, and how many there are more.
+        names: String,
+    },
     /// Something cannot be written.
     #[error("cannot write `{}`: {source}; check space and permissions, or choose another place", path.display())]
     Write {

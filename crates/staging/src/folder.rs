@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::StagingError;
+use crate::{StagingError, list};
 
 /// What kind of folder is written, to recognize one that may be replaced.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub struct Kind {
     pub what: &'static str,
     /// Whether a folder that is there is of this kind.
     pub is: fn(&Path) -> bool,
+    /// Whether it holds a list of its files, `.foveate`, and makes way only if it holds no others.
+    pub listed: bool,
 }
 
 /// A folder in the making; dropped before [`StagedFolder::commit`] it is removed.
@@ -80,6 +82,9 @@ impl StagedFolder {
     /// When something has come to that place meanwhile, or it cannot be written.
     pub fn commit(self) -> Result<(), StagingError> {
         refuse_occupied(&self.target, self.kind, self.replace)?;
+        if self.kind.listed {
+            list::write(&self.partial);
+        }
         let failed = StagingError::write(&self.target);
         if !self.target.exists() {
             return fs::rename(&self.partial, &self.target).map_err(failed);
@@ -134,16 +139,37 @@ fn refuse_occupied(target: &Path, kind: Kind, replace: bool) -> Result<(), Stagi
     match (replace, (kind.is)(target)) {
         (false, _) => Err(StagingError::NotEmpty { path: path() }),
         (true, false) => Err(StagingError::Foreign { path: path(), what: kind.what }),
+        (true, true) if kind.listed => refuse_foreign(target),
         (true, true) => Ok(()),
     }
+}
+
+/// Every file of the folder must be on its list.
+fn refuse_foreign(target: &Path) -> Result<(), StagingError> {
+    const SHOWN: usize = 3;
+    let path = || target.to_owned();
+    let foreign = list::foreign(target).map_err(StagingError::write(target))?;
+    let Some(foreign) = foreign else { return Err(StagingError::NoList { path: path() }) };
+    if foreign.is_empty() {
+        return Ok(());
+    }
+    let mut names = foreign[..foreign.len().min(SHOWN)].join(", ");
+    if foreign.len() > SHOWN {
+        names += &format!(" and {} more", foreign.len() - SHOWN);
+    }
+    Err(StagingError::Mixed { path: path(), names })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const KIND: Kind =
-        Kind { what: "a test (marker)", is: |folder| folder.join("marker").is_file() };
+    const KIND: Kind = Kind {
+        what: "a test (marker)",
+        is: |folder| folder.join("marker").is_file(),
+        listed: false,
+    };
+    const LISTED: Kind = Kind { listed: true, ..KIND };
 
     fn write(target: &Path, name: &str, replace: bool) -> Result<(), StagingError> {
         let staged = StagedFolder::new(target, KIND, replace)?;
@@ -193,6 +219,44 @@ mod tests {
         let refused = write(&target, "marker", true).unwrap_err();
         assert!(refused.to_string().contains("does not hold a test (marker)"), "{refused}");
         assert_eq!((names(&target), names(dir.path())), (vec!["other".into()], vec!["out".into()]));
+    }
+
+    /// Writes a marker and a file whose name needs care.
+    fn write_listed(target: &Path) -> Result<(), StagingError> {
+        let staged = StagedFolder::new(target, LISTED, true)?;
+        staged.write("marker", b"contents")?;
+        staged.write("deep/100 %\n# é", b"contents")?;
+        staged.commit()
+    }
+
+    #[test]
+    fn a_listed_folder_is_replaced_only_where_all_of_it_was_written() {
+        let dir = tempfile::tempdir().unwrap();
+        let target = dir.path().join("out");
+        write_listed(&target).unwrap();
+        write_listed(&target).unwrap();
+        // What is missing, and folders without a file, are no loss.
+        fs::remove_dir_all(target.join("deep")).unwrap();
+        fs::create_dir(target.join("empty")).unwrap();
+        write_listed(&target).unwrap();
+        for name in ["notes", "deep/notes", "deep/.foveate", "a", "#b"] {
+            fs::write(target.join(name), "mine").unwrap();
+        }
+        let refused = write_listed(&target).unwrap_err().to_string();
+        assert!(refused.contains("#b, a, deep/.foveate and 2 more; move them"), "{refused}");
+        assert!(StagedFolder::check(&target, LISTED, true).is_err());
+        assert_eq!(fs::read(target.join("deep/notes")).unwrap(), b"mine");
+        assert_eq!(names(dir.path()), ["out"]);
+    }
+
+    #[test]
+    fn without_its_list_a_folder_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        let target = dir.path().join("out");
+        write_listed(&target).unwrap();
+        fs::remove_file(target.join(".foveate")).unwrap();
+        assert!(matches!(write_listed(&target), Err(StagingError::NoList { .. })));
+        assert_eq!(names(&target), ["deep", "marker"]);
     }
 
     #[test]

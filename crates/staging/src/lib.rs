@@ -3,11 +3,12 @@
 //! they are complete.
 //!
 //! A folder that holds something is only replaced when the caller asks for it, and only when it is
-//! one that the caller's kind of run wrote: nobody's thesis goes because of a flag.
+//! one that the caller's kind of run wrote, and holds nothing else: nobody's thesis goes because of a flag.
 
 mod error;
 mod file;
 mod folder;
+mod list;
 mod reserve;
 
 pub use error::StagingError;

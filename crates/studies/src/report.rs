@@ -142,7 +142,7 @@ pub fn analyze(
     Ok(Report { study: study.name(), files, columns, rows, problems: findings.problems })
 }
 
-const STUDY: Kind = Kind { what: "a study (its CSV)", is: is_study };
+const STUDY: Kind = Kind { what: "a study (its CSV)", is: is_study, listed: true };
 
 fn is_study(folder: &Path) -> bool {
     Study::ALL.iter().any(|study| {

@@ -16,6 +16,7 @@ use crate::{interrupt, output};
 const CORE: Kind = Kind {
     what: "a generated core (its foveate_rcm.core)",
     is: |folder| folder.join("foveate_rcm.core").is_file(),
+    listed: true,
 };
 
 #[derive(Serialize)]

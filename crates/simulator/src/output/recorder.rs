@@ -19,6 +19,7 @@ use super::summary::Totals;
 use super::table::{FrameTable, Row};
 use super::{RunOptions, Summary, events};
 use crate::SimulatorError;
+use crate::simulation::INTERRUPTED;
 use foveate_footage::{SetForm, SourceFrame};
 
 /// How a full disk is called in a summary.
@@ -108,15 +109,21 @@ impl Recorder {
     }
 
     /// Completes every file and adds the summary; `problem` is why the run ended early, if it did.
-    /// Where there is no room left, what was kept back for this is used up.
+    /// Where there is no room left, what was kept back for this is used up. A video whose ffmpeg was
+    /// interrupted, too, is left out.
     pub(crate) fn finish(
         mut self,
         folder: &Path,
         inputs: &[String],
         mut problem: Option<String>,
     ) -> Result<Summary, SimulatorError> {
+        let interrupted = problem.as_deref() == Some(INTERRUPTED);
+        let lost = |error: &SimulatorError| {
+            let video = matches!(error, SimulatorError::VideoOutput { .. });
+            error.is_full() || (interrupted && video)
+        };
         if let Err(error) = self.write_out(true)
-            && !error.is_full()
+            && !lost(&error)
         {
             return Err(error);
         }
@@ -125,7 +132,7 @@ impl Recorder {
         for sink in self.sinks {
             let expendable = sink.expendable();
             match (sink.finish(), expendable) {
-                (Err(error), Some(path)) if error.is_full() => give_up(&path, &mut problem),
+                (Err(error), Some(path)) if lost(&error) => give_up(&path, &mut problem),
                 (other, _) => other?,
             }
         }
