@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Why there is no footage. Every message names the input and says what to do.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use foveate_design::DesignError;
 use foveate_frame::FrameError;
@@ -9,6 +9,7 @@ use foveate_scenes::SceneError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
+use crate::extension::{VIDEO_EXTENSIONS, extension_in};
 use crate::limits::{Crop, MAX_FILE_GIB, MAX_SIDE};
 
 /// What the reader understands, for messages.
@@ -27,6 +28,51 @@ pub enum FootageError {
     #[error("input `{}` does not exist; check the path", path.display())]
     Missing {
         /// The path as given.
+        path: PathBuf,
+    },
+    /// An address of the network.
+    #[error(
+        "`{url}` is an address, and inputs are files and devices of this machine; fetch it first, or let \
+         ffmpeg read it: ffmpeg -i '{url}' -f yuv4mpegpipe - | foveate simulate - -o out"
+    )]
+    Url {
+        /// The address as given.
+        url: String,
+    },
+    /// Images and videos side by side, of which only one can be meant.
+    #[error(
+        "`{place}` holds images and videos ({images} and {videos}, such as `{video}`), and nothing says which \
+         are meant; name the images, for example '{pattern}', or the video",
+        video = video.display()
+    )]
+    Mixed {
+        /// The folder or pattern as given.
+        place: String,
+        /// How many images.
+        images: usize,
+        /// How many videos.
+        videos: usize,
+        /// The first of them.
+        video: PathBuf,
+        /// A pattern of images that is there.
+        pattern: String,
+    },
+    /// A file without frames by its own account.
+    #[error("`{}` holds no frames: {problem}", path.display())]
+    Frameless {
+        /// The file.
+        path: PathBuf,
+        /// What it is, and what to name instead.
+        problem: String,
+    },
+    /// An image of several frames among images.
+    #[error(
+        "`{}` is an animated PNG, and only its first frame would be taken; simulate it on its own, which takes \
+         all, or save the frame that you mean",
+        path.display()
+    )]
+    Animated {
+        /// The file.
         path: PathBuf,
     },
     /// A pattern that no image matches.
@@ -56,13 +102,21 @@ pub enum FootageError {
         input: String,
     },
     /// A video that gives no frame.
+    #[error("{}", video_problem(path, problem))]
+    Video {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, as ffmpeg says it.
+        problem: String,
+    },
+    /// A camera that gives no frame.
     #[error(
-        "`{}` cannot be read as a video, and is no image ({TYPES}): {problem}; \
-         play it to see whether it is whole",
+        "camera `{}` gives no frame: {problem}; check that it is connected (`ls /dev/video*`) and that no \
+         other program uses it",
         path.display()
     )]
-    Video {
-        /// The file or device.
+    Camera {
+        /// The device.
         path: PathBuf,
         /// What is wrong, as ffmpeg says it.
         problem: String,
@@ -206,4 +260,17 @@ impl From<ToolError> for FootageError {
     fn from(error: ToolError) -> Self {
         Self::Tool(Box::new(error))
     }
+}
+
+/// To play it helps with a video that is damaged, not with what never was one.
+fn video_problem(path: &Path, problem: &str) -> String {
+    let shown = path.display();
+    if extension_in(path, &VIDEO_EXTENSIONS) {
+        return format!(
+            "video `{shown}` cannot be read: {problem}; play it to see whether it is whole"
+        );
+    }
+    format!(
+        "`{shown}` is no input: no image ({TYPES}), no data set (IDX, CIFAR), and as a video ffmpeg says: {problem}"
+    )
 }

@@ -7,7 +7,7 @@
 mod find;
 mod sniff;
 
-pub(crate) use find::{VIDEO_EXTENSIONS, entries, extension_in, is_image_name};
+pub(crate) use find::{entries, expand};
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
 use crate::source::select::Selection;
 use crate::video::{Medium, Video};
 use crate::y4m::Y4m;
-use crate::{FootageError, FrameRate, Kind, Source};
+use crate::{FootageError, FrameRate, Kind, Source, picture};
 
 /// Side of a scene where the configuration does not say.
 const SCENE_SIDE: u32 = 224;
@@ -110,6 +110,9 @@ fn feed(
     let bits = config.validate()?.pixel_bits();
     let rate = options.frame_rate;
     if let [input] = inputs {
+        if let (Some(labels), true) = (&options.labels, is_special(input)) {
+            return Err(no_images_for(labels));
+        }
         if let Some(name) = after("scene:", input) {
             return scene(name, config, options);
         }
@@ -124,10 +127,21 @@ fn feed(
     let mut images = Vec::new();
     let mut clips = Vec::new();
     for input in inputs {
-        let mut paths = find::expand(input, options.images)?;
+        let mut paths = expand(input, options.images)?;
         let (mut pictures, mut others) = find::split(&mut paths)?;
         images.append(&mut pictures);
         clips.append(&mut others);
+    }
+    // On its own it is a clip; among others it would be one frame of many.
+    if let ([image], ImagesAs::Clip) = (images.as_slice(), options.images)
+        && clips.is_empty()
+        && picture::is_animated(&image.path)
+    {
+        clips.push((images.remove(0).path, sniff::FileKind::Video));
+    }
+    let idx = |(_, kind): &(PathBuf, sniff::FileKind)| *kind == sniff::FileKind::Idx;
+    if let (Some(labels), false) = (&options.labels, clips.iter().any(idx)) {
+        return Err(no_images_for(labels));
     }
     match (images.is_empty(), clips.as_slice()) {
         (true, []) => Err(FootageError::NoInput),
@@ -135,6 +149,12 @@ fn feed(
         (false, []) => pictures(images, bits, options),
         (_, [(path, _), ..]) => Err(FootageError::NotAlone { input: path.display().to_string() }),
     }
+}
+
+fn no_images_for(labels: &Path) -> FootageError {
+    let shown = labels.display();
+    let problem = format!("`{shown}` is for the images of an IDX file, and there is none");
+    FootageError::Option { option: "--labels", problem }
 }
 
 fn pictures(

@@ -6,7 +6,9 @@
 //! reads on a thread of its own. Memory does not grow with the number of frames. Nothing here knows
 //! what becomes of the frames.
 
+mod advice;
 mod error;
+mod extension;
 mod input;
 mod limits;
 mod natural;
@@ -19,6 +21,7 @@ mod subject;
 mod video;
 mod y4m;
 
+pub use advice::advice;
 pub use error::FootageError;
 pub use input::{ImagesAs, InputOptions, is_read_once, open};
 pub use limits::{Crop, MAX_SIDE};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Image files to frames: PNG (first frame), JPEG, BMP, PNM; told apart by content, not by name.
+//! Image files to frames: PNG, JPEG, BMP, PNM; told apart by content, not by name.
 //!
 //! * Colour becomes luma by [`luma`], on 8-bit samples or, where the file has more, on 16-bit ones.
 //!   Alpha, colour profiles and EXIF orientation are ignored.
@@ -47,6 +47,9 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
     if let Some(problem) = complete::missing(format, bytes) {
         return Err(FootageError::Truncated { path: path.to_owned(), problem });
     }
+    if format == ImageFormat::Png && has_animation(bytes) {
+        return Err(FootageError::Animated { path: path.to_owned() });
+    }
     let mut limits = Limits::no_limits();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
@@ -85,6 +88,40 @@ pub(crate) fn is_image(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = File::open(path).map(|file| file.take(16).read_to_end(&mut start));
     matches!(read, Ok(Ok(_))) && supported(&start).is_some()
+}
+
+/// Width of an image, by its header.
+pub(crate) fn width(path: &Path) -> Option<u32> {
+    let reader = ImageReader::open(path).ok()?.with_guessed_format().ok()?;
+    reader.into_dimensions().ok().map(|(width, _)| width)
+}
+
+/// Whether a file is an animated PNG.
+pub(crate) fn is_animated(path: &Path) -> bool {
+    // What says so stands before the pixels; what can stand before it is small.
+    const HEAD: u64 = 1 << 20;
+    let mut start = Vec::new();
+    let read = File::open(path).map(|file| file.take(HEAD).read_to_end(&mut start));
+    matches!(read, Ok(Ok(_))) && has_animation(&start)
+}
+
+/// Whether a PNG has a chunk `acTL` before its pixels.
+fn has_animation(bytes: &[u8]) -> bool {
+    const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+    /// Length, type and checksum.
+    const FRAME: usize = 12;
+    let Some(mut rest) = bytes.strip_prefix(SIGNATURE) else { return false };
+    while let [a, b, c, d, kind @ ..] = rest {
+        match kind.first_chunk() {
+            Some(b"acTL") => return true,
+            Some(b"IDAT") | None => return false,
+            Some(_) => {}
+        }
+        let length = u32::from_be_bytes([*a, *b, *c, *d]);
+        let next = usize::try_from(length).ok().and_then(|length| length.checked_add(FRAME));
+        rest = next.and_then(|next| rest.get(next..)).unwrap_or_default();
+    }
+    false
 }
 
 fn supported(bytes: &[u8]) -> Option<ImageFormat> {
@@ -148,6 +185,25 @@ mod tests {
         assert_eq!(luma(0, 0, 255), 29);
         assert_eq!(luma(10, 200, 30), (770 + 30_000 + 870 + 128) >> 8);
         assert_eq!(luma(65_535, 0, 0), 19_712);
+    }
+
+    #[test]
+    fn an_animation_is_told_before_the_pixels() {
+        let chunk = |kind: &[u8; 4], length: u8| {
+            [&[0, 0, 0, length][..], kind, &vec![7; length.into()], &[0; 4]].concat()
+        };
+        let png = |chunks: &[Vec<u8>]| [&b"\x89PNG\r\n\x1a\n"[..], &chunks.concat()].concat();
+        let (head, text, pixels) = (chunk(b"IHDR", 13), chunk(b"tEXt", 40), chunk(b"IDAT", 9));
+        let animated = chunk(b"acTL", 8);
+        assert!(has_animation(&png(&[head.clone(), text.clone(), animated.clone()])));
+        for still in [
+            png(&[head.clone(), text.clone(), pixels.clone(), animated.clone()]),
+            png(&[head.clone(), chunk(b"tEXt", 200)[..100].to_vec()]),
+            png(&[]),
+            [b"GIF89a".to_vec(), animated].concat(),
+        ] {
+            assert!(!has_animation(&still));
+        }
     }
 
     #[test]

@@ -10,7 +10,8 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use crate::input::{VIDEO_EXTENSIONS, entries, extension_in, is_image_name, is_special};
+use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
+use crate::input::{entries, is_special};
 use crate::{FootageError, ImagesAs, InputOptions, picture};
 
 /// Folders are searched this deep, so that a link to a folder above does not lead on for ever.

@@ -61,6 +61,15 @@ impl Medium {
         }
     }
 
+    /// Why there is no frame.
+    fn refused(&self, problem: String) -> FootageError {
+        let path = self.path().to_owned();
+        match self {
+            Self::File(_) => FootageError::Video { path, problem },
+            Self::Camera(_) => FootageError::Camera { path, problem },
+        }
+    }
+
     fn is_camera(&self) -> bool {
         matches!(self, Self::Camera(_))
     }
@@ -136,10 +145,8 @@ impl Video {
             problem = truncated::problem(path).or(problem);
         }
         if self.frames == 0 && self.first_pts.is_none() {
-            return Err(FootageError::Video {
-                path: self.medium.path().to_owned(),
-                problem: problem.unwrap_or_else(|| "it holds no frame".to_owned()),
-            });
+            let problem = problem.unwrap_or_else(|| "it holds no frame".to_owned());
+            return Err(self.medium.refused(problem));
         }
         self.problem = problem;
         Ok(())
@@ -162,9 +169,7 @@ impl Feed for Video {
                 self.frames += 1;
                 Ok(Some(SourceFrame { name, time_us, label: None, frame }))
             }
-            Err(problem) if self.frames == 0 => {
-                Err(FootageError::Video { path: self.medium.path().to_owned(), problem })
-            }
+            Err(problem) if self.frames == 0 => Err(self.medium.refused(problem)),
             Err(problem) => {
                 self.problem = Some(problem);
                 Ok(None)

@@ -8,26 +8,9 @@ use glob::{MatchOptions, Pattern};
 
 use super::ImagesAs;
 use super::sniff::{self, FileKind};
+use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
 use crate::source::files::ImageFile;
 use crate::{FootageError, natural_order, picture};
-
-/// Files with these extensions are taken from folders and patterns as images.
-const IMAGE_EXTENSIONS: [&str; 9] =
-    ["png", "jpg", "jpeg", "bmp", "pgm", "ppm", "pbm", "pnm", "pam"];
-/// And these as clips.
-pub(crate) const VIDEO_EXTENSIONS: [&str; 17] = [
-    "mp4", "m4v", "mov", "avi", "mkv", "webm", "mpg", "mpeg", "ts", "mts", "m2ts", "wmv", "flv",
-    "ogv", "3gp", "gif", "y4m",
-];
-
-pub(crate) fn extension_in(path: &Path, known: &[&str]) -> bool {
-    path.extension()
-        .is_some_and(|extension| known.iter().any(|known| extension.eq_ignore_ascii_case(known)))
-}
-
-pub(crate) fn is_image_name(path: &Path) -> bool {
-    extension_in(path, &IMAGE_EXTENSIONS)
-}
 
 /// The entries of a folder in natural order, without hidden ones.
 pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, FootageError> {
@@ -43,7 +26,7 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, FootageError> {
 }
 
 /// The files that one argument stands for, with labels.
-pub(super) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, FootageError> {
+pub(crate) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, FootageError> {
     if input.is_dir() {
         return match images {
             ImagesAs::Set => labelled(input),
@@ -54,9 +37,18 @@ pub(super) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, F
         return Ok(vec![plain(input.to_owned())]);
     }
     match input.to_str() {
+        Some(text) if is_url(text) => Err(FootageError::Url { url: text.to_owned() }),
         Some(text) if text.contains(['*', '?', '[']) => pattern(text),
         _ => Err(FootageError::Missing { path: input.to_owned() }),
     }
+}
+
+/// `https://...` and its kin.
+fn is_url(text: &str) -> bool {
+    let scheme = text.split_once("://").map(|(scheme, _)| scheme);
+    scheme.is_some_and(|scheme| {
+        !scheme.is_empty() && scheme.chars().all(|c| c.is_ascii_alphanumeric() || "+.-".contains(c))
+    })
 }
 
 /// Images apart from files that are a source each.
@@ -87,10 +79,20 @@ fn folder(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     };
     let images = of(&is_image_name);
     let clips = of(&|path| extension_in(path, &VIDEO_EXTENSIONS));
-    match (images.is_empty(), clips.is_empty()) {
-        (false, _) => Ok(images),
-        (true, false) => Ok(clips),
-        (true, true) => Err(FootageError::EmptyFolder { path: path.to_owned() }),
+    match (images.as_slice(), clips.as_slice()) {
+        ([image, ..], [clip, ..]) => {
+            let pattern = path.join("*").with_extension(image.path.extension().unwrap_or_default());
+            Err(FootageError::Mixed {
+                place: path.display().to_string(),
+                images: images.len(),
+                videos: clips.len(),
+                video: clip.path.clone(),
+                pattern: pattern.display().to_string(),
+            })
+        }
+        ([_, ..], []) => Ok(images),
+        ([], [_, ..]) => Ok(clips),
+        ([], []) => Err(FootageError::EmptyFolder { path: path.to_owned() }),
     }
 }
 
@@ -135,11 +137,34 @@ fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
         })?);
     }
     let known = |path: &PathBuf| path.is_file() && is_image_name(path);
-    let images: Vec<_> = in_order(files).into_iter().filter(known).map(plain).collect();
-    if images.is_empty() {
-        return Err(FootageError::NoMatch { pattern: text.to_owned() });
+    let files = in_order(files);
+    let videos: Vec<&PathBuf> =
+        files.iter().filter(|path| extension_in(path, &VIDEO_EXTENSIONS)).collect();
+    let images: Vec<_> = files.iter().filter(|path| known(path)).cloned().map(plain).collect();
+    match (images.as_slice(), videos.as_slice()) {
+        ([], []) => Err(FootageError::NoMatch { pattern: text.to_owned() }),
+        ([], [video, ..]) => Err(FootageError::Option {
+            option: "the pattern",
+            problem: format!(
+                "`{text}` matches videos, such as `{}`, and a pattern stands for images; name the videos or \
+                 their folder, or leave the quotation marks out",
+                video.display()
+            ),
+        }),
+        ([image, ..], [video, ..]) => Err(FootageError::Mixed {
+            place: text.to_owned(),
+            images: images.len(),
+            videos: videos.len(),
+            video: video.to_path_buf(),
+            pattern: image
+                .path
+                .with_file_name("*")
+                .with_extension(image.path.extension().unwrap_or_default())
+                .display()
+                .to_string(),
+        }),
+        ([_, ..], []) => Ok(images),
     }
-    Ok(images)
 }
 
 fn in_order(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {

@@ -18,6 +18,8 @@ use foveate_frame::convert_depth;
 
 const SIDE: u32 = 32;
 const AREA: usize = 1024;
+/// Columns of a sheet.
+pub(crate) const WIDTH: u32 = 1024;
 
 /// The labels before every image of a batch of this length, if it is one.
 pub(crate) fn labels_in_batch(length: u64) -> Option<usize> {

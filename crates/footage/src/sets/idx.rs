@@ -12,7 +12,7 @@ use crate::{FootageError, Kind, MAX_SIDE, SourceFrame};
 
 /// What a file of images starts with: unsigned bytes in three dimensions.
 pub(crate) const MAGIC: [u8; 4] = [0, 0, 8, 3];
-const LABEL_MAGIC: [u8; 4] = [0, 0, 8, 1];
+pub(crate) const LABEL_MAGIC: [u8; 4] = [0, 0, 8, 1];
 
 /// The images of a file.
 pub(crate) struct Idx {
@@ -109,14 +109,30 @@ fn form_of(images: &Path, labels: Option<&Path>) -> Result<SetForm, FootageError
     Ok(SetForm { files, labels })
 }
 
-/// `train-images-idx3-ubyte.gz` has its labels in `train-labels-idx1-ubyte`, packed or not.
-fn beside(path: &Path) -> Option<PathBuf> {
+/// Whether a file starts as an IDX file of another kind does: two zeros, a type of number, and how many
+/// dimensions there are.
+pub(crate) fn is_other(start: &[u8]) -> bool {
+    let known = matches!(start, [0, 0, 0x08 | 0x09 | 0x0B..=0x0E, 1..=4, ..]);
+    known && !start.starts_with(&MAGIC)
+}
+
+/// Whether it is a file of images without labels beside it.
+pub(crate) fn lacks_labels(path: &Path) -> bool {
+    let start = || read(&mut *open_unpacked(path)?, path);
+    path.is_file() && beside(path).is_none() && start().is_ok_and(|start: [u8; 4]| start == MAGIC)
+}
+
+/// The usual name of the file of labels, where that of the images is usual, too.
+pub(crate) fn labels_name(path: &Path) -> Option<String> {
     let name = path.file_name()?.to_str()?;
     let stem = name.strip_suffix(".gz").unwrap_or(name);
     let labels = stem.replace("images", "labels").replace("idx3", "idx1");
-    if labels == stem {
-        return None;
-    }
+    (labels != stem).then_some(labels)
+}
+
+/// `train-images-idx3-ubyte.gz` has its labels in `train-labels-idx1-ubyte`, packed or not.
+fn beside(path: &Path) -> Option<PathBuf> {
+    let labels = labels_name(path)?;
     let names = [labels.clone(), labels + ".gz"];
     names.iter().map(|name| path.with_file_name(name)).find(|file| file.is_file())
 }

@@ -77,7 +77,7 @@ impl Input {
         adjustment.selection.check()?;
         if feed.kind() == Kind::Set && !adjustment.selection.is_all() {
             return Err(FootageError::Option {
-                option: "--start, --end and --fps",
+                option: "--start, --end and --input-fps",
                 problem: format!(
                     "images of a set have no times; leave it out for {}",
                     names.join(", ")

@@ -60,8 +60,7 @@ impl Probe {
             .args(medium.arguments())
             .timeout(LIMIT);
         let output = tools.run(&ask)?;
-        let refused =
-            |problem: String| FootageError::Video { path: medium.path().to_owned(), problem };
+        let refused = |problem: String| medium.refused(problem);
         if !output.is_success() {
             let said = String::from_utf8_lossy(&output.stderr).into_owned();
             let said =

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a user should know of inputs that can be read, but perhaps not as was meant: what is left out, and
+//! what looks like something else.
+
+use std::path::Path;
+
+use foveate_frame::Frame;
+
+use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
+use crate::input::{InputOptions, entries, expand, is_special};
+use crate::sets::{cifar, idx};
+use crate::{ImagesAs, picture};
+
+/// A sentence for everything that is worth a warning; none for what [`open`](crate::open) refuses.
+#[must_use]
+pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
+    let mut said = Vec::new();
+    for input in inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input)) {
+        if input.is_dir() {
+            said.extend(left_out(input, options.images));
+        }
+        let files = expand(input, options.images).unwrap_or_default();
+        if options.labels.is_none() {
+            let others = files.iter().filter(|file| !is_image_name(&file.path));
+            let bare = others.filter(|file| idx::lacks_labels(&file.path));
+            said.extend(bare.map(|file| no_labels(&file.path)));
+        }
+        // The first speaks for the others.
+        if let Some(file) = files.first() {
+            said.extend(other_shape(&file.path, options.images));
+        }
+    }
+    said
+}
+
+/// What is in a folder and not taken.
+fn left_out(folder: &Path, images: ImagesAs) -> Option<String> {
+    let entries = entries(folder).ok()?;
+    let is_image = |path: &Path| is_image_name(path) && path.is_file();
+    let shown = folder.display();
+    if images == ImagesAs::Set {
+        let clip = entries.iter().find(|path| extension_in(path, &VIDEO_EXTENSIONS))?;
+        return Some(format!(
+            "a set is made of images: videos in `{shown}`, such as `{}`, are left out",
+            clip.display()
+        ));
+    }
+    if !entries.iter().any(|path| is_image(path)) {
+        return None;
+    }
+    let below = |path: &&std::path::PathBuf| {
+        path.is_dir() && self::entries(path).is_ok_and(|files| files.iter().any(|p| is_image(p)))
+    };
+    let below = entries.iter().find(below)?;
+    Some(format!(
+        "images in folders below `{shown}`, such as `{}`, are left out; --images set takes them, with the \
+         names of their folders as labels",
+        below.display()
+    ))
+}
+
+fn no_labels(path: &Path) -> String {
+    let expected = idx::labels_name(path).map_or_else(String::new, |name| format!(" ({name})"));
+    format!(
+        "`{}` has no file of labels beside it{expected}, so its images have no labels; --labels names one",
+        path.display()
+    )
+}
+
+/// A CIFAR sheet that is taken for a photograph, or a photograph for a sheet.
+fn other_shape(path: &Path, images: ImagesAs) -> Option<String> {
+    let wide = is_image_name(path) && picture::width(path) == Some(cifar::WIDTH);
+    let sheet = wide && looks_like_sheet(&picture::read(path, 8).ok()?);
+    let shown = path.display();
+    match images {
+        ImagesAs::Clip | ImagesAs::Set if sheet => Some(format!(
+            "`{shown}` looks like a CIFAR sheet, one image of 32x32 pixels per row, and is taken as one \
+             picture; --images cifar-sheet takes its rows"
+        )),
+        ImagesAs::CifarSheet if wide && !sheet => Some(format!(
+            "`{shown}` looks like a photograph, and every row of it is taken as an image of 32x32 pixels; \
+             leave --images cifar-sheet out if it is one picture"
+        )),
+        _ => None,
+    }
+}
+
+/// Whether the rows of a picture are pictures themselves: the pixel below one of them is 32 further in its
+/// row, and more like it than what stands in the next row, which is another picture.
+fn looks_like_sheet(frame: &Frame) -> bool {
+    const SIDE: usize = 32;
+    let (mut along, mut across) = ((0_u64, 0_u64), (0_u64, 0_u64));
+    for y in 0..frame.height() {
+        let row = frame.row(y);
+        for (a, b) in row.iter().zip(&row[SIDE..]) {
+            along = (along.0 + u64::from(a.abs_diff(*b)), along.1 + 1);
+        }
+        if y + 1 < frame.height() {
+            for (a, b) in row.iter().zip(frame.row(y + 1)) {
+                across = (across.0 + u64::from(a.abs_diff(*b)), across.1 + 1);
+            }
+        }
+    }
+    // Mean differences, as products; a single row of this width is no photograph.
+    across.1 == 0 || along.0 * across.1 < across.0 * along.1
+}
