@@ -5,6 +5,8 @@ mod analyze;
 mod bench;
 mod check;
 mod dataset;
+#[cfg(test)]
+mod examples;
 mod explain;
 mod explore;
 mod fit;
@@ -32,6 +34,7 @@ pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
+pub(crate) use input::warn_of;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use stress::StressArgs;
 
@@ -40,7 +43,7 @@ pub(crate) use stress::StressArgs;
 #[command(
     version,
     max_term_width = 100,
-    after_help = "Exit codes: 0 fine, 1 mismatch or failed check, 2 bad usage or input, 3 a tool is missing or failed, 130 interrupted."
+    after_help = "Exit codes: 0 fine, 1 mismatch or failed check, 2 bad usage or input, 3 a tool is missing or failed, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -124,6 +127,9 @@ pub(crate) struct GenerateArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// No summary
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
 }
 
 /// Run the same vectors through the model and the RTL and compare every output at every clock
@@ -181,7 +187,7 @@ pub(crate) struct CosimArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress
+    /// No progress, and nothing about a run without a mismatch
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }
@@ -228,7 +234,7 @@ pub(crate) struct EstimateArgs {
 #[command(after_help = "Examples: foveate simulate street.mp4 -o out --overlay
           foveate simulate scene:street -o out
           foveate simulate frames/ -o out --preset steady --events parquet
-          foveate simulate clips/ -o out --fps 10 --resize 640x360
+          foveate simulate clips/ -o out --input-fps 10 --resize 640x360
           foveate simulate train-images-idx3-ubyte.gz -o out --max-frames 1000
           ffmpeg -i street.mp4 -f yuv4mpegpipe - | foveate simulate - -o out")]
 pub(crate) struct SimulateArgs {
@@ -247,7 +253,7 @@ pub(crate) struct SimulateArgs {
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress
+    /// No progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
     // Last, because what follows would be listed under their headings.

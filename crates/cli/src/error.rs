@@ -64,18 +64,18 @@ impl CliError {
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Study(error) => match error.as_ref() {
-                StudyError::Cancelled => interrupt::EXIT_CODE,
+                StudyError::Cancelled => interrupt::exit_code(),
                 StudyError::Footage(error) => footage_code(error),
                 _ => INPUT,
             },
             Self::Explore(error) => match error.as_ref() {
-                ExploreError::Cancelled => interrupt::EXIT_CODE,
+                ExploreError::Cancelled => interrupt::exit_code(),
                 ExploreError::Footage(error) => footage_code(error),
                 ExploreError::Estimate(error) => estimate_code(error),
                 _ => INPUT,
             },
             Self::Failed(_) => 1,
-            Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::EXIT_CODE,
+            Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::exit_code(),
             Self::Tool(error) => tool_code(error),
             Self::Cosim(CosimError::Tool(error)) => tool_code(error),
             Self::Cosim(
@@ -95,7 +95,7 @@ const TOOL: u8 = 3;
 
 fn tool_code(error: &ToolError) -> u8 {
     match error {
-        _ if error.is_interrupted() => interrupt::EXIT_CODE,
+        _ if error.is_interrupted() => interrupt::exit_code(),
         // A cache or temporary folder that cannot be used is for the user to choose.
         ToolError::Unusable { .. } => TOOL,
         _ if error.is_environment() => INPUT,
@@ -112,7 +112,7 @@ fn estimate_code(error: &EstimateError) -> u8 {
 
 fn simulator_code(error: &SimulatorError) -> u8 {
     match error {
-        SimulatorError::Cancelled => interrupt::EXIT_CODE,
+        SimulatorError::Cancelled => interrupt::exit_code(),
         SimulatorError::Footage(error) => footage_code(error),
         SimulatorError::Tool(error) | SimulatorError::NoVideo(error) => tool_code(error),
         SimulatorError::VideoOutput { .. } => TOOL,

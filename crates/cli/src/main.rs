@@ -2,12 +2,13 @@
 //! The `foveate` command. The only crate that prints or exits.
 //!
 //! Exit codes: 0 fine, 1 a mismatch or a failed check, 2 bad usage or input, 3 a tool is missing or
-//! failed, 130 interrupted.
+//! failed, 128 and the number of the signal when it was told to stop: 130 after Ctrl-C, 143 after SIGTERM.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate is the one that prints")]
 
 mod args;
 mod command;
 mod error;
+mod hint;
 mod interrupt;
 mod output;
 mod progress;
@@ -17,7 +18,7 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::try_parse().unwrap_or_else(|error| hint::with_hint(error).exit());
     match run(&cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

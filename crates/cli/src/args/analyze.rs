@@ -40,7 +40,7 @@ pub(crate) struct AnalyzeArgs {
     /// Print the table as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress
+    /// No progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
     #[command(flatten)]

@@ -12,7 +12,7 @@ use super::DesignArgs;
 /// Check a configuration and print what follows from it
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate check camera.toml
-          foveate check --preset serial --fps 1000 --clock 250MHz")]
+          foveate check --preset serial --min-fps 1000 --clock 250MHz")]
 pub(crate) struct CheckArgs {
     /// Configuration file (TOML); the same as --config
     #[arg(value_name = "FILE", conflicts_with_all = ["config", "preset"])]
@@ -22,13 +22,16 @@ pub(crate) struct CheckArgs {
     /// Clock at which frames per second are told, for example 100MHz or 1.5GHz
     #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
     pub(crate) clock: Clock,
-    /// Propose the largest fold of a serial design that still reaches this many frames per second; exit
-    /// code 1 if none does
+    /// Say whether the design reaches this many frames per second; of a serial one propose the largest fold
+    /// that still does. Exit code 1 if it is not reached
     #[arg(long, value_name = "RATE", value_parser = Rate::parse)]
-    pub(crate) fps: Option<Rate>,
+    pub(crate) min_fps: Option<Rate>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// Print nothing but errors: the exit code says whether the design is valid and fast enough
+    #[arg(long, short, conflicts_with = "json")]
+    pub(crate) quiet: bool,
 }
 
 /// The frequency of a clock in Hz, 1..=10^12.

@@ -29,7 +29,7 @@ pub(crate) struct DatasetArgs {
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress
+    /// No progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
     /// Last, because what follows would be listed under its heading.

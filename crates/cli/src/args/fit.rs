@@ -7,7 +7,7 @@ use clap::Args;
 use foveate_explore::Constraints;
 
 use super::check::{Clock, Rate};
-use super::input::FrameArgs;
+use super::input::InputArgs;
 use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that a scene needs, on the first half of the clips; report on the second
@@ -17,9 +17,11 @@ use super::{DesignArgs, at_least_one};
 /// reference, organization, feed and fold are searched. Exit code 1 if no design holds the constraints,
 /// or the second half does not bear it out; the nearest is written all the same.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples: foveate fit street.mp4 --fps 120 --max-flips 1% --max-lut 100
+#[command(
+    after_help = "Examples: foveate fit street.mp4 --min-fps 120 --max-flips 1% --max-lut 100
           foveate fit scene:street --target-active 20% -o camera.toml
-          foveate fit a.mp4 b.mp4 --resize 640x360 --min-psnr 30 --max-bytes 10000")]
+          foveate fit a.mp4 b.mp4 --resize 640x360 --min-psnr 30 --max-bytes 10000"
+)]
 pub(crate) struct FitArgs {
     /// Clips: what `foveate simulate` takes, several scenes too
     #[arg(value_name = "INPUT", required = true)]
@@ -41,7 +43,7 @@ pub(crate) struct FitArgs {
     #[command(flatten)]
     pub(crate) constraints: ConstraintArgs,
     #[command(flatten)]
-    pub(crate) input: FrameArgs,
+    pub(crate) input: InputArgs,
 }
 
 /// What a design must hold.
@@ -50,7 +52,7 @@ pub(crate) struct FitArgs {
 pub(crate) struct ConstraintArgs {
     /// Frames per second that the array must reach
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = Rate::parse)]
-    pub(crate) fps: Rate,
+    pub(crate) min_fps: Rate,
     /// The clock, an assumption, not what a design reaches
     #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
     pub(crate) clock: Clock,
@@ -94,7 +96,7 @@ impl ConstraintArgs {
             min_psnr: self.min_psnr,
             max_stale_frames: self.max_stale_frames,
             max_bytes: self.max_bytes.map(f64::from),
-            min_fps: Some(self.fps.per_second()),
+            min_fps: Some(self.min_fps.per_second()),
             max_lut: self.max_lut,
             max_ff: self.max_ff,
             max_array_lut: self.max_array_lut,

@@ -6,7 +6,7 @@ use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_simulator::{Simulation, SimulatorError};
 
-use super::DesignArgs;
+use super::{DesignArgs, warn_of};
 use crate::error::CliError;
 
 impl DesignArgs {
@@ -22,6 +22,7 @@ impl DesignArgs {
         }
         let config = self.read()?;
         let options = InputOptions { frames: Some(at_most), ..InputOptions::default() };
+        warn_of(inputs, &options);
         let simulation = Simulation::new(&config, open(inputs, &config, &options)?)?;
         let design = simulation.design().clone();
         let mut source = open(inputs, &config, &options)?;

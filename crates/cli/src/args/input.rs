@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options that say how inputs of `foveate simulate` are read.
+//! The options that say how inputs are read.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selection, parse_time};
+use foveate_footage::{
+    Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selection, advice, parse_time,
+};
+
+use super::at_least_one;
+use crate::output;
 
 /// How inputs are read.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Input options")]
 pub(crate) struct InputArgs {
-    /// At most this many frames per second, chosen by their times; none is repeated
+    /// Take at most this many frames per second, chosen by their times; none is repeated
     #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
-    pub(crate) fps: Option<FrameRate>,
-    #[command(flatten)]
-    pub(crate) frames: FrameArgs,
-}
-
-/// How inputs are read, where `--fps` is about the design.
-#[derive(Args, Debug)]
-#[command(next_help_heading = "Input options")]
-pub(crate) struct FrameArgs {
+    pub(crate) input_fps: Option<FrameRate>,
     /// At most this many frames, of every clip of a batch; of a scene, exactly this many
-    #[arg(long, visible_alias = "frames", value_name = "N")]
+    #[arg(long, visible_alias = "frames", value_name = "N", value_parser = at_least_one())]
     pub(crate) max_frames: Option<u32>,
     /// Frames per second of images, which have no times of their own
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = FrameRate::parse)]
@@ -55,22 +52,20 @@ pub(crate) enum ImagesChoice {
     CifarSheet,
 }
 
-impl InputArgs {
-    /// What the options ask for; `images` is what image files are where they do not say.
-    pub(crate) fn options(&self, images: ImagesAs) -> InputOptions {
-        let mut options = self.frames.options(images);
-        options.selection.rate = self.fps;
-        options
+/// Says what the user should know of inputs that can be read, but perhaps not as was meant.
+pub(crate) fn warn_of<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) {
+    for sentence in advice(inputs, options) {
+        output::warn(&sentence);
     }
 }
 
-impl FrameArgs {
-    /// As [`InputArgs::options`].
+impl InputArgs {
+    /// What the options ask for; `images` is what image files are where they do not say.
     pub(crate) fn options(&self, images: ImagesAs) -> InputOptions {
         InputOptions {
             frames: self.max_frames,
             frame_rate: self.rate,
-            selection: Selection { start_us: self.start, end_us: self.end, rate: None },
+            selection: Selection { start_us: self.start, end_us: self.end, rate: self.input_fps },
             crop: self.crop,
             resize: self.resize,
             images: match self.images {

@@ -5,7 +5,7 @@ use foveate_footage::ImagesAs;
 use foveate_studies::{Report, Request, Study, analyze};
 
 use super::simulate::Terminal;
-use crate::args::AnalyzeArgs;
+use crate::args::{AnalyzeArgs, warn_of};
 use crate::error::CliError;
 use crate::output;
 
@@ -20,13 +20,14 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
         sensor_events: args.sensor_events.as_deref(),
         sensor_start_us: args.sensor_start,
     };
+    warn_of(&args.inputs, &input);
     let hooks = Terminal::new(args.quiet)?;
     let report = analyze(&request, &args.output, args.force, &hooks);
     hooks.shown.finish();
     let report = report?;
     if args.json {
         output::json(&report)?;
-    } else {
+    } else if !args.quiet {
         output::text(&text(args, &report))?;
     }
     if report.problems.is_empty() {

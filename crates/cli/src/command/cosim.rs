@@ -98,6 +98,8 @@ fn one(
 fn tell(args: &CosimArgs, summary: &Summary) -> Result<(), CliError> {
     if args.json {
         output::json(summary)
+    } else if args.quiet && summary.verdict() == Verdict::Passed {
+        Ok(())
     } else {
         output::text(&text::of(summary, output::width()))
     }

@@ -65,6 +65,9 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
             benches: benches.iter().map(listing).collect(),
         });
     }
+    if args.quiet {
+        return Ok(());
+    }
     output::text(&format!(
         "{shown}: {} files for {} regions of {size}x{size} pixels, design {}; start with README.md\n",
         files.len(),

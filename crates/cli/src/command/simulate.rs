@@ -12,7 +12,7 @@ use foveate_simulator::{
     Simulation, Summary, Traffic, run_batch,
 };
 
-use crate::args::SimulateArgs;
+use crate::args::{SimulateArgs, warn_of};
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, output};
@@ -42,8 +42,9 @@ pub(super) struct Job<'a> {
 
 /// Runs it with progress, prints its summary and says how it ended.
 pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
-    let Job { inputs, config, input, output: folder, options, json, quiet } = job;
+    let Job { inputs, config, input, output: folder, options, quiet, .. } = job;
     let plan = plan(inputs, input)?;
+    warn_of(inputs, input);
     let mut hooks = Terminal::new(*quiet)?;
     match plan {
         Plan::One => {
@@ -52,21 +53,29 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
             let summary = simulation.run(folder, options, &mut hooks);
             hooks.shown.finish();
             let summary = summary?;
-            let printed =
-                if *json { output::json(&summary) } else { output::text(&text(folder, &summary)) };
-            printed.and_then(|()| hooks.verdict(folder, summary.problem))
+            tell(job, &summary, || text(folder, &summary))?;
+            hooks.verdict(folder, summary.problem)
         }
         Plan::Batch(clips) => {
             let summary = run_batch(&clips, config, input, folder, options, &hooks);
             hooks.shown.finish();
             let summary = summary?;
-            let printed = if *json {
-                output::json(&summary)
-            } else {
-                output::text(&batch_text(folder, &summary))
-            };
-            printed.and_then(|()| hooks.verdict(folder, summary.problem))
+            tell(job, &summary, || batch_text(folder, &summary))?;
+            hooks.verdict(folder, summary.problem)
         }
+    }
+}
+
+/// JSON was asked for; the text is for those who did not ask for quiet.
+fn tell(
+    job: &Job<'_>,
+    summary: &impl serde::Serialize,
+    text: impl Fn() -> String,
+) -> Result<(), CliError> {
+    match (job.json, job.quiet) {
+        (true, _) => output::json(summary),
+        (false, true) => Ok(()),
+        (false, false) => output::text(&text()),
     }
 }
 

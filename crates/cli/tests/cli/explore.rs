@@ -89,7 +89,7 @@ fn mistakes_are_one_line() {
     if with_tools {
         wrong(&["fit", "scene:street", "--frames", "3"], &["3 frames"]);
     }
-    for bad in ["--max-flips=101%", "--target-active=x", "--fps=0", "--min-psnr=-1"] {
+    for bad in ["--max-flips=101%", "--target-active=x", "--min-fps=0", "--min-psnr=-1"] {
         assert_eq!(run_in(dir.path(), &["fit", "scene:street", bad]).code, 2, "{bad}");
     }
 }
@@ -117,7 +117,7 @@ fn what_fit_finds_can_be_generated() {
             &[&["fit", "scene:street", "-o", "found.toml"], &frame[..], more].concat(),
         )
     };
-    let found = fit(&["--max-flips", "0%", "--fps", "100", "--clock", "1MHz"]);
+    let found = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz"]);
     assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
     assert!(found.stdout.contains("Cheapest: serial"), "{}", found.stdout);
     for part in ["fitted: ", "held out: ", "Why:", "found.toml holds it"] {
@@ -125,7 +125,7 @@ fn what_fit_finds_can_be_generated() {
     }
     succeed_in(dir.path(), &["generate", "--config", "found.toml", "-o", "core"]);
     assert!(Path::new(&dir.path().join("core/rtl/rcm.v")).exists());
-    let none = fit(&["--max-flips", "0%", "--fps", "100", "--clock", "1MHz", "--max-lut", "2"]);
+    let none = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz", "--max-lut", "2"]);
     assert_eq!(none.code, 1, "{}", none.stdout);
     assert!(none.stdout.contains("Binding: without --max-lut"), "{}", none.stdout);
     assert!(none.stderr.contains("no design holds all constraints"), "{}", none.stderr);

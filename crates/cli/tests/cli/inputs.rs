@@ -27,7 +27,8 @@ fn json(path: &Path) -> Value {
 #[test]
 fn a_stream_comes_through_standard_input() {
     let dir = tempfile::tempdir().unwrap();
-    let args = ["simulate", "-", "-o", "out", "--fps", "5", "--start", "0.2", "--resize", "8x8"];
+    let args =
+        ["simulate", "-", "-o", "out", "--input-fps", "5", "--start", "0.2", "--resize", "8x8"];
     let output = foveate(&args).current_dir(dir.path()).write_stdin(y4m(20)).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let table = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
@@ -113,7 +114,7 @@ fn options_that_make_no_sense_are_refused() {
         ("--resize", "10", "640x360"),
         ("--crop", "4x4", "320x240+16+0"),
         ("--crop", "4x4+1+2+3", "320x240+16+0"),
-        ("--fps", "0", "frames per second"),
+        ("--input-fps", "0", "frames per second"),
         ("--start", "1:99", "HH:MM:SS"),
         ("--crop", "999x4+0+0", "224x224"),
         ("--end", "0", "later than the start"),

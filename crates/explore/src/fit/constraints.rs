@@ -108,7 +108,7 @@ impl Constraints {
     /// The constraint on speed, at so many frames per second.
     #[must_use]
     pub fn on_speed(&self, frames_per_second: f64) -> Vec<Held> {
-        let held = |limit| Held::at_least("fps", frames_per_second, limit);
+        let held = |limit| Held::at_least("min-fps", frames_per_second, limit);
         self.min_fps.map(held).into_iter().collect()
     }
 

@@ -172,7 +172,7 @@ impl Held {
             "max-flips" | "max-missed" => format!("{:.2} %", value * 100.0),
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
-            "fps" | "max-bram" => {
+            "min-fps" | "max-bram" => {
                 format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
             }
             _ => format!("{value:.0}"),
@@ -183,7 +183,7 @@ impl Held {
             "min-psnr" => "PSNR",
             "max-stale-frames" => "stale frames",
             "max-bytes" => "bytes per frame",
-            "fps" => "frames/s",
+            "min-fps" => "frames/s",
             "max-lut" => "LUTs of a unit",
             "max-ff" => "flip-flops of a unit",
             "max-array-lut" => "LUTs of the array",

@@ -45,11 +45,12 @@ pub(super) struct FrameRate {
     pub(super) text: String,
 }
 
-/// The largest fold that reaches a rate, or what fold 1 reaches where none does.
+/// The largest fold that reaches a rate, or what fold 1 reaches where none does. A design that does not fold
+/// has fold 1.
 #[derive(Serialize)]
 pub(super) struct Proposal {
     pub(super) wanted: f64,
-    /// Whether there is such a fold.
+    /// Whether the rate is reached, with that fold.
     pub(super) reached: bool,
     pub(super) fold: u32,
     pub(super) lanes: u32,
@@ -109,25 +110,28 @@ impl FrameRate {
 }
 
 impl Proposal {
-    /// What is proposed for a serial design; its own fold does not matter.
+    /// What is proposed for a design that folds, whatever its own fold; of another whether it reaches the
+    /// rate as it is.
     pub(super) fn of(design: &Design, rate: Rate, clock: Clock) -> Result<Self, CliError> {
-        if !design.organization().folds() {
-            return Err(CliError::Usage(
-                "--fps proposes a fold, which only a serial design has; add \
-                 --set hardware.organization=serial or leave --fps out"
-                    .to_owned(),
-            ));
-        }
-        let found = design.largest_fold(rate.max_clocks(clock));
+        let (most, folds) = (rate.max_clocks(clock), design.organization().folds());
+        let reaches = design.timing().clocks_per_frame() <= most;
+        let found = if folds { design.largest_fold(most) } else { reaches.then_some(1) };
         let fold = found.unwrap_or(1);
         let best = design.with_fold(fold)?;
         let clocks = best.timing().clocks_per_frame();
         let reach =
             format!("{clocks} clocks per frame, {} frames/s at {clock}", shown(clock, clocks));
         let lanes = best.lanes();
+        let wanted = rate.0;
         let text = match found {
-            Some(fold) => format!("fold {fold} for {} frames/s: {lanes} lanes, {reach}", rate.0),
-            None => format!("no fold reaches {} frames/s; fold 1 is the fastest: {reach}", rate.0),
+            Some(_) if !folds => format!("{wanted} frames/s are reached: {reach}"),
+            Some(fold) => format!("fold {fold} for {wanted} frames/s: {lanes} lanes, {reach}"),
+            None if folds => {
+                format!("no fold reaches {wanted} frames/s; fold 1 is the fastest: {reach}")
+            }
+            None => format!(
+                "{wanted} frames/s are not reached: {reach}; take a faster clock or a smaller region.size"
+            ),
         };
         Ok(Self {
             wanted: rate.per_second(),

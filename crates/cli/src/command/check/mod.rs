@@ -20,8 +20,12 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
     };
     let design = source.design()?;
     let propose = |rate| Proposal::of(&design, rate, args.clock);
-    let card = Card::of(&design, args.clock, args.fps.map(propose).transpose()?);
-    if args.json { output::json(&card) } else { output::text(&text(&design, &card)) }?;
+    let card = Card::of(&design, args.clock, args.min_fps.map(propose).transpose()?);
+    if args.json {
+        output::json(&card)?;
+    } else if !args.quiet {
+        output::text(&text(&design, &card))?;
+    }
     match card.proposal {
         Some(proposal) if !proposal.reached => Err(CliError::Failed(proposal.text)),
         Some(_) | None => Ok(()),

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Inputs that are something else than they were taken for, and what is said of them.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{fail_in, run_in};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::{data_folder, require_tools};
+
+fn ffmpeg(folder: &Path, args: &str) {
+    let args = args.split_whitespace();
+    let status =
+        Command::new("ffmpeg").args(["-v", "error"]).args(args).current_dir(folder).status();
+    assert!(status.unwrap().success());
+}
+
+/// What a run that ends well said on standard error.
+fn said(folder: &Path, args: &[&str]) -> String {
+    let _ = fs::remove_dir_all(folder.join("out"));
+    let outcome = run_in(folder, &[args, &["-o", "out", "--quiet"]].concat());
+    assert_eq!(outcome.code, 0, "{args:?}: {}", outcome.stderr);
+    outcome.stderr
+}
+
+fn pgm(path: &Path, (width, height): (usize, usize), pixel: impl Fn(usize, usize) -> u8) {
+    let mut bytes = format!("P5 {width} {height} 255\n").into_bytes();
+    bytes.extend(
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)),
+    );
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn what_is_no_video_is_not_to_be_played() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    fs::write(at("empty.mp4"), "").unwrap();
+    fs::write(at("t10k-labels-idx1-ubyte"), [0, 0, 8, 1, 0, 0, 0, 2, 7, 1]).unwrap();
+    fs::write(at("floats.idx"), [0, 0, 13, 2, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]).unwrap();
+    fs::write(at("notes.txt"), "no footage").unwrap();
+    fs::write(at("broken.mp4"), "no footage").unwrap();
+    for (input, parts) in [
+        ("empty.mp4", &["`empty.mp4` holds no frames: it is empty"][..]),
+        ("t10k-labels-idx1-ubyte", &["IDX file of labels", "name the file of their images"]),
+        ("floats.idx", &["IDX file, but not of 8-bit images"]),
+        ("notes.txt", &["`notes.txt` is no input", "PNG", "IDX"]),
+        ("v4l2:/dev/none", &["camera `/dev/none` gives no frame", "No such file", "connected"]),
+        ("https://example.org/a.mp4?x=[1]", &["is an address", "fetch it first", "yuv4mpegpipe"]),
+        ("rtsp://camera/1", &["`rtsp://camera/1` is an address"]),
+        ("missing.mp4", &["`missing.mp4` does not exist"]),
+    ] {
+        fail_in(dir.path(), 2, &["simulate", input, "-o", "out"], parts);
+        let outcome = run_in(dir.path(), &["simulate", input, "-o", "out"]);
+        assert!(!outcome.stderr.contains("play it"), "{}", outcome.stderr);
+    }
+    // What claims to be a video may be a damaged one.
+    fail_in(dir.path(), 2, &["simulate", "broken.mp4", "-o", "out"], &["broken.mp4", "play it"]);
+}
+
+#[test]
+fn no_frames_at_all_are_not_asked_for() {
+    let dir = tempfile::tempdir().unwrap();
+    for option in ["--frames", "--max-frames"] {
+        let outcome = run_in(dir.path(), &["simulate", "scene:street", "-o", "out", option, "0"]);
+        assert_eq!(outcome.code, 2);
+        assert!(
+            outcome.stderr.contains("'0'") && outcome.stderr.contains("1.."),
+            "{}",
+            outcome.stderr
+        );
+    }
+}
+
+#[test]
+fn images_and_videos_side_by_side_are_a_question() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir_all(dir.path().join("mixed/cat")).unwrap();
+    ffmpeg(dir.path(), "-f lavfi -i testsrc2=size=64x48:rate=10:duration=0.3 mixed/%d.png");
+    ffmpeg(dir.path(), "-i mixed/%d.png -c:v mpeg4 mixed/clip.mp4");
+    fs::copy(dir.path().join("mixed/1.png"), dir.path().join("mixed/cat/1.png")).unwrap();
+    let parts = ["3 and 1", "`mixed/clip.mp4`", "'mixed/*.png'"];
+    for command in ["simulate", "analyze temporal"] {
+        let command: Vec<&str> = command.split(' ').collect();
+        let args = [&command[..], &["mixed", "-o", "out"]].concat();
+        fail_in(dir.path(), 2, &args, &[&parts[..], &["`mixed` holds images and videos"]].concat());
+    }
+    let pattern = [&parts[..], &["`mixed/*` holds images and videos"]].concat();
+    fail_in(dir.path(), 2, &["simulate", "mixed/*", "-o", "out"], &pattern);
+    let videos = ["`mixed/*.mp4` matches videos", "leave the quotation marks out"];
+    fail_in(dir.path(), 2, &["simulate", "mixed/*.mp4", "-o", "out"], &videos);
+    assert_eq!(said(dir.path(), &["simulate", "mixed/*.png"]), "");
+    let set = said(dir.path(), &["dataset", "mixed"]);
+    assert!(set.contains("warning: a set is made of images: videos in `mixed`"), "{set}");
+    fs::remove_file(dir.path().join("mixed/clip.mp4")).unwrap();
+    let clip = said(dir.path(), &["simulate", "mixed"]);
+    assert!(
+        clip.contains("warning: images in folders below `mixed`, such as `mixed/cat`"),
+        "{clip}"
+    );
+    assert_eq!(said(dir.path(), &["dataset", "mixed"]), "");
+}
+
+#[test]
+fn an_animated_png_is_a_clip() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir(dir.path().join("frames")).unwrap();
+    ffmpeg(dir.path(), "-f lavfi -i testsrc2=size=64x48:rate=10:duration=0.5 frames/%d.png");
+    ffmpeg(dir.path(), "-framerate 10 -i frames/%d.png -f apng moving.png");
+    let scores = |input: &str| {
+        assert_eq!(said(dir.path(), &["simulate", input, "--rate", "10"]), "");
+        fs::read(dir.path().join("out/score_edge.npy")).unwrap()
+    };
+    // All five frames, the same pixels as those of the pictures.
+    assert_eq!(scores("moving.png"), scores("frames"));
+    fs::copy(dir.path().join("moving.png"), dir.path().join("frames/6.png")).unwrap();
+    let parts = ["`frames/6.png` is an animated PNG", "on its own"];
+    fail_in(dir.path(), 2, &["simulate", "frames", "-o", "no"], &parts);
+    fail_in(dir.path(), 2, &["dataset", "frames", "-o", "no"], &parts);
+}
+
+#[test]
+fn images_without_their_labels_are_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
+    let images: Vec<u8> = header.into_iter().chain(vec![9; 512]).collect();
+    fs::write(dir.path().join("t10k-images-idx3-ubyte"), images).unwrap();
+    for command in ["simulate", "dataset"] {
+        let said = said(dir.path(), &[command, "t10k-images-idx3-ubyte"]);
+        for part in
+            ["warning: ", "no file of labels beside it (t10k-labels-idx1-ubyte)", "--labels"]
+        {
+            assert!(said.contains(part), "{said}");
+        }
+    }
+    let labels = "t10k-labels-idx1-ubyte";
+    fs::write(dir.path().join(labels), [0, 0, 8, 1, 0, 0, 0, 2, 7, 1]).unwrap();
+    assert_eq!(said(dir.path(), &["dataset", "t10k-images-idx3-ubyte"]), "");
+    // Labels for what has none were passed over.
+    pgm(&dir.path().join("a.pgm"), (16, 16), |x, _| x.to_le_bytes()[0]);
+    for input in ["a.pgm", "scene:street"] {
+        let args = ["simulate", input, "--labels", labels, "-o", "no"];
+        fail_in(dir.path(), 2, &args, &["--labels", labels, "IDX"]);
+    }
+}
+
+/// A picture whose rows are pictures themselves, and a photograph of the same shape.
+#[test]
+fn a_sheet_is_told_from_a_photograph() {
+    let dir = tempfile::tempdir().unwrap();
+    // Every row a ramp of 32x32 pixels of another brightness and direction.
+    pgm(&dir.path().join("sheet.pgm"), (1024, 40), |x, y| {
+        let (column, row) = (x % 32, x / 32);
+        ((y * 97) % 150 + if y % 2 == 0 { column + row } else { 62 - column - row }).to_le_bytes()
+            [0]
+    });
+    pgm(&dir.path().join("photo.pgm"), (1024, 40), |x, y| ((x / 5 + y * 2) % 256).to_le_bytes()[0]);
+    let warned = said(dir.path(), &["simulate", "sheet.pgm"]);
+    assert!(warned.contains("`sheet.pgm` looks like a CIFAR sheet"), "{warned}");
+    assert_eq!(said(dir.path(), &["simulate", "photo.pgm"]), "");
+    let sheet = ["--images", "cifar-sheet"];
+    assert_eq!(said(dir.path(), &[&["simulate", "sheet.pgm"], &sheet[..]].concat()), "");
+    let warned = said(dir.path(), &[&["simulate", "photo.pgm"], &sheet[..]].concat());
+    assert!(warned.contains("`photo.pgm` looks like a photograph"), "{warned}");
+}
+
+/// The same of real ones, where the environment variable FOVEATE_DATA names their folder.
+#[test]
+fn a_real_sheet_is_told() {
+    let Some(data) = data_folder() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sheet = data.join("cifar10/cifar10_batch_0.png");
+    let sheet = sheet.to_str().unwrap();
+    assert!(said(dir.path(), &["simulate", sheet]).contains("looks like a CIFAR sheet"));
+    assert_eq!(
+        said(dir.path(), &["simulate", sheet, "--images", "cifar-sheet", "--frames", "9"]),
+        ""
+    );
+    let photo = data.join("mosquito/aedes");
+    let args = ["simulate", photo.to_str().unwrap(), "--frames", "1", "--resize", "64x64"];
+    assert_eq!(said(dir.path(), &args), "");
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `--force` replaces what Foveate wrote, and nothing else.
+
+use std::fs;
+
+use crate::common::{fail_in, files_below, succeed_in};
+
+#[test]
+fn a_folder_with_files_of_others_is_not_replaced() {
+    let dir = tempfile::tempdir().unwrap();
+    let pets = dir.path().join("pets/cat");
+    fs::create_dir_all(&pets).unwrap();
+    fs::write(pets.join("1.pgm"), [b"P5 8 8 255\n".to_vec(), vec![9; 64]].concat()).unwrap();
+    for command in [
+        &["simulate", "scene:street", "--frames", "2", "-o", "out"][..],
+        &["dataset", "pets", "-o", "out"],
+        &["analyze", "temporal", "scene:street", "--frames", "3", "-o", "out"],
+        &["generate", "-o", "out"],
+    ] {
+        let again = [command, &["--force", "--quiet"]].concat();
+        let out = dir.path().join("out");
+        assert_ne!(succeed_in(dir.path(), command), "");
+        fail_in(dir.path(), 2, command, &["`out` is not empty"]);
+        // Quiet commands say nothing.
+        assert_eq!(succeed_in(dir.path(), &again), "", "{command:?}");
+        fs::create_dir_all(out.join("rendered")).unwrap();
+        for name in ["notes.txt", "rendered/cover.png"] {
+            fs::write(out.join(name), "mine").unwrap();
+        }
+        let before = files_below(&out);
+        fail_in(dir.path(), 2, &again, &["`out`", "notes.txt, rendered/cover.png", "move them"]);
+        assert_eq!(files_below(&out), before, "{command:?}");
+        for name in ["notes.txt", "rendered/cover.png", ".foveate"] {
+            fs::remove_file(out.join(name)).unwrap();
+        }
+        // As it was written before there were lists.
+        fail_in(dir.path(), 2, &again, &["`out`", "no list", "delete it"]);
+        fs::remove_dir_all(&out).unwrap();
+    }
+}

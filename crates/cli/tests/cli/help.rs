@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The examples of the help texts, run as they stand in a folder that has what they name.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{run_in, succeed_in};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+
+/// Not run here: they take minutes, each is the subject of other tests, and `examples` in the sources
+/// sees that they are taken.
+const LONG: [&str; 13] = [
+    "foveate cosim",
+    "foveate estimate",
+    "foveate bench",
+    "foveate bench --preset serial --json",
+    "foveate bench scene:street --netlist",
+    "foveate bench --markdown",
+    "foveate stress",
+    "foveate explore approximations scene:street",
+    "foveate explore space.toml",
+    "foveate explore designs",
+    "foveate fit",
+    // Events of a real sensor, and a folder of the system.
+    "foveate analyze sensor",
+    "foveate completions bash > /etc/",
+];
+
+/// The lines of a help text that are commands.
+fn examples(help: &str) -> Vec<String> {
+    let (_, examples) = help.rsplit_once("Example").unwrap();
+    let examples = examples.split_once(": ").unwrap().1.lines().map(|line| line.trim().to_owned());
+    examples.filter(|line| line.contains("foveate ")).collect()
+}
+
+fn ffmpeg(folder: &Path, args: &str) {
+    let args = args.split_whitespace();
+    let status =
+        Command::new("ffmpeg").args(["-v", "error"]).args(args).current_dir(folder).status();
+    assert!(status.unwrap().success());
+}
+
+/// What the examples name, small.
+fn furnish(folder: &Path) {
+    for name in ["frames", "clips", "photos", "core"] {
+        fs::create_dir(folder.join(name)).unwrap();
+    }
+    ffmpeg(folder, "-f lavfi -i testsrc2=size=128x104:rate=25:duration=0.4 -c:v mpeg4 street.mp4");
+    ffmpeg(folder, "-i street.mp4 frames/%03d.png");
+    for copy in ["bus.mp4", "clips/a.mp4", "clips/b.mp4"] {
+        fs::copy(folder.join("street.mp4"), folder.join(copy)).unwrap();
+    }
+    for (from, to) in [("001", "photos/a.png"), ("005", "photos/b.png"), ("002", "photo.png")] {
+        fs::copy(folder.join(format!("frames/{from}.png")), folder.join(to)).unwrap();
+    }
+    succeed_in(folder, &["generate", "-o", "core", "--quiet"]);
+    fs::copy(folder.join("core/design.toml"), folder.join("camera.toml")).unwrap();
+    let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
+    let idx: Vec<u8> = header.into_iter().chain((0..512_u32).map(|p| p.to_le_bytes()[0])).collect();
+    // The reader goes by the content, not by the name.
+    fs::write(folder.join("train-images-idx3-ubyte.gz"), idx).unwrap();
+    for batch in ["data_batch_1.bin", "data_batch_2.bin"] {
+        fs::write(folder.join(batch), [3; 3073]).unwrap();
+    }
+    let labels = [0, 0, 8, 1, 0, 0, 0, 2, 7, 1];
+    fs::write(folder.join("train-labels-idx1-ubyte"), labels).unwrap();
+}
+
+#[test]
+fn examples_run_as_they_stand() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    furnish(dir.path());
+    let program = Path::new(env!("CARGO_BIN_EXE_foveate"));
+    let path = std::env::var("PATH").unwrap();
+    let path = format!("{}:{path}", program.parent().unwrap().display());
+    let help = succeed_in(dir.path(), &["--help"]);
+    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let commands: Vec<&str> = commands
+        .take_while(|line| !line.is_empty())
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|name| *name != "help")
+        .collect();
+    assert!(commands.contains(&"simulate") && commands.contains(&"completions"), "{commands:?}");
+    let mut ran = 0;
+    for command in commands {
+        let help = run_in(dir.path(), &[command, "--help"]).stdout;
+        for example in examples(&help) {
+            if LONG.iter().any(|long| example.starts_with(long)) {
+                continue;
+            }
+            let output = Command::new("sh")
+                .args(["-c", &example])
+                .current_dir(dir.path())
+                .env("PATH", &path)
+                .env("FOVEATE_PROGRESS", "0")
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{example}: {said}");
+            for folder in ["out", "regions", "core16"] {
+                let _ = fs::remove_dir_all(dir.path().join(folder));
+            }
+            ran += 1;
+        }
+    }
+    assert!(ran >= 17, "only {ran} examples were run");
+}
