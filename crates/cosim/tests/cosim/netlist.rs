@@ -17,6 +17,13 @@ const EDGES: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n";
 const MAD: &str =
     "[region]\nsize = 4\n[[spatial]]\nfeature = \"mad\"\n[hardware]\nthresholds = \"constant\"\n";
 
+/// Squares and a product in DSP slices.
+const VARIANCE: &str =
+    "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"variance\"\n";
+/// A raster into lanes of two regions each, one slot of which is empty.
+const FOLDED: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
+                      organization = \"serial\"\nfeed = \"raster\"\nfold = 2\n";
+
 fn job(toml: &str, level: Level, regions: (u32, u32), output: &Path) -> Job {
     let design = design(&Config::from_toml(toml).unwrap(), regions);
     let mut job = Job::new(&design, directed(level, 1), output).unwrap();
@@ -40,6 +47,8 @@ fn netlists_agree_with_the_model() {
         (EDGES, Level::Rpu, (1, 1)),
         (MAD, Level::Rpu, (1, 1)),
         (EDGES, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
+        (VARIANCE, Level::Rpu, (1, 1)),
+        (FOLDED, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
     ];
     let failures = in_parallel(&jobs, |&(toml, level, regions)| {
         let job = job(toml, level, regions, &output.path().join(level.to_string()));
