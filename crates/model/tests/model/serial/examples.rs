@@ -173,3 +173,40 @@ fn one_lane_is_a_row_of_its_slots() {
     assert_eq!(regions, [0, 1, 2]);
     assert_eq!(outputs.len() as u64 - 1, design.one_lane().timing().clocks_per_frame());
 }
+
+/// While the array says that it is quiet, a step changes nothing of what is seen, and skipping it is the same.
+#[test]
+fn quiet_clocks_are_quiet_and_can_be_skipped() {
+    for fold in [1, 3] {
+        let hardware = format!("hardware = {{ organization = 'serial', fold = {fold} }}");
+        let design =
+            design(&format!("frame = {{ width = 12, height = 4 }}\nregion.size = 4\n{hardware}\n"));
+        let mut rcm = SerialRcm::new(&design);
+        let pixels = vec![1; rcm.output().forward_valid.len()];
+        let thresholds = Thresholds::of(&design);
+        while rcm.output().ready {
+            rcm.step(&SerialInput {
+                reset: false,
+                valid: true,
+                pixels: &pixels,
+                thresholds: &thresholds,
+            });
+        }
+        let mut skipped = 0;
+        while !rcm.output().ready {
+            let (quiet, before) = (rcm.quiet_clocks(), rcm.output().clone());
+            let mut other = rcm.clone();
+            for _ in 0..quiet {
+                other.skip(1);
+                assert_eq!(other.output(), &before);
+            }
+            if quiet > 0 {
+                rcm.skip(quiet);
+            }
+            assert_eq!(rcm, other);
+            skipped += quiet;
+            rcm.skip(1);
+        }
+        assert!(skipped > 1000, "{skipped}");
+    }
+}
