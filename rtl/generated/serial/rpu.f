@@ -2,7 +2,7 @@ rtl/frame_store.v
 rtl/carry_adder.v
 rtl/serial_memory.v
 rtl/serial_lane.v
-rtl/serial_registers.v
+rtl/serial_control.v
 rtl/serial_group.v
 rtl/serial_sequencer.v
 rtl/serial_parallel_feed.v

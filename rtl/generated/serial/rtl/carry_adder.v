@@ -4,13 +4,18 @@
 `default_nettype none
 
 module carry_adder #(
-    parameter WIDTH = 8
+    parameter WIDTH = 8  // bits of both operands and of the sum
 ) (
-    input  wire [WIDTH-1:0] plain_i,
-    input  wire [WIDTH-1:0] other_i,
-    input  wire             carry_i,
+    input  wire [WIDTH-1:0] plain_i,  // operand on the direct input of the carry chain
+    input  wire [WIDTH-1:0] other_i,  // operand behind the LUT
+    input  wire             carry_i,  // adds one
     output wire [WIDTH-1:0] sum_o     // modulo 2^WIDTH
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+    endgenerate
 
     wire unused_low;
 

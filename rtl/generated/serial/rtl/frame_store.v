@@ -7,32 +7,41 @@
 `default_nettype none
 
 module frame_store #(
-    parameter WIDTH = 8,     // bits of a pixel
-    parameter PIXELS = 64,   // pixels of a region
-    parameter SLOT_BITS = 6  // ceil(log2(PIXELS))
+    parameter WIDTH = 8,        // bits of a pixel
+    parameter PIXELS = 64,      // pixels of a region
+    parameter ADDRESS_BITS = 6  // ceil(log2(PIXELS))
 ) (
-    input  wire                 clk_i,
-    input  wire                 write_i,
-    input  wire [SLOT_BITS-1:0] slot_i,
-    input  wire [    WIDTH-1:0] data_i,
-    output wire [    WIDTH-1:0] data_o   // before the write
+    input  wire                    clk_i,      // clock, rising edge
+    input  wire                    write_i,    // write data_i at this edge
+    input  wire [ADDRESS_BITS-1:0] address_i,  // of the word, 0..PIXELS-1
+    input  wire [       WIDTH-1:0] data_i,     // what is written
+    output wire [       WIDTH-1:0] data_o      // before the write
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
     generate
-        if (SLOT_BITS <= 8) begin : g_single
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (PIXELS < 2) begin : g_pixels PIXELS_must_be_2_or_more u_refused (); end
+        if (ADDRESS_BITS != $clog2(PIXELS)) begin : g_address_bits
+            ADDRESS_BITS_must_be_clog2_of_PIXELS u_refused ();
+        end
+    endgenerate
+
+    generate
+        if (ADDRESS_BITS <= 8) begin : g_single
             (* ram_style = "distributed" *)
             reg [WIDTH-1:0] pixels_q[0:PIXELS-1];
 
             always @(posedge clk_i) begin
-                if (write_i) pixels_q[slot_i] <= data_i;
+                if (write_i) pixels_q[address_i] <= data_i;
             end
 
-            assign data_o = pixels_q[slot_i];
+            assign data_o = pixels_q[address_i];
         end else begin : g_banked
             localparam BANKS = (PIXELS + 255) / 256;
-            localparam BANK_BITS = SLOT_BITS - 8;
+            localparam BANK_BITS = ADDRESS_BITS - 8;
 
-            wire [BANK_BITS-1:0] bank = slot_i[SLOT_BITS-1:8];
+            wire [BANK_BITS-1:0] bank = address_i[ADDRESS_BITS-1:8];
             wire [WIDTH*BANKS-1:0] words;
             assign data_o = words[bank*WIDTH+:WIDTH];
 
@@ -40,17 +49,17 @@ module frame_store #(
             for (i = 0; i < BANKS; i = i + 1) begin : g_bank
                 localparam REST = PIXELS - 256 * i;
                 localparam DEPTH = REST > 128 ? 256 : REST;
-                localparam ADDRESS_BITS = $clog2(DEPTH);
+                localparam LOWER_BITS = $clog2(DEPTH);
 
                 (* ram_style = "distributed" *)
                 reg [WIDTH-1:0] pixels_q[0:DEPTH-1];
-                wire [ADDRESS_BITS-1:0] address = slot_i[ADDRESS_BITS-1:0];
+                wire [LOWER_BITS-1:0] lower = address_i[LOWER_BITS-1:0];
 
                 always @(posedge clk_i) begin
-                    if (write_i && bank == i) pixels_q[address] <= data_i;
+                    if (write_i && bank == i) pixels_q[lower] <= data_i;
                 end
 
-                assign words[i*WIDTH+:WIDTH] = pixels_q[address];
+                assign words[i*WIDTH+:WIDTH] = pixels_q[lower];
             end
         end
     endgenerate

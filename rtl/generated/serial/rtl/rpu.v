@@ -37,6 +37,15 @@ module rpu #(
     output wire [1:0]                                               forward_slot_o       // slot of its region in its lane; only with forward_valid_o
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+        if (COLUMNS * ROWS < 4) begin : g_fold
+            COLUMNS_times_ROWS_must_be_4_or_more u_refused ();
+        end
+    endgenerate
+
     localparam LANES = ((COLUMNS*ROWS+3)/4);
     localparam SLOTS = LANES*4;  // empty ones, too
 
@@ -51,7 +60,7 @@ module rpu #(
         .WIDTH(8),
         .SIDE(8),
         .RAW_SIDE(8),
-        .CLEAN_SIDE(8),
+        .DENOISED_SIDE(8),
         .MEDIAN(1),
         .SHARED(0),
         .LAST_SENT(0),
@@ -62,8 +71,8 @@ module rpu #(
         .FEATURES(1),
         .ALL(0),
         .FRACTION(0),
-        .CLEAN_BASE(64),
-        .KEPT_BASE(0),
+        .DENOISED_BASE(64),
+        .REFERENCE_BASE(0),
         .WORD_BITS(7),
         .SLOT_BITS(2),
         .ADDRESS_BITS(9),

@@ -8,64 +8,127 @@
 `default_nettype none
 
 module serial_array #(
-    parameter COLUMNS = 28,        // regions side by side
-    parameter ROWS = 28,           // regions one below the other
-    parameter FOLD = 1,            // regions of a lane
-    parameter LANES = 784,
-    parameter WIDTH = 8,           // bits of a pixel
-    parameter SIDE = 8,            // of a region
-    parameter RAW_SIDE = 8,        // of the square that is loaded
-    parameter CLEAN_SIDE = 8,      // of the square that is denoised; without a filter, SIDE
-    parameter MEDIAN = 1,
-    parameter SHARED = 0,
-    parameter LAST_SENT = 0,
-    parameter BLANKS = 1,
-    parameter RAW_PAYLOAD = 0,
-    parameter RASTER = 0,
-    parameter BLOCK = 0,           // 1: block RAM
-    parameter FEATURES = 1,
-    parameter [7:0] KINDS = 8'd0,  // two bits for each, the first lowest: edge, corner, mad, variance
-    parameter ALL = 0,
-    parameter FRACTION = 0,
-    parameter CLEAN_BASE = 64,
-    parameter KEPT_BASE = 64,
-    parameter WORD_BITS = 7,
-    parameter SLOT_BITS = 1,
-    parameter ADDRESS_BITS = 7,
-    parameter LANE_BITS = 10,
-    parameter REGION_BITS = 10,
-    parameter POSITION_BITS = 6,
-    parameter INDEX_BITS = 1,
-    parameter COUNT_BITS = 7,
-    parameter SCORE_BITS = 7,
-    parameter SUM_BITS = 14,
-    parameter SCALE_BITS = 8,
-    parameter ACC_BITS = 11,
-    parameter AUX_BITS = 1,
-    parameter CHAIN_BITS = 7
+    parameter COLUMNS = 28,         // regions side by side
+    parameter ROWS = 28,            // regions one below the other
+    parameter FOLD = 1,             // regions of a lane: slots
+    parameter LANES = 784,          // lanes, as many as COLUMNS * ROWS regions need
+    parameter WIDTH = 8,            // bits of a pixel, 1 to 16
+    parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
+    parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE and twice the halo
+    parameter DENOISED_SIDE = 8,    // side of the square that is denoised; without a filter, SIDE
+    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter SHARED = 0,           // 1: windows see neighboring regions, else their own border repeated
+    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
+    parameter BLANKS = 1,           // 1: irrelevant regions are shown as 0, else held
+    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
+    parameter RASTER = 0,           // 1: the frame enters row by row, else one pixel per lane
+    parameter BLOCK = 0,            // 1: the memories are block RAM, else distributed RAM
+    parameter FEATURES = 1,         // spatial features, 1 to 4
+    parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
+    parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
+    parameter FRACTION = 0,         // fraction bits of the mean of `mad`, 0 to 12
+    parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
+    parameter REFERENCE_BASE = 64,  // where the reference starts in a slot
+    parameter WORD_BITS = 7,        // of an address inside a slot
+    parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
+    parameter ADDRESS_BITS = 7,     // of an address in the memory of a lane: slot and word
+    parameter LANE_BITS = 10,       // of the number of a lane, at least 1
+    parameter REGION_BITS = 10,     // of the number of a region, empty slots included
+    parameter POSITION_BITS = 6,    // of the number of a pixel in the largest square of centers
+    parameter INDEX_BITS = 1,       // of the number of a score
+    parameter COUNT_BITS = 7,       // of a count of pixels, 0..SIDE * SIDE
+    parameter SCORE_BITS = 7,       // of the widest score
+    parameter SUM_BITS = 14,        // of the sum of a region
+    parameter SCALE_BITS = 8,       // of the constant that is shifted from step to step
+    parameter ACC_BITS = 11,        // of the accumulator, which is signed
+    parameter AUX_BITS = 1,         // of the second word of `mad` and `variance`, at least 2
+    parameter CHAIN_BITS = 7        // of the word that goes around the ring of lanes
 ) (
-    input  wire                                     clk_i,
-    input  wire                                     rst_i,
-    input  wire                                     valid_i,
-    output wire                                     ready_o,
-    input  wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] pixel_i,
-    input  wire [                        WIDTH-1:0] temporal_level_i,
-    input  wire [                        WIDTH+1:0] edge_half_i,       // half the level of `edge`
-    input  wire [                        WIDTH-1:0] corner_level_i,
-    input  wire [      (FEATURES+1)*SCORE_BITS-1:0] minima_i,
-    output wire                                     score_valid_o,
-    output wire [                   INDEX_BITS-1:0] score_index_o,
-    output wire [                  REGION_BITS-1:0] region_o,
-    output wire [                   SCORE_BITS-1:0] score_o,
-    output wire                                     decision_valid_o,
-    output wire                                     srs_o,
-    output wire                                     trs_o,
-    output wire                                     active_o,
-    output wire [      (RASTER != 0 ? 1 : LANES)-1:0] forward_valid_o,
-    output wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] forward_pixel_o,
-    output wire [                    SLOT_BITS-1:0] forward_slot_o,
-    output wire [                POSITION_BITS-1:0] forward_position_o
+    input  wire                                       clk_i,              // clock, rising edge
+    input  wire                                       rst_i,              // synchronous reset, active high
+    input  wire                                       valid_i,            // a pixel comes in
+    output wire                                       ready_o,            // it would be taken at the next edge
+    input  wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] pixel_i,            // it; `parallel`: one per lane, lane 0 lowest
+    input  wire [                          WIDTH-1:0] temporal_level_i,   // a pixel has changed above this difference
+    input  wire [                          WIDTH+1:0] edge_half_i,        // half the level of `edge`, rounded down
+    input  wire [                          WIDTH-1:0] corner_level_i,     // level of `corner`
+    input  wire [        (FEATURES+1)*SCORE_BITS-1:0] minima_i,           // of the scores, that of the count lowest
+    output wire                                       score_valid_o,      // a score of a region stands at the ports
+    output wire [                     INDEX_BITS-1:0] score_index_o,      // which: 0 the temporal count
+    output wire [                    REGION_BITS-1:0] region_o,           // whose
+    output wire [                     SCORE_BITS-1:0] score_o,            // that score
+    output wire                                       decision_valid_o,   // the decision for region_o
+    output wire                                       srs_o,              // spatial relevance, or 0
+    output wire                                       trs_o,              // temporal relevance, or 0
+    output wire                                       active_o,           // both
+    output wire [      (RASTER != 0 ? 1 : LANES)-1:0] forward_valid_o,    // a pixel of an active region leaves
+    output wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] forward_pixel_o,    // that pixel
+    output wire [                      SLOT_BITS-1:0] forward_slot_o,     // `parallel`: slot of its region in its lane
+    output wire [                  POSITION_BITS-1:0] forward_position_o  // number of that pixel in its region
 );
+
+    // The areas of a slot: raw, denoised, reference.
+    localparam HAS_DENOISED = MEDIAN != 0;
+    localparam HAS_REFERENCE = MEDIAN == 0 || LAST_SENT != 0;
+    localparam RAW_END = RAW_SIDE * RAW_SIDE;
+    localparam DENOISED_END = DENOISED_BASE + DENOISED_SIDE * DENOISED_SIDE;
+    localparam REFERENCE_END = REFERENCE_BASE + SIDE * SIDE;
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1 || WIDTH > 16) begin : g_width WIDTH_must_be_1_to_16 u_refused (); end
+        if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+        if (FOLD < 1 || (FOLD > 1 && FOLD > COLUMNS * ROWS)) begin : g_fold
+            FOLD_must_be_1_to_the_regions u_refused ();
+        end
+        if (COLUMNS > 0 && ROWS > 0 && LANES != (COLUMNS * ROWS + FOLD - 1) / FOLD) begin : g_lanes
+            LANES_must_be_regions_by_FOLD_rounded_up u_refused ();
+        end
+        if (RAW_SIDE != SIDE && RAW_SIDE != SIDE + 2 && RAW_SIDE != SIDE + 4) begin : g_raw_side
+            RAW_SIDE_must_be_SIDE_and_0_2_or_4 u_refused ();
+        end
+        if (DENOISED_SIDE != SIDE && DENOISED_SIDE != SIDE + 2) begin : g_denoised_side
+            DENOISED_SIDE_must_be_SIDE_and_0_or_2 u_refused ();
+        end
+        if (MEDIAN != 0 && MEDIAN != 1) begin : g_median MEDIAN_must_be_0_or_1 u_refused (); end
+        if (SHARED != 0 && SHARED != 1) begin : g_shared SHARED_must_be_0_or_1 u_refused (); end
+        if (LAST_SENT != 0 && LAST_SENT != 1) begin : g_last_sent
+            LAST_SENT_must_be_0_or_1 u_refused ();
+        end
+        if (BLANKS != 0 && BLANKS != 1) begin : g_blanks BLANKS_must_be_0_or_1 u_refused (); end
+        if (RAW_PAYLOAD != 0 && RAW_PAYLOAD != 1) begin : g_raw_payload
+            RAW_PAYLOAD_must_be_0_or_1 u_refused ();
+        end
+        if (RASTER != 0 && RASTER != 1) begin : g_raster RASTER_must_be_0_or_1 u_refused (); end
+        if (BLOCK != 0 && BLOCK != 1) begin : g_block BLOCK_must_be_0_or_1 u_refused (); end
+        if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
+        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
+        if (SLOT_BITS != (FOLD > 1 ? $clog2(FOLD) : 1)) begin : g_slot_bits
+            SLOT_BITS_must_number_the_slots u_refused ();
+        end
+        if (ADDRESS_BITS != $clog2(FOLD << WORD_BITS)) begin : g_address_bits
+            ADDRESS_BITS_must_address_the_memory u_refused ();
+        end
+        if (LANE_BITS != (LANES > 1 ? $clog2(LANES) : 1)) begin : g_lane_bits
+            LANE_BITS_must_number_the_lanes u_refused ();
+        end
+        if (COUNT_BITS != $clog2(SIDE * SIDE + 1)) begin : g_count_bits
+            COUNT_BITS_must_hold_the_pixels u_refused ();
+        end
+        // The areas of a slot follow each other, and fit.
+        if (HAS_DENOISED && DENOISED_BASE < RAW_END) begin : g_denoised_base
+            DENOISED_BASE_must_lie_behind_the_raw_area u_refused ();
+        end
+        if (HAS_REFERENCE && REFERENCE_BASE < (HAS_DENOISED ? DENOISED_END : RAW_END)) begin : g_reference_base
+            REFERENCE_BASE_must_lie_behind_the_other_areas u_refused ();
+        end
+        if ((1 << WORD_BITS) < (HAS_REFERENCE ? REFERENCE_END : DENOISED_END)) begin : g_word_bits
+            WORD_BITS_must_address_all_areas u_refused ();
+        end
+    endgenerate
 
     localparam GROUP_LANES = RASTER != 0 ? 64 : 96;  // a group selects one of 64
     localparam GROUPS = (LANES + GROUP_LANES - 1) / GROUP_LANES;
@@ -77,29 +140,8 @@ module serial_array #(
         || (FEATURES > 2 && KINDS[5:4] == 2) || (FEATURES > 3 && KINDS[7:6] == 2);
     localparam VARIANCE = KINDS[1:0] == 3 || (FEATURES > 1 && KINDS[3:2] == 3)
         || (FEATURES > 2 && KINDS[5:4] == 3) || (FEATURES > 3 && KINDS[7:6] == 3);
-    localparam SUMS = MAD || VARIANCE;
-    localparam BORDERS = MEDIAN != 0 && CLEAN_SIDE != SIDE;
+    localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
     localparam FLAGS = FEATURES > 1 ? 2 : 1;
-
-    // Which controls the design uses.
-    localparam ACCESS_BITS = 4;
-    localparam [0:0] HAS_BORDERS = BORDERS;
-    localparam [0:0] HAS_COPIES = LAST_SENT != 0;
-    localparam [0:0] HAS_MEDIAN = MEDIAN != 0;
-    localparam [0:0] HAS_RUN = MEDIAN != 0 || EDGE || CORNER;
-    localparam [0:0] HAS_CORNER = CORNER;
-    localparam [0:0] HAS_MAD = MAD;
-    localparam [0:0] HAS_VARIANCE = VARIANCE;
-    localparam [0:0] HAS_SUMS = SUMS;
-    localparam [0:0] HAS_RASTER = RASTER != 0;
-    localparam [ACCESS_BITS-1:0] ACCESS_USED = {HAS_COPIES, {3{HAS_BORDERS}}};
-    localparam EXECUTE_BITS = ACC_BITS + 22;
-    localparam [EXECUTE_BITS-1:0] EXECUTE_USED = {
-        {ACC_BITS{1'b1}}, 3'b111, HAS_MEDIAN, 3'b111,
-        HAS_RUN, HAS_CORNER, HAS_RUN, 1'b1, HAS_CORNER,
-        HAS_SUMS, HAS_SUMS, HAS_MAD, HAS_VARIANCE, HAS_VARIANCE,
-        1'b1, HAS_SUMS, HAS_RASTER, 1'b1, !HAS_RASTER
-    };
 
     // Feed.
     wire working, reopen, start, open, take, place;
@@ -135,8 +177,6 @@ module serial_array #(
     wire [SLOT_BITS-1:0] slot;
     wire [WORD_BITS-1:0] word;
     wire write;
-    wire [ACCESS_BITS-1:0] access;
-    wire [EXECUTE_BITS-1:0] execute;
     wire rotate, unload;
     wire [INDEX_BITS-1:0] index;
     wire [REGION_BITS-1:0] region;
@@ -149,22 +189,15 @@ module serial_array #(
     wire write_active, write_border;
     wire [1:0] side;
 
-    assign access = {write_active, write_border, side};
-    assign execute = {
-        constant, from_memory, subtract, by_sign, by_run, carry, enable, clear,
-        run, run_corner, run_clear, count, count_corner,
-        double, divide, deviate, masked, from_aux,
-        shift, keep, fetch, chain_clear, unload
-    };
-
     serial_sequencer #(
-        .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .CLEAN_SIDE(CLEAN_SIDE), .MEDIAN(MEDIAN),
+        .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN),
         .CLAMPS(SHARED != 0 ? 0 : 1), .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
         .BLOCK(BLOCK), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS),
-        .FRACTION(FRACTION), .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .CLEAN_BASE(CLEAN_BASE),
-        .KEPT_BASE(KEPT_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS), .REGION_BITS(REGION_BITS),
-        .POSITION_BITS(POSITION_BITS), .INDEX_BITS(INDEX_BITS), .SCALE_BITS(SCALE_BITS),
-        .ACC_BITS(ACC_BITS)
+        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION),
+        .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
+        .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS),
+        .REGION_BITS(REGION_BITS), .POSITION_BITS(POSITION_BITS), .INDEX_BITS(INDEX_BITS),
+        .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS)
     ) u_sequencer (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start), .temporal_level_i(temporal_level_i),
         .edge_half_i(edge_half_i), .corner_level_i(corner_level_i), .working_o(working),
@@ -202,26 +235,45 @@ module serial_array #(
     wire [GROUPS*8-1:0] columns;
     wire [GROUPS-1:0] writes;
     wire [GROUPS*ADDRESS_BITS-1:0] addresses;
-    wire [GROUPS*ACCESS_BITS-1:0] accesses;
-    wire [GROUPS*EXECUTE_BITS-1:0] executes;
     wire [GROUPS*WIDTH-1:0] pixels;
+    // Their controls, a value for each group.
+    wire [GROUPS*ACC_BITS-1:0] all_constant;
+    wire [GROUPS*2-1:0] all_side;
+    wire [GROUPS-1:0] all_write_active, all_write_border, all_from_memory, all_subtract,
+        all_by_sign, all_by_run, all_carry, all_enable, all_clear, all_run, all_run_corner,
+        all_run_clear, all_count, all_count_corner, all_double, all_divide, all_deviate, all_masked,
+        all_from_aux, all_shift, all_keep, all_fetch, all_chain_clear, all_unload;
 
     genvar i;
     generate
         for (i = 0; i < GROUPS; i = i + 1) begin : g_group
             serial_group #(
                 .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK), .RASTER(RASTER), .GROUP(i),
-                .LANE_BITS(LANE_BITS), .ACCESS_BITS(ACCESS_BITS), .ACCESS_USED(ACCESS_USED),
-                .EXECUTE_BITS(EXECUTE_BITS), .EXECUTE_USED(EXECUTE_USED)
+                .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(LAST_SENT), .BORDERS(BORDERS),
+                .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE)
             ) u_group (
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
                 .pixel_i(pixel_i[WIDTH-1:0]), .place_i(place), .lane_i(place_lane),
-                .address_i(full_address[ADDRESS_BITS-1:0]), .write_i(write), .access_i(access),
-                .execute_i(execute), .loading_o(loading[i]), .pixel_o(pixels[i*WIDTH+:WIDTH]),
-                .rows_o(rows[i*8+:8]), .columns_o(columns[i*8+:8]),
-                .address_o(addresses[i*ADDRESS_BITS+:ADDRESS_BITS]), .write_o(writes[i]),
-                .access_o(accesses[i*ACCESS_BITS+:ACCESS_BITS]),
-                .execute_o(executes[i*EXECUTE_BITS+:EXECUTE_BITS])
+                .address_i(full_address[ADDRESS_BITS-1:0]), .write_i(write),
+                .write_active_i(write_active), .write_border_i(write_border), .side_i(side),
+                .constant_i(constant), .from_memory_i(from_memory), .subtract_i(subtract),
+                .by_sign_i(by_sign), .by_run_i(by_run), .carry_i(carry), .enable_i(enable),
+                .clear_i(clear), .run_i(run), .run_corner_i(run_corner), .run_clear_i(run_clear),
+                .count_i(count), .count_corner_i(count_corner), .double_i(double), .divide_i(divide),
+                .deviate_i(deviate), .masked_i(masked), .from_aux_i(from_aux), .shift_i(shift),
+                .keep_i(keep), .fetch_i(fetch), .chain_clear_i(chain_clear), .unload_i(unload),
+                .loading_o(loading[i]), .pixel_o(pixels[i*WIDTH+:WIDTH]), .rows_o(rows[i*8+:8]),
+                .columns_o(columns[i*8+:8]), .address_o(addresses[i*ADDRESS_BITS+:ADDRESS_BITS]),
+                .write_o(writes[i]), .write_active_o(all_write_active[i]),
+                .write_border_o(all_write_border[i]), .side_o(all_side[i*2+:2]),
+                .constant_o(all_constant[i*ACC_BITS+:ACC_BITS]), .from_memory_o(all_from_memory[i]),
+                .subtract_o(all_subtract[i]), .by_sign_o(all_by_sign[i]), .by_run_o(all_by_run[i]),
+                .carry_o(all_carry[i]), .enable_o(all_enable[i]), .clear_o(all_clear[i]),
+                .run_o(all_run[i]), .run_corner_o(all_run_corner[i]), .run_clear_o(all_run_clear[i]),
+                .count_o(all_count[i]), .count_corner_o(all_count_corner[i]), .double_o(all_double[i]),
+                .divide_o(all_divide[i]), .deviate_o(all_deviate[i]), .masked_o(all_masked[i]),
+                .from_aux_o(all_from_aux[i]), .shift_o(all_shift[i]), .keep_o(all_keep[i]),
+                .fetch_o(all_fetch[i]), .chain_clear_o(all_chain_clear[i]), .unload_o(all_unload[i])
             );
         end
     endgenerate
@@ -239,22 +291,7 @@ module serial_array #(
             wire [ADDRESS_BITS-1:0] address = addresses[GROUP*ADDRESS_BITS+:ADDRESS_BITS];
             wire [3:0] sides;
             wire [WIDTH-1:0] pixel;
-            wire [ACC_BITS-1:0] lane_constant;
-            wire lane_from_memory, lane_subtract, lane_by_sign, lane_by_run, lane_carry, lane_enable;
-            wire lane_clear, lane_run, lane_run_corner, lane_run_clear, lane_count, lane_count_corner;
-            wire lane_double, lane_divide, lane_deviate, lane_masked, lane_from_aux;
-            wire lane_shift, lane_keep, lane_fetch, lane_chain_clear, lane_unload;
-            wire lane_write_active, lane_write_border, lane_leaves;
-            wire [1:0] lane_side;
-
-            assign {lane_write_active, lane_write_border, lane_side} =
-                accesses[GROUP*ACCESS_BITS+:ACCESS_BITS];
-            assign {
-                lane_constant, lane_from_memory, lane_subtract, lane_by_sign, lane_by_run, lane_carry,
-                lane_enable, lane_clear, lane_run, lane_run_corner, lane_run_clear, lane_count,
-                lane_count_corner, lane_double, lane_divide, lane_deviate, lane_masked, lane_from_aux,
-                lane_shift, lane_keep, lane_fetch, lane_chain_clear, lane_unload
-            } = executes[GROUP*EXECUTE_BITS+:EXECUTE_BITS];
+            wire lane_leaves;
 
             if (!BORDERS) begin : g_no_sides
                 assign sides = 4'b0000;
@@ -278,18 +315,22 @@ module serial_array #(
             ) u_lane (
                 .clk_i(clk_i), .loading_i(loading[GROUP]), .pixel_i(pixel), .address_i(address),
                 .write_i(writes[GROUP]), .select_row_i(rows[GROUP*8+(i%64)/8]),
-                .select_column_i(columns[GROUP*8+i%8]), .write_active_i(lane_write_active),
-                .write_border_i(lane_write_border), .side_i(lane_side), .sides_i(sides),
-                .constant_i(lane_constant), .from_memory_i(lane_from_memory),
-                .subtract_i(lane_subtract), .by_sign_i(lane_by_sign), .by_run_i(lane_by_run),
-                .carry_i(lane_carry), .enable_i(lane_enable), .clear_i(lane_clear), .run_i(lane_run),
-                .run_corner_i(lane_run_corner), .run_clear_i(lane_run_clear), .count_i(lane_count),
-                .count_corner_i(lane_count_corner), .double_i(lane_double), .divide_i(lane_divide),
-                .deviate_i(lane_deviate), .masked_i(lane_masked), .from_aux_i(lane_from_aux),
-                .shift_i(lane_shift), .unload_i(lane_unload), .keep_i(lane_keep), .fetch_i(lane_fetch),
-                .chain_clear_i(lane_chain_clear), .word_i(ring[(i+1)*CHAIN_BITS+:CHAIN_BITS]),
-                .flags_i(flags[(i+1)*FLAGS+:FLAGS]), .word_o(ring[i*CHAIN_BITS+:CHAIN_BITS]),
-                .flags_o(flags[i*FLAGS+:FLAGS]), .leaves_o(lane_leaves), .pixel_o(words[i*WIDTH+:WIDTH])
+                .select_column_i(columns[GROUP*8+i%8]), .sides_i(sides),
+                .write_active_i(all_write_active[GROUP]), .write_border_i(all_write_border[GROUP]),
+                .side_i(all_side[GROUP*2+:2]), .constant_i(all_constant[GROUP*ACC_BITS+:ACC_BITS]),
+                .from_memory_i(all_from_memory[GROUP]), .subtract_i(all_subtract[GROUP]),
+                .by_sign_i(all_by_sign[GROUP]), .by_run_i(all_by_run[GROUP]),
+                .carry_i(all_carry[GROUP]), .enable_i(all_enable[GROUP]), .clear_i(all_clear[GROUP]),
+                .run_i(all_run[GROUP]), .run_corner_i(all_run_corner[GROUP]),
+                .run_clear_i(all_run_clear[GROUP]), .count_i(all_count[GROUP]),
+                .count_corner_i(all_count_corner[GROUP]), .double_i(all_double[GROUP]),
+                .divide_i(all_divide[GROUP]), .deviate_i(all_deviate[GROUP]),
+                .masked_i(all_masked[GROUP]), .from_aux_i(all_from_aux[GROUP]),
+                .shift_i(all_shift[GROUP]), .keep_i(all_keep[GROUP]), .fetch_i(all_fetch[GROUP]),
+                .chain_clear_i(all_chain_clear[GROUP]), .unload_i(all_unload[GROUP]),
+                .word_i(ring[(i+1)*CHAIN_BITS+:CHAIN_BITS]), .flags_i(flags[(i+1)*FLAGS+:FLAGS]),
+                .word_o(ring[i*CHAIN_BITS+:CHAIN_BITS]), .flags_o(flags[i*FLAGS+:FLAGS]),
+                .leaves_o(lane_leaves), .pixel_o(words[i*WIDTH+:WIDTH])
             );
 
             if (RASTER != 0) begin : g_group_pixel

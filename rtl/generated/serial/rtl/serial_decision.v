@@ -4,37 +4,58 @@
 `default_nettype none
 
 module serial_decision #(
-    parameter CHAIN_BITS = 7,   // of the words that pass
-    parameter SCORE_BITS = 7,   // of the widest score
-    parameter PIXELS = 64,      // of a region
-    parameter FEATURES = 1,
-    parameter ALL = 0,          // 1: every feature must vote; 0: one vote is enough
-    parameter FLAGS = 1,        // 1 for one feature, else 2
-    parameter LAST_SENT = 0,
-    parameter BLANKS = 1,       // 1: with SRS = 0 nothing that was sent is left
-    parameter REGIONS = 784,
-    parameter SLOTS = 784,      // REGIONS, and empty slots
-    parameter REGION_BITS = 10, // of the number of a slot
-    parameter INDEX_BITS = 1    // of the number of a score
+    parameter CHAIN_BITS = 7,    // bits of the words that pass
+    parameter SCORE_BITS = 7,    // bits of the widest score
+    parameter PIXELS = 64,       // pixels of a region
+    parameter FEATURES = 1,      // spatial features, 1 to 4
+    parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
+    parameter FLAGS = 1,         // 1 for one feature, else 2
+    parameter LAST_SENT = 0,     // 1: the reference is `last-sent`, else `previous`
+    parameter BLANKS = 1,        // 1: with SRS = 0 nothing that was sent is left
+    parameter REGIONS = 784,     // regions of the frame
+    parameter SLOTS = 784,       // regions and empty slots
+    parameter REGION_BITS = 10,  // bits of the number of a slot of the array
+    parameter INDEX_BITS = 1     // bits of the number of a score
 ) (
-    input  wire                               clk_i,
-    input  wire                               rst_i,
-    input  wire                               frame_i,    // a frame is done
-    input  wire                               rotate_i,   // a score passes
-    input  wire [             INDEX_BITS-1:0] index_i,    // which: 0 is the temporal count
-    input  wire [            REGION_BITS-1:0] region_i,   // whose
-    input  wire [             CHAIN_BITS-1:0] word_i,
-    input  wire [                  FLAGS-1:0] flags_i,
-    input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,   // by index
-    output wire [                  FLAGS-1:0] flags_o,    // back into the ring
-    output wire                               region_valid_o,
-    output wire                               score_valid_o,
-    output wire [             SCORE_BITS-1:0] score_o,
-    output wire                               decision_valid_o,
-    output wire                               srs_o,
-    output wire                               trs_o,
-    output wire                               active_o
+    input  wire                               clk_i,             // clock, rising edge
+    input  wire                               rst_i,             // synchronous reset, active high
+    input  wire                               frame_i,           // a frame is done
+    input  wire                               rotate_i,          // a score passes
+    input  wire [             INDEX_BITS-1:0] index_i,           // which: 0 is the temporal count
+    input  wire [            REGION_BITS-1:0] region_i,          // whose
+    input  wire [             CHAIN_BITS-1:0] word_i,            // the score that passes
+    input  wire [                  FLAGS-1:0] flags_i,           // the flags of its region
+    input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,          // by index
+    output wire [                  FLAGS-1:0] flags_o,           // back into the ring
+    output wire                               region_valid_o,    // the slot is not empty
+    output wire                               score_valid_o,     // a score of a region passes
+    output wire [             SCORE_BITS-1:0] score_o,           // that score; n without a reference
+    output wire                               decision_valid_o,  // with the last score: the decision is made
+    output wire                               srs_o,             // spatial relevance; 0 unless decision_valid_o
+    output wire                               trs_o,             // temporal relevance; 0 unless decision_valid_o
+    output wire                               active_o           // both; 0 unless decision_valid_o
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (FLAGS != (FEATURES > 1 ? 2 : 1)) begin : g_flags
+            FLAGS_must_be_1_for_one_feature_else_2 u_refused ();
+        end
+        if (SCORE_BITS > CHAIN_BITS) begin : g_score_bits
+            SCORE_BITS_must_be_CHAIN_BITS_or_less u_refused ();
+        end
+        if (SCORE_BITS < $clog2(PIXELS + 1)) begin : g_score_bits_2
+            SCORE_BITS_must_hold_PIXELS u_refused ();
+        end
+        if (SLOTS < REGIONS) begin : g_slots SLOTS_must_be_REGIONS_or_more u_refused (); end
+        if (REGION_BITS != (SLOTS > 1 ? $clog2(SLOTS) : 1)) begin : g_region_bits
+            REGION_BITS_must_number_the_slots u_refused ();
+        end
+        if (INDEX_BITS != $clog2(FEATURES + 1)) begin : g_index_bits
+            INDEX_BITS_must_number_the_scores u_refused ();
+        end
+    endgenerate
 
     /* verilator lint_off WIDTH */
     localparam [SCORE_BITS-1:0] EVERY = PIXELS;
@@ -84,14 +105,14 @@ module serial_decision #(
         end
         if (LAST_SENT != 0) begin : g_last_sent
             // One bit per region: it has a reference.
-            wire kept;
+            wire referenced;
             frame_store #(
-                .WIDTH(1), .PIXELS(SLOTS > 1 ? SLOTS : 2), .SLOT_BITS(REGION_BITS)
+                .WIDTH(1), .PIXELS(SLOTS > 1 ? SLOTS : 2), .ADDRESS_BITS(REGION_BITS)
             ) u_valid (
-                .clk_i(clk_i), .write_i(rotate_i && last), .slot_i(region_i),
-                .data_i(active || (reference && (srs || BLANKS == 0))), .data_o(kept)
+                .clk_i(clk_i), .write_i(rotate_i && last), .address_i(region_i),
+                .data_i(active || (reference && (srs || BLANKS == 0))), .data_o(referenced)
             );
-            assign reference = kept && !first_q;
+            assign reference = referenced && !first_q;
         end else begin : g_previous
             assign reference = !first_q;
         end

@@ -14,72 +14,91 @@
 (* keep_hierarchy = "yes" *)
 module serial_lane #(
     parameter WIDTH = 8,         // bits of a pixel
-    parameter WORDS = 128,       // of the memory
-    parameter ADDRESS_BITS = 7,
+    parameter WORDS = 128,       // words of the memory
+    parameter ADDRESS_BITS = 7,  // of an address in the memory
     parameter BLOCK = 0,         // 1: the memory is block RAM
-    parameter ACC_BITS = 11,     // of the accumulator, which is signed
-    parameter CHAIN_BITS = 7,    // of the score on its way
+    parameter ACC_BITS = 11,     // bits of the accumulator, which is signed
+    parameter CHAIN_BITS = 7,    // bits of the score on its way
     parameter FLAGS = 1,         // bits that travel with the score
     parameter RASTER = 0,        // 1: pixels enter by lane select and leave by the chain of scores
     parameter COPIES = 0,        // 1: an active lane copies the region to its reference
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
-    parameter MEDIAN = 1,
-    parameter EDGE = 1,
-    parameter CORNER = 0,
-    parameter MAD = 0,
-    parameter VARIANCE = 0,
+    parameter MEDIAN = 1,        // 1: pixels are denoised
+    parameter EDGE = 1,          // 1: the design has the feature `edge`
+    parameter CORNER = 0,        // ... `corner`
+    parameter MAD = 0,           // ... `mad`
+    parameter VARIANCE = 0,      // ... `variance`
     parameter FRACTION = 0,      // fraction bits of the mean of `mad`
-    parameter AUX_BITS = 1       // of the second word of `mad` and `variance`
+    parameter AUX_BITS = 1       // bits of the second word of `mad` and `variance`
 ) (
-    input  wire                    clk_i,
+    input  wire                    clk_i,            // clock, rising edge
     // Memory.
-    input  wire                    loading_i,       // pixels come from outside
-    input  wire [       WIDTH-1:0] pixel_i,
-    input  wire [ADDRESS_BITS-1:0] address_i,
-    input  wire                    write_i,
-    input  wire                    select_row_i,    // both: write the pixel
-    input  wire                    select_column_i,
-    input  wire                    write_active_i,  // write if the first flag is set
-    input  wire                    write_border_i,  // write if the side is on the frame's border
-    input  wire [             1:0] side_i,          // left, right, top, bottom
-    input  wire [             3:0] sides_i,         // {bottom, top, right, left}
+    input  wire                    loading_i,        // pixels come from outside
+    input  wire [       WIDTH-1:0] pixel_i,          // that pixel
+    input  wire [ADDRESS_BITS-1:0] address_i,        // of the word that is read and written
+    input  wire                    write_i,          // write the accumulator
+    input  wire                    select_row_i,     // `raster`: write the pixel if this
+    input  wire                    select_column_i,  // ... and this one
+    input  wire                    write_active_i,   // write if the first flag is set
+    input  wire                    write_border_i,   // write if the side is on the frame's border
+    input  wire [             1:0] side_i,           // left, right, top, bottom
+    input  wire [             3:0] sides_i,          // {bottom, top, right, left}
     // Accumulator.
-    input  wire [    ACC_BITS-1:0] constant_i,
-    input  wire                    from_memory_i,   // the operand is the word read, else the constant
-    input  wire                    subtract_i,      // invert the operand
-    input  wire                    by_sign_i,       // invert it if the accumulator is not negative
-    input  wire                    by_run_i,        // invert it if five were counted
-    input  wire                    carry_i,         // add one to an inverted operand
-    input  wire                    enable_i,
-    input  wire                    clear_i,
+    input  wire [    ACC_BITS-1:0] constant_i,       // the operand, unless from_memory_i
+    input  wire                    from_memory_i,    // the operand is the word read
+    input  wire                    subtract_i,       // invert the operand
+    input  wire                    by_sign_i,        // invert it if the accumulator is not negative
+    input  wire                    by_run_i,         // invert it if five were counted
+    input  wire                    carry_i,          // add one to an inverted operand
+    input  wire                    enable_i,         // the accumulator takes the sum
+    input  wire                    clear_i,          // the accumulator becomes 0
     // Counts.
-    input  wire                    run_i,           // count in unary
-    input  wire                    run_corner_i,    // ... equal ones in a row
-    input  wire                    run_clear_i,
-    input  wire                    count_i,         // score a hit
-    input  wire                    count_corner_i,  // ... of `corner`
+    input  wire                    run_i,            // count in unary
+    input  wire                    run_corner_i,     // ... equal ones in a row
+    input  wire                    run_clear_i,      // the unary count becomes 0
+    input  wire                    count_i,          // score a hit
+    input  wire                    count_corner_i,   // ... of `corner`
     // Sums.
-    input  wire                    double_i,        // the operand is the accumulator itself
-    input  wire                    divide_i,        // keep the sum only if it is not negative
-    input  wire                    deviate_i,       // the operand is |2^FRACTION * word - aux|
-    input  wire                    masked_i,        // ... is 0 unless its bit under the constant is 1
-    input  wire                    from_aux_i,      // ... is aux
+    input  wire                    double_i,         // the operand is the accumulator itself
+    input  wire                    divide_i,         // keep the sum only if it is not negative
+    input  wire                    deviate_i,        // the operand is |2^FRACTION * word - aux|
+    input  wire                    masked_i,         // ... is 0 unless its bit under the constant is 1
+    input  wire                    from_aux_i,       // ... is aux
     // Chain of scores.
-    input  wire                    shift_i,
-    input  wire                    keep_i,          // take the accumulator
-    input  wire                    fetch_i,         // take the word read
-    input  wire                    chain_clear_i,
-    input  wire [  CHAIN_BITS-1:0] word_i,
-    input  wire [       FLAGS-1:0] flags_i,
-    output wire [  CHAIN_BITS-1:0] word_o,
-    output wire [       FLAGS-1:0] flags_o,
+    input  wire                    shift_i,          // take score and flags of the lane behind
+    input  wire                    keep_i,           // the score becomes the accumulator
+    input  wire                    fetch_i,          // the score becomes the word read
+    input  wire                    chain_clear_i,    // the score becomes 0
+    input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane behind
+    input  wire [       FLAGS-1:0] flags_i,          // flags of the lane behind: active or TRS; SRS so far
+    output wire [  CHAIN_BITS-1:0] word_o,           // the score
+    output wire [       FLAGS-1:0] flags_o,          // its flags
     // Unloading.
-    input  wire                    unload_i,
-    output wire                    leaves_o,        // the word read is a pixel of an active region
-    output wire [       WIDTH-1:0] pixel_o          // the word read
+    input  wire                    unload_i,         // `parallel`: the word read leaves if the region is active
+    output wire                    leaves_o,         // the word read is a pixel of an active region
+    output wire [       WIDTH-1:0] pixel_o           // the word read
 );
 
     localparam SUMS = MAD != 0 || VARIANCE != 0;
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1 || WIDTH > 16) begin : g_width WIDTH_must_be_1_to_16 u_refused (); end
+        if (ACC_BITS <= WIDTH) begin : g_acc_bits ACC_BITS_must_be_more_than_WIDTH u_refused (); end
+        if (FLAGS < 1 || FLAGS > 2) begin : g_flags FLAGS_must_be_1_or_2 u_refused (); end
+        if (RASTER != 0 && CHAIN_BITS < WIDTH) begin : g_chain_bits
+            CHAIN_BITS_must_hold_a_pixel u_refused ();
+        end
+        if (SUMS && CHAIN_BITS > ACC_BITS) begin : g_chain_bits_2
+            CHAIN_BITS_must_be_ACC_BITS_or_less u_refused ();
+        end
+        if (SUMS && (AUX_BITS < 2 || AUX_BITS > ACC_BITS)) begin : g_aux_bits
+            AUX_BITS_must_be_2_to_ACC_BITS u_refused ();
+        end
+        if (MAD != 0 && AUX_BITS < WIDTH + FRACTION) begin : g_aux_bits_2
+            AUX_BITS_must_hold_a_mean u_refused ();
+        end
+    endgenerate
 
     reg  [  ACC_BITS-1:0] acc_q;
     reg  [CHAIN_BITS-1:0] chain_q;

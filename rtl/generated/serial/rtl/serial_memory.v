@@ -5,16 +5,26 @@
 
 module serial_memory #(
     parameter WIDTH = 8,         // bits of a pixel
-    parameter WORDS = 128,
+    parameter WORDS = 128,       // words of the memory, at least 2
     parameter ADDRESS_BITS = 7,  // ceil(log2(WORDS))
     parameter BLOCK = 0          // 1: block RAM
 ) (
-    input  wire                    clk_i,
-    input  wire                    write_i,
-    input  wire [ADDRESS_BITS-1:0] address_i,
-    input  wire [       WIDTH-1:0] data_i,
-    output wire [       WIDTH-1:0] data_o     // before the write
+    input  wire                    clk_i,      // clock, rising edge
+    input  wire                    write_i,    // write data_i at this edge
+    input  wire [ADDRESS_BITS-1:0] address_i,  // of the word, 0..WORDS-1
+    input  wire [       WIDTH-1:0] data_i,     // what is written
+    output wire [       WIDTH-1:0] data_o      // before the write
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
+        if (ADDRESS_BITS != $clog2(WORDS)) begin : g_address_bits
+            ADDRESS_BITS_must_be_clog2_of_WORDS u_refused ();
+        end
+        if (BLOCK != 0 && BLOCK != 1) begin : g_block_flag BLOCK_must_be_0_or_1 u_refused (); end
+    endgenerate
 
     generate
         if (BLOCK != 0) begin : g_block
@@ -29,8 +39,8 @@ module serial_memory #(
 
             assign data_o = data_q;
         end else begin : g_distributed
-            frame_store #(.WIDTH(WIDTH), .PIXELS(WORDS), .SLOT_BITS(ADDRESS_BITS)) u_store (
-                .clk_i(clk_i), .write_i(write_i), .slot_i(address_i), .data_i(data_i),
+            frame_store #(.WIDTH(WIDTH), .PIXELS(WORDS), .ADDRESS_BITS(ADDRESS_BITS)) u_store (
+                .clk_i(clk_i), .write_i(write_i), .address_i(address_i), .data_i(data_i),
                 .data_o(data_o)
             );
         end

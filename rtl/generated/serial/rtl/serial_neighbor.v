@@ -5,19 +5,28 @@
 
 module serial_neighbor #(
     parameter COLUMNS = 28,   // regions of a row
-    parameter FOLD = 1,
+    parameter FOLD = 1,       // regions of a lane
     parameter SLOT_BITS = 1,  // at least 1
-    parameter LANE_BITS = 10
+    parameter LANE_BITS = 10  // of the number of a lane, at least 1
 ) (
-    input  wire [LANE_BITS-1:0] lane_i,
-    input  wire [SLOT_BITS-1:0] slot_i,
-    input  wire                 left_i,
-    input  wire                 right_i,
-    input  wire                 above_i,
-    input  wire                 below_i,
-    output wire [LANE_BITS-1:0] lane_o,
-    output wire [SLOT_BITS-1:0] slot_o
+    input  wire [LANE_BITS-1:0] lane_i,   // lane of the region
+    input  wire [SLOT_BITS-1:0] slot_i,   // ... its slot
+    input  wire                 left_i,   // the neighbor is to the left
+    input  wire                 right_i,  // ... to the right
+    input  wire                 above_i,  // ... above
+    input  wire                 below_i,  // ... below
+    output wire [LANE_BITS-1:0] lane_o,   // lane of the neighbor
+    output wire [SLOT_BITS-1:0] slot_o    // ... its slot
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end
+        if (SLOT_BITS != (FOLD > 1 ? $clog2(FOLD) : 1)) begin : g_slot_bits
+            SLOT_BITS_must_number_the_slots u_refused ();
+        end
+    endgenerate
 
     /* verilator lint_off UNUSEDSIGNAL */
     // Whole lanes from a region to the one `regions` further on, which may be negative, and the rest.

@@ -5,20 +5,32 @@
 
 module serial_parallel_feed #(
     parameter PIXELS = 64,    // per slot
-    parameter FOLD = 1,
-    parameter WORD_BITS = 7,
+    parameter FOLD = 1,       // slots of a lane
+    parameter WORD_BITS = 7,  // of an address inside a slot
     parameter SLOT_BITS = 1   // at least 1
 ) (
-    input  wire                 clk_i,
-    input  wire                 rst_i,
-    input  wire                 valid_i,
+    input  wire                 clk_i,     // clock, rising edge
+    input  wire                 rst_i,     // synchronous reset, active high
+    input  wire                 valid_i,   // a pixel comes in, on every lane
     input  wire                 reopen_i,  // the frame before is done
-    output wire                 ready_o,
+    output wire                 ready_o,   // it would be taken
     output wire                 open_o,    // ready after this edge
     output wire                 last_o,    // the last pixel is taken
-    output wire [SLOT_BITS-1:0] slot_o,
-    output wire [WORD_BITS-1:0] word_o
+    output wire [SLOT_BITS-1:0] slot_o,    // the place: slot
+    output wire [WORD_BITS-1:0] word_o     // ... address inside the slot
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (PIXELS < 2) begin : g_pixels PIXELS_must_be_2_or_more u_refused (); end
+        if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end
+        if (WORD_BITS < $clog2(PIXELS)) begin : g_word_bits
+            WORD_BITS_must_address_PIXELS u_refused ();
+        end
+        if (SLOT_BITS != (FOLD > 1 ? $clog2(FOLD) : 1)) begin : g_slot_bits
+            SLOT_BITS_must_number_the_slots u_refused ();
+        end
+    endgenerate
 
     localparam LAST = PIXELS - 1;
     localparam [WORD_BITS-1:0] SECOND = 1;

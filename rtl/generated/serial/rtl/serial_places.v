@@ -4,20 +4,27 @@
 `default_nettype none
 
 module serial_places #(
-    parameter SIDE = 8,       // of a region, at least 2 * HALO
-    parameter HALO = 1,
-    parameter SCALE = 1,      // words from one pixel to the next
-    parameter WORD_BITS = 7
+    parameter SIDE = 8,      // of a region, at least 2 * HALO
+    parameter HALO = 1,      // pixels around a region, 1 or 2
+    parameter SCALE = 1,     // words from one pixel to the next
+    parameter WORD_BITS = 7  // of an address inside a slot
 ) (
     input  wire [$clog2(SIDE)-1:0] inner_i,   // where the pixel is in its region
     input  wire                    first_i,   // no region before
     input  wire                    last_i,    // no region after
-    input  wire [             1:0] place_i,
+    input  wire [             1:0] place_i,   // which: 0 is that in the own region
     output wire [             1:0] more_o,    // places beside the own region
     output wire                    before_o,  // this one is in the region before
-    output wire                    after_o,
+    output wire                    after_o,   // ... in the region after
     output wire [   WORD_BITS-1:0] offset_o   // from the pixel's word without a halo
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (HALO < 1 || HALO > 2) begin : g_halo HALO_must_be_1_or_2 u_refused (); end
+        if (SIDE < 2 * HALO) begin : g_side SIDE_must_be_twice_HALO_or_more u_refused (); end
+        if (SCALE < 1) begin : g_scale SCALE_must_be_1_or_more u_refused (); end
+    endgenerate
 
     localparam INNER_BITS = $clog2(SIDE);
     /* verilator lint_off WIDTH */

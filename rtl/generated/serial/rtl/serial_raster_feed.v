@@ -5,27 +5,42 @@
 `default_nettype none
 
 module serial_raster_feed #(
-    parameter SIDE = 8,         // of a region
-    parameter HALO = 0,         // pixels around it
-    parameter COLUMNS = 28,
-    parameter ROWS = 28,
-    parameter FOLD = 1,
-    parameter WORD_BITS = 7,
-    parameter SLOT_BITS = 1,    // at least 1
-    parameter LANE_BITS = 10    // at least 1
+    parameter SIDE = 8,       // pixels of a side of a region, 4 to 64
+    parameter HALO = 0,       // pixels around it
+    parameter COLUMNS = 28,   // regions side by side
+    parameter ROWS = 28,      // regions one below the other
+    parameter FOLD = 1,       // regions of a lane
+    parameter WORD_BITS = 7,  // of an address inside a slot
+    parameter SLOT_BITS = 1,  // at least 1
+    parameter LANE_BITS = 10  // at least 1
 ) (
-    input  wire                 clk_i,
-    input  wire                 rst_i,
-    input  wire                 valid_i,
+    input  wire                 clk_i,     // clock, rising edge
+    input  wire                 rst_i,     // synchronous reset, active high
+    input  wire                 valid_i,   // a pixel comes in
     input  wire                 reopen_i,  // the frame before is done
-    output wire                 ready_o,
+    output wire                 ready_o,   // it would be taken
     output wire                 take_o,    // a pixel is taken
-    output wire                 place_o,   // it goes here
+    output wire                 place_o,   // it goes to the place below
     output wire                 last_o,    // the last place of the last pixel
-    output wire [LANE_BITS-1:0] lane_o,
-    output wire [SLOT_BITS-1:0] slot_o,
-    output wire [WORD_BITS-1:0] word_o
+    output wire [LANE_BITS-1:0] lane_o,    // the place: lane
+    output wire [SLOT_BITS-1:0] slot_o,    // ... slot
+    output wire [WORD_BITS-1:0] word_o     // ... address inside the slot
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
+        if (HALO < 0 || HALO > 2) begin : g_halo HALO_must_be_0_to_2 u_refused (); end
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+        if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end
+        if (WORD_BITS < $clog2((SIDE + 2 * HALO) * (SIDE + 2 * HALO))) begin : g_word_bits
+            WORD_BITS_must_address_the_square u_refused ();
+        end
+        if (SLOT_BITS != (FOLD > 1 ? $clog2(FOLD) : 1)) begin : g_slot_bits
+            SLOT_BITS_must_number_the_slots u_refused ();
+        end
+    endgenerate
 
     localparam STRIDE = SIDE + 2 * HALO;
     localparam INNER_BITS = $clog2(SIDE);

@@ -9,111 +9,115 @@
 `default_nettype none
 
 module serial_sequencer #(
-    parameter WIDTH = 8,           // bits of a pixel
-    parameter SIDE = 8,            // of a region
-    parameter RAW_SIDE = 8,        // of the square that is loaded
-    parameter CLEAN_SIDE = 8,      // of the square that is denoised
-    parameter MEDIAN = 1,
-    parameter CLAMPS = 1,          // 1: a window repeats the border of its square
-    parameter LAST_SENT = 0,
-    parameter RAW_PAYLOAD = 0,     // 1: raw pixels leave, not those that are scored
-    parameter RASTER = 0,          // 1: pixels leave by the chain of scores
-    parameter BLOCK = 0,           // 1: a word comes a clock after its address
-    parameter FOLD = 1,            // regions per lane
-    parameter LANES = 784,
-    parameter FEATURES = 1,
-    parameter [7:0] KINDS = 8'd0,  // two bits for each, the first lowest: edge, corner, mad, variance
-    parameter FRACTION = 0,        // fraction bits of the mean of `mad`
-    parameter SUM_BITS = 14,       // of the sum of a region
-    parameter COUNT_BITS = 7,      // of the pixels of a region
-    parameter CLEAN_BASE = 64,     // where the denoised square starts in a slot
-    parameter KEPT_BASE = 64,      // where the reference starts
-    parameter WORD_BITS = 7,       // of an address inside a slot
-    parameter SLOT_BITS = 1,       // of the number of a slot, at least 1
-    parameter REGION_BITS = 10,    // of the number of a region, empty slots included
-    parameter POSITION_BITS = 6,   // of the number of a pixel in the larger square of centers
-    parameter INDEX_BITS = 1,      // of the number of a score
-    parameter SCALE_BITS = 8,      // of the constant that is shifted from step to step
-    parameter ACC_BITS = 11
+    parameter WIDTH = 8,            // bits of a pixel
+    parameter SIDE = 8,             // of a region
+    parameter RAW_SIDE = 8,         // of the square that is loaded
+    parameter DENOISED_SIDE = 8,    // of the square that is denoised
+    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter CLAMPS = 1,           // 1: a window repeats the border of its square
+    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
+    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
+    parameter RASTER = 0,           // 1: pixels leave by the chain of scores
+    parameter BLOCK = 0,            // 1: a word comes a clock after its address
+    parameter FOLD = 1,             // regions per lane
+    parameter LANES = 784,          // lanes of the array
+    parameter FEATURES = 1,         // spatial features, 1 to 4
+    parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
+    parameter EDGE = 1,             // 1: `edge` is one of them
+    parameter CORNER = 0,           // ... `corner`
+    parameter MAD = 0,              // ... `mad`
+    parameter VARIANCE = 0,         // ... `variance`
+    parameter FRACTION = 0,         // fraction bits of the mean of `mad`
+    parameter SUM_BITS = 14,        // of the sum of a region
+    parameter COUNT_BITS = 7,       // of the pixels of a region
+    parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
+    parameter REFERENCE_BASE = 64,  // where the reference starts
+    parameter WORD_BITS = 7,        // of an address inside a slot
+    parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
+    parameter REGION_BITS = 10,     // of the number of a region, empty slots included
+    parameter POSITION_BITS = 6,    // of the number of a pixel in the larger square of centers
+    parameter INDEX_BITS = 1,       // of the number of a score
+    parameter SCALE_BITS = 8,       // of the constant that is shifted from step to step
+    parameter ACC_BITS = 11         // of the accumulator
 ) (
-    input  wire                     clk_i,
-    input  wire                     rst_i,
+    input  wire                     clk_i,             // clock, rising edge
+    input  wire                     rst_i,             // synchronous reset, active high
     input  wire                     start_i,           // a frame is complete
-    input  wire [        WIDTH-1:0] temporal_level_i,
-    input  wire [        WIDTH+1:0] edge_half_i,       // half the level
-    input  wire [        WIDTH-1:0] corner_level_i,
+    input  wire [        WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
+    input  wire [        WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
+    input  wire [        WIDTH-1:0] corner_level_i,    // level of `corner`
     output wire                     working_o,         // the address is that of a step
     output wire                     reopen_o,          // the frame is done
     // Where.
-    output wire [    SLOT_BITS-1:0] slot_o,
-    output wire [    WORD_BITS-1:0] address_o,
-    output wire                     write_o,
-    output wire                     write_active_o,
-    output wire                     write_border_o,
-    output wire [              1:0] side_o,
+    output wire [    SLOT_BITS-1:0] slot_o,            // the slot
+    output wire [    WORD_BITS-1:0] address_o,         // the address inside the slot
+    output wire                     write_o,           // write the accumulator there
+    output wire                     write_active_o,    // write if the first flag is set
+    output wire                     write_border_o,    // write if the side is on the frame's border
+    output wire [              1:0] side_o,            // left, right, top, bottom
     // What, as in serial_lane.
-    output wire [     ACC_BITS-1:0] constant_o,
-    output wire                     from_memory_o,
-    output wire                     subtract_o,
-    output wire                     by_sign_o,
-    output wire                     by_run_o,
-    output wire                     carry_o,
-    output wire                     enable_o,
-    output wire                     clear_o,
-    output wire                     run_o,
-    output wire                     run_corner_o,
-    output wire                     run_clear_o,
-    output wire                     count_o,
-    output wire                     count_corner_o,
-    output wire                     double_o,
-    output wire                     divide_o,
-    output wire                     deviate_o,
-    output wire                     masked_o,
-    output wire                     from_aux_o,
-    output wire                     shift_o,
-    output wire                     keep_o,
-    output wire                     fetch_o,
-    output wire                     chain_clear_o,
+    output wire [     ACC_BITS-1:0] constant_o,        // the operand, unless from_memory
+    output wire                     from_memory_o,     // the operand is the word read
+    output wire                     subtract_o,        // invert the operand
+    output wire                     by_sign_o,         // invert it if the accumulator is not negative
+    output wire                     by_run_o,          // invert it if five were counted
+    output wire                     carry_o,           // add one to an inverted operand
+    output wire                     enable_o,          // the accumulator takes the sum
+    output wire                     clear_o,           // the accumulator becomes 0
+    output wire                     run_o,             // count in unary
+    output wire                     run_corner_o,      // ... equal ones in a row
+    output wire                     run_clear_o,       // the unary count becomes 0
+    output wire                     count_o,           // score a hit
+    output wire                     count_corner_o,    // ... of `corner`
+    output wire                     double_o,          // the operand is the accumulator itself
+    output wire                     divide_o,          // keep the sum only if it is not negative
+    output wire                     deviate_o,         // the operand is |2^FRACTION * word - aux|
+    output wire                     masked_o,          // ... is 0 unless its bit under the constant is 1
+    output wire                     from_aux_o,        // ... is aux
+    output wire                     shift_o,           // scores move on by one lane
+    output wire                     keep_o,            // the score becomes the accumulator
+    output wire                     fetch_o,           // the score becomes the word read
+    output wire                     chain_clear_o,     // the score becomes 0
     // What the decision takes.
     output wire                     rotate_o,          // scores pass
-    output wire                     unload_o,          // pixels leave
+    output wire                     unload_o,          // the word read leaves if its region is active
     output wire [   INDEX_BITS-1:0] index_o,           // of the score
     output wire [  REGION_BITS-1:0] region_o,          // that passes
     output wire [POSITION_BITS-1:0] position_o         // of the pixel that leaves
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
+        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (LANES < 1) begin : g_lane_count LANES_must_be_1_or_more u_refused (); end
+        if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end
+    endgenerate
+
     localparam PIXELS = SIDE * SIDE;
-    localparam INNER = (CLEAN_SIDE - SIDE) / 2;  // the first center that is scored
-    localparam SCORED_SIDE = MEDIAN != 0 ? CLEAN_SIDE : RAW_SIDE;
+    localparam INNER = (DENOISED_SIDE - SIDE) / 2;  // the first center that is scored
+    localparam SCORED_SIDE = MEDIAN != 0 ? DENOISED_SIDE : RAW_SIDE;
     localparam LEAVING_SIDE = RAW_PAYLOAD != 0 ? RAW_SIDE : SCORED_SIDE;
-    localparam SIDE_BITS = $clog2(CLEAN_SIDE);
+    localparam SIDE_BITS = $clog2(DENOISED_SIDE);
     localparam BORDERS = MEDIAN != 0 && INNER != 0;
-    localparam EDGE = KINDS[1:0] == 0 || (FEATURES > 1 && KINDS[3:2] == 0)
-        || (FEATURES > 2 && KINDS[5:4] == 0) || (FEATURES > 3 && KINDS[7:6] == 0);
-    localparam CORNER = KINDS[1:0] == 1 || (FEATURES > 1 && KINDS[3:2] == 1)
-        || (FEATURES > 2 && KINDS[5:4] == 1) || (FEATURES > 3 && KINDS[7:6] == 1);
-    localparam MAD = KINDS[1:0] == 2 || (FEATURES > 1 && KINDS[3:2] == 2)
-        || (FEATURES > 2 && KINDS[5:4] == 2) || (FEATURES > 3 && KINDS[7:6] == 2);
-    localparam VARIANCE = KINDS[1:0] == 3 || (FEATURES > 1 && KINDS[3:2] == 3)
-        || (FEATURES > 2 && KINDS[5:4] == 3) || (FEATURES > 3 && KINDS[7:6] == 3);
     localparam SUMS = MAD || VARIANCE;
     localparam PLACES = WIDTH + COUNT_BITS;  // bits that the sum of `variance` has places for
 
     // Numbers that fit where they are put.
     /* verilator lint_off WIDTH */
     // First centers of the passes.
-    localparam [WORD_BITS-1:0] WINDOW_START = (RAW_SIDE - CLEAN_SIDE) / 2 * (RAW_SIDE + 1);
-    localparam [WORD_BITS-1:0] SCORED_START = MEDIAN != 0 ? CLEAN_BASE + INNER * (CLEAN_SIDE + 1)
+    localparam [WORD_BITS-1:0] WINDOW_START = (RAW_SIDE - DENOISED_SIDE) / 2 * (RAW_SIDE + 1);
+    localparam [WORD_BITS-1:0] SCORED_START = MEDIAN != 0 ? DENOISED_BASE + INNER * (DENOISED_SIDE + 1)
         : (RAW_SIDE - SIDE) / 2 * (RAW_SIDE + 1);
     localparam [WORD_BITS-1:0] RAW_START = (RAW_SIDE - SIDE) / 2 * (RAW_SIDE + 1);
     localparam [WORD_BITS-1:0] LEAVING_START = RAW_PAYLOAD != 0 ? RAW_START : SCORED_START;
     localparam [WORD_BITS-1:0] FIRST_START = MEDIAN != 0 ? WINDOW_START : SCORED_START;
-    localparam [WORD_BITS-1:0] LEFT_START = CLEAN_BASE + 1;
-    localparam [WORD_BITS-1:0] RIGHT_START = CLEAN_BASE + CLEAN_SIDE - 2;
-    localparam [WORD_BITS-1:0] TOP_START = CLEAN_BASE + CLEAN_SIDE;
-    localparam [WORD_BITS-1:0] BOTTOM_START = CLEAN_BASE + (CLEAN_SIDE - 2) * CLEAN_SIDE;
+    localparam [WORD_BITS-1:0] LEFT_START = DENOISED_BASE + 1;
+    localparam [WORD_BITS-1:0] RIGHT_START = DENOISED_BASE + DENOISED_SIDE - 2;
+    localparam [WORD_BITS-1:0] TOP_START = DENOISED_BASE + DENOISED_SIDE;
+    localparam [WORD_BITS-1:0] BOTTOM_START = DENOISED_BASE + (DENOISED_SIDE - 2) * DENOISED_SIDE;
     // From the last center of a row to the first of the next.
-    localparam [WORD_BITS-1:0] WINDOW_SKIP = RAW_SIDE - CLEAN_SIDE + 1;
+    localparam [WORD_BITS-1:0] WINDOW_SKIP = RAW_SIDE - DENOISED_SIDE + 1;
     localparam [WORD_BITS-1:0] SCORED_SKIP = SCORED_SIDE - SIDE + 1;
     localparam [WORD_BITS-1:0] LEAVING_SKIP = LEAVING_SIDE - SIDE + 1;
     localparam [WORD_BITS-1:0] ONE = 1;
@@ -122,15 +126,15 @@ module serial_sequencer #(
     // Regions, linear squares and constants.
     localparam [REGION_BITS-1:0] LAST_LANE = (LANES - 1) * FOLD;
     localparam [REGION_BITS-1:0] REGION_STEP = FOLD;
-    localparam [WORD_BITS-1:0] CLEAN_AT = CLEAN_BASE;
-    localparam [WORD_BITS-1:0] KEPT_AT = KEPT_BASE;
+    localparam [WORD_BITS-1:0] DENOISED_AT = DENOISED_BASE;
+    localparam [WORD_BITS-1:0] REFERENCE_AT = REFERENCE_BASE;
     localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
     localparam [SCALE_BITS-1:0] UNIT = 1;
     localparam [SCALE_BITS-1:0] DIVISOR = PIXELS;
     localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
     localparam [INDEX_BITS-1:0] LAST_SCORE = FEATURES;
     localparam [3:0] LAST_DOUBLE = FRACTION - 1;
-    localparam [SIDE_BITS-1:0] LAST_WIDE = CLEAN_SIDE - 1;
+    localparam [SIDE_BITS-1:0] LAST_WIDE = DENOISED_SIDE - 1;
     localparam [SIDE_BITS-1:0] LAST_SIDE = SIDE - 1;
     localparam [SIDE_BITS-1:0] LAST_COUNTED = SIDE;
     /* verilator lint_on WIDTH */
@@ -506,7 +510,7 @@ module serial_sequencer #(
 
     // Where the linear squares are.
     wire [WORD_BITS-1:0] position;
-    wire [WORD_BITS-1:0] kept;
+    wire [WORD_BITS-1:0] reference;
     wire counts;
 
     generate
@@ -518,26 +522,26 @@ module serial_sequencer #(
         if (BORDERS) begin : g_inside
             assign counts = column_q != 0 && column_q <= LAST_COUNTED
                 && row_q != 0 && row_q <= LAST_COUNTED;
-            if (LAST_SENT != 0) begin : g_kept
-                reg [WORD_BITS-1:0] kept_q;
+            if (LAST_SENT != 0) begin : g_reference
+                reg [WORD_BITS-1:0] reference_q;
                 always @(posedge clk_i) begin
-                    if (!window_pass) kept_q <= KEPT_AT;
-                    else if (testing && counts) kept_q <= kept_q + 1'b1;
+                    if (!window_pass) reference_q <= REFERENCE_AT;
+                    else if (testing && counts) reference_q <= reference_q + 1'b1;
                 end
-                assign kept = window_pass ? kept_q : KEPT_AT + position;
-            end else begin : g_no_kept
-                assign kept = KEPT_AT + position;
+                assign reference = window_pass ? reference_q : REFERENCE_AT + position;
+            end else begin : g_no_reference
+                assign reference = REFERENCE_AT + position;
             end
         end else begin : g_all_inside
             assign counts = 1'b1;
-            assign kept = KEPT_AT + position;
+            assign reference = REFERENCE_AT + position;
         end
     endgenerate
 
-    wire to_clean = MEDIAN != 0 && writing && job_q == TEMPORAL;
-    wire to_kept = relating || (writing && (job_q == COPY || (MEDIAN == 0 && job_q == TEMPORAL)));
+    wire to_denoised = MEDIAN != 0 && writing && job_q == TEMPORAL;
+    wire to_reference = relating || (writing && (job_q == COPY || (MEDIAN == 0 && job_q == TEMPORAL)));
 
-    assign address_o = to_clean ? CLEAN_AT + position : to_kept ? kept : center_q + near;
+    assign address_o = to_denoised ? DENOISED_AT + position : to_reference ? reference : center_q + near;
     assign write_o = writing && job_q == TEMPORAL;
     assign write_active_o = LAST_SENT != 0 && writing && job_q == COPY;
     assign write_border_o = writing && bordering;

@@ -3,14 +3,19 @@
 `default_nettype none
 
 module serial_shown #(
-    parameter WIDTH = 12,
-    parameter BLOCK = 0  // 1: a word comes a clock after its address
+    parameter WIDTH = 12,  // bits that are shown together
+    parameter BLOCK = 0    // 1: a word comes a clock after its address
 ) (
-    input  wire                   clk_i,
-    input  wire                   rst_i,
-    input  wire [      WIDTH-1:0] bits_i,
-    output wire [      WIDTH-1:0] bits_o
+    input  wire             clk_i,   // clock, rising edge
+    input  wire             rst_i,   // synchronous reset, active high
+    input  wire [WIDTH-1:0] bits_i,  // from the sequencer
+    output wire [WIDTH-1:0] bits_o   // at the ports
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+    endgenerate
 
     // The initial values keep synthesis from moving these registers into a memory's address port.
     reg [WIDTH-1:0] bits_q = {WIDTH{1'b0}};

@@ -3,14 +3,21 @@
 `default_nettype none
 
 module serial_sides #(
-    parameter FIRST = 0,        // region of slot 0
-    parameter COLUMNS = 28,
-    parameter ROWS = 28,
-    parameter SLOT_BITS = 1     // at least 1
+    parameter FIRST = 0,     // number of the region in slot 0
+    parameter COLUMNS = 28,  // regions side by side
+    parameter ROWS = 28,     // regions one below the other
+    parameter SLOT_BITS = 1  // at least 1
 ) (
-    input  wire [SLOT_BITS-1:0] slot_i,
+    input  wire [SLOT_BITS-1:0] slot_i,  // number of the slot
     output wire [          3:0] sides_o  // {bottom, top, right, left}
 );
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
+        if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+        if (SLOT_BITS < 1) begin : g_slot_bits SLOT_BITS_must_be_1_or_more u_refused (); end
+    endgenerate
 
     wire [4*(1<<SLOT_BITS)-1:0] table_of_sides;
 
