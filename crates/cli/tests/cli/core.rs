@@ -181,7 +181,12 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
     // Every stage of a frame is in the vectors: votes, Table I, pixels that leave.
     let faults = [
         ("serial_decision", "score_o >= minimum", "score_o < minimum", "_o expected"),
-        ("serial_sequencer", "REFERENCE_AT + position", "REFERENCE_AT + position + 1", "forward_pixel_o"),
+        (
+            "serial_sequencer",
+            "REFERENCE_AT + position",
+            "REFERENCE_AT + position + 1",
+            "forward_pixel_o",
+        ),
     ];
     for (leaf, from, to, port) in faults {
         core(dir.path(), &[serial, "region.size=4", "hardware.fold=2"]);
