@@ -77,7 +77,9 @@ def designs():
 
 def generate(name, settings):
     folder = os.path.join(WORK, "generated", name)
-    command = [FOVEATE, "generate", "--preset", "bare", "--force", "--output", folder]
+    # It holds a header of ours, too, with which --force would not replace it.
+    shutil.rmtree(folder, ignore_errors=True)
+    command = [FOVEATE, "generate", "--preset", "bare", "--output", folder]
     for setting in settings:
         command += ["--set", setting]
     run = subprocess.run(command, capture_output=True, text=True)
