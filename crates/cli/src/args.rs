@@ -38,7 +38,7 @@ pub(crate) use input::warn_of;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use stress::StressArgs;
 
-/// A region-based event camera: bit-exact model, Verilog, co-simulation and area.
+/// Region-based event cameras: bit-accurate model, Verilog, co-simulation, area and simulation.
 #[derive(Debug, Parser)]
 #[command(
     version,
@@ -74,10 +74,10 @@ pub(crate) struct DesignArgs {
     /// Configuration file (TOML)
     #[arg(long, short, value_name = "FILE")]
     pub(crate) config: Option<PathBuf>,
-    /// Named configuration to start from; see `foveate presets`
+    /// Design to start from; see `foveate presets`
     #[arg(long, short, value_name = "NAME", conflicts_with = "config")]
     pub(crate) preset: Option<String>,
-    /// Set one key after the file or preset, for example region.size=16 or spatial.0.level=50
+    /// Change one key of the file or preset, for example region.size=16 or spatial.0.level=50
     #[arg(long = "set", value_name = "KEY=TOML_VALUE")]
     pub(crate) overrides: Vec<String>,
 }
@@ -112,7 +112,7 @@ impl DesignArgs {
     }
 }
 
-/// Write the Verilog of a design, with file lists, constraints, bench and README
+/// Write the Verilog of a design, with file lists, constraints, benches and a README
 #[derive(Args, Debug)]
 #[command(after_help = "Example: foveate generate --preset paper --set region.size=16 -o core16")]
 pub(crate) struct GenerateArgs {
@@ -127,12 +127,12 @@ pub(crate) struct GenerateArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No summary
+    /// Print no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }
 
-/// Run the same vectors through the model and the RTL and compare every output at every clock
+/// Run the same vectors through model and RTL, and compare every output at every clock
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate cosim --preset bare
           foveate cosim --level rcm --grid 4x3 photo.png
@@ -140,7 +140,7 @@ pub(crate) struct GenerateArgs {
           foveate cosim --config core/design.toml --rtl core/rtl
           foveate cosim --level rcm --grid 3x2 --netlist")]
 pub(crate) struct CosimArgs {
-    /// Frames to run beside the directed and random ones: images, folders, globs, scene:NAME
+    /// Frames to run as well as the directed and random ones: images, folders, globs, scene:NAME
     #[arg(value_name = "INPUT")]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
@@ -168,14 +168,14 @@ pub(crate) struct CosimArgs {
     /// Seed of the random vectors
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
-    /// At most this many frames of the inputs
+    /// Take at most this many frames of the inputs
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = at_least_one())]
     pub(crate) frames: u32,
-    /// How often the directed sequences are run through, each time with other data; 0 runs the
-    /// frames alone. By default 3 for one RPU, 1 for an array
+    /// How often to run the directed sequences, each time with other data; 0 runs only the frames of the
+    /// inputs. By default 3 for one RPU, 1 for an array
     #[arg(long, value_name = "N")]
     pub(crate) rounds: Option<u32>,
-    /// Where a failing run leaves its replay folder
+    /// Folder that a failing run writes, to replay the mismatch
     #[arg(long, value_name = "DIR", default_value = "foveate-replay")]
     pub(crate) replay: PathBuf,
     /// Record waves (FST) of a failing run in its replay folder
@@ -187,7 +187,7 @@ pub(crate) struct CosimArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress, and nothing about a run without a mismatch
+    /// Show no progress, and nothing about a run without a mismatch
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }
@@ -204,7 +204,7 @@ pub(crate) enum SimulatorChoice {
     Iverilog,
 }
 
-/// Synthesize a design with Yosys and print its area and logic levels beside the paper's area
+/// Synthesize a design with Yosys, and print its area and logic levels beside the paper's
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate estimate --preset bare
           foveate estimate --compare --markdown")]
@@ -212,10 +212,10 @@ pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
     /// Print one table instead: the design in each organization, with each feature, with and without
-    /// denoising
+    /// the median
     #[arg(long)]
     pub(crate) compare: bool,
-    /// Clock of the frame rates of --compare in MHz; an assumption, not what a design reaches
+    /// Clock in MHz for the frame rates of --compare; an assumption, not what a design reaches
     #[arg(long, value_name = "MHZ", default_value_t = 250, value_parser = at_least_one(), requires = "compare")]
     pub(crate) clock: u32,
     /// Print JSON
@@ -224,12 +224,12 @@ pub(crate) struct EstimateArgs {
     /// Print Markdown tables
     #[arg(long)]
     pub(crate) markdown: bool,
-    /// No progress
+    /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }
 
-/// Run the model over video or images and write scores, decisions and rendered frames
+/// Run a design over video or images, and write scores, decisions and rendered frames
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate simulate street.mp4 -o out --overlay
           foveate simulate scene:street -o out
@@ -253,7 +253,7 @@ pub(crate) struct SimulateArgs {
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress and no summary
+    /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
     // Last, because what follows would be listed under their headings.
@@ -263,7 +263,7 @@ pub(crate) struct SimulateArgs {
     pub(crate) outputs: OutputArgs,
 }
 
-/// List the named configurations, or print one as a file
+/// List the designs that come with the program, or print one as a file
 #[derive(Args, Debug)]
 #[command(after_help = "Example: foveate presets steady > camera.toml")]
 pub(crate) struct PresetsArgs {

@@ -23,7 +23,7 @@ pub const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "bare",
-        summary: "edges without denoising: the ground of the paper's area table",
+        summary: "edges without denoising: the design of the paper's area table",
         toml: "[denoise]\nfilter = \"none\"\n",
     },
     Preset {
@@ -38,12 +38,12 @@ pub const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "steady",
-        summary: "the paper's scores with a reference that cannot drift: last-sent pixels, held",
+        summary: "the paper's scores against the pixels that were sent last, and held: cannot drift",
         toml: "[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"hold\"\n",
     },
     Preset {
         name: "seamless",
-        summary: "windows that see across region borders: equal to whole-frame processing",
+        summary: "windows that see the neighboring regions: equal to whole-frame processing",
         toml: "[region]\nneighborhood = \"shared\"\n",
     },
     Preset {

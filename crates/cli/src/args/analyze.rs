@@ -10,7 +10,7 @@ use foveate_studies::Study;
 use super::DesignArgs;
 use super::input::InputArgs;
 
-/// Run one of the paper's studies over clips or sets and write its table and charts
+/// Run one of the paper's studies over clips or sets, and write its table and charts
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate analyze temporal street.mp4 bus.mp4 -o out
           foveate analyze size clips/ -o out --max-frames 60 --resize 640x360
@@ -40,7 +40,7 @@ pub(crate) struct AnalyzeArgs {
     /// Print the table as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress and no summary
+    /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
     #[command(flatten)]

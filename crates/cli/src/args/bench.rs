@@ -5,9 +5,9 @@ use clap::Args;
 
 use super::{DesignArgs, at_least_one};
 
-/// Run the same frames through every level, functional to netlist, and print what each costs
+/// Run the same frames through every level, from functional model to netlist, and print what each costs
 ///
-/// Every level runs on one thread and is compared with one above it; a difference ends with exit code 1.
+/// Every level runs on one thread and is compared with one above it; a mismatch ends with exit code 1.
 /// A tool that is missing leaves its level out.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate bench
@@ -38,7 +38,7 @@ pub(crate) struct BenchArgs {
     /// Print a Markdown table
     #[arg(long)]
     pub(crate) markdown: bool,
-    /// No progress
+    /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }

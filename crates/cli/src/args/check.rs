@@ -9,7 +9,7 @@ use foveate_design::Decimal;
 
 use super::DesignArgs;
 
-/// Check a configuration and print what follows from it
+/// Check a configuration and print the design that it describes: grid, widths, clocks, ports
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate check camera.toml
           foveate check --preset serial --min-fps 1000 --clock 250MHz")]
@@ -19,7 +19,7 @@ pub(crate) struct CheckArgs {
     pub(crate) file: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Clock at which frames per second are told, for example 100MHz or 1.5GHz
+    /// Clock for the frame rates, for example 100MHz or 1.5GHz; an assumption, not what a design reaches
     #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
     pub(crate) clock: Clock,
     /// Say whether the design reaches this many frames per second; of a serial one propose the largest fold

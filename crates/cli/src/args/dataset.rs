@@ -8,14 +8,14 @@ use clap::Args;
 use super::DesignArgs;
 use super::input::InputArgs;
 
-/// Make a data set of the active regions of a data set, in the same form, with labels and tags
+/// Turn a data set into that of its active regions, in the same form, with labels and tags
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate dataset train-images-idx3-ubyte.gz -o regions
           foveate dataset photos/ -o regions --preset steady --resize 224x224
           foveate dataset data_batch_1.bin data_batch_2.bin -o regions")]
 pub(crate) struct DatasetArgs {
-    /// IDX or CIFAR files, images, or a folder of images (sub-folders are labels). Several files of
-    /// many images, or folders, become a data set each
+    /// IDX or CIFAR files, images, or a folder of images whose sub-folders are labels. Each file of many
+    /// images, and each folder, becomes a data set of its own
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
@@ -29,7 +29,7 @@ pub(crate) struct DatasetArgs {
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress and no summary
+    /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
     /// Last, because what follows would be listed under its heading.

@@ -6,7 +6,7 @@ use clap::Args;
 use super::DesignArgs;
 use super::input::InputArgs;
 
-/// Say why a region of a frame was sent or dropped
+/// Explain why a region of a frame was sent or dropped
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate explain street.mp4 --frame 3 --region 12,5
           foveate explain frames/ --frame 0 --region 0,0 --json")]
@@ -16,7 +16,7 @@ pub(crate) struct ExplainArgs {
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Number of the frame, from 0; the frames before it are run through first
+    /// Number of the frame, from 0; the frames before it are run first
     #[arg(long, value_name = "K")]
     pub(crate) frame: u64,
     /// Column and row of the region, from 0

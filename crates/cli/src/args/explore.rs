@@ -7,11 +7,11 @@ use clap::Args;
 
 use super::input::InputArgs;
 
-/// Run a space of designs over clips: error against the ideal camera, area, speed, Pareto front
+/// Measure many designs over clips: error against the ideal camera, area, speed, Pareto front
 ///
 /// Writes points.csv, points.parquet, clips.csv, pareto.csv, a configuration for every point and
-/// report.html. What is finished is kept in the folder: run the same command again after an
-/// interrupt, or with a larger space, and only what is missing is done.
+/// report.html. Finished results stay in the folder: run the same command again after an interrupt, or
+/// with a larger space, and only what is missing is done.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate explore approximations scene:street -o out
           foveate explore space.toml street.mp4 bus.mp4 -o out --resize 640x360
@@ -25,10 +25,10 @@ pub(crate) struct ExploreArgs {
     /// Clips or sets: what `foveate simulate` takes, several scenes too
     #[arg(value_name = "INPUT", required_unless_present_any = ["list", "print"])]
     pub(crate) inputs: Vec<PathBuf>,
-    /// Folder to write, or to go on with
+    /// Folder to write, or to continue
     #[arg(long, short, value_name = "DIR", required_unless_present_any = ["list", "print"])]
     pub(crate) output: Option<PathBuf>,
-    /// No synthesis, so that no Yosys is needed
+    /// Leave out synthesis; needs no Yosys
     #[arg(long)]
     pub(crate) no_area: bool,
     /// List the spaces that come with the program

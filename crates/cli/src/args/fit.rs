@@ -10,12 +10,13 @@ use super::check::{Clock, Rate};
 use super::input::InputArgs;
 use super::{DesignArgs, at_least_one};
 
-/// Find the cheapest design that a scene needs, on the first half of the clips; report on the second
+/// Find the cheapest design that meets limits on your clips
 ///
-/// The configuration says what the camera is to do; designs are compared with the camera that does it in
-/// floating point over whole frames. Region size, features, thresholds, pixel bits, windows, denoising,
-/// reference, organization, feed and fold are searched. Exit code 1 if no design holds the constraints,
-/// or the second half does not bear it out; the nearest is written all the same.
+/// The configuration says what the camera is to do. An ideal camera does it in floating point over whole
+/// frames, and designs are compared with that: on the first half of every clip to choose, on the second
+/// half to report. The search covers region size, features, thresholds, pixel bits, windows, denoising,
+/// reference, organization, feed and fold. Exit code 1 if no design meets the limits, or if the second
+/// half does not confirm the choice; the nearest design is written all the same.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples: foveate fit street.mp4 --min-fps 120 --max-flips 1% --max-lut 100
@@ -34,10 +35,10 @@ pub(crate) struct FitArgs {
     /// Print everything as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress
+    /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// At most this many designs are synthesized, the promising ones first
+    /// Synthesize at most this many designs, the promising ones first
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = at_least_one())]
     pub(crate) max_syntheses: u32,
     #[command(flatten)]
@@ -48,27 +49,27 @@ pub(crate) struct FitArgs {
 
 /// What a design must hold.
 #[derive(Args, Debug)]
-#[command(next_help_heading = "What it must hold")]
+#[command(next_help_heading = "Limits")]
 pub(crate) struct ConstraintArgs {
     /// Frames per second that the array must reach
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = Rate::parse)]
     pub(crate) min_fps: Rate,
-    /// The clock, an assumption, not what a design reaches
+    /// Clock for the frame rates; an assumption, not what a design reaches
     #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
     pub(crate) clock: Clock,
-    /// Set the thresholds for this share of active regions first
+    /// First set the thresholds so that this share of the regions is active
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) target_active: Option<f64>,
-    /// At most this share of regions with another action than the ideal's
+    /// At most this share of the regions may decide otherwise than the ideal camera
     #[arg(long, value_name = "PERCENT", default_value = "1%", value_parser = percent)]
     pub(crate) max_flips: f64,
-    /// At most this share of what is active in the ideal may be missed
+    /// At most this share of what is active in the ideal camera may be missed
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_missed: Option<f64>,
-    /// At least this PSNR of the screen against the ideal's, in dB
+    /// At least this PSNR of the rendered frames against those of the ideal camera, in dB
     #[arg(long, value_name = "DB", value_parser = decibels)]
     pub(crate) min_psnr: Option<f64>,
-    /// At most this many frames in a row may a relevant region be stale
+    /// A relevant region may be stale for at most this many frames in a row
     #[arg(long, value_name = "FRAMES")]
     pub(crate) max_stale_frames: Option<u64>,
     /// At most this many bytes per frame may leave the array

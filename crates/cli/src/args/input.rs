@@ -18,16 +18,16 @@ pub(crate) struct InputArgs {
     /// Take at most this many frames per second, chosen by their times; none is repeated
     #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
     pub(crate) input_fps: Option<FrameRate>,
-    /// At most this many frames, of every clip of a batch; of a scene, exactly this many
+    /// Take at most this many frames of every clip; of a scene, exactly this many
     #[arg(long, visible_alias = "frames", value_name = "N", value_parser = at_least_one())]
     pub(crate) max_frames: Option<u32>,
-    /// Frames per second of images, which have no times of their own
+    /// Frame rate of images, which have no times of their own
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = FrameRate::parse)]
     pub(crate) rate: FrameRate,
-    /// Leave out what is before this time: seconds, or HH:MM:SS
+    /// Leave out frames before this time: seconds, or HH:MM:SS
     #[arg(long, value_name = "TIME", value_parser = parse_time)]
     pub(crate) start: Option<u64>,
-    /// Leave out what is at this time or later
+    /// Leave out frames at this time or later
     #[arg(long, value_name = "TIME", value_parser = parse_time)]
     pub(crate) end: Option<u64>,
     /// Take this part of every frame

@@ -9,8 +9,8 @@ use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Outputs")]
 pub(crate) struct OutputArgs {
-    /// What is on the screen: numbered pictures, one lossless video (FFV1), or one for any player
-    /// (H.264); video needs ffmpeg
+    /// The rendered frames, as the receiver's screen shows them: numbered pictures, a lossless video
+    /// (FFV1), or a video for any player (H.264); video needs ffmpeg
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Rendered::Png)]
     pub(crate) rendered: Rendered,
     /// The same as --rendered none
@@ -31,8 +31,8 @@ pub(crate) struct OutputArgs {
     /// Ordinary (x, y, t, p) events of the same frames, for comparison; several formats with commas
     #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
     pub(crate) pixel_events: Vec<PixelEventFormat>,
-    /// Change of a pixel that makes an event: grey levels [default: temporal.level + 1], or with --log
-    /// a natural logarithm [default: 0.2]
+    /// How much a pixel must change to make an event: in grey levels [default: temporal.level + 1], or with
+    /// --log in the natural logarithm [default: 0.2]
     #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse_decimal, requires = "pixel_events")]
     pub(crate) contrast: Option<Decimal>,
     /// Logarithmic pixels instead of linear ones
@@ -69,7 +69,7 @@ pub(crate) enum EventFormat {
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum Only {
-    /// Active regions
+    /// Only active regions
     Active,
 }
 

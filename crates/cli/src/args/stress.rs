@@ -3,12 +3,12 @@
 
 use clap::Args;
 
-/// Run the hard cases and print what was expected, what came out and the worst error
+/// Run the hard cases, and print what was expected, what came out and the worst error
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate stress --short
           foveate stress --markdown > stress.md")]
 pub(crate) struct StressArgs {
-    /// Seconds instead of minutes: fewer frames, regions and widths, the same cases
+    /// Take seconds instead of minutes: the same cases with fewer frames, regions and widths
     #[arg(long)]
     pub(crate) short: bool,
     /// Print JSON
@@ -17,7 +17,7 @@ pub(crate) struct StressArgs {
     /// Print a Markdown table
     #[arg(long)]
     pub(crate) markdown: bool,
-    /// No progress
+    /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }

@@ -61,7 +61,7 @@ fn verdict(found: &Fit) -> Result<(), CliError> {
         let broken = found.design.held_out_held.iter().filter(|held| !held.holds);
         let broken: Vec<String> = broken.map(Held::text).collect();
         return Err(CliError::Failed(format!(
-            "the second half does not bear it out: {}",
+            "the second half does not confirm it: {}",
             broken.join(", ")
         )));
     }
@@ -75,7 +75,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     let (first, second) = found.frames;
     let _ = writeln!(
         text,
-        "{looks} cameras looked at, {designs} designs synthesized, {left_out} less promising ones not; fitted on {first} frames, held out {second}."
+        "{looks} candidate cameras, {designs} designs synthesized, {left_out} less promising ones skipped; fitted on {first} frames, {second} held out."
     );
     if let Some(target) = &found.target {
         let _ = writeln!(

@@ -84,7 +84,7 @@ fn steps(chosen: &Config) -> Vec<(String, Config)> {
         *config = config.at_depth(bits - 1);
     });
     step("without the median".to_owned(), &|config| config.denoise.filter = Filter::None);
-    step("windows of their own".to_owned(), &|config| {
+    step("isolated windows".to_owned(), &|config| {
         config.region.neighborhood = Neighborhood::Isolated;
     });
     step("compared with the previous frame".to_owned(), &|config| {
