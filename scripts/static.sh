@@ -6,8 +6,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh --static)
-# The templates in tb/ are no shell yet; what is made of them is in rtl/generated.
-mapfile -t shell < <(git ls-files '*.sh' .ci/run scripts/keeping ':!tb')
+# Templates are no shell yet; what is made of them is in rtl/generated.
+mapfile -t shell < <(git ls-files '*.sh' .ci/run scripts/keeping ':!tb' ':!crates/*/templates/*')
 shellcheck "${shell[@]}"
 mapfile -t python < <(git ls-files '*.py')
 "$tools/ruff" check --quiet "${python[@]}"

@@ -169,7 +169,7 @@ fn impossible_combinations_say_what_to_do() {
             "[hardware]\norganization = \"serial\"\nmemory = \"flash\"\n",
             "it takes \"distributed\" or \"block\"",
         ),
-        ("spatial = []\n", "one to four features"),
+        ("spatial = []\n", "1..=4 features"),
         ("[frame]\nwidth = 16384\nheight = 16384\n[region]\nsize = 2\n", "67108864 regions"),
     ] {
         assert!(refusal(toml).contains(part), "{}", refusal(toml));
