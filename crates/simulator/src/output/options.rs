@@ -43,7 +43,7 @@ pub struct PixelEvents {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunOptions {
     /// What is on the screen, `rendered`. 8 bits per pixel as they are; fewer are widened to 8 and
-    /// more to 16 bits by [`crate::convert_depth`].
+    /// more to 16 bits by [`foveate_frame::convert_depth`].
     pub rendered: Option<Medium>,
     /// The original frames with the decisions in colour, `overlay`.
     pub overlay: Option<Medium>,
