@@ -198,7 +198,7 @@ fn the_memory_that_is_named_agrees() {
             for &feed in Feed::ALL {
                 let turn = cases.len();
                 for (memory, size, fold) in
-                    [(MemoryKind::Block, [4, 5][turn % 2], 2), (MemoryKind::Distributed, 8, 6)]
+                    [(MemoryKind::Block, [4, 5][turn % 2], 2), (MemoryKind::Distributed, 8, 9)]
                 {
                     let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn / 2 % 3];
                     let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
@@ -208,10 +208,10 @@ fn the_memory_that_is_named_agrees() {
                     config.hardware.fold = fold;
                     config.region.size = size;
                     config.region.neighborhood = Neighborhood::ALL[(turn / 4 + turn) % 2];
-                    let ruled = design(&config, (3, 2)).lane_memory().kind;
+                    let ruled = design(&config, (5, 2)).lane_memory().kind;
                     assert_ne!(ruled, memory, "the rule would choose it, too");
                     config.hardware.memory = Some(memory);
-                    cases.push(Case::array(config, (3, 2)));
+                    cases.push(Case::array(config, (5, 2)));
                 }
             }
         }
