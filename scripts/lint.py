@@ -17,7 +17,7 @@ YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
 WAIVERS = "lint/waivers.txt"
 
 EDGE = "{feature='edge',level=1,min_score=1}"
-CORNER = "{feature='corner',level=1,min_score=1}"
+CORNER = "{feature='corner',level=0,min_score=1}"
 FEATURES = [
     EDGE,
     CORNER,

@@ -110,7 +110,7 @@ fn area_rows(name: &str, area: &Area) -> Vec<Vec<String>> {
     if area.lut_memory_packed != area.lut_memory {
         let packed =
             Area { lut_memory: area.lut_memory_packed, lut_total: area.lut_total_packed, ..*area };
-        rows.push(area_row("  SRL16 in pairs", &packed));
+        rows.push(area_row("  SRL16 paired", &packed));
     }
     rows
 }

@@ -64,7 +64,7 @@ fn what_fits_is_there_whole_and_marked_as_partial() {
     assert!(summary["problem"].as_str().unwrap().starts_with("disk full after"));
     let frames = usize::try_from(summary["frames"].as_u64().unwrap()).unwrap();
     assert!(frames > 0 && frames < 500, "{frames}");
-    for (name, size) in [("srs", 1), ("trs", 1), ("active", 1), ("t_count", 4), ("score_edge", 8)] {
+    for (name, size) in [("srs", 1), ("trs", 1), ("active", 1), ("t_count", 1), ("score_edge", 1)] {
         let array = read(&format!("{name}.npy"));
         assert_eq!(frames_of(&array, 784 * size), (frames, frames), "{name}");
     }

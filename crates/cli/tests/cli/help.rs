@@ -31,7 +31,7 @@ const LONG: [&str; 13] = [
 /// The lines of a help text that are commands.
 fn examples(help: &str) -> Vec<String> {
     let (_, examples) = help.rsplit_once("Example").unwrap();
-    let examples = examples.split_once(": ").unwrap().1.lines().map(|line| line.trim().to_owned());
+    let examples = examples.split_once(':').unwrap().1.lines().map(|line| line.trim().to_owned());
     examples.filter(|line| line.contains("foveate ")).collect()
 }
 

@@ -9,8 +9,7 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
 
-const SMALL: [&str; 6] =
-    ["scene:street", "--frames", "4", "--set", "frame={width=64,height=48}", "--quiet"];
+const SMALL: [&str; 5] = ["scene:street", "--frames", "4", "--set", "frame={width=64,height=48}"];
 
 fn simulate<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [&["simulate", "-o", "out"], &SMALL[..], more].concat()

@@ -3,15 +3,8 @@
 
 use crate::common::{fail_in, files_below, succeed_in};
 
-const SCENES: [&str; 7] = [
-    "scene:street",
-    "scene:shake",
-    "--frames",
-    "4",
-    "--set",
-    "frame={width=64,height=48}",
-    "--quiet",
-];
+const SCENES: [&str; 6] =
+    ["scene:street", "scene:shake", "--frames", "4", "--set", "frame={width=64,height=48}"];
 
 fn analyze<'a>(study: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&["analyze", study, "-o", "out"], &SCENES[..], more].concat()

@@ -51,7 +51,7 @@ fn paper_rows(
     ];
     if area.lut_memory_packed != area.lut_memory {
         rows.push(row(
-            "  SRL16 in pairs".to_owned(),
+            "  SRL16 paired".to_owned(),
             [
                 (area.lut_total_packed, Some(ratio.lut_total_packed)),
                 (area.ff, Some(ratio.ff)),

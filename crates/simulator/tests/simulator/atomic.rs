@@ -32,6 +32,7 @@ fn a_run_leaves_its_folder_and_nothing_else() {
     assert_eq!(names(folder.path()), ["new"]);
     assert_eq!(names(&folder.path().join("new")), ["out"]);
     let expected = [
+        ".foveate",
         "active.npy",
         "frames.csv",
         "rendered",
@@ -132,9 +133,13 @@ fn a_folder_that_holds_something_is_refused_unless_overwriting_is_asked_for() {
     let error = zero(&output, &plain()).unwrap_err();
     assert!(matches!(error, SimulatorError::Output(StagingError::NotEmpty { .. })), "{error}");
     assert!(error.to_string().contains("out` is not empty"));
-    fs::write(output.join("stale.npy"), "").unwrap();
+    // A file that is not on the list of what was written belongs to somebody else.
+    fs::write(output.join("mine.npy"), "").unwrap();
+    let error = zero(&output, &overwrite()).unwrap_err();
+    assert!(error.to_string().contains("mine.npy"), "{error}");
+    fs::remove_file(output.join("mine.npy")).unwrap();
     zero(&output, &overwrite()).unwrap();
-    assert!(!output.join("stale.npy").exists() && output.join("summary.json").exists());
+    assert!(output.join("summary.json").exists());
     assert_eq!(names(folder.path()), ["out"]);
 }
 

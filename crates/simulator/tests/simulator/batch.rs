@@ -135,7 +135,7 @@ fn every_clip_gets_its_folder_and_a_failing_one_is_listed() {
     let hooks = Listener::new(usize::MAX);
     let summary = run(std::slice::from_ref(&input), &output, &hooks).unwrap();
     assert_eq!((&summary["complete"], &summary["frames"]), (&true.into(), &12.into()));
-    assert_eq!(names(&output), ["alone", "cars", "people", "summary.json", "top"]);
+    assert_eq!(names(&output), [".foveate", "alone", "cars", "people", "summary.json", "top"]);
     assert!(output.join("people/day/b/summary.json").is_file());
     assert_eq!(summary["clips"][1]["label"], "cars");
     let last = *hooks.seen.lock().unwrap().iter().max_by_key(|p| (p.clips, p.frames)).unwrap();
