@@ -45,7 +45,7 @@ fn check_tells_how_fast_each_organization_is() {
     let text = check(&["--preset", "serial"]);
     for part in [
         "784, 1 region each, parallel feed",
-        "128 words of 8 bits, distributed",
+        "128 words of 8 bits, 128 per slot for raw 8x8",
         "7905: 64 to take the frame, 7840 steps, 1 between",
         "31625 frames/s at 250 MHz",
         "ready_o",

@@ -100,7 +100,7 @@ fn the_whole_folder_is_simulated() {
     let dir = tempfile::tempdir().unwrap();
     for (organization, from, to) in [
         ("pipelined", "pixel_i[REGION*8+:8]", "pixel_i[(REGION^1)*8+:8]"),
-        ("serial", ".RAW_SIDE(4)", ".RAW_SIDE(6)"),
+        ("serial", ".pixel_i(pixel_i),", ".pixel_i(~pixel_i),"),
     ] {
         let core = format!("core-{organization}");
         let organization = format!("hardware.organization=\"{organization}\"");

@@ -149,7 +149,7 @@ fn depths_sizes_memories_and_constants_agree() {
             spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
             spatial.min_score = Some(Decimal::whole(0));
         }
-        config.temporal.level = Some(1);
+        config.temporal.level = Some(u32::from(bits > 1));
         config.region.size = 4;
         config.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
         config.temporal.reference = Reference::ALL[turn % 2];

@@ -136,7 +136,7 @@ fn large_folds_show_everything() {
 fn what_vectors_cannot_show_is_said() {
     for (toml, words) in [
         (
-            "hardware.thresholds = 'constant'\n[[spatial]]\nfeature = 'edge'\nlevel = 1530\nmin_score = 1",
+            "hardware.thresholds = 'constant'\n[[spatial]]\nfeature = 'edge'\nlevel = 1529\nmin_score = 64",
             "no region is active",
         ),
         (

@@ -147,7 +147,7 @@ fn every_clip_gets_its_folder_and_a_failing_one_is_listed() {
     let other = dir.path().join("other");
     let summary = run(&[input], &other, &Listener::new(usize::MAX)).unwrap();
     assert_eq!(summary["problem"], "2 of 6 clips are not complete");
-    assert_eq!(names(&other), ["cars", "people", "summary.json", "top"]);
+    assert_eq!(names(&other), [".foveate", "cars", "people", "summary.json", "top"]);
     let clips = summary["clips"].as_array().unwrap();
     assert!(
         clips[0]["problem"].as_str().unwrap().contains("1.png") && clips[0]["output"].is_null()
