@@ -201,7 +201,7 @@ mod tests {
             "143,472",
             "125,443",
             "10.61%",
-            "SRL16 in pairs",
+            "SRL16 paired",
             "LUT6 CARRY4x2",
         ] {
             assert!(text.contains(part), "{part} in\n{text}");

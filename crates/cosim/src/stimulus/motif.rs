@@ -220,7 +220,7 @@ mod tests {
                 let mut config = Config::default();
                 config.frame.pixel_bits = bits;
                 config.spatial[0].level = Some(1);
-                config.temporal.level = Some(1);
+                config.temporal.level = Some(u32::from(bits > 1));
                 let design = config.validate().unwrap();
                 let mut artist = Artist::new(&design, side, Random::new(u64::from(bits * side)));
                 for round in 0..60 {

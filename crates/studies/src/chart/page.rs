@@ -161,7 +161,7 @@ mod tests {
             let [digit, point, comma] = ["1", ".", ","].map(|text| inked(text, size));
             assert_eq!(digit.last(), point.last(), "size {size}");
             assert!(comma.last() >= digit.last(), "size {size}");
-            assert!(digit.len() > 3 * point.len(), "size {size}");
+            assert!(digit.len() > 2 * point.len(), "size {size}: {} {}", digit.len(), point.len());
         }
     }
 }
