@@ -86,7 +86,7 @@ fn what_cannot_be_run_is_refused() {
 #[test]
 fn ctrl_c_stops_it() {
     let dir = tempfile::tempdir().unwrap();
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"))
+    let mut child = crate::common::listening()
         .args(["bench", "--frames", "2", "--seconds", "600"])
         .env("FOVEATE_CACHE", "off")
         .env("TMPDIR", dir.path())

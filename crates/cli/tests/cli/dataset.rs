@@ -76,7 +76,7 @@ fn ctrl_c_leaves_a_set_that_can_be_read() {
     let file = fs::File::create(dir.path().join("long-images")).unwrap();
     std::io::Write::write_all(&mut &file, &header).unwrap();
     file.set_len(16 + 256 * u64::from(count)).unwrap();
-    let child = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"))
+    let child = crate::common::listening()
         .args(["dataset", "long-images", "-o", "out"])
         .current_dir(dir.path())
         .stdout(std::process::Stdio::null())

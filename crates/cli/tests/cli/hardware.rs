@@ -192,7 +192,7 @@ fn ctrl_c_stops_a_build() {
     let dir = tempfile::tempdir().unwrap();
     let temporary = dir.path().join("tmp");
     fs::create_dir(&temporary).unwrap();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_foveate"))
+    let mut child = crate::common::listening()
         .args(["cosim", "--full", "--rounds", "0", "scene:street"])
         .current_dir(dir.path())
         .env("FOVEATE_CACHE", "off")

@@ -11,11 +11,13 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
 
+use crate::common::listening;
+
 /// The codes of 128 and the number of the signal.
 const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
 
 fn start(folder: &Path, args: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_foveate"))
+    listening()
         .args(args)
         .current_dir(folder)
         .env("FOVEATE_PROGRESS", "0")
@@ -126,7 +128,7 @@ fn sigterm_stops_a_tool() {
     fs::write(&wrapper, script).unwrap();
     assert!(Command::new("chmod").arg("+x").arg(&wrapper).status().unwrap().success());
     let pids = dir.path().join("pids");
-    let child = Command::new(env!("CARGO_BIN_EXE_foveate"))
+    let child = listening()
         .args(["estimate", "--preset", "bare"])
         .env("FOVEATE_YOSYS", &wrapper)
         .env("FOVEATE_CACHE", "off")

@@ -76,7 +76,7 @@ fn bad_inputs_end_with_2_and_leave_nothing() {
 #[test]
 fn ctrl_c_leaves_what_was_done() {
     let dir = tempfile::tempdir().unwrap();
-    let child = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"))
+    let child = crate::common::listening()
         .args(["simulate", "scene:street", "-o", "out", "--frames", "100000"])
         .current_dir(dir.path())
         .stdout(std::process::Stdio::null())

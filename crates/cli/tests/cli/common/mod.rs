@@ -13,6 +13,19 @@ pub(crate) fn foveate(args: &[&str]) -> Command {
     command
 }
 
+/// The command as a terminal starts it, to be sent signals. Tests that run under `nohup` or in the background of a
+/// script inherit signals that are ignored, and so would the command.
+#[cfg(unix)]
+pub(crate) fn listening() -> std::process::Command {
+    if cfg!(target_os = "linux") {
+        let mut command = std::process::Command::new("env");
+        command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_foveate")]);
+        command
+    } else {
+        std::process::Command::new(env!("CARGO_BIN_EXE_foveate"))
+    }
+}
+
 /// What a command printed, and its exit code.
 pub(crate) struct Outcome {
     pub(crate) code: i32,
