@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use foveate_cosim::{Agreement, Job, Level as Simulated, Netlist, Simulator, Stimulus};
+use foveate_cosim::{Agreement, Job, Level as Simulated, Simulator, Stimulus};
 use foveate_design::Design;
 use foveate_frame::Frame;
 
@@ -36,7 +36,7 @@ pub(crate) fn netlist(
     let mut job = Job::new(&part, stimulus, &folder.path().join("replay"))?;
     job.limit = LIMIT;
     let start = Instant::now();
-    job.netlist = Some(Netlist::of(&job, tools.toolchain, tools.cache)?);
+    job.netlist = Some(job.synthesize(tools.toolchain, tools.cache)?);
     let synthesis = start.elapsed().as_secs_f64();
     job.simulator = Simulator::Iverilog;
     let report = job.run(tools.toolchain, tools.cache, &mut |_| {})?;

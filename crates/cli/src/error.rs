@@ -16,7 +16,7 @@ use foveate_studies::StudyError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-use crate::interrupt;
+use crate::interrupt::{self, DeafError};
 
 /// Why a command did not end well. The message is all that the user sees.
 #[derive(Debug, Error)]
@@ -38,6 +38,8 @@ pub(crate) enum CliError {
     Explore(Box<ExploreError>),
     #[error(transparent)]
     Output(#[from] StagingError),
+    #[error(transparent)]
+    Deaf(#[from] DeafError),
     /// A file or folder could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io { action: &'static str, path: PathBuf, source: std::io::Error },

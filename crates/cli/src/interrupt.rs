@@ -9,24 +9,30 @@ use std::sync::{Arc, OnceLock};
 use foveate_toolchain::Toolchain;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::{register, register_conditional_shutdown, register_usize};
-
-use crate::error::CliError;
+use thiserror::Error;
 
 /// What shells add to the number of the signal that ended a program.
 const OF_SIGNALS: u8 = 128;
 /// The number of Ctrl-C everywhere.
 const KEYBOARD: u8 = 2;
 
+/// The system does not let signals be heard.
+#[derive(Debug, Error)]
+#[error("cannot listen for signals: {reason}")]
+pub(crate) struct DeafError {
+    reason: String,
+}
+
 static SIGNAL: OnceLock<Arc<AtomicUsize>> = OnceLock::new();
 
 /// A flag that the first signal sets. A second Ctrl-C ends the process at once; SIGTERM and SIGHUP may come
 /// more than once without a person behind it (`timeout` sends two).
-pub(crate) fn flag() -> Result<Arc<AtomicBool>, CliError> {
+pub(crate) fn flag() -> Result<Arc<AtomicBool>, DeafError> {
     static LISTENING: OnceLock<Result<Arc<AtomicBool>, String>> = OnceLock::new();
     LISTENING
         .get_or_init(|| listen().map_err(|error| error.to_string()))
         .clone()
-        .map_err(|error| CliError::Usage(format!("cannot listen for signals: {error}")))
+        .map_err(|reason| DeafError { reason })
 }
 
 /// The exit code of a command that was told to stop: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
@@ -37,7 +43,7 @@ pub(crate) fn exit_code() -> u8 {
 }
 
 /// The tools of this machine, stopped by the same signals.
-pub(crate) fn toolchain() -> Result<Toolchain, CliError> {
+pub(crate) fn toolchain() -> Result<Toolchain, DeafError> {
     Ok(Toolchain::system().cancelled_by(flag()?))
 }
 
@@ -52,7 +58,11 @@ fn listen() -> io::Result<Arc<AtomicBool>> {
             register_conditional_shutdown(signal, code, Arc::clone(&pressed))?;
             register(signal, pressed)?;
         }
-        register_usize(signal, Arc::clone(&number), usize::try_from(signal).unwrap_or(0))?;
+        register_usize(
+            signal,
+            Arc::clone(&number),
+            usize::try_from(signal).expect("a signal has a positive number"),
+        )?;
         register(signal, Arc::clone(&flag))?;
     }
     Ok(flag)

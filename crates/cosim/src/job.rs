@@ -79,6 +79,16 @@ impl Job {
         })
     }
 
+    /// What synthesis makes of the Verilog, for [`Job::netlist`].
+    ///
+    /// # Errors
+    /// When Yosys is missing or refuses the Verilog, or a cell has no model.
+    pub fn synthesize(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Netlist, CosimError> {
+        let design = self.stimulus.level.design(&self.design)?;
+        let top = self.stimulus.level.top();
+        Netlist::of(&design, top, self.named_sources(), toolchain, cache)
+    }
+
     /// Runs it to a report; a mismatch is a result and no error.
     ///
     /// # Errors
@@ -136,7 +146,7 @@ impl Job {
     }
 
     /// The Verilog as the tools take it.
-    pub(crate) fn named_sources(&self) -> Vec<Source> {
+    fn named_sources(&self) -> Vec<Source> {
         self.sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect()
     }
 

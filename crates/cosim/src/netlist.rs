@@ -7,7 +7,7 @@
 
 use crate::cells::cell_models;
 use crate::error::CosimError;
-use crate::job::Job;
+use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, ToolRecord, sources};
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256, yosys};
@@ -37,23 +37,23 @@ pub struct NetlistRecord {
 }
 
 impl Netlist {
-    /// Synthesizes what a job would simulate. At the level of one RPU it is that of the array of the
-    /// design, as in the estimate.
-    ///
-    /// # Errors
-    /// When Yosys is missing or refuses the Verilog, or a cell has no model.
-    pub fn of(job: &Job, toolchain: &Toolchain, cache: &Cache) -> Result<Self, CosimError> {
-        let design = job.stimulus.level.design(&job.design)?;
-        let top = job.stimulus.level.top();
-        let mut verilog = job.named_sources();
+    /// Synthesizes `top` of a design, that of the level, from Verilog for it. At the level of one RPU it is
+    /// that of the array of the design, as in the estimate.
+    pub(crate) fn of(
+        design: &Design,
+        top: Top,
+        mut verilog: Vec<Source>,
+        toolchain: &Toolchain,
+        cache: &Cache,
+    ) -> Result<Self, CosimError> {
         if design.unit().rpu_in_rcm {
             // Verilog of one RPU lacks the array around it, which comes last.
-            let array = sources(foveate_emit::verilog(&design, Top::Rcm)).pop();
+            let array = sources(foveate_emit::verilog(design, Top::Rcm)).pop();
             let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
             verilog.extend(array.filter(is_new));
         }
         let synthesis =
-            EstimateJob::with_sources(&design, top, verilog).synthesize(toolchain, cache)?;
+            EstimateJob::with_sources(design, top, verilog).synthesize(toolchain, cache)?;
         let library = yosys::cell_models(toolchain, cache, "xilinx/cells_sim.v")?;
         let models = cell_models(&library, synthesis.cells()?)?;
         let sources =

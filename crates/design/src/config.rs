@@ -48,6 +48,20 @@ impl Default for Config {
     }
 }
 
+impl Config {
+    /// The same camera at `bits` bits per pixel, 1..=16: thresholds that are written are scaled from the
+    /// configuration's own depth, those that are left out stay so.
+    #[must_use]
+    pub fn at_depth(&self, bits: u32) -> Self {
+        let from = self.frame.pixel_bits;
+        let mut config = self.clone();
+        config.frame.pixel_bits = bits;
+        config.temporal.level = self.temporal.level.map(|value| depth::level(value, from, bits));
+        config.spatial = self.spatial.iter().map(|entry| entry.at_depth(from, bits)).collect();
+        config
+    }
+}
+
 /// `[frame]`: size in pixels and bits per pixel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -136,6 +150,16 @@ impl SpatialConfig {
             level: self.level.or(level),
             min_score: self.min_score.or(Some(min_score)),
             mean_fraction_bits: self.mean_fraction_bits.or(defaults.mean_fraction_bits),
+        }
+    }
+
+    /// The entry of a configuration of `from` bits for one of `to` bits.
+    fn at_depth(&self, from: u32, to: u32) -> Self {
+        let min_score = |value| depth::min_score(self.feature, value, from, to);
+        Self {
+            level: self.level.map(|value| depth::level(value, from, to)),
+            min_score: self.min_score.map(min_score),
+            ..self.clone()
         }
     }
 }

@@ -14,35 +14,10 @@
 
 use std::fmt::Display;
 
-use crate::{Config, Decimal, FeatureKind, SpatialConfig};
+use crate::{Decimal, FeatureKind};
 
 /// The depth of which defaults are.
 pub(crate) const DEFAULT_BITS: u32 = 8;
-
-impl Config {
-    /// The same camera at `bits` bits per pixel, 1..=16: thresholds that are written are scaled from the
-    /// configuration's own depth, those that are left out stay so.
-    #[must_use]
-    pub fn at_depth(&self, bits: u32) -> Self {
-        let from = self.frame.pixel_bits;
-        let mut config = self.clone();
-        config.frame.pixel_bits = bits;
-        config.temporal.level = self.temporal.level.map(|value| level(value, from, bits));
-        config.spatial = self.spatial.iter().map(|entry| entry.at_depth(from, bits)).collect();
-        config
-    }
-}
-
-impl SpatialConfig {
-    /// The entry of a configuration of `from` bits for one of `to` bits.
-    pub(crate) fn at_depth(&self, from: u32, to: u32) -> Self {
-        Self {
-            level: self.level.map(|value| level(value, from, to)),
-            min_score: self.min_score.map(|value| min_score(self.feature, value, from, to)),
-            ..self.clone()
-        }
-    }
-}
 
 /// A level of `from` bits at `to` bits.
 pub(crate) fn level(value: u32, from: u32, to: u32) -> u32 {

@@ -3,7 +3,7 @@
 //! Its README is in [`crate::readme`].
 
 use crate::organization::Emitter;
-use crate::verilog::text_of;
+use crate::text::text_of;
 use crate::{SourceFile, Top, banner, verilog};
 use askama::Template;
 use foveate_design::Design;

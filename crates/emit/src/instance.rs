@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How `rcm` is put into somebody's own Verilog: every port with its width, thresholds with their values.
 
-use crate::readme::threshold_value;
+use crate::thresholds::threshold_value;
 use foveate_design::{Design, Direction, Port, PortRole};
 
 /// Declarations and an instance of `rcm`, as lines of Verilog-2005. Names are those of the ports without

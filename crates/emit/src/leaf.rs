@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
-use crate::organization::Emitter;
 use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Reference};
 
 /// A hand-written module of `rtl/`.
@@ -70,9 +69,8 @@ leaves! {
     ],
 }
 
-/// The leaves that `design` is made of, in compile order.
-pub(crate) fn of(design: &Design) -> impl Iterator<Item = &'static Leaf> {
-    let mut names = (Emitter::of(design).leaves)(design);
+/// The leaves of these names and those that they instantiate, in compile order.
+pub(crate) fn with_parts(mut names: Vec<&'static str>) -> impl Iterator<Item = &'static Leaf> {
     // Every leaf stands after those that it instantiates.
     for leaf in LEAVES.iter().rev() {
         if names.contains(&leaf.name) {

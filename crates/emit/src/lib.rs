@@ -13,12 +13,15 @@ mod rcm;
 mod readme;
 mod rpu;
 mod serial;
+mod text;
 mod thresholds;
+mod top;
 mod verilog;
 
 pub use crate::core::core;
 pub use leaf::{LEAVES, Leaf};
-pub use verilog::{Parameter, Top, verilog};
+pub use top::{Parameter, Top};
+pub use verilog::verilog;
 
 use foveate_design::{Design, PipelinedTiming};
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the Verilog of an organization is made of; the only place that lists them here.
 
-use crate::verilog::Top;
-use crate::{SourceFile, leaf, rcm, readme, serial};
-use foveate_design::{Design, Organization, Port};
+use crate::{SourceFile, Top, leaf, rcm, readme, serial};
+use foveate_design::{Design, Organization};
 
 /// What an organization brings.
 pub(crate) struct Emitter {
@@ -11,8 +10,6 @@ pub(crate) struct Emitter {
     pub(crate) leaves: fn(&Design) -> Vec<&'static str>,
     /// The generated modules that `Top` is made of, each after those it instantiates.
     pub(crate) modules: fn(&Design, Top) -> Vec<SourceFile>,
-    /// The range of a port whose width depends on the grid.
-    pub(crate) range: fn(&Port, &Design) -> Option<String>,
     /// The README of the core.
     pub(crate) readme: fn(&Design) -> String,
 }
@@ -24,13 +21,11 @@ impl Emitter {
             Organization::Pipelined => Self {
                 leaves: leaf::pipelined,
                 modules: rcm::modules,
-                range: rcm::range,
                 readme: readme::pipelined_readme,
             },
             Organization::Serial => Self {
                 leaves: |_| vec!["serial_array"],
                 modules: serial::modules,
-                range: serial::range,
                 readme: readme::serial_readme,
             },
         }

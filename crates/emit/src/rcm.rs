@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The modules of a pipelined design; fills `rcm.v`.
 
-use crate::verilog::{PortLine, Top, file, text_of};
-use crate::{SourceFile, banner, rpu};
+use crate::text::{PortLine, file, text_of};
+use crate::{SourceFile, Top, banner, rpu};
 use askama::Template;
 use foveate_design::{Design, Port, PortRole};
 
@@ -32,7 +32,7 @@ pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
 }
 
 /// The range of a port that has a value per region.
-pub(crate) fn range(port: &Port, _: &Design) -> Option<String> {
+fn range(port: &Port) -> Option<String> {
     match (port.per_lane, port.width) {
         (true, 1) => Some("[COLUMNS*ROWS-1:0]".to_owned()),
         (true, width) => Some(format!("[COLUMNS*ROWS*{width}-1:0]")),
@@ -47,7 +47,7 @@ fn render(design: &Design) -> String {
         banner: banner(design),
         columns: design.columns(),
         rows: design.rows(),
-        ports: PortLine::all(&ports, design),
+        ports: PortLine::all(&ports, range),
         pins,
     };
     text_of(&view)

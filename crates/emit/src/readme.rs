@@ -2,11 +2,12 @@
 //! The README of a core, one for each organization.
 
 use crate::instance::instance;
-use crate::verilog::text_of;
+use crate::text::text_of;
+use crate::thresholds::threshold_value;
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, PortRole, SerialTiming, Thresholds,
+    Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, SerialTiming, Thresholds,
 };
 
 #[derive(Template)]
@@ -161,7 +162,7 @@ fn rate(clocks: u64) -> String {
 fn longest_pause(design: &Design) -> u32 {
     let side = design.region_size();
     let most = |places: fn(&Design, u32) -> u32, regions: u32| {
-        (0..regions * side).map(|at| places(design, at)).max().unwrap_or(1)
+        (0..regions * side).map(|at| places(design, at)).max().expect("a frame has pixels")
     };
     match design.feed() {
         Feed::Parallel => 0,
@@ -222,16 +223,4 @@ fn port_row(port: &Port) -> PortRow {
 fn threshold(design: &Design, port: &Port) -> Option<ThresholdRow> {
     let value = threshold_value(design, port)?;
     Some(ThresholdRow { name: port.name.clone(), value })
-}
-
-/// The configured value of a threshold input; `None` for other ports.
-pub(crate) fn threshold_value(design: &Design, port: &Port) -> Option<u64> {
-    let feature = |kind| design.feature(kind);
-    match port.role {
-        PortRole::Level(kind) => Some(feature(kind)?.level()?.into()),
-        PortRole::MinScore(kind) => Some(feature(kind)?.min_score()),
-        PortRole::TemporalLevel => Some(design.temporal().level.into()),
-        PortRole::TemporalMinCount => Some(design.temporal().min_count.into()),
-        _ => None,
-    }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `rpu.v`: every number and name of the template is worked out here, from the design.
 
+use crate::text::{PortLine, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
-use crate::verilog::{PortLine, text_of};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
@@ -113,7 +113,7 @@ fn view(design: &Design) -> Rpu {
         banner: banner(design),
         summary: summary(design),
         latency: latency(design),
-        ports: PortLine::all(&design.rpu_ports(), design),
+        ports: PortLine::all(&design.rpu_ports(), |_| None),
         constants: constants(design),
         n: design.region_size(),
         p: design.pixel_bits(),

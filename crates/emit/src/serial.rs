@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
 
+use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
-use crate::verilog::{PortLine, Top, file, text_of};
-use crate::{SourceFile, banner};
+use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     AreaKind, Combine, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
@@ -56,7 +56,7 @@ pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
 }
 
 /// The range of a port whose width depends on the grid.
-pub(crate) fn range(port: &Port, design: &Design) -> Option<String> {
+fn range(port: &Port, design: &Design) -> Option<String> {
     match (port.role, port.per_lane, port.width) {
         (PortRole::Region | PortRole::ForwardRegion, _, _) => Some(format!("[{REGION_RANGE}:0]")),
         (_, true, 1) => Some(format!("[{}-1:0]", lanes(design))),
@@ -89,7 +89,7 @@ fn view(design: &Design, named: &Design, top: Top) -> Serial {
         module: top.module(),
         columns: design.columns(),
         rows: design.rows(),
-        ports: PortLine::all(&top.ports(named), named),
+        ports: PortLine::all(&top.ports(named), |port| range(port, named)),
         constants: constants(design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
         parameters: parameters(design),
         fold: design.fold(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds as inputs or constants, and scores in words: the same for every organization.
 
-use foveate_design::{Design, FeatureKind, PortRole, Thresholds};
+use foveate_design::{Design, FeatureKind, Port, PortRole, Thresholds};
 
 /// A threshold that is built in.
 pub(crate) struct Constant {
@@ -26,11 +26,14 @@ pub(crate) fn summary(design: &Design) -> String {
 /// The input port of a threshold, or the constant that takes its place.
 pub(crate) fn signal(design: &Design, role: PortRole) -> String {
     match design.thresholds() {
-        Thresholds::Runtime => design
-            .rpu_ports()
-            .into_iter()
-            .find(|port| port.role == role)
-            .map_or_else(String::new, |port| port.name),
+        Thresholds::Runtime => {
+            design
+                .rpu_ports()
+                .into_iter()
+                .find(|port| port.role == role)
+                .expect("a threshold of the design is a port")
+                .name
+        }
         Thresholds::Constant => constant_name(role),
     }
 }
@@ -42,7 +45,7 @@ fn constant_name(role: PortRole) -> String {
         PortRole::MinScore(kind) => format!("{}_MIN", upper(kind)),
         PortRole::TemporalLevel => "TEMPORAL_LEVEL".to_owned(),
         PortRole::TemporalMinCount => "TEMPORAL_MIN".to_owned(),
-        _ => String::new(),
+        _ => unreachable!("{role:?} is no threshold"),
     }
 }
 
@@ -65,4 +68,16 @@ pub(crate) fn constants(design: &Design) -> Vec<Constant> {
     add(PortRole::TemporalLevel, design.pixel_bits(), temporal.level.into());
     add(PortRole::TemporalMinCount, design.count_bits(), temporal.min_count.into());
     list
+}
+
+/// The configured value of a threshold input; `None` for other ports.
+pub(crate) fn threshold_value(design: &Design, port: &Port) -> Option<u64> {
+    let feature = |kind| design.feature(kind);
+    match port.role {
+        PortRole::Level(kind) => Some(feature(kind)?.level()?.into()),
+        PortRole::MinScore(kind) => Some(feature(kind)?.min_score()),
+        PortRole::TemporalLevel => Some(design.temporal().level.into()),
+        PortRole::TemporalMinCount => Some(design.temporal().min_count.into()),
+        _ => None,
+    }
 }

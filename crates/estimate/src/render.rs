@@ -6,7 +6,7 @@ mod paper;
 use crate::area::Area;
 use crate::levels::LogicPath;
 use crate::report::{LeafArea, Paths, Report, ToolRecord};
-use crate::table::{Table, grouped, wrap};
+use crate::table::{Table, grouped, header, wrap};
 use paper::paper_table;
 
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];
@@ -171,10 +171,6 @@ fn leaf_row(leaf: &LeafArea) -> Vec<String> {
     let mut row = vec![name, grouped(leaf.instances)];
     row.extend(area_row("", &leaf.area).into_iter().skip(1).take(6));
     row
-}
-
-fn header(first: &str, columns: &[&str]) -> Vec<String> {
-    std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
 }
 
 /// Block RAM as every table has it: in units of `RAMB36`, of which a `RAMB18` is half.

@@ -92,6 +92,11 @@ impl Table {
     }
 }
 
+/// The header of a table: that of the first column, and those of the figures.
+pub(crate) fn header(first: &str, columns: &[&str]) -> Vec<String> {
+    std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
+}
+
 fn line(row: &[String], columns: &[usize]) -> String {
     let mut text = String::new();
     for (index, (cell, &width)) in row.iter().zip(columns).enumerate() {

@@ -2,32 +2,17 @@
 //! The street: a backdrop that is painted once, and what moves in front of it.
 
 mod buildings;
+mod setting;
 mod traffic;
 mod weather;
 
 use crate::canvas::{Canvas, Pen, UNIT};
+use setting::GROUND;
 
-/// Where the houses stand, in units from the top.
-const GROUND: i64 = 128;
+pub(crate) use setting::Mood;
+
 /// Upper and lower border of the road.
 const ROAD: (i64, i64) = (142, 206);
-
-/// Time of day and weather.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mood {
-    Day,
-    Night,
-}
-
-impl Mood {
-    /// Daylight in 256ths.
-    fn light(self) -> u32 {
-        match self {
-            Self::Day => 256,
-            Self::Night => 52,
-        }
-    }
-}
 
 /// A street of one size.
 #[derive(Clone, Debug)]

@@ -10,6 +10,7 @@
 //! engine and the cycle-level array.
 
 mod case;
+mod depth;
 mod designs;
 mod pixels;
 mod row;
@@ -17,26 +18,8 @@ mod trio;
 
 use rayon::prelude::*;
 
+pub use depth::Depth;
 pub use row::Row;
-
-/// How much of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Depth {
-    /// Seconds: what the tests run.
-    Short,
-    /// Minutes: all that is promised.
-    Full,
-}
-
-impl Depth {
-    /// One of two numbers.
-    fn pick<T>(self, short: T, full: T) -> T {
-        match self {
-            Self::Short => short,
-            Self::Full => full,
-        }
-    }
-}
 
 /// Runs every case, side by side; `done` hears how many of how many are finished. Rows come in the order
 /// of the documentation; those of cases that had not begun when `cancelled` became true are missing.

@@ -22,13 +22,12 @@ use tempfile::TempDir;
 
 pub use self::entry::Entry;
 use self::entry::Hold;
+use self::evict::{BUILDING, LOGS};
 use self::limit::Limit;
 use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
 use crate::key::Key;
 
-const BUILDING: &str = ".building-";
-const LOGS: &str = "logs";
 /// How often a build is moved to its place while others come and go there.
 const ATTEMPTS: u32 = 3;
 

@@ -5,8 +5,8 @@ mod plan;
 mod text;
 
 use foveate_cosim::{
-    CosimError, CosimReport, Job, Netlist, Progress, Simulator, Summary, Verdict, junit_error,
-    junit_xml, not_simulated,
+    CosimError, CosimReport, Job, Progress, Simulator, Summary, Verdict, junit_error, junit_xml,
+    not_simulated,
 };
 use foveate_staging::{check_file, write_file};
 use foveate_toolchain::{Cache, Toolchain};
@@ -87,7 +87,7 @@ fn one(
     let shown = Shown::new(args.quiet);
     if args.netlist {
         shown.work("synthesizing with Yosys");
-        job.netlist = Some(Netlist::of(job, toolchain, cache)?);
+        job.netlist = Some(job.synthesize(toolchain, cache)?);
         job.simulator = Simulator::Iverilog;
     }
     let report = job.run(toolchain, cache, &mut |step| show(&shown, step));

@@ -7,6 +7,7 @@
 //! the vectors then hold, so that a bench which does not show everything never says `PASS`.
 
 mod grid;
+mod model;
 mod picture;
 mod pipelined;
 mod player;
@@ -20,9 +21,10 @@ use crate::error::CosimError;
 use crate::harness::{bench_file, told_bench};
 use foveate_design::{Design, Port};
 use foveate_emit::{SourceFile, Top};
+pub(crate) use model::{Applied, Model, Record};
 pub(crate) use picture::Picture;
 use player::Player;
-pub(crate) use player::{Applied, Model, Record, model};
+pub(crate) use player::model;
 use script::{FRAMES, Script};
 use std::sync::atomic::AtomicBool;
 use tape::Tape;

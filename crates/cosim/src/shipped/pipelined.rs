@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One RPU or an array of them: a pixel of every region at every clock, back to back.
 
-use super::player::{Applied, Model, Record};
+use super::model::{Applied, Model, Record};
 use crate::layout::Layout;
 use crate::stimulus::{Inputs, Machine, PipelinedCodec};
 use foveate_design::{Design, PipelinedTiming};

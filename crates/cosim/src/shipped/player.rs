@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Plays a script to the cycle-level model, clock by clock, and records it.
 
+use super::model::{Applied, Model, Record};
 use super::script::{Script, Shot};
 use super::tape::Tape;
 use super::{pipelined, serial};
 use crate::error::CosimError;
-use crate::layout::Layout;
 use foveate_design::{Design, Organization};
 use foveate_emit::Top;
-use foveate_frame::Frame;
 use foveate_model::Thresholds;
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,53 +18,6 @@ const FORGOTTEN: usize = 3;
 const PAUSE_EVERY: usize = 29;
 /// Clocks after a frame at which pixels are offered that an array at work must not take.
 const REFUSED: usize = 3;
-
-/// A cycle-level model with its values in records.
-pub(crate) trait Model {
-    /// Pixels that the port takes at once.
-    fn width(&self) -> usize;
-    /// What the pixel port takes of a frame, one after the other.
-    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>>;
-    /// One edge.
-    fn clock(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    );
-    /// As many edges without a pixel as [`Model::quiet_clocks`] says, at once.
-    fn skip(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    );
-    /// For how many clocks without a pixel the outputs stay as they are.
-    fn quiet_clocks(&self) -> u64;
-    /// Whether a pixel is taken.
-    fn is_ready(&self) -> bool;
-    /// Clocks after the last pixel of a frame until everything has been decided that does not wait for
-    /// another frame; more where the model is ready again before.
-    fn settling_clocks(&self) -> u64;
-    /// Frames that must follow before the pixels of a frame have left.
-    fn frames_behind(&self) -> u32;
-}
-
-/// What is applied for a clock.
-pub(crate) struct Applied<'a> {
-    pub(crate) reset: bool,
-    pub(crate) valid: bool,
-    pub(crate) pixels: &'a [u16],
-    pub(crate) thresholds: &'a Thresholds,
-}
-
-/// What goes in and what comes out, as bytes.
-pub(crate) struct Record {
-    pub(crate) input: Vec<u8>,
-    pub(crate) expected: Vec<u8>,
-}
 
 /// The model of an organization; the only place that lists them here.
 pub(crate) fn model(organization: Organization) -> fn(&Design, Top) -> Box<dyn Model> {

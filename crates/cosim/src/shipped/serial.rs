@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A serial array: it takes a frame, works on it, and is ready again when everything has left.
 
-use super::player::{Applied, Model, Record};
+use super::model::{Applied, Model, Record};
 use crate::layout::Layout;
 use crate::stimulus::{Feed, SerialCodec};
 use foveate_design::Design;

@@ -12,6 +12,7 @@ mod gauge;
 mod motif;
 mod pipelined;
 mod random;
+mod run;
 mod sequence;
 mod serial;
 
@@ -24,6 +25,7 @@ pub(crate) use motif::{Artist, Motif};
 pub use pipelined::PipelinedCodec;
 pub(crate) use pipelined::{Inputs, Machine};
 pub(crate) use random::Random;
+use run::Run;
 pub(crate) use serial::Feed;
 pub use serial::SerialCodec;
 use std::sync::atomic::AtomicBool;
@@ -46,19 +48,6 @@ pub struct Stimulus {
     pub rounds: u32,
     /// Frames of the caller, of the size and depth of the design.
     pub frames: Vec<Frame>,
-}
-
-/// What the driver of an organization is given.
-struct Run<'a> {
-    stimulus: &'a Stimulus,
-    /// The design of the caller's frames.
-    design: &'a Design,
-    /// The design that is simulated, at the level of the stimulus.
-    simulated: &'a Design,
-    recorder: &'a mut Recorder,
-    cancel: &'a AtomicBool,
-    /// Hears how many sequences of how many are done.
-    progress: &'a mut dyn FnMut(u64, u64),
 }
 
 /// Runs the model of an organization and records; the only place that lists them here.
@@ -103,7 +92,10 @@ impl Stimulus {
         self.check_size(&simulated)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&simulated))?;
         let run = Run {
-            stimulus: self,
+            level: self.level,
+            seed: self.seed,
+            rounds: self.rounds,
+            frames: &self.frames,
             design,
             simulated: &simulated,
             recorder: &mut recorder,

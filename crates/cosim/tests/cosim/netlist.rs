@@ -28,8 +28,8 @@ fn job(toml: &str, level: Level, regions: (u32, u32), output: &Path) -> Job {
     let design = design(&Config::from_toml(toml).unwrap(), regions);
     let mut job = Job::new(&design, directed(level, 1), output).unwrap();
     job.simulator = Simulator::Iverilog;
-    job.netlist =
-        Some(Netlist::of(&job, &Toolchain::system(), &Cache::from_env().unwrap()).unwrap());
+    let netlist = job.synthesize(&Toolchain::system(), &Cache::from_env().unwrap());
+    job.netlist = Some(netlist.unwrap());
     job
 }
 

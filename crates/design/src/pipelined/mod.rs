@@ -6,7 +6,7 @@ mod timing;
 
 pub use timing::PipelinedTiming;
 
-use crate::organization::{Rules, Unit};
+use crate::rules::{Rules, Unit};
 use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 
 /// The organization as the answers to [`Rules`].

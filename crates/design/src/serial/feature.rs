@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a feature takes in a serial array: the steps of its pass, the widths of the registers that it uses.
 
-use super::LaneWidths;
 use crate::{Design, FeatureKind, SpatialFeature};
 
 /// Steps of the pass of a feature.
@@ -24,23 +23,38 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
     }
 }
 
-/// Makes the registers wide enough for a feature.
-pub(super) fn widen(widths: &mut LaneWidths, design: &Design, feature: &SpatialFeature) {
-    let (pixel, chain) = (design.pixel_bits(), widths.chain);
+/// Bits that a feature needs of the registers; 0 where it does not use one.
+#[derive(Default)]
+pub(super) struct Needs {
+    pub(super) accumulator: u32,
+    pub(super) second: u32,
+    pub(super) scale: u32,
+}
+
+/// The registers of a feature, in an array whose ring of lanes has words of `chain` bits.
+pub(super) fn needs(design: &Design, feature: &SpatialFeature, chain: u32) -> Needs {
+    let pixel = design.pixel_bits();
     match feature.kind() {
         // Three pixels less three others.
-        FeatureKind::Edge => widths.at_least(pixel + 3, 0, 0),
-        FeatureKind::Corner => {}
+        FeatureKind::Edge => Needs { accumulator: pixel + 3, ..Needs::default() },
+        FeatureKind::Corner => Needs::default(),
         FeatureKind::Mad => {
             let mean = feature.mean().expect("mad has a mean");
-            let mean_bits = pixel + mean.fraction_bits;
-            let divisor = design.count_bits() + mean_bits - 1;
-            widths.at_least((mean.dividend_bits + 1).max(chain), mean_bits, divisor);
+            let second = pixel + mean.fraction_bits;
+            Needs {
+                accumulator: (mean.dividend_bits + 1).max(chain),
+                second,
+                // The divisor.
+                scale: design.count_bits() + second - 1,
+            }
         }
         FeatureKind::Variance => {
             let sum = design.pixel_sum_bits();
-            let scale = pixel + design.count_bits();
-            widths.at_least((sum + 1).max(chain), sum, scale);
+            Needs {
+                accumulator: (sum + 1).max(chain),
+                second: sum,
+                scale: pixel + design.count_bits(),
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 //! What a serial design answers; see [`crate::organization`].
 
 use super::{SerialTiming, ports::ports};
-use crate::organization::{Rules, Unit};
+use crate::rules::{Rules, Unit};
 use crate::validate::in_range;
 use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bits of the registers of a serial lane and of the sequencer.
 
+use super::feature::needs;
 use crate::{Design, Feed, Filter, index_bits};
 
 /// Bits of the registers of a serial array.
@@ -38,16 +39,12 @@ impl LaneWidths {
             }),
         };
         for feature in design.features() {
-            super::feature::widen(&mut widths, design, feature);
+            let needs = needs(design, feature, chain);
+            widths.accumulator = widths.accumulator.max(needs.accumulator);
+            widths.second = widths.second.max(needs.second);
+            widths.scale = widths.scale.max(needs.scale);
         }
         widths
-    }
-
-    /// Makes registers at least so wide.
-    pub(super) fn at_least(&mut self, accumulator: u32, second: u32, scale: u32) {
-        self.accumulator = self.accumulator.max(accumulator);
-        self.second = self.second.max(second);
-        self.scale = self.scale.max(scale);
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which inputs of a cell its outputs wait for, what starts at it and what ends at it.
 
-use super::Weight;
+use super::path::Weight;
 use super::raw::{Bit, RawCell};
 use crate::cells::CellKind;
 

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
-use super::Weight;
 use super::cell::{CellTiming, carry_out};
+use super::path::Weight;
 use super::raw::{Bit, RawModule, RawNetlist};
 use crate::cells::CellKind;
 use crate::error::EstimateError;

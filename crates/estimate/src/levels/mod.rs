@@ -11,47 +11,14 @@
 
 mod cell;
 mod graph;
+mod path;
 mod raw;
 mod search;
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::EstimateError;
 use graph::Graph;
+pub use path::LogicPath;
 use raw::RawNetlist;
-
-/// The longest path of a module.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct LogicPath {
-    /// Logic levels.
-    pub levels: u32,
-    /// Blocks of four bits that it crosses in carry chains.
-    pub carry4: u32,
-    /// Where it starts: an input port, or the output of a register or memory.
-    pub from: String,
-    /// Where it ends: an output port, or a pin of a register or memory.
-    pub to: String,
-    /// The types of the cells between, in order.
-    pub through: Vec<String>,
-}
-
-/// What a path has passed; of two paths with equal levels the one with more carry blocks is longer.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Weight {
-    levels: u32,
-    carry4: u32,
-}
-
-impl Weight {
-    const NONE: Self = Self { levels: 0, carry4: 0 };
-    const LEVEL: Self = Self { levels: 1, carry4: 0 };
-    const CHAIN: Self = Self { levels: 1, carry4: 1 };
-    const BLOCK: Self = Self { levels: 0, carry4: 1 };
-
-    fn plus(self, other: Self) -> Self {
-        Self { levels: self.levels + other.levels, carry4: self.carry4 + other.carry4 }
-    }
-}
 
 /// The longest path of each of the `tops`, with all modules inside them.
 ///

@@ -2,7 +2,7 @@
 //! The longest path of a graph, net by net in the order in which signals arrive.
 
 use super::graph::Graph;
-use super::{LogicPath, Weight};
+use super::path::{LogicPath, Weight};
 use crate::error::EstimateError;
 
 /// How a signal arrives at a net at the latest.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The paper's table with the design's figures below.
 
-use super::header;
 use crate::area::Area;
 use crate::paper::BesidePaper;
 use crate::report::Report;
-use crate::table::{Table, grouped};
+use crate::table::{Table, grouped, header};
 
 pub(super) fn paper_table(report: &Report) -> Table {
     let mut rows = paper_rows("RPU", &report.unit, &report.rpu, &report.paper.rpu);

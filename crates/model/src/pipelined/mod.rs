@@ -20,6 +20,7 @@ mod median;
 mod moments;
 mod pixel;
 mod plan;
+mod ports;
 mod rcm;
 mod rpu;
 mod scores;
@@ -29,5 +30,6 @@ mod tail;
 mod temporal;
 mod window;
 
+pub use ports::{RpuInput, RpuOutput};
 pub use rcm::PipelinedRcm;
-pub use rpu::{PipelinedRpu, RpuInput, RpuOutput};
+pub use rpu::PipelinedRpu;

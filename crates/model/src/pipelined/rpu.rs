@@ -7,45 +7,11 @@ use super::center::Center;
 use super::median::MedianStage;
 use super::pixel::{Pixel, Step};
 use super::plan::{FEATURES, Plan};
+use super::ports::{RpuInput, RpuOutput};
 use super::tail::Tail;
 use super::window::WindowStage;
 use crate::Thresholds;
 use crate::feature::is_hit;
-
-/// What is applied to the inputs of an RPU at one edge.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RpuInput {
-    /// `rst_i`.
-    pub reset: bool,
-    /// `valid_i`.
-    pub valid: bool,
-    /// `pixel_i`.
-    pub pixel: u16,
-    /// `border_i`: {bottom, top, right, left}, left in bit 0; without meaning where the design
-    /// has no such port.
-    pub border: u8,
-}
-
-/// What the outputs of an RPU show after an edge.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RpuOutput {
-    /// `decision_valid_o`.
-    pub decision_valid: bool,
-    /// `srs_o`.
-    pub srs: bool,
-    /// `trs_o`.
-    pub trs: bool,
-    /// `active_o`.
-    pub active: bool,
-    /// The score ports, by number of the feature in the design; 0 where there is none.
-    pub scores: [u64; FEATURES],
-    /// `temporal_count_o`.
-    pub temporal_count: u32,
-    /// `forward_valid_o`.
-    pub forward_valid: bool,
-    /// `forward_pixel_o`.
-    pub forward_pixel: u16,
-}
 
 /// The cycle-level model of one RPU, as after a reset when new.
 #[derive(Clone, Debug)]

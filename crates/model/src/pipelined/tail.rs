@@ -15,10 +15,10 @@
 
 use foveate_design::Payload;
 
-use super::RpuOutput;
 use super::decide::Decision;
 use super::pixel::Step;
 use super::plan::Plan;
+use super::ports::RpuOutput;
 use super::scores::Scores;
 use super::store::Store;
 use super::temporal::TemporalScore;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Houses side by side, each with its own height, grey, roof and windows, and trees between them.
 
-use super::{GROUND, Mood};
+use super::setting::{GROUND, Mood};
 use crate::canvas::{OPAQUE, Pen, UNIT};
 use crate::noise::pick;
 

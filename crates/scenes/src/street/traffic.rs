@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What moves: three lanes of cars, each with its own speed, and a pedestrian.
 
-use super::Mood;
+use super::setting::Mood;
 use crate::canvas::{Canvas, OPAQUE, Pen, UNIT};
 use crate::noise::pick;
 

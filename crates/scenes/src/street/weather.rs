@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clouds by day; stars, street lamps and rain at night.
 
-use super::{GROUND, Mood};
+use super::setting::{GROUND, Mood};
 use crate::canvas::{Canvas, OPAQUE, Pen, UNIT, UNITS_HIGH};
 use crate::noise::pick;
 

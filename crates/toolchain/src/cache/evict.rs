@@ -6,9 +6,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use super::entry::Hold;
-use super::{BUILDING, LOGS};
 use crate::key::Key;
 
+/// Names of what lies beside the entries: a build under way, the logs of those that failed, and what is being
+/// removed.
+pub(super) const BUILDING: &str = ".building-";
+pub(super) const LOGS: &str = "logs";
 const REMOVING: &str = ".removing-";
 /// Held by the process that looks through the cache: one is enough.
 const GATE: &str = ".evicting";

@@ -12,15 +12,23 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::thread;
+use std::time::Duration;
 
-use super::{EXECUTABLE, LIMIT, MAIN, Optimize, makefile::Makefile, tools_key};
+use super::makefile::Makefile;
 use crate::cache::Cache;
 use crate::error::ToolError;
 use crate::files;
 use crate::invocation::Invocation;
+use crate::key::{Key, KeyBuilder};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
+/// What is linked.
+pub(super) const EXECUTABLE: &str = "simulator";
+/// The file of the job's `main`.
+pub(super) const MAIN: &str = "foveate_main.cpp";
+/// The longest that a run of Verilator or of the compiler may take.
+pub(super) const LIMIT: Duration = Duration::from_secs(1800);
 /// Bytes of generated C++ that one compiler run takes at most, if files are not larger themselves.
 const BUNDLE: u64 = 256 << 10;
 const COMPILERS: usize = 2;
@@ -36,6 +44,25 @@ const HEADER: &str = "#include \"verilated.h\"\n#include <chrono>\n#include <cst
 const HEADER_FILE: &str = "foveate_verilated.h";
 /// The name under which GCC and Clang look for a compiled header.
 const COMPILED_HEADER: &str = "foveate_verilated.h.gch";
+
+/// How much the C++ compiler optimizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Optimize {
+    /// `-O1`: quick to build, for short runs.
+    #[default]
+    Build,
+    /// `-O3`: quick to run, for long runs.
+    Run,
+}
+
+impl Optimize {
+    pub(super) const fn flag(self) -> &'static str {
+        match self {
+            Self::Build => "-O1",
+            Self::Run => "-O3",
+        }
+    }
+}
 
 /// A C++ compiler set up for Verilator's headers.
 pub(super) struct Compiler<'a> {
@@ -195,6 +222,16 @@ fn explain(error: ToolError) -> ToolError {
         Some(&(header, package)) => ToolError::MissingHeader { header, package },
         None => error,
     }
+}
+
+/// A key that depends on the versions of Verilator and the compiler.
+pub(super) fn tools_key(kind: &str, toolchain: &Toolchain) -> Result<KeyBuilder, ToolError> {
+    let verilator = toolchain.find(Tool::Verilator)?;
+    let compiler = toolchain.find(Tool::Cxx)?;
+    Ok(Key::builder(kind)
+        .field("verilator", verilator.identity())
+        .field("path", verilator.path.as_os_str().as_encoded_bytes())
+        .field("compiler", compiler.identity()))
 }
 
 /// What Verilator's headers want, with or without waves.

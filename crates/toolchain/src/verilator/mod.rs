@@ -10,42 +10,20 @@ mod makefile;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use crate::cache::Cache;
 use crate::error::ToolError;
 use crate::files::{self, Source};
 use crate::invocation::Invocation;
-use crate::key::{Key, KeyBuilder};
+use crate::key::Key;
 use crate::ports::{self, PortBits};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
-use compile::Compiler;
+pub use compile::Optimize;
+use compile::{Compiler, EXECUTABLE, LIMIT, MAIN, tools_key};
 use makefile::Makefile;
 
-const EXECUTABLE: &str = "simulator";
 const WAIVERS: &str = "waivers.vlt";
-const MAIN: &str = "foveate_main.cpp";
-const LIMIT: Duration = Duration::from_secs(1800);
-
-/// How much the C++ compiler optimizes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Optimize {
-    /// `-O1`: quick to build, for short runs.
-    #[default]
-    Build,
-    /// `-O3`: quick to run, for long runs.
-    Run,
-}
-
-impl Optimize {
-    const fn flag(self) -> &'static str {
-        match self {
-            Self::Build => "-O1",
-            Self::Run => "-O3",
-        }
-    }
-}
 
 /// What Verilator does about questionable Verilog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -211,14 +189,4 @@ fn include_dir(toolchain: &Toolchain) -> Result<PathBuf, ToolError> {
     let output = toolchain.run_checked(&ask.timeout(LIMIT))?;
     let root = String::from_utf8_lossy(&output.stdout).trim().to_owned();
     Ok(Path::new(&root).join("include"))
-}
-
-/// A key that depends on the versions of Verilator and the compiler.
-fn tools_key(kind: &str, toolchain: &Toolchain) -> Result<KeyBuilder, ToolError> {
-    let verilator = toolchain.find(Tool::Verilator)?;
-    let compiler = toolchain.find(Tool::Cxx)?;
-    Ok(Key::builder(kind)
-        .field("verilator", verilator.identity())
-        .field("path", verilator.path.as_os_str().as_encoded_bytes())
-        .field("compiler", compiler.identity()))
 }

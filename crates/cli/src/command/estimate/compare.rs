@@ -6,7 +6,7 @@ use foveate_design::{
 };
 use foveate_estimate::{Comparison, Skipped};
 
-use super::Flow;
+use super::flow::Flow;
 use crate::args::EstimateArgs;
 use crate::error::CliError;
 use crate::output;

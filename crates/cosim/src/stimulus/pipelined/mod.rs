@@ -6,8 +6,8 @@ mod driver;
 mod machine;
 mod session;
 
-use super::Run;
 use super::random::Random;
+use super::run::Run;
 use crate::error::CosimError;
 use crate::level::Level;
 use driver::Driver;
@@ -18,9 +18,9 @@ pub(crate) use machine::{Inputs, Machine};
 use session::Session;
 
 pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { stimulus, simulated, recorder, cancel, progress, .. } = run;
-    let mut random = Random::new(stimulus.seed);
-    let (machine, lanes) = match stimulus.level {
+    let Run { level, seed, rounds, frames, simulated, recorder, cancel, progress, .. } = run;
+    let mut random = Random::new(seed);
+    let (machine, lanes) = match level {
         Level::Rpu => (Machine::Rpu(Box::new(PipelinedRpu::new(simulated))), 1),
         Level::Rcm { .. } | Level::Full => {
             (Machine::Rcm(PipelinedRcm::new(simulated)), simulated.regions())
@@ -28,9 +28,5 @@ pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
     };
     let driver = Driver::new(simulated, machine, lanes as usize, recorder, random.fork(), cancel);
     let timing = PipelinedTiming::of(simulated);
-    Session::new(simulated, timing, stimulus.level, driver, random).run(
-        stimulus.rounds,
-        &stimulus.frames,
-        progress,
-    )
+    Session::new(simulated, timing, level, driver, random).run(rounds, frames, progress)
 }

@@ -15,8 +15,8 @@ mod parts;
 mod sequence;
 mod session;
 
-use super::Run;
 use super::random::Random;
+use super::run::Run;
 use crate::error::CosimError;
 pub use codec::SerialCodec;
 use driver::Driver;
@@ -25,13 +25,9 @@ use foveate_design::SerialTiming;
 use session::Session;
 
 pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { stimulus, design, simulated, recorder, cancel, progress } = run;
-    let mut random = Random::new(stimulus.seed);
+    let Run { level, seed, rounds, frames, design, simulated, recorder, cancel, progress } = run;
+    let mut random = Random::new(seed);
     let driver = Driver::new(simulated, recorder, random.fork(), cancel);
     let timing = SerialTiming::of(simulated);
-    Session::new(design, simulated, stimulus.level, &timing, driver, random).run(
-        stimulus.rounds,
-        &stimulus.frames,
-        progress,
-    )
+    Session::new(design, simulated, level, &timing, driver, random).run(rounds, frames, progress)
 }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One synthesis, for a report or for a row of the comparison.
+
+use foveate_design::Design;
+use foveate_emit::Top;
+use foveate_estimate::{EstimateJob, Report, estimate};
+use foveate_toolchain::{Cache, Toolchain};
+
+use crate::error::CliError;
+
+/// What every synthesis needs.
+pub(super) struct Flow {
+    pub(super) toolchain: Toolchain,
+    pub(super) cache: Cache,
+}
+
+impl Flow {
+    pub(super) fn estimate(&self, design: &Design, leaves: bool) -> Result<Report, CliError> {
+        let job = EstimateJob {
+            leaves_of: leaves.then(|| design.unit().split.to_owned()),
+            ..EstimateJob::of(design, Top::Rcm)
+        };
+        Ok(estimate(&self.toolchain, &self.cache, &job)?)
+    }
+}

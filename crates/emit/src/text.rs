@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What all generated Verilog is made of: files, filled templates, the ports of a header.
+
+use crate::SourceFile;
+use askama::Template;
+use foveate_design::{Direction, Port};
+
+/// The file of a module.
+pub(crate) fn file(module: &str, contents: String) -> SourceFile {
+    SourceFile { path: format!("rtl/{module}.v"), contents }
+}
+
+/// A filled template, ending in the newline that askama drops.
+pub(crate) fn text_of(view: &impl Template) -> String {
+    let text = view.render();
+    text.map_or_else(|e| unreachable!("a template only fails when writing does: {e}"), |t| t + "\n")
+}
+
+/// A port as a line of a module header.
+pub(crate) struct PortLine {
+    pub(crate) declaration: String,
+    pub(crate) doc: String,
+}
+
+impl PortLine {
+    /// The lines for `ports`, aligned; every one but the last ends in a comma. `range` says that of a port
+    /// whose width depends on the grid.
+    pub(crate) fn all(ports: &[Port], range: impl Fn(&Port) -> Option<String>) -> Vec<Self> {
+        let widest = |texts: &[String]| texts.iter().map(String::len).max().unwrap_or(0);
+        let ranges: Vec<_> =
+            ports.iter().map(|port| range(port).unwrap_or_else(|| fixed(port))).collect();
+        let mut names: Vec<_> = ports.iter().map(|port| format!("{},", port.name)).collect();
+        if let Some(last) = names.last_mut() {
+            last.pop();
+        }
+        let (range_width, name_width) = (widest(&ranges), widest(&names));
+        let line = |((port, range), name): ((&Port, &String), &String)| Self {
+            declaration: format!(
+                "{} wire {range:range_width$} {name:name_width$}",
+                direction(port)
+            ),
+            doc: port.doc.clone(),
+        };
+        ports.iter().zip(&ranges).zip(&names).map(line).collect()
+    }
+}
+
+fn direction(port: &Port) -> &'static str {
+    match port.direction {
+        Direction::Input => "input ",
+        Direction::Output => "output",
+    }
+}
+
+/// `[7:0]`, nothing for a single bit.
+fn fixed(port: &Port) -> String {
+    match port.width {
+        1 => String::new(),
+        width => format!("[{}:0]", width - 1),
+    }
+}
