@@ -153,7 +153,7 @@ fn feed(
 
 fn no_images_for(labels: &Path) -> FootageError {
     let shown = labels.display();
-    let problem = format!("`{shown}` is for the images of an IDX file, and there is none");
+    let problem = format!("`{shown}` belongs to an IDX file of images, but no input is one");
     FootageError::Option { option: "--labels", problem }
 }
 
