@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong beside a mismatch, which is a result and no error.
+//! Errors of a co-simulation. A mismatch is a result and not an error.
 
 use foveate_design::DesignError;
 use foveate_estimate::EstimateError;
@@ -67,7 +67,7 @@ pub enum CosimError {
         wanted: u32,
     },
 
-    /// There is nothing to simulate, which must not look like agreement.
+    /// There is nothing to simulate. This must not look like a run without a mismatch.
     #[error(
         "there is nothing to simulate: no frames are given and rounds is 0; give frames, or 1 round or more"
     )]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a user should know of inputs that can be read, but perhaps not as was meant: what is left out, and
-//! what looks like something else.
+//! Warnings about inputs that can be read, but perhaps not as intended: some files are ignored, or a file
+//! looks like something else.
 
 use std::path::Path;
 

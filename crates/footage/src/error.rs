@@ -30,7 +30,7 @@ pub enum FootageError {
         /// The path as given.
         path: PathBuf,
     },
-    /// An address of the network.
+    /// A URL.
     #[error(
         "`{url}` is a URL, but inputs must be files or devices of this machine; download it first, or let \
          ffmpeg read it: ffmpeg -i '{url}' -f yuv4mpegpipe - | foveate simulate - -o out"
@@ -39,7 +39,7 @@ pub enum FootageError {
         /// The address as given.
         url: String,
     },
-    /// Images and videos side by side, of which only one can be meant.
+    /// Images and videos in one place, of which only one kind can be read.
     #[error(
         "`{place}` holds images and videos ({images} and {videos}, such as `{video}`), so it is not clear which \
          to read; name the images, for example '{pattern}', or the video",
@@ -57,7 +57,7 @@ pub enum FootageError {
         /// A pattern of images that is there.
         pattern: String,
     },
-    /// A file without frames by its own account.
+    /// A file that holds no frames.
     #[error("`{}` holds no frames: {problem}", path.display())]
     Frameless {
         /// The file.
@@ -139,7 +139,7 @@ pub enum FootageError {
         /// What is wrong.
         problem: String,
     },
-    /// A choice that does not fit.
+    /// An option that cannot be used here.
     #[error("{option} cannot be used: {problem}")]
     Option {
         /// The option.
@@ -169,7 +169,7 @@ pub enum FootageError {
         /// Why.
         problem: String,
     },
-    /// A file that is no image of a known type.
+    /// A file that is not an image of a known type.
     #[error("`{}` is not an image of a supported type; convert it to one of {TYPES}", path.display())]
     UnsupportedType {
         /// The file.
@@ -248,7 +248,7 @@ pub enum FootageError {
     /// The configuration does not fit.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// Pixels are no frame.
+    /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
     /// The scene does not exist.

@@ -70,7 +70,7 @@ pub enum SimulatorError {
     /// Pixel events are differences in time.
     #[error("images of a set have no order in time; pixel events need a clip")]
     PixelEventsOfSet,
-    /// A data set is made of images that have nothing to do with each other.
+    /// A data set needs a set of unrelated images.
     #[error(
         "{inputs} is a clip, but a data set is made of unrelated images: IDX or CIFAR files, or image files \
          with --images set; for a clip, use `foveate simulate`"
@@ -110,7 +110,7 @@ pub enum SimulatorError {
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// Pixels are no frame.
+    /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
     /// The model refused a frame.

@@ -16,7 +16,7 @@ pub enum StudyError {
     /// An input cannot be read.
     #[error(transparent)]
     Footage(Box<FootageError>),
-    /// A point of the study is no design.
+    /// A point of the study is not a valid design.
     #[error(transparent)]
     Design(#[from] DesignError),
     /// The engine refused a frame.
