@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cycle-level model of a whole pipelined RCM, a clock over all RPUs at once.
+//! The cycle-level model of a whole pipelined RCM, which computes a clock of all RPUs at once.
 //!
 //! [`foveate_model::PipelinedRcm`] steps one RPU after the other and is easy to trust;
-//! [`PipelinedArray`] shows the same outputs after every edge and is fast. All RPUs of an RCM are in
-//! step: where a window is, whether it flushes, when a frame is done is the same in each of them, and is
-//! decided once per clock. What differs is data, kept one lane per RPU, so that the compiler turns every
-//! operation of a clock into vector instructions over all regions.
+//! [`PipelinedArray`] shows the same outputs after every edge and is fast. All RPUs of an RCM work in
+//! step: the position of a window, its flushes and the end of a frame are the same in each of them, and
+//! are computed once per clock. Only the data differ. They are kept in one lane per RPU, so the compiler
+//! turns every operation of a clock into vector instructions over all regions.
 //!
 //! ```text
 //!               lane:   0    1    2  ..  783
@@ -13,7 +13,7 @@
 //! counters            [c ] [c ] [c ] .. [c ]     a row of lanes per register
 //! ```
 //!
-//! Written from `docs/timing.md`; property tests hold it to the model at every clock.
+//! The model is written from `docs/timing.md`. Property tests compare the two at every clock.
 
 mod array;
 mod borders;

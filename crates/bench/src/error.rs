@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why there is no result; a missing tool is a row that says so, and a difference is a result.
+//! Errors of a bench. A missing tool is a row of the result, and a mismatch is a result; neither is an error.
 
 use foveate_cosim::CosimError;
 use foveate_design::DesignError;
@@ -16,7 +16,7 @@ pub enum BenchError {
     /// Vectors could not be made, or a simulator failed.
     #[error(transparent)]
     Cosim(#[from] CosimError),
-    /// Pixels are no frame.
+    /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
     /// A frame is not of the design's kind.
@@ -25,7 +25,7 @@ pub enum BenchError {
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// The part of the design that goes into the netlist is none.
+    /// The part of the design that goes into the netlist is not a valid design.
     #[error(transparent)]
     Design(#[from] DesignError),
     /// The vectors could not be read back.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The same frames through every level of a design: what each level costs, and whether they agree.
+//! Runs the same frames through every level of a design: what each level costs, and whether they agree.
 //!
 //! A [`Bench`] goes from the whole frame down to the gates, each level on one thread, one after the
 //! other, and compares each with one above it:
@@ -13,8 +13,8 @@
 //! netlist             Icarus            one RPU         every port at every clock = clear
 //! ```
 //!
-//! The levels with clocks see the same [`Recording`](foveate_cosim::Recording). Each is compared first, in
-//! a pass of its own, and then timed from memory: no files, no comparison, no look at the outputs.
+//! The levels with clocks see the same [`Recording`](foveate_cosim::Recording). Each level is first
+//! compared, in a separate pass, and then timed from memory, without files, comparison or reading of outputs.
 
 mod array;
 mod bench;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a bench came to.
+//! The result of a bench.
 
 use foveate_cosim::Agreement;
 use serde::Serialize;

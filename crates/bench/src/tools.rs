@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What levels run on that are programs of others.
+//! External programs that run some of the levels.
 
 use std::time::Duration;
 

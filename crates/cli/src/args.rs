@@ -140,26 +140,26 @@ pub(crate) struct GenerateArgs {
           foveate cosim --config core/design.toml --rtl core/rtl
           foveate cosim --level rcm --grid 3x2 --netlist")]
 pub(crate) struct CosimArgs {
-    /// Frames to run as well as the directed and random ones: images, folders, globs, scene:NAME
+    /// Frames to run in addition to the directed and random ones: images, folders, globs, scene:NAME
     #[arg(value_name = "INPUT")]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// What to simulate: one RPU that sees every region in turn, or an array. By default one RPU; with
-    /// --rtl both, if the folder has both, and a file that belongs to neither is an error
+    /// What to simulate: one RPU that sees every region in turn, or an array. The default is one RPU; with
+    /// --rtl it is both, if the folder has both, and a file that belongs to neither is an error
     #[arg(long, value_enum)]
     pub(crate) level: Option<Level>,
-    /// Regions of the array for --level rcm, columns x rows. By default 3x2, or more, so that there are
-    /// two lanes, but never more than the frame has
+    /// Regions of the array for --level rcm, columns x rows. The default is 3x2, or more if two lanes need
+    /// more regions, but at most the grid of the frame
     #[arg(long, value_name = "CxR", value_parser = parse_grid)]
     pub(crate) grid: Option<(u32, u32)>,
-    /// The whole array of the design
+    /// Simulate the whole array of the design
     #[arg(long, conflicts_with_all = ["level", "grid"])]
     pub(crate) full: bool,
     /// Simulator to run
     #[arg(long, value_enum, default_value_t = SimulatorChoice::Verilator)]
     pub(crate) simulator: SimulatorChoice,
-    /// Simulate what Yosys makes of the Verilog, the netlist that `estimate` counts; in Icarus
+    /// Simulate the netlist that Yosys makes of the Verilog and that `estimate` counts, in Icarus
     #[arg(long, conflicts_with = "simulator")]
     pub(crate) netlist: bool,
     /// Check the Verilog files of this folder instead of freshly generated ones
@@ -171,11 +171,11 @@ pub(crate) struct CosimArgs {
     /// Take at most this many frames of the inputs
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = at_least_one())]
     pub(crate) frames: u32,
-    /// How often to run the directed sequences, each time with other data; 0 runs only the frames of the
-    /// inputs. By default 3 for one RPU, 1 for an array
+    /// How often to run the directed sequences, each time with different data; 0 runs only the frames of
+    /// the inputs. The default is 3 for one RPU and 1 for an array
     #[arg(long, value_name = "N")]
     pub(crate) rounds: Option<u32>,
-    /// Folder that a failing run writes, to replay the mismatch
+    /// Folder to write if a run fails; it replays the mismatch
     #[arg(long, value_name = "DIR", default_value = "foveate-replay")]
     pub(crate) replay: PathBuf,
     /// Record waves (FST) of a failing run in its replay folder
@@ -187,7 +187,7 @@ pub(crate) struct CosimArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Show no progress, and nothing about a run without a mismatch
+    /// Show no progress, and print only runs with a mismatch
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }
@@ -211,11 +211,11 @@ pub(crate) enum SimulatorChoice {
 pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Print one table instead: the design in each organization, with each feature, with and without
-    /// the median
+    /// Print one table of variants instead: the design in each organization, with each feature, with and
+    /// without the median
     #[arg(long)]
     pub(crate) compare: bool,
-    /// Clock in MHz for the frame rates of --compare; an assumption, not what a design reaches
+    /// Assumed clock in MHz for the frame rates of --compare; the hardware may be slower
     #[arg(long, value_name = "MHZ", default_value_t = 250, value_parser = at_least_one(), requires = "compare")]
     pub(crate) clock: u32,
     /// Print JSON

@@ -47,7 +47,7 @@ pub(crate) enum CliError {
     #[error("{0}")]
     Usage(String),
     /// The user stopped it; what was done is there.
-    #[error("interrupted; what was done until then is in `{}`", path.display())]
+    #[error("interrupted; the results so far are in `{}`", path.display())]
     Interrupted { path: PathBuf },
     /// The user stopped something that leaves no files.
     #[error("interrupted after {done}")]

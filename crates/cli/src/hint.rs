@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Names that options had: which of the present ones is meant, only the user knows.
+//! Former names of options. Only the user knows which of the present options is meant.
 
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-const FPS: &str = "'--fps' has two names now: '--input-fps', the most frames per second that are taken of the \
-                   inputs, and '--min-fps', what a design must reach (check, fit)";
+const FPS: &str = "'--fps' is now two options: '--input-fps' limits the frames per second that are read from the \
+                   inputs, and '--min-fps' is the rate that a design must reach (check, fit)";
 
 /// The same error with what is said about an option that is gone.
 pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {

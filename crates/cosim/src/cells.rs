@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Models of the cells of a netlist: ours where Yosys has none that can be simulated, else its own.
+//! Simulation models of the cells of a netlist: those of Yosys, or our own if Yosys has none.
 //!
-//! Ours are of block RAM and DSP, each for just the modes that Yosys' mapping uses of it for a design;
-//! whatever else a netlist asks of them is refused when it is compiled.
+//! Our own models are for block RAM and DSP, and only for the modes that Yosys uses for a design. Any
+//! other mode is refused when the netlist is compiled.
 
 use crate::error::CosimError;
 use crate::harness::rendered;

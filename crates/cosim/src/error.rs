@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong beside a mismatch, which is a result and no error.
+//! Errors of a co-simulation. A mismatch is a result and not an error.
 
 use foveate_design::DesignError;
 use foveate_estimate::EstimateError;
@@ -21,8 +21,8 @@ pub enum CosimError {
 
     /// A cell of the netlist cannot be simulated.
     #[error(
-        "Yosys has no model of the cell `{cell}` to simulate; co-simulate the RTL of this design, \
-         and the netlist of one without it"
+        "Yosys has no simulation model of the cell `{cell}`; co-simulate the RTL of this design instead, \
+         or the netlist of a design without that cell"
     )]
     NoModel {
         /// The cell.
@@ -34,7 +34,7 @@ pub enum CosimError {
     Design(#[from] DesignError),
 
     /// The Verilog has no module of the name that is to be simulated.
-    #[error("no module `{top}` in the Verilog ({files}); give the sources of the whole core")]
+    #[error("the Verilog ({files}) has no module `{top}`; give the sources of the whole core")]
     NoTop {
         /// The module.
         top: String,
@@ -43,7 +43,7 @@ pub enum CosimError {
     },
 
     /// The Verilog's top module lacks a port of the design.
-    #[error("module `{top}` has no port `{port}`; is the Verilog that of another design?")]
+    #[error("module `{top}` has no port `{port}`; the Verilog may belong to another design")]
     NoPort {
         /// The module.
         top: String,
@@ -53,8 +53,8 @@ pub enum CosimError {
 
     /// A port of the Verilog's top module is not as wide as the design's.
     #[error(
-        "module `{top}` has `{port}` with {found} bits, the design has {wanted}; \
-         is the Verilog that of another design?"
+        "port `{port}` of module `{top}` has {found} bits, but the design has {wanted}; \
+         the Verilog may belong to another design"
     )]
     PortWidth {
         /// The module.
@@ -67,14 +67,16 @@ pub enum CosimError {
         wanted: u32,
     },
 
-    /// There is nothing to simulate, which must not look like agreement.
-    #[error("nothing to simulate: no frames and rounds = 0; give frames, or rounds of 1 or more")]
+    /// There is nothing to simulate. This must not look like a run without a mismatch.
+    #[error(
+        "there is nothing to simulate: no frames are given and rounds is 0; give frames, or 1 round or more"
+    )]
     Nothing,
 
     /// The array is larger than what fits into memory.
     #[error(
-        "an array of {regions} regions that take {pixels} pixels per frame is too large to simulate, at \
-         most {max_regions} regions and {max_pixels} pixels are; simulate a part of it as `rcm`"
+        "an array of {regions} regions, which take {pixels} pixels per frame, is too large to simulate; \
+         the limits are {max_regions} regions and {max_pixels} pixels, so simulate a part of it as `rcm`"
     )]
     TooLarge {
         /// Its regions.
@@ -89,7 +91,7 @@ pub enum CosimError {
 
     /// A frame does not fit the design.
     #[error(
-        "frame {index} is {found}, the design takes {wanted}; \
+        "frame {index} has {found}, but the design takes {wanted}; \
          set frame.width, frame.height and frame.pixel_bits to match"
     )]
     FrameShape {
@@ -129,7 +131,7 @@ pub enum CosimError {
 
     /// The vectors, which lie among the temporary files, cannot be written.
     #[error(
-        "cannot {action} `{}`: {source}; set TMPDIR to a folder with space that can be written",
+        "cannot {action} `{}`: {source}; set TMPDIR to a writable folder with free space",
         path.display()
     )]
     Temporary {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When the value of an output is compared: some mean something only where a valid bit is 1.
+//! When the value of an output is compared: some outputs are valid only where a valid bit is 1.
 //!
 //! The valid bit is always that of the expected record, and valid bits themselves are compared at
 //! every clock; so a valid bit that is wrong is found as such.

@@ -22,7 +22,7 @@ pub fn junit_xml(summary: &Summary) -> String {
     }
     for name in &summary.not_run {
         let mut status = TestCaseStatus::skipped();
-        status.set_message("left out after the mismatch of an earlier run");
+        status.set_message("not run, because an earlier run has a mismatch");
         let mut case = TestCase::new(name.clone(), status);
         case.set_classname(class.clone());
         suite.add_test_case(case);

@@ -3,7 +3,7 @@
 //!
 //! A [`Job`] is a whole co-simulation: its [`Stimulus`] runs the cycle-level model and records
 //! vectors, a simulator runs the Verilog on them, and a [`CosimReport`] says whether they agree or
-//! where they first do not. A failing run leaves a folder that replays it. Everything that touches
+//! where the first mismatch is. A failing run leaves a folder that replays it. Everything that touches
 //! the Verilog is made from the list of ports: the byte [`Layout`] of a clock, the C++ harness and
 //! the replay bench.
 

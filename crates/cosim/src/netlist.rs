@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What synthesis makes of the RTL, to be simulated in its place.
+//! The netlist that synthesis makes of the RTL, to be simulated instead of it.
 //!
 //! It is the netlist that the area estimate counts, of the same Yosys run, under [models](crate::cells) of
 //! its cells. Memories start unknown, and so do registers without an initial value, so that an X which
@@ -27,7 +27,7 @@ pub struct Netlist {
     pub sources: Vec<Source>,
 }
 
-/// What a report says of a netlist.
+/// A netlist as a report describes it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NetlistRecord {
     /// What made it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a co-simulation came to, for people and for machines.
+//! The result of a co-simulation, for people and for programs.
 
 use crate::level::Level;
 use crate::mismatch::Mismatch;
@@ -23,10 +23,10 @@ pub struct CosimReport {
     pub grid: (u32, u32),
     /// The simulator.
     pub simulator: Simulator,
-    /// What it says about its version.
+    /// The version that the simulator reports.
     pub simulator_version: String,
-    /// SHA-256 of the Verilog: that of what `sha256sum` prints for all files in the order of their
-    /// names. The area estimate says the same of the same Verilog.
+    /// SHA-256 of the Verilog: the hash of the text that `sha256sum` prints for all files in the order of
+    /// their names. The area estimate reports the same hash for the same Verilog.
     pub rtl_sha256: String,
     /// The netlist that was simulated instead, if it was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -64,7 +64,7 @@ impl CosimReport {
 pub struct Seconds {
     /// To make the vectors and run the model.
     pub vectors: f64,
-    /// To build the simulation; next to nothing when it was found in the cache.
+    /// To build the simulation; almost nothing if it was found in the cache.
     pub build: f64,
     /// To simulate and compare.
     pub run: f64,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! All that one check of a design came to: its runs, and what of the Verilog none of them reached.
+//! The result of one check of a design: its runs, and the Verilog modules that no run reached.
 
 use crate::hierarchy::NotSimulated;
 use crate::report::CosimReport;
@@ -13,29 +13,29 @@ pub const FORMAT_VERSION: u32 = 2;
 pub struct Summary {
     /// [`FORMAT_VERSION`].
     pub format_version: u32,
-    /// [`Summary::verdict`] is that all is well.
+    /// Whether [`Summary::verdict`] is [`Verdict::Passed`].
     pub passed: bool,
     /// Fingerprint of the design, as in the README of its core.
     pub design: String,
-    /// What was run, in this order; the last one may have a mismatch.
+    /// The runs in order; the last one may have a mismatch.
     pub runs: Vec<CosimReport>,
-    /// Names of runs that the mismatch of an earlier one has left out.
+    /// Names of runs that were not started, because an earlier one had a mismatch.
     pub not_run: Vec<String>,
-    /// Of Verilog that was given: modules that no run has reached, by file. Runs that a mismatch has
-    /// left out count as if they had been made.
+    /// For Verilog that was given: modules that no run has reached, by file. Runs that were not started
+    /// because of a mismatch count as if they had run.
     pub not_simulated: Vec<NotSimulated>,
-    /// Whether all of it had to be simulated; not where a level was asked for.
+    /// Whether all of the Verilog had to be simulated. It is false if the user chose a level.
     pub whole: bool,
 }
 
-/// What a summary says in the end.
+/// The verdict of a summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Everything that had to be simulated was, and agrees.
+    /// Everything that had to be simulated was simulated, without a mismatch.
     Passed,
     /// A run has a mismatch, or compared nothing.
     Mismatch,
-    /// What was simulated agrees; modules that had to be simulated were not.
+    /// There is no mismatch, but some modules that had to be simulated were not.
     Incomplete,
 }
 
@@ -57,7 +57,7 @@ impl Summary {
         summary
     }
 
-    /// What it all comes to. Without a run nothing has passed.
+    /// The verdict over all runs. Without a run nothing has passed.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if self.runs.is_empty() || !self.runs.iter().all(CosimReport::passed) {

@@ -54,5 +54,5 @@ pub(crate) fn hint(value: &dyn Display, scaled: &dyn Display, fits: bool, bits: 
     if bits >= DEFAULT_BITS || !fits {
         return String::new();
     }
-    format!("; {value} of {DEFAULT_BITS} bits is {scaled} of {bits}")
+    format!("; {value} at {DEFAULT_BITS} bits is {scaled} at {bits} bits")
 }

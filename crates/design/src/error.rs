@@ -28,7 +28,7 @@ pub enum DesignError {
         problem: String,
     },
     /// A value outside its range.
-    #[error("`{key}` = {value} is out of range; valid is {valid}")]
+    #[error("`{key}` = {value} is out of range; the valid range is {valid}")]
     Range {
         /// Dotted path of the key.
         key: String,

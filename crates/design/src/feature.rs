@@ -185,7 +185,7 @@ impl Entry<'_> {
         }
         let scaled = depth::level(level, DEFAULT_BITS, self.bits);
         let hint = depth::hint(&level, &scaled, fits(scaled), self.bits);
-        let valid = format!("0..={largest}, since pixels of {} bits reach {max},", self.bits);
+        let valid = format!("0..={largest} (pixels of {} bits reach {max})", self.bits);
         Err(self.out_of_range("level", &level, &valid, &hint))
     }
 
@@ -199,7 +199,7 @@ impl Entry<'_> {
             Some(bits) => Err(self.out_of_range(
                 "mean_fraction_bits",
                 &bits,
-                &format!("0..={max}, with regions of {n} pixels,"),
+                &format!("0..={max} (regions of {n} pixels)"),
                 "",
             )),
         }
@@ -212,7 +212,7 @@ impl Entry<'_> {
         if counts && minimum.as_whole().is_none() {
             return Err(DesignError::Type {
                 key: self.key("min_score"),
-                problem: format!("{minimum} is no whole number; it counts pixels"),
+                problem: format!("{minimum} is not a whole number; this key counts pixels"),
             });
         }
         let threshold = |minimum: Decimal| {

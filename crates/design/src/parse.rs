@@ -130,7 +130,7 @@ fn place<'a>(table: &'a mut Table, steps: &[&str]) -> Result<&'a mut Value, Stri
             Value::Array(items) => {
                 let count = items.len();
                 step.parse::<usize>().ok().and_then(|index| items.get_mut(index)).ok_or_else(
-                    || format!("`{step}` is not an index into `{first}`, which has {count} entries counted from 0"),
+                    || format!("`{step}` is not an index into `{first}`, which has {count} entries, numbered from 0"),
                 )?
             }
             _ => return Err(format!("`{step}` is inside a value that is not a table")),

@@ -91,7 +91,9 @@ impl Config {
             key: "region.size".to_owned(),
             value: size.to_string(),
             with: format!("a frame of {width}x{height} pixels, which has {regions} regions"),
-            remedy: format!("{MAX_REGIONS} regions are the most; enlarge regions or cut the frame"),
+            remedy: format!(
+                "at most {MAX_REGIONS} regions are allowed; use larger regions or a smaller frame"
+            ),
         })
     }
 

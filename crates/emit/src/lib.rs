@@ -2,8 +2,8 @@
 //! Verilog and everything beside it for a Foveate design, as text.
 //!
 //! Leaf arithmetic is hand-written Verilog in `rtl/`, embedded here; templates in `rtl/templates/`
-//! hold structure only. Emission is deterministic: no dates, no paths, and only what the design
-//! asks for.
+//! hold structure only. Emission is deterministic: the text has no dates and no paths, and only
+//! what the design needs.
 
 mod core;
 mod instance;

@@ -3,12 +3,12 @@
 
 use thiserror::Error;
 
-/// Pixels that are no frame of the design, or threads that the system does not give.
+/// The pixels are not a frame of the design, or the system cannot start the threads.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EngineError {
     /// A frame of another size or depth than the design's.
-    #[error("a frame of {given} was given to a design for {expected}; give it frames of that kind")]
+    #[error("the frame has {given}, but the design takes {expected}; give it frames of that kind")]
     FrameKind {
         /// Size and depth of the frame.
         given: String,
@@ -17,8 +17,8 @@ pub enum EngineError {
     },
     /// Too few pixels, or rows that overlap.
     #[error(
-        "{given} pixels in rows {stride} apart hold no frame of {width}x{height}; \
-         the stride must be at least {width} and the pixels at least {needed}"
+        "{given} pixels with a stride of {stride} do not hold a frame of {width}x{height}; \
+         the stride must be at least {width}, and {needed} pixels are needed"
     )]
     FrameLength {
         /// Pixels that came.
@@ -47,7 +47,7 @@ pub enum EngineError {
         max: u32,
     },
     /// Pixels of the wrong type for the depth.
-    #[error("pixels of {bits} bits are held as {expected}; the design was given {given}")]
+    #[error("pixels of {bits} bits need the type {expected}, but {given} was given")]
     LaneWidth {
         /// Bits per pixel of the design.
         bits: u32,
@@ -65,7 +65,7 @@ pub enum EngineError {
         error: Box<EngineError>,
     },
     /// The system gave no threads.
-    #[error("the system gives no {threads} threads: {reason}")]
+    #[error("the system cannot start {threads} threads: {reason}; ask for fewer")]
     Threads {
         /// Threads asked for.
         threads: usize,

@@ -2,14 +2,14 @@
 //! The functional model's integers at billions of pixels a second.
 //!
 //! [`Engine`] computes what the model's `Camera` computes, bit for bit, for every design. The
-//! model says what; this crate only makes it fast:
-//! - one fused pass over a band of regions while it is in the cache, where a chain of whole-frame
-//!   operations would go through memory once per step;
-//! - plain loops over fixed blocks of lanes, compiled for several instruction sets and entered
-//!   through the best that the processor has;
-//! - bands shared among threads, with the same bits however many there are; several frames at once
-//!   are handed over once, [`Engine::step_batch_u8`];
-//! - regions that are bit-identical to the last frame are proved so and skipped.
+//! model defines the results; this crate only makes them fast:
+//! - It makes one fused pass over a band of regions while the band is in the cache. A chain of
+//!   whole-frame operations would go through memory once per step.
+//! - It has plain loops over fixed blocks of lanes, compiled for several instruction sets. The best
+//!   one for the processor is chosen at run time.
+//! - It shares bands among threads; the bits do not depend on their number. Several frames can be
+//!   given to one call, [`Engine::step_batch_u8`].
+//! - It finds regions that are bit-identical to the last frame and skips them.
 
 mod band;
 mod batch;

@@ -15,7 +15,7 @@ pub enum EstimateError {
     /// The netlist has a cell whose area is not known.
     #[error(
         "module `{module}` has {count} cells of the unknown type `{cell}`; \
-         their area is not known, so that no total can be given"
+         their area is not known, so no total can be given"
     )]
     UnknownCell {
         /// The type of the cell.
@@ -28,8 +28,8 @@ pub enum EstimateError {
 
     /// A module that was asked for is not in the netlist.
     #[error(
-        "the synthesized netlist has no module `{module}`, only: {present}; \
-         give the modules of the design"
+        "the synthesized netlist has no module `{module}`; it has only {present}. \
+         Give the modules of the design"
     )]
     MissingModule {
         /// The module.
@@ -39,7 +39,10 @@ pub enum EstimateError {
     },
 
     /// The array does not have as many units as it should.
-    #[error("`{array}` has {found} instances of `{unit}`, but the design has {expected}")]
+    #[error(
+        "`{array}` has {found} instances of `{unit}`, but the design has {expected}; \
+         the Verilog may belong to another design"
+    )]
     UnitCount {
         /// The array.
         array: String,
@@ -60,7 +63,7 @@ pub enum EstimateError {
 
     /// Logic without a register runs in a circle.
     #[error(
-        "logic runs in a circle without a register, so that it has no levels: {nets}; break it by a register"
+        "the netlist has a combinational loop, so it has no logic levels: {nets}; break the loop with a register"
     )]
     Loop {
         /// The nets of the circle, in the direction of the signals.
@@ -68,7 +71,7 @@ pub enum EstimateError {
     },
 
     /// Yosys wrote something that is not understood.
-    #[error("cannot read `{file}` of Yosys: {source}; its format may have changed")]
+    #[error("cannot read `{file}`, which Yosys wrote: {source}; its format may have changed")]
     Format {
         /// The file.
         file: &'static str,

@@ -171,7 +171,7 @@ mod tests {
         let netlist = Netlist::parse("netlist", OLD).unwrap();
         let error = netlist.module("lane").unwrap_err().to_string();
         assert!(
-            error.contains("no module `lane`, only: ") && error.contains("`rcm`, `rpu`"),
+            error.contains("no module `lane`; it has only ") && error.contains("`rcm`, `rpu`"),
             "{error}"
         );
     }

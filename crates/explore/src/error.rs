@@ -16,13 +16,13 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExploreError {
-    /// The file of the space says something that is no space.
-    #[error("the space: {problem}")]
+    /// The file of the space is not valid.
+    #[error("the space is not valid: {problem}")]
     Space {
         /// What is wrong.
         problem: String,
     },
-    /// A part of the file is no design.
+    /// A part of the file is not a valid design.
     #[error("the space, [{section}]: {error}")]
     Section {
         /// The table of the file.
@@ -31,7 +31,7 @@ pub enum ExploreError {
         error: DesignError,
     },
     /// No point of the space can be built.
-    #[error("no point of the space is a design; the first, {settings}: {reason}")]
+    #[error("no valid design was found; tried {settings}: {reason}")]
     NoPoints {
         /// What was asked for.
         settings: String,
@@ -40,7 +40,7 @@ pub enum ExploreError {
     },
     /// Clips of different sizes.
     #[error(
-        "`{first}` has {first_size} pixels and `{other}` {other_size}; give all one size with --resize"
+        "`{first}` has {first_size} pixels, but `{other}` has {other_size}; give all clips one size with --resize"
     )]
     Sizes {
         /// A clip.
@@ -52,9 +52,9 @@ pub enum ExploreError {
         /// Its size.
         other_size: String,
     },
-    /// An input that is gone once it has been read.
+    /// An input that can be read only once.
     #[error(
-        "`{input}` cannot be read more than once, as this command must; record it to a file first"
+        "`{input}` can be read only once, but this command reads its inputs several times; record it to a file first"
     )]
     ReadOnce {
         /// The input.
@@ -71,7 +71,7 @@ pub enum ExploreError {
         least: u64,
     },
     /// A folder that holds something else.
-    #[error("`{}` is there and is no exploration (it has no exploration.json); name another folder", path.display())]
+    #[error("`{}` exists but is not the folder of an exploration (it has no exploration.json); name another folder", path.display())]
     Occupied {
         /// The folder.
         path: PathBuf,

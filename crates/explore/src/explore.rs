@@ -29,7 +29,7 @@ pub struct Request<'a> {
     pub inputs: &'a [PathBuf],
     /// How they are read.
     pub input: &'a InputOptions,
-    /// For areas; without it there are none.
+    /// The synthesizer, for areas; without it the figures have no areas.
     pub synthesizer: Option<&'a Synthesizer>,
 }
 
@@ -52,9 +52,9 @@ pub struct Exploration {
     pub axes: Vec<String>,
     /// The points.
     pub rows: Vec<Row>,
-    /// Combinations that are no design.
+    /// Combinations that are not valid designs.
     pub refused: Vec<Refused>,
-    /// Clips that ended before their end and designs that Yosys did not synthesize, and why.
+    /// Clips that ended too early and designs that Yosys did not synthesize, and why.
     pub problems: Vec<String>,
 }
 
@@ -75,15 +75,15 @@ pub struct ClipRow {
     pub frames: u64,
 }
 
-/// Says that a folder is an exploration, and what of.
+/// The file that marks a folder as an exploration and describes it.
 const MARK: &str = "exploration.json";
 
-/// Runs an exploration and writes `output`. What is finished is kept there, so that a run that was
-/// interrupted goes on where it was.
+/// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
+/// can continue.
 ///
 /// # Errors
-/// When an input cannot be read, no point is a design, the folder holds something else or cannot be
-/// written, or `hooks` cancels.
+/// When an input cannot be read, no point is a valid design, the folder holds something else or cannot
+/// be written, or `hooks` cancels.
 pub fn explore(
     request: &Request<'_>,
     output: &Path,

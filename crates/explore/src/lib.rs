@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Many designs over the same footage: what each gets wrong against the ideal camera, what it costs,
-//! how fast it is; and the cheapest that a scene needs.
+//! Many designs over the same footage: the errors of each against the ideal camera, its cost and its
+//! speed; and the cheapest design that a scene needs.
 //!
-//! [`explore`] runs a [`Space`] of designs over clips and leaves a folder of tables, Pareto fronts,
-//! configurations and one page to look at; it goes on where an interrupted run was. The yardstick is
-//! the whole-frame floating-point camera of [`foveate_ideal`], the measures are those of
-//! [`foveate_fidelity`]. The library never prints: progress and cancellation go through [`Hooks`].
+//! [`explore`] runs a [`Space`] of designs over clips and writes a folder of tables, Pareto fronts,
+//! configurations and one page. It continues an interrupted run. The reference is the whole-frame
+//! floating-point camera of [`foveate_ideal`], and the figures are those of [`foveate_fidelity`].
+//! The library never prints: progress and cancellation go through [`Hooks`].
 
 mod cost;
 mod error;
@@ -34,35 +34,35 @@ pub use point::{Point, Refused};
 pub use row::Row;
 pub use space::{Axis, BUILT_IN, BuiltIn, Space};
 
-/// How far an exploration is.
+/// Progress of an exploration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// Clips are read, to know how long they are.
+    /// Clips are read to find their lengths.
     Reading {
         /// Frames that are read.
         frames: u64,
     },
-    /// Designs over clips.
+    /// Designs run over clips.
     Measuring {
         /// Pairs of a clip and a design that are done.
         done: usize,
-        /// Of so many.
+        /// The number of all.
         all: usize,
     },
-    /// Yosys is at work.
+    /// Yosys synthesizes.
     Synthesizing {
         /// Distinct RTL that is done.
         done: usize,
-        /// Of so many.
+        /// The number of all.
         all: usize,
     },
 }
 
-/// What an exploration asks and tells its caller, from several threads.
+/// Callbacks of an exploration. Several threads call them.
 pub trait Hooks: Sync {
-    /// Something is done.
+    /// Reports progress.
     fn progress(&self, progress: Progress);
 
-    /// Whether to stop; what is finished is kept.
+    /// Returns whether to stop. Finished results are kept.
     fn cancelled(&self) -> bool;
 }

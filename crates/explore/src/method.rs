@@ -13,13 +13,13 @@ pub(crate) const MAX_POINTS: usize = 100_000;
 pub enum Method {
     /// Every combination.
     Grid,
-    /// The start, and every value of each axis alone: what one choice costs.
+    /// The start, and every value of each axis alone. This shows the cost of each single choice.
     Each,
-    /// So many combinations, drawn without repetition.
+    /// A number of combinations, drawn without repetition.
     Sample {
-        /// How many; all if there are no more.
+        /// How many; all combinations if there are fewer.
         points: usize,
-        /// Says which.
+        /// Seed of the choice.
         seed: u64,
     },
 }
@@ -42,7 +42,7 @@ impl Method {
             }
             other => {
                 return Err(format!(
-                    "method = \"{other}\" is not known; it takes \"grid\", \"each\" or \"sample\""
+                    "method = \"{other}\" is unknown; use \"grid\", \"each\" or \"sample\""
                 ));
             }
         };

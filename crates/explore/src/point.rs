@@ -12,13 +12,13 @@ use crate::space::{Space, plain};
 /// A design of a space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// The value of every axis, a string without its quotes; empty where it is that of the start.
+    /// The value of every axis, a string without quotes; empty if it is the value of the start.
     pub settings: Vec<String>,
     /// Its configuration.
     pub config: Config,
 }
 
-/// A combination that is no design.
+/// A combination that is not a valid design.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refused {
     /// What was asked for, as `key = value`.
@@ -28,7 +28,8 @@ pub struct Refused {
 }
 
 impl Space {
-    /// The designs, each once, for frames of `width` x `height` pixels, and what is no design.
+    /// The designs, each once, for frames of `width` x `height` pixels, and the combinations that are not
+    /// valid designs.
     #[must_use]
     pub fn points(&self, width: u32, height: u32) -> (Vec<Point>, Vec<Refused>) {
         let (mut points, mut refused, mut seen) = (Vec::new(), Vec::new(), BTreeSet::new());
@@ -53,7 +54,7 @@ impl Space {
         (points, refused)
     }
 
-    /// The settings as `key = value`, those of the start left out.
+    /// The settings as `key = value`, without those of the start.
     #[must_use]
     pub fn described(&self, settings: &[String]) -> String {
         described(self.axes.iter().map(|axis| axis.key.as_str()), settings)
@@ -73,7 +74,7 @@ impl Space {
     }
 }
 
-/// The settings of some axes as `key = value`, those of the start left out.
+/// The settings of some axes as `key = value`, without those of the start.
 pub(crate) fn described<'a>(axes: impl Iterator<Item = &'a str>, settings: &[String]) -> String {
     let set = axes.zip(settings).filter(|(_, value)| !value.is_empty());
     let words: Vec<String> = set.map(|(axis, value)| format!("{axis} = {value}")).collect();

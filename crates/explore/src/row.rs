@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A point with everything that is known of it.
+//! A point with all its figures.
 
 use foveate_design::{Config, Design};
 use foveate_fidelity::{Figures, Tally};
@@ -14,12 +14,12 @@ use crate::measure::Measured;
 pub struct Row {
     /// Its number, from 1, in the order of the space.
     pub number: usize,
-    /// The value of every axis, a string without its quotes; empty where it is that of the start.
+    /// The value of every axis, a string without quotes; empty if it is the value of the start.
     pub settings: Vec<String>,
     /// The configuration, with every default filled in.
     #[serde(skip)]
     pub config: Config,
-    /// Tells the design from all others.
+    /// The fingerprint, which identifies the design.
     pub fingerprint: String,
     /// Errors over all clips.
     pub figures: Figures,

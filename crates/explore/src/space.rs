@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A space of designs as a file says it: where they start, what they are compared with, what varies.
+//! A space of designs as a file defines it: the start, the ideal camera, and what varies.
 
 use foveate_design::{Config, DesignError, Preset};
 use serde::Deserialize;
@@ -20,7 +20,7 @@ pub struct Space {
     pub axes: Vec<Axis>,
     /// Which combinations are points.
     pub method: Method,
-    /// Clock of the frame rates in MHz; an assumption, not what a design reaches.
+    /// Assumed clock of the frame rates in MHz; the hardware may be slower.
     pub clock_mhz: u32,
 }
 
@@ -33,7 +33,7 @@ pub struct Axis {
     pub values: Vec<Value>,
 }
 
-/// A configuration as TOML, what it leaves out left out, so that a point can change it.
+/// A configuration as TOML, without the keys that it leaves out, so that a point can change it.
 #[derive(Clone, Debug)]
 pub(crate) struct Start(String);
 
@@ -98,8 +98,8 @@ impl Space {
     /// Reads a space.
     ///
     /// # Errors
-    /// When the text is no TOML, has an unknown key, a value is of the wrong type or out of range, or
-    /// the start or the ideal is no design.
+    /// When the text is not TOML, has an unknown key, a value is of the wrong type or out of range, or
+    /// the start or the ideal is not a valid design.
     pub fn from_toml(text: &str) -> Result<Self, ExploreError> {
         let file: File = toml::from_str(text).map_err(|error| {
             let place = error.to_string().lines().next().unwrap_or_default().to_owned();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where two cameras decide otherwise, as areas in pixels, so that regions of different sizes can be
-//! compared.
+//! Areas, in pixels, where the decisions of two cameras differ. In areas, regions of different sizes can
+//! be compared.
 
 use foveate_design::Action;
 use serde::{Deserialize, Serialize};

@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum FidelityError {
     /// Two designs for frames of different sizes.
     #[error(
-        "the ideal design is for frames of {ideal} pixels, the candidate for {candidate}; \
+        "the ideal design is for frames of {ideal} pixels, but the candidate is for {candidate}; \
          give both the same size"
     )]
     FrameSize {
@@ -19,7 +19,9 @@ pub enum FidelityError {
         candidate: String,
     },
     /// An input of another size or depth than the ideal design's.
-    #[error("an input of {given} was given to an ideal design for {expected}; give it what it saw")]
+    #[error(
+        "the input has {given}, but the ideal design takes {expected}; give the frames that it saw"
+    )]
     FrameKind {
         /// Size and depth of the input.
         given: String,
@@ -28,7 +30,7 @@ pub enum FidelityError {
     },
     /// Results of another design.
     #[error(
-        "{what}: {given} values were given, the design has {expected}; give the results of its own camera"
+        "{what}: {given} values were given, but the design has {expected}; give the results of that design"
     )]
     Length {
         /// Of which side, and which results.
@@ -39,7 +41,9 @@ pub enum FidelityError {
         expected: usize,
     },
     /// A screen whose pixels are of the wrong type for the candidate's depth.
-    #[error("pixels of {bits} bits are held as {expected}; the candidate's screen is of {given}")]
+    #[error(
+        "pixels of {bits} bits need the type {expected}, but the candidate's screen has {given}"
+    )]
     LaneWidth {
         /// Bits per pixel of the candidate.
         bits: u32,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What people read of a tally.
+//! The figures of a tally, for people.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ pub struct Figures {
     pub srs_flips: f64,
     /// Share of the area whose region has another TRS.
     pub trs_flips: f64,
-    /// Share of the area whose region is treated otherwise on the screen.
+    /// Share of the area whose region is treated differently on the screen.
     pub action_flips: f64,
     /// Share of the area active in the ideal that is not active in the candidate; 0 when there is none.
     pub missed: f64,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far a design is from an ideal one, over the frames of clips.
+//! How far a design is from the ideal camera, over the frames of clips.
 //!
-//! A [`Fidelity`] is given, frame by frame, what went into both, what the ideal camera made of it
-//! ([`foveate_ideal::IdealCamera`]) and what the candidate's engine made of it. Its [`Tally`] holds whole
-//! numbers only, so that tallies of clips add up to the same bits in any order and can be stored;
-//! [`Figures`] are what people read: errors of scores, decisions otherwise, PSNR, SSIM, staleness. No I/O.
+//! A [`Fidelity`] gets each input frame with the results of the ideal camera
+//! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`Tally`] holds whole numbers
+//! only, so tallies of clips can be stored, and their sum has the same bits in any order. [`Figures`] are
+//! for people: errors of scores, flips, PSNR, SSIM, staleness. This crate does no I/O.
 #![forbid(unsafe_code)]
 
 mod areas;

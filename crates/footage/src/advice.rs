@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a user should know of inputs that can be read, but perhaps not as was meant: what is left out, and
-//! what looks like something else.
+//! Warnings about inputs that can be read, but perhaps not as intended: some files are ignored, or a file
+//! looks like something else.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::input::{InputOptions, entries, expand, is_special};
 use crate::sets::{cifar, idx};
 use crate::{ImagesAs, picture};
 
-/// A sentence for everything that is worth a warning; none for what [`open`](crate::open) refuses.
+/// Warnings about the inputs, one sentence each. What [`open`](crate::open) refuses is not among them.
 #[must_use]
 pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let mut said = Vec::new();
@@ -41,7 +41,7 @@ fn left_out(folder: &Path, images: ImagesAs) -> Option<String> {
     if images == ImagesAs::Set {
         let clip = entries.iter().find(|path| extension_in(path, &VIDEO_EXTENSIONS))?;
         return Some(format!(
-            "a set is made of images: videos in `{shown}`, such as `{}`, are left out",
+            "a set consists of images: videos in `{shown}`, such as `{}`, are ignored",
             clip.display()
         ));
     }
@@ -53,7 +53,7 @@ fn left_out(folder: &Path, images: ImagesAs) -> Option<String> {
     };
     let below = entries.iter().find(below)?;
     Some(format!(
-        "images in folders below `{shown}`, such as `{}`, are left out; --images set takes them, with the \
+        "images in folders below `{shown}`, such as `{}`, are ignored; --images set reads them, with the \
          names of their folders as labels",
         below.display()
     ))
@@ -62,7 +62,7 @@ fn left_out(folder: &Path, images: ImagesAs) -> Option<String> {
 fn no_labels(path: &Path) -> String {
     let expected = idx::labels_name(path).map_or_else(String::new, |name| format!(" ({name})"));
     format!(
-        "`{}` has no file of labels beside it{expected}, so its images have no labels; --labels names one",
+        "`{}` has no file of labels beside it{expected}, so its images have no labels; name one with --labels",
         path.display()
     )
 }
@@ -74,11 +74,11 @@ fn other_shape(path: &Path, images: ImagesAs) -> Option<String> {
     let shown = path.display();
     match images {
         ImagesAs::Clip | ImagesAs::Set if sheet => Some(format!(
-            "`{shown}` looks like a CIFAR sheet, one image of 32x32 pixels per row, and is taken as one \
-             picture; --images cifar-sheet takes its rows"
+            "`{shown}` looks like a CIFAR sheet, one image of 32x32 pixels per row, but is read as one \
+             picture; --images cifar-sheet reads its rows"
         )),
         ImagesAs::CifarSheet if wide && !sheet => Some(format!(
-            "`{shown}` looks like a photograph, and every row of it is taken as an image of 32x32 pixels; \
+            "`{shown}` looks like a photograph, but every row of it is read as an image of 32x32 pixels; \
              leave --images cifar-sheet out if it is one picture"
         )),
         _ => None,

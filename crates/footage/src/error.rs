@@ -30,19 +30,19 @@ pub enum FootageError {
         /// The path as given.
         path: PathBuf,
     },
-    /// An address of the network.
+    /// A URL.
     #[error(
-        "`{url}` is an address, and inputs are files and devices of this machine; fetch it first, or let \
+        "`{url}` is a URL, but inputs must be files or devices of this machine; download it first, or let \
          ffmpeg read it: ffmpeg -i '{url}' -f yuv4mpegpipe - | foveate simulate - -o out"
     )]
     Url {
         /// The address as given.
         url: String,
     },
-    /// Images and videos side by side, of which only one can be meant.
+    /// Images and videos in one place, of which only one kind can be read.
     #[error(
-        "`{place}` holds images and videos ({images} and {videos}, such as `{video}`), and nothing says which \
-         are meant; name the images, for example '{pattern}', or the video",
+        "`{place}` holds images and videos ({images} and {videos}, such as `{video}`), so it is not clear which \
+         to read; name the images, for example '{pattern}', or the video",
         video = video.display()
     )]
     Mixed {
@@ -57,7 +57,7 @@ pub enum FootageError {
         /// A pattern of images that is there.
         pattern: String,
     },
-    /// A file without frames by its own account.
+    /// A file that holds no frames.
     #[error("`{}` holds no frames: {problem}", path.display())]
     Frameless {
         /// The file.
@@ -67,8 +67,8 @@ pub enum FootageError {
     },
     /// An image of several frames among images.
     #[error(
-        "`{}` is an animated PNG, and only its first frame would be taken; simulate it on its own, which takes \
-         all, or save the frame that you mean",
+        "`{}` is an animated PNG among other images, where only its first frame would be read; simulate it on \
+         its own to read all frames, or save the frame that you need",
         path.display()
     )]
     Animated {
@@ -123,7 +123,7 @@ pub enum FootageError {
     },
     /// A raw stream that gives no frame.
     #[error(
-        "`{name}` is no YUV4MPEG2 stream: {problem}; make one with `ffmpeg -i FILE -f yuv4mpegpipe -`"
+        "`{name}` is not a valid YUV4MPEG2 stream: {problem}; make one with `ffmpeg -i FILE -f yuv4mpegpipe -`"
     )]
     Y4m {
         /// The file, or standard input.
@@ -139,8 +139,8 @@ pub enum FootageError {
         /// What is wrong.
         problem: String,
     },
-    /// A choice that does not fit.
-    #[error("{option} cannot be followed: {problem}")]
+    /// An option that cannot be used here.
+    #[error("{option} cannot be used: {problem}")]
     Option {
         /// The option.
         option: &'static str,
@@ -169,7 +169,7 @@ pub enum FootageError {
         /// Why.
         problem: String,
     },
-    /// A file that is no image of a known type.
+    /// A file that is not an image of a known type.
     #[error("`{}` is not an image of a supported type; convert it to one of {TYPES}", path.display())]
     UnsupportedType {
         /// The file.
@@ -211,8 +211,8 @@ pub enum FootageError {
     },
     /// Frames of one run that differ in size.
     #[error(
-        "frames of one run must have one size: `{first}` has {}x{} pixels, `{other}` has {}x{}; \
-         scale them with --resize, or simulate them apart",
+        "all frames of a run must have the same size, but `{first}` has {}x{} pixels and `{other}` has {}x{}; \
+         scale them with --resize, or simulate them separately",
         first_size.0, first_size.1, other_size.0, other_size.1
     )]
     MixedSizes {
@@ -232,7 +232,7 @@ pub enum FootageError {
         inputs: String,
     },
     /// A frame rate of zero or without end.
-    #[error("{frames} frames in {seconds} s are no frame rate; both must be at least 1")]
+    #[error("{frames} frames in {seconds} s is not a frame rate; both numbers must be at least 1")]
     FrameRate {
         /// Frames as given.
         frames: u32,
@@ -240,7 +240,7 @@ pub enum FootageError {
         seconds: u32,
     },
     /// The system gave no thread.
-    #[error("the system gives no thread: {reason}; try again with less running beside it")]
+    #[error("the system cannot start a thread: {reason}; try again with fewer programs running")]
     Thread {
         /// What it says.
         reason: String,
@@ -248,7 +248,7 @@ pub enum FootageError {
     /// The configuration does not fit.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// Pixels are no frame.
+    /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
     /// The scene does not exist.
@@ -267,10 +267,10 @@ fn video_problem(path: &Path, problem: &str) -> String {
     let shown = path.display();
     if extension_in(path, &VIDEO_EXTENSIONS) {
         return format!(
-            "video `{shown}` cannot be read: {problem}; play it to see whether it is whole"
+            "video `{shown}` cannot be read: {problem}; play it to check that it is complete"
         );
     }
     format!(
-        "`{shown}` is no input: no image ({TYPES}), no data set (IDX, CIFAR), and as a video ffmpeg says: {problem}"
+        "`{shown}` is not an image ({TYPES}) or a data set (IDX, CIFAR), and ffmpeg cannot read it as a video: {problem}"
     )
 }

@@ -29,7 +29,7 @@ use crate::{FootageError, FrameRate, Kind, Source, picture};
 /// Side of a scene where the configuration does not say.
 const SCENE_SIDE: u32 = 224;
 
-/// What image files are to each other.
+/// How image files are related.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ImagesAs {
     /// Frames of one clip, in order.
@@ -44,9 +44,9 @@ pub enum ImagesAs {
 /// Choices on how inputs are read.
 #[derive(Clone, Debug, Default)]
 pub struct InputOptions {
-    /// At most this many frames; of a scene, exactly this many.
+    /// At most this many frames; a scene has exactly this many.
     pub frames: Option<u32>,
-    /// Frames per second of what has no times: images, scenes, streams without a rate.
+    /// Frames per second of inputs without times: images, scenes, streams without a rate.
     pub frame_rate: FrameRate,
     /// Which frames of a clip to take.
     pub selection: Selection,
@@ -54,7 +54,7 @@ pub struct InputOptions {
     pub crop: Option<Crop>,
     /// Width and height to scale to, after cropping.
     pub resize: Option<(u32, u32)>,
-    /// What image files are to each other.
+    /// How image files are related.
     pub images: ImagesAs,
     /// The labels of an IDX file, if they are not beside it under their usual name.
     pub labels: Option<PathBuf>,
@@ -64,7 +64,7 @@ pub struct InputOptions {
 /// their size from it.
 ///
 /// # Errors
-/// When an input does not exist, cannot be read, or there are several that are no images.
+/// When an input does not exist or cannot be read, or when there are several inputs other than images.
 pub fn open<P: AsRef<Path>>(
     inputs: &[P],
     config: &Config,
@@ -153,7 +153,7 @@ fn feed(
 
 fn no_images_for(labels: &Path) -> FootageError {
     let shown = labels.display();
-    let problem = format!("`{shown}` is for the images of an IDX file, and there is none");
+    let problem = format!("`{shown}` belongs to an IDX file of images, but no input is one");
     FootageError::Option { option: "--labels", problem }
 }
 

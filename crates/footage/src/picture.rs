@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Image files to frames: PNG, JPEG, BMP, PNM; told apart by content, not by name.
+//! Reads image files as frames: PNG, JPEG, BMP, PNM. The content decides the type, not the name.
 //!
 //! * Colour becomes luma by [`luma`], on 8-bit samples or, where the file has more, on 16-bit ones.
 //!   Alpha, colour profiles and EXIF orientation are ignored.
@@ -22,7 +22,7 @@ use crate::FootageError;
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 use foveate_frame::convert_depth;
 
-/// Luma of a colour: `(77 R + 150 G + 29 B + 128) >> 8`; grey stays what it is.
+/// Luma of a colour: `(77 R + 150 G + 29 B + 128) >> 8`; grey stays as it is.
 #[must_use]
 pub fn luma(red: u16, green: u16, blue: u16) -> u16 {
     let sum = 77 * u32::from(red) + 150 * u32::from(green) + 29 * u32::from(blue) + 128;

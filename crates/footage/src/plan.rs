@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether inputs are one clip or many, and where the output of each goes.
+//! Decides whether inputs are one clip or many, and where the output of each goes.
 //!
 //! * Image files and patterns together are one clip, a single file or special input is one, and so is
 //!   a folder of images.
@@ -14,15 +14,15 @@ use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
 use crate::input::{entries, is_special};
 use crate::{FootageError, ImagesAs, InputOptions, picture};
 
-/// Folders are searched this deep, so that a link to a folder above does not lead on for ever.
+/// The depth to which folders are searched, so that a link to a parent folder does not lead to an endless search.
 const DEPTH: u32 = 8;
 
 /// A clip of a batch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clip {
-    /// What to open.
+    /// The inputs to open.
     pub inputs: Vec<PathBuf>,
-    /// Where its output goes, below the output of the batch.
+    /// The folder of its output, below the output of the batch.
     pub place: PathBuf,
     /// Its class, in a labelled tree.
     pub label: Option<String>,

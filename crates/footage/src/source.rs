@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where frames come from, and what every frame knows of itself.
+//! Sources of frames, and frames with their names and times.
 
 pub(crate) mod ahead;
 pub(crate) mod feed;
@@ -26,12 +26,12 @@ pub struct SourceFrame {
     pub frame: Raster,
 }
 
-/// How frames of a source belong together.
+/// How the frames of a source are related.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// They follow each other in time.
     Clip,
-    /// They have nothing to do with each other: each is a first frame.
+    /// They are unrelated: each is a first frame.
     Set,
 }
 
@@ -50,11 +50,11 @@ pub trait Source: Send {
     /// Width and height of every frame.
     fn size(&self) -> (u32, u32);
 
-    /// What the user named, for the summary.
+    /// The inputs as the user named them, for the summary.
     fn inputs(&self) -> &[String];
 
-    /// How many frames there are in all, if that is known; of a video, what its container says,
-    /// which may be wrong.
+    /// The number of all frames, if it is known. For a video it comes from the container, and may be
+    /// wrong.
     fn frames(&self) -> Option<u64>;
 
     /// The next frame, or `None` after the last.
@@ -63,20 +63,20 @@ pub trait Source: Send {
     /// When it cannot be read or does not have the size of the others.
     fn next_frame(&mut self) -> Result<Option<SourceFrame>, FootageError>;
 
-    /// Takes back a frame that is done with, to use its memory again.
+    /// Takes back a frame that is no longer needed, to use its memory again.
     fn give_back(&mut self, _frame: SourceFrame) {}
 
-    /// Whether frames follow each other in time; of a set every frame is a first frame.
+    /// Whether frames follow each other in time. In a set, every frame is a first frame.
     fn kind(&self) -> Kind {
         Kind::Clip
     }
 
-    /// Of a set: what files hold it, and what its labels are.
+    /// For a set: the kind of its files, and its labels.
     fn form(&self) -> SetForm {
         SetForm::default()
     }
 
-    /// After the last frame: why it ended before its end, if it did. What came before is good.
+    /// After the last frame: why the source ended too early, if it did. The frames before are good.
     fn problem(&self) -> Option<String> {
         None
     }
@@ -93,7 +93,7 @@ impl FrameRate {
     /// `frames` in `seconds`: 30 in 1, or 30000 in 1001.
     ///
     /// # Errors
-    /// When one of them is zero.
+    /// When one of the numbers is zero.
     pub fn new(frames: u32, seconds: u32) -> Result<Self, FootageError> {
         if frames == 0 || seconds == 0 {
             return Err(FootageError::FrameRate { frames, seconds });
@@ -104,7 +104,7 @@ impl FrameRate {
     /// A rate as people write it: `30`, `29.97` or `30000/1001`.
     ///
     /// # Errors
-    /// What would be right, when it is none.
+    /// When the text is not a rate; the error says what would be right.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = || "expected frames per second, such as 30, 29.97 or 30000/1001".to_owned();
         let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is looked at side by side: every input is a clip or set with a name, a folder of clips several.
+//! Clips and sets to compare: every input is a clip or set with a name, and a folder of clips is several.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -9,13 +9,13 @@ use crate::{FootageError, ImagesAs, InputOptions, Plan, plan};
 /// A clip or set with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Subject {
-    /// Its name in tables and charts, different from that of all others.
+    /// Its unique name in tables and charts.
     pub name: String,
-    /// What [`open`](crate::open) takes.
+    /// The inputs for [`open`](crate::open).
     pub inputs: Vec<PathBuf>,
 }
 
-/// Image files together are one clip, as everywhere, unless they are sheets of many; else every input stands for itself.
+/// Image files together are one clip, unless they are sheets of many images. Every other input is a clip or set of its own.
 ///
 /// # Errors
 /// As [`plan`].

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why pixels are no frame.
+//! Errors of frames: pixels that do not make a frame.
 
 use thiserror::Error;
 
-/// Pixels that are no frame.
+/// Pixels that do not make a frame.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameError {
@@ -15,14 +15,14 @@ pub enum FrameError {
         /// Height as given.
         height: u32,
     },
-    /// Bits per pixel outside of what a pixel holds.
-    #[error("{bits} bits per pixel are not possible; valid is 1..=16")]
+    /// The bits per pixel are out of range.
+    #[error("{bits} bits per pixel are not supported; a pixel has 1 to 16 bits")]
     PixelBits {
         /// Bits as given.
         bits: u32,
     },
     /// Too few or too many pixels for the size.
-    #[error("a frame of {width}x{height} needs {needed} pixels, {given} were given")]
+    #[error("a frame of {width}x{height} needs {needed} pixels, but {given} were given")]
     FrameLength {
         /// Width as given.
         width: u32,

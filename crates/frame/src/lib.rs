@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame: width x height luma pixels of 1 to 16 bits, row by row, every value checked once.
 //!
-//! [`Frame`] holds words and is what the models compute on. [`Raster`] holds bytes up to 8 bits and
-//! words above, so that video is neither widened nor copied on its way to the engine. Both are
-//! refused with the same [`FrameError`]. This crate knows no design.
+//! [`Frame`] holds words; the models compute on it. [`Raster`] holds bytes up to 8 bits and words
+//! above, so video is neither widened nor copied on its way to the engine. Both report the same
+//! [`FrameError`]. This crate knows no design.
 
 mod depth;
 mod error;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The camera of `docs/contract.md` in real numbers: the yardstick that designs are measured against.
+//! The camera of `docs/contract.md` in real numbers: the reference that designs are measured against.
 //!
-//! [`IdealCamera`] takes from a design what it is to see (regions, filter, features, thresholds,
-//! reference, what is shown) and leaves out what hardware costs: its windows always see their real
-//! neighbors, its mean is the real mean, its thresholds are the decimal ones of the configuration. It is
-//! written from the contract in `f64`, apart from the integers of the other models, and does no I/O.
+//! [`IdealCamera`] takes the task from a design (regions, filter, features, thresholds, reference,
+//! rendering) and leaves out the limits of hardware. Its windows always see their real neighbors, its
+//! mean is the real mean, and its thresholds are the decimal ones of the configuration. It is written
+//! from the contract in `f64`, independently of the integers of the other models, and does no I/O.
 #![forbid(unsafe_code)]
 
 mod camera;

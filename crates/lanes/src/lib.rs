@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pixels in vector lanes: what the fast models have in common.
+//! Pixels in vector lanes: the common code of the fast models.
 //!
-//! * [`Level`]: which vector instructions, chosen when the program runs; a [`Task`] is compiled once for each.
-//! * [`Lane`]: a pixel as a byte or a word, and the arithmetic on it that vectorises; [`Block`]: a register's worth.
+//! * [`Level`]: a set of vector instructions, chosen at run time; a [`Task`] is compiled once for each level.
+//! * [`Lane`]: a pixel as a byte or a word, and the arithmetic on it that vectorises; [`Block`]: lanes that fill a register.
 //! * [`Aligned`]: buffers whose blocks are cache lines.
 //! * [`best_arc`]: FAST 5/8 as a network of minima and maxima.
 

@@ -8,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum ModelError {
     /// A frame of another size or depth than the design's.
-    #[error("a frame of {given} was given to a design for {expected}; give it frames of that kind")]
+    #[error("the frame has {given}, but the design takes {expected}; give it frames of that kind")]
     FrameKind {
         /// Size and depth of the frame.
         given: String,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One palette by meaning: what is active is the same colour in a picture, a chart and a page.
+//! Colours by meaning: active regions have the same colour in pictures, charts and pages.
 //!
-//! The colours are those of Okabe and Ito, made to be told apart with any colour vision, without yellow,
-//! which is lost on white. [`vision`] shows them as others see them, for tests.
+//! The colours are those of Okabe and Ito, which can be distinguished with any colour vision. Yellow is
+//! left out, because it is hard to see on white. [`vision`] simulates colour vision, for tests.
 
 pub mod vision;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Many clips in one run: one output folder per clip, in a tree like that of the inputs, and one
-//! summary of all. A clip that fails does not lose the others.
+//! summary of all. If a clip fails, the others are still completed.
 
 mod summary;
 
@@ -17,7 +17,7 @@ use crate::simulation::{INTERRUPTED, SIMULATION};
 use crate::{Hooks, Progress, RunOptions, Simulation, SimulatorError, Summary};
 use foveate_footage::{Clip, InputOptions, open};
 
-/// How far a batch is.
+/// Progress of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BatchProgress {
     /// Clips that are done or have failed.
@@ -28,17 +28,17 @@ pub struct BatchProgress {
     pub frames: u64,
 }
 
-/// What a batch asks and tells its caller, from several threads.
+/// Callbacks of a batch. Several threads call them.
 pub trait BatchHooks: Sync {
-    /// Another frame or clip is done.
+    /// Reports that another frame or clip is done.
     fn progress(&self, progress: BatchProgress);
 
-    /// Whether to stop; what was done so far is then the result, marked as incomplete.
+    /// Returns whether to stop. The result is then what was done so far, marked as incomplete.
     fn cancelled(&self) -> bool;
 }
 
-/// Runs every clip, as many at a time as there are cores, into folders below `output`, which appears
-/// at the end.
+/// Runs every clip into a folder below `output`, with as many clips in parallel as there are cores.
+/// `output` appears at the end.
 ///
 /// # Errors
 /// When the output cannot be written, or no clip could be simulated at all.

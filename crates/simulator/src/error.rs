@@ -23,7 +23,7 @@ pub enum SimulatorError {
     #[error(transparent)]
     Footage(#[from] FootageError),
     /// A clip of a batch without a result.
-    #[error("none of the {clips} clips could be simulated; the first: {first}")]
+    #[error("none of the {clips} clips could be simulated; the first failed with: {first}")]
     NoClip {
         /// Number of clips.
         clips: usize,
@@ -34,7 +34,7 @@ pub enum SimulatorError {
     #[error(transparent)]
     Output(#[from] StagingError),
     /// Something cannot be written.
-    #[error("cannot write `{}`: {source}; check space and permissions, or choose another folder", path.display())]
+    #[error("cannot write `{}`: {source}; check free space and permissions, or choose another folder", path.display())]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -42,7 +42,7 @@ pub enum SimulatorError {
         source: io::Error,
     },
     /// The system gave no thread.
-    #[error("the system gives no thread: {reason}; try again with less running beside it")]
+    #[error("the system cannot start a thread: {reason}; try again with fewer programs running")]
     Thread {
         /// What it says.
         reason: String,
@@ -51,10 +51,10 @@ pub enum SimulatorError {
     #[error(transparent)]
     Tool(Box<ToolError>),
     /// No video can be written on this machine.
-    #[error("video cannot be written: {0}; or write pictures, for example with --rendered png")]
+    #[error("cannot write video: {0}; or write pictures instead, for example with --rendered png")]
     NoVideo(#[source] Box<ToolError>),
     /// A video could not be written to its end.
-    #[error("ffmpeg cannot write `{}`: {problem}; check space, or write pictures", path.display())]
+    #[error("ffmpeg cannot write `{}`: {problem}; check free space, or write pictures instead", path.display())]
     VideoOutput {
         /// The file.
         path: PathBuf,
@@ -70,10 +70,10 @@ pub enum SimulatorError {
     /// Pixel events are differences in time.
     #[error("images of a set have no order in time; pixel events need a clip")]
     PixelEventsOfSet,
-    /// A data set is made of images that have nothing to do with each other.
+    /// A data set needs a set of unrelated images.
     #[error(
-        "{inputs} is a clip, whose frames follow each other in time, and a data set is made of a set: \
-         IDX or CIFAR files, or image files with --images set; for a clip take `foveate simulate`"
+        "{inputs} is a clip, but a data set is made of unrelated images: IDX or CIFAR files, or image files \
+         with --images set; for a clip, use `foveate simulate`"
     )]
     NotASet {
         /// The inputs as given.
@@ -110,7 +110,7 @@ pub enum SimulatorError {
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// Pixels are no frame.
+    /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
     /// The model refused a frame.

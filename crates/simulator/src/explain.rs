@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a region of a frame was sent or dropped: every pixel, score, threshold and vote that led there,
-//! and the row of the decision table that applied.
+//! Explains why a region of a frame was sent or dropped: every pixel, score, threshold and vote, and the
+//! row of the decision table that applied.
 //!
-//! The frames before are run through the same camera, so that reference and screen are what they were.
-//! Scores and bits are the camera's; the hits beside them are computed per pixel and must add up.
+//! The earlier frames run through the same camera, so reference and screen are as in the run. Scores and
+//! bits come from the camera. The hits are computed per pixel, and their sum must be the score.
 
 mod gather;
 mod text;
@@ -37,7 +37,7 @@ pub struct Explanation {
     pub pixel_bits: u32,
     /// The raw pixels.
     pub raw: Rows<u16>,
-    /// The pixels that were scored, and how they came about.
+    /// The pixels that were scored, with their filter.
     pub denoised: Rows<u16>,
     /// `none` or `median3x3`.
     pub filter: Filter,
@@ -51,7 +51,7 @@ pub struct Explanation {
     pub temporal: Change,
     /// Temporal relevance.
     pub trs: bool,
-    /// What became of the region on the screen: `forward`, `hold` or `blank`.
+    /// The action on the screen: `forward`, `hold` or `blank`.
     pub action: &'static str,
     /// The row of the decision table (Table I of the paper) that applied.
     pub rule: String,
@@ -98,8 +98,7 @@ pub struct Spatial {
     pub score: u64,
     /// The least score that votes.
     pub min_score: u64,
-    /// What a score of this feature is divided by to be in grey levels (squared, for `variance`), or
-    /// 1 for counts.
+    /// Divisor that turns a score into grey levels (squared grey levels for `variance`); 1 for counts.
     pub unit: u64,
     /// Whether it votes.
     pub vote: bool,
@@ -108,7 +107,7 @@ pub struct Spatial {
 /// The temporal score.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// What it is compared with: `previous` or `last-sent`.
+    /// The kind of reference: `previous` or `last-sent`.
     pub against: &'static str,
     /// The reference; without a valid one every pixel counts.
     pub reference: Option<Rows<u16>>,

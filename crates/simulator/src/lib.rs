@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames in, arrays, tables, events and rendered frames out.
+//! Runs a design over frames, and writes arrays, tables, events and rendered frames.
 //!
 //! A [`Simulation`] runs a design over a source of footage and writes a folder of NumPy arrays, PNGs
-//! and a summary, which appears at the end and says whether it is complete; [`run_batch`] does that
+//! and a summary. The folder appears at the end, and says whether it is complete. [`run_batch`] does so
 //! for many clips. Memory does not grow with the number of frames. The library never prints: progress
 //! and cancellation go through [`Hooks`].
 

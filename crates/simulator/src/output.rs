@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run leaves behind: arrays, tables, pictures, pixel events and a summary.
+//! The outputs of a run: arrays, tables, pictures, pixel events and a summary.
 //!
 //! Everything that takes frames one at a time and writes them at once is a [`sink::Sink`]; the
 //! recorder feeds them. A new kind of output is a new sink and a line in the recorder.

@@ -15,7 +15,7 @@ use foveate_footage::{Kind, Source};
 /// What a summary says of a run that the user stopped.
 pub(crate) const INTERRUPTED: &str = "interrupted";
 
-/// How far a run is.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// Frames that are done.
@@ -24,16 +24,16 @@ pub struct Progress {
     pub total: Option<u64>,
 }
 
-/// What a run asks and tells its caller, once per frame.
+/// Callbacks of a run, called once per frame.
 pub trait Hooks {
-    /// Another frame is done.
+    /// Reports that another frame is done.
     fn progress(&mut self, progress: Progress);
 
-    /// Whether to stop; what was done so far is then the result, marked as incomplete.
+    /// Returns whether to stop. The result is then what was done so far, marked as incomplete.
     fn cancelled(&self) -> bool;
 }
 
-/// Hooks that say nothing and never stop.
+/// Hooks that report nothing and never stop.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 
@@ -55,7 +55,7 @@ impl Simulation {
     /// Fits the configuration to the frame size of the source.
     ///
     /// # Errors
-    /// When the configuration names another size, or is no design.
+    /// When the configuration names another size, or is not a valid design.
     pub fn new(config: &Config, source: Box<dyn Source>) -> Result<Self, SimulatorError> {
         let mut config = config.clone();
         let (width, height) = source.size();
@@ -70,9 +70,9 @@ impl Simulation {
     }
 
     /// Runs to the end of the source, or until `hooks` cancels. The folder `output` appears when
-    /// everything is written; on an error nothing is left. A source that ends early, such as a
-    /// truncated video, an interrupt, and a full disk leave what was done, with `complete: false` in the
-    /// summary.
+    /// everything is written. On an error nothing is left. The results so far are kept, with
+    /// `complete: false` in the summary, if the source ends early (such as a truncated video), on an
+    /// interrupt, and if the disk is full.
     ///
     /// # Errors
     /// When a frame cannot be read, the output cannot be written, or there is no frame.

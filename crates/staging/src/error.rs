@@ -11,20 +11,20 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum StagingError {
     /// A path that names no folder that can be made.
-    #[error("output `{}` names no folder that can be made; choose another", path.display())]
+    #[error("output `{}` is not the name of a folder; choose another", path.display())]
     NoName {
         /// The path as given.
         path: PathBuf,
     },
     /// The folder is there and holds something.
-    #[error("output folder `{}` is not empty; choose another, or replace it with --force", path.display())]
+    #[error("output folder `{}` is not empty; choose another folder, or replace it with --force", path.display())]
     NotEmpty {
         /// The folder.
         path: PathBuf,
     },
     /// The folder holds something else than what would replace it.
     #[error(
-        "output folder `{}` does not hold {what}, so it is not replaced; choose another, or empty it",
+        "output folder `{}` does not hold {what}, so it is not replaced; choose another folder, or empty it",
         path.display()
     )]
     Foreign {
@@ -35,8 +35,8 @@ pub enum StagingError {
     },
     /// The folder is of the right kind, but nothing says which of its files may go.
     #[error(
-        "output folder `{}` has no list of what Foveate wrote there (its .foveate), so it is not replaced; \
-         choose another, or delete it",
+        "output folder `{}` has no list of the files that Foveate wrote (.foveate), so it is not replaced; \
+         choose another folder, or delete this one",
         path.display()
     )]
     NoList {
@@ -45,8 +45,8 @@ pub enum StagingError {
     },
     /// The folder is of the right kind, and holds other files too.
     #[error(
-        "output folder `{}` holds files that Foveate did not write there, so it is not replaced: {names}; \
-         move them away, or choose another folder",
+        "output folder `{}` is not replaced, because it holds files that Foveate did not write: {names}; \
+         move them, or choose another folder",
         path.display()
     )]
     Mixed {
@@ -56,7 +56,7 @@ pub enum StagingError {
         names: String,
     },
     /// Something cannot be written.
-    #[error("cannot write `{}`: {source}; check space and permissions, or choose another place", path.display())]
+    #[error("cannot write `{}`: {source}; check free space and permissions, or choose another folder", path.display())]
     Write {
         /// The file or folder.
         path: PathBuf,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Folders and files that are there whole or not at all: written beside their place and renamed when
-//! they are complete.
+//! Folders and files that appear complete or not at all. They are written beside their place and
+//! renamed when they are complete.
 //!
-//! A folder that holds something is only replaced when the caller asks for it, and only when it is
-//! one that the caller's kind of run wrote, and holds nothing else: nobody's thesis goes because of a flag.
+//! A folder with contents is replaced only if the caller asks for it, if the same kind of run wrote it,
+//! and if it holds nothing else. So a flag cannot delete other files.
 
 mod error;
 mod file;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Hard cases, and what must come out of them.
+//! Hard cases, and their expected results.
 //!
-//! Every case says what is expected before it looks, and how far off the worst observation was. A case
-//! that shows a *failure that the contract keeps on purpose* (the drift of `previous`), or the error of
-//! a method that Foveate does not use (single-pass variance in f32), expects that failure: if it did not
-//! show, the case would not be hard.
+//! Every case fixes the expected result before it looks at the observed one, and reports the worst error.
+//! Some cases show a *failure that the contract keeps on purpose* (the drift of `previous`), or the error
+//! of a method that Foveate does not use (single-pass variance in f32). They expect that failure: without
+//! it the case would not be hard.
 //!
-//! Agreement of the models is not assumed: where frames run, they run through the functional model, the
-//! engine and the cycle-level array.
+//! The models are not assumed to agree: frames run through the functional model, the engine and the
+//! cycle-level array.
 
 mod case;
 mod depth;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Charts as SVG and PNG: the same drawing twice, with a font that comes along, so that they look the
-//! same on a machine without fonts. Colours are those of the palette; from the eighth series on lines
+//! Charts as SVG and PNG, from the same drawing. The font is part of the program, so charts look the
+//! same on a machine without fonts. Colours are those of the palette; from the eighth series on, lines
 //! are dashed.
 
 mod draw;

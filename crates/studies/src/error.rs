@@ -16,7 +16,7 @@ pub enum StudyError {
     /// An input cannot be read.
     #[error(transparent)]
     Footage(Box<FootageError>),
-    /// A point of the study is no design.
+    /// A point of the study is not a valid design.
     #[error(transparent)]
     Design(#[from] DesignError),
     /// The engine refused a frame.
@@ -26,7 +26,9 @@ pub enum StudyError {
     #[error(transparent)]
     Output(#[from] StagingError),
     /// Images without order in a study of change.
-    #[error("`{name}` is a set of unrelated images, in which nothing changes; {study} needs clips")]
+    #[error(
+        "`{name}` is a set of unrelated images, in which nothing changes; the study {study} needs clips"
+    )]
     Set {
         /// The input.
         name: String,
@@ -35,17 +37,17 @@ pub enum StudyError {
     },
     /// The events of the sensor are missing.
     #[error(
-        "the study `sensor` compares with a sensor's own events; name their file with --sensor-events"
+        "the study `sensor` needs the events of a real sensor; name their file with --sensor-events"
     )]
     NoSensorEvents,
     /// The study is about one recording.
-    #[error("the study `sensor` takes one clip, not {clips}")]
+    #[error("the study `sensor` takes one clip, but {clips} are given")]
     OneClip {
         /// How many there are.
         clips: usize,
     },
     /// The events of the sensor cannot be read.
-    #[error("cannot read sensor events `{}`: {problem}; expected CSV with the columns t_us, x, y in order of time", path.display())]
+    #[error("cannot read sensor events `{}`: {problem}; expected CSV with the columns t_us, x, y, sorted by time", path.display())]
     SensorEvents {
         /// The file.
         path: PathBuf,
@@ -54,8 +56,8 @@ pub enum StudyError {
     },
     /// The recording is about another time than the clip.
     #[error(
-        "no sensor event of `{}` is from the time of the clip, which is {first} to {last} us with \
-         --sensor-start {first}; the recording is from {from} to {to} us: give --sensor-start the \
+        "no event of `{}` falls into the time of the clip, which is {first} to {last} us with \
+         --sensor-start {first}. The events are from {from} to {to} us; set --sensor-start to the \
          time of the first frame on that clock",
         path.display()
     )]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The paper's studies as commands: how active region cameras are over clips, how redundant sets are,
-//! and what region size and thresholds do to it, as CSV, SVG and PNG.
+//! The paper's studies as commands: activity over clips, redundancy of sets, and the effect of region
+//! size and thresholds, as CSV, SVG and PNG.
 //!
-//! [`analyze`] runs a [`Study`] over inputs and writes a folder that is there whole or not at all.
+//! [`analyze`] runs a [`Study`] over inputs and writes a folder that appears complete or not at all.
 //! Every file names the design by its fingerprint and the inputs. Clips are decoded once and frame by
 //! frame for all points of a study, and the same inputs give the same bytes on any number of cores.
 

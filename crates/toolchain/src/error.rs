@@ -38,8 +38,8 @@ pub enum ToolError {
 
     /// The tool is older than the oldest version that works.
     #[error(
-        "{tool} {found} at `{}` is too old, {needed} or newer is needed; \
-         install a newer {}, or set {} to its path",
+        "{tool} {found} at `{}` is too old; {needed} or later is needed. \
+         Install a newer {}, or set {} to its path",
         path.display(),
         tool.package(),
         tool.variable()
@@ -57,7 +57,7 @@ pub enum ToolError {
 
     /// The tool ran, but its version could not be told.
     #[error(
-        "`{}` does not report a version of {tool}, it says: {said}; set {} to a working {tool}",
+        "`{}` does not report a version of {tool}; it prints: {said}. Set {} to a working {tool}",
         path.display(),
         tool.variable()
     )]
@@ -119,8 +119,8 @@ pub enum ToolError {
 
     /// A port of the simulated module is not as wide as it must be.
     #[error(
-        "module `{top}` has `{port}` with {found} bits, the design has {wanted}; \
-         is the Verilog that of another design?"
+        "port `{port}` of module `{top}` has {found} bits, but the design has {wanted}; \
+         the Verilog may belong to another design"
     )]
     PortWidth {
         /// The module.
@@ -134,7 +134,7 @@ pub enum ToolError {
     },
 
     /// The simulated module lacks a port.
-    #[error("module `{top}` has no port `{port}`; is the Verilog that of another design?")]
+    #[error("module `{top}` has no port `{port}`; the Verilog may belong to another design")]
     NoPort {
         /// The module.
         top: String,
@@ -155,7 +155,7 @@ pub enum ToolError {
 
     /// What a tool wrote, or the cache has kept, is not what it should be.
     #[error(
-        "`{}` is not usable: {reason}; delete the folder `{}` if it remains, \
+        "`{}` is not usable: {reason}; delete the folder `{}` if it exists, \
          or set FOVEATE_CACHE=off to work without the cache",
         path.display(),
         folder.display()
@@ -183,12 +183,14 @@ pub enum ToolError {
     },
 
     /// No folder for the cache can be derived from the environment.
-    #[error("no place for the build cache; set FOVEATE_CACHE to a folder, or to `off`")]
+    #[error(
+        "there is no folder for the build cache, because HOME is not set; set FOVEATE_CACHE to a folder, or to `off`"
+    )]
     NoCache,
 
     /// The limit of the cache is no size.
     #[error(
-        "FOVEATE_CACHE_SIZE is `{value}`; expected a size of at least 1M such as 500M or 5G, or `none`"
+        "FOVEATE_CACHE_SIZE is `{value}`; expected a size of at least 1M, such as 500M or 5G, or `none`"
     )]
     CacheSize {
         /// The value of the variable.
@@ -207,8 +209,8 @@ pub enum ToolError {
     },
 }
 
-const CACHE_ADVICE: &str = "set FOVEATE_CACHE to a folder that can be written, or to `off`";
-const TEMPORARY_ADVICE: &str = "set TMPDIR to a folder with space that can be written";
+const CACHE_ADVICE: &str = "set FOVEATE_CACHE to a writable folder, or to `off`";
+const TEMPORARY_ADVICE: &str = "set TMPDIR to a writable folder with free space";
 
 impl ToolError {
     /// Whether the user has asked to stop.

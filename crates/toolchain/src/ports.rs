@@ -64,7 +64,10 @@ mod tests {
         let check = |name: &str, bits| check_header("t", header, &[(name.to_owned(), bits)]);
         assert!(check("a_i", 8).is_ok() && check("b_o", 12).is_ok() && check("c_i", 200).is_ok());
         let error = check("c_i", 208).unwrap_err().to_string();
-        assert!(error.contains("`t` has `c_i` with 200 bits, the design has 208"), "{error}");
+        assert!(
+            error.contains("port `c_i` of module `t` has 200 bits, but the design has 208"),
+            "{error}"
+        );
         assert!(matches!(check("d_i", 1), Err(ToolError::NoPort { .. })));
     }
 
@@ -72,7 +75,10 @@ mod tests {
     fn warnings_tell_widths_of_the_bench_alone() {
         let line = "t_replay.v:3: warning: Port 3 (a_i) of t expects 16 bits, got 11.";
         let error = check_warnings("t", "t_replay.v", line).unwrap_err().to_string();
-        assert!(error.contains("`t` has `a_i` with 16 bits, the design has 11"), "{error}");
+        assert!(
+            error.contains("port `a_i` of module `t` has 16 bits, but the design has 11"),
+            "{error}"
+        );
         assert!(check_warnings("t", "other.v", line).is_ok());
         assert!(check_warnings("u", "t_replay.v", line).is_ok());
     }

@@ -20,7 +20,7 @@ pub(crate) struct AnalyzeArgs {
     /// What to study
     #[arg(value_enum, value_name = "STUDY")]
     pub(crate) study: StudyChoice,
-    /// Clips or sets, each a line or row: what `foveate simulate` takes, several scenes too
+    /// Clips or sets, as for `foveate simulate`; several scenes are allowed. Each becomes a line or row
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
     #[command(flatten)]
@@ -31,7 +31,7 @@ pub(crate) struct AnalyzeArgs {
     /// Replace the folder if it holds a study
     #[arg(long)]
     pub(crate) force: bool,
-    /// For `sensor`: the sensor's own events, CSV with the columns t_us, x, y, packed (.gz) or not
+    /// For `sensor`: the sensor's own events, as CSV with the columns t_us, x, y, plain or gzipped (.gz)
     #[arg(long, value_name = "FILE")]
     pub(crate) sensor_events: Option<PathBuf>,
     /// For `sensor`: the time of the first frame on the clock of the events, in microseconds
@@ -67,10 +67,10 @@ impl ValueEnum for StudyChoice {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let help = match self.0 {
-            Study::Activity => "Active, SRS and TRS share over time, a line per clip",
+            Study::Activity => "Active, SRS and TRS share over time, one line per clip",
             Study::Temporal => "Active, SRS and TRS share of whole clips",
             Study::Redundancy => "Share of regions with SRS = 0, per set and feature",
-            Study::MadHistogram => "How the mean absolute deviation of regions is distributed",
+            Study::MadHistogram => "Histogram of the mean absolute deviation of regions",
             Study::Size => "Active share against region sizes 4, 8, 16 and 32",
             Study::Threshold => "Active share against each threshold",
             Study::Sensor => "Rank correlation with the events of a real sensor, over regions",

@@ -8,7 +8,7 @@ use super::{DesignArgs, at_least_one};
 /// Run the same frames through every level, from functional model to netlist, and print what each costs
 ///
 /// Every level runs on one thread and is compared with one above it; a mismatch ends with exit code 1.
-/// A tool that is missing leaves its level out.
+/// If a tool is missing, its level is skipped.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate bench
           foveate bench --preset serial --json
@@ -20,16 +20,16 @@ pub(crate) struct BenchArgs {
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// At most this many frames of the inputs, or so many random ones
+    /// Take at most this many frames of the inputs, or make this many random ones
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = at_least_one())]
     pub(crate) frames: u32,
     /// Seed of random pixels
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
-    /// How long each level is timed, at least
+    /// Time each level for at least this many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = parse_seconds)]
     pub(crate) seconds: f64,
-    /// Run what Yosys makes of one RPU as well, in Icarus
+    /// Also run the netlist that Yosys makes of one RPU, in Icarus
     #[arg(long)]
     pub(crate) netlist: bool,
     /// Print JSON

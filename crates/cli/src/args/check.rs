@@ -19,17 +19,17 @@ pub(crate) struct CheckArgs {
     pub(crate) file: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Clock for the frame rates, for example 100MHz or 1.5GHz; an assumption, not what a design reaches
+    /// Assumed clock for the frame rates, for example 100MHz or 1.5GHz; the hardware may be slower
     #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
     pub(crate) clock: Clock,
-    /// Say whether the design reaches this many frames per second; of a serial one propose the largest fold
-    /// that still does. Exit code 1 if it is not reached
+    /// Check that the design reaches this many frames per second; the exit code is 1 if it does not. For a
+    /// serial design, also propose the largest fold that reaches it
     #[arg(long, value_name = "RATE", value_parser = Rate::parse)]
     pub(crate) min_fps: Option<Rate>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print nothing but errors: the exit code says whether the design is valid and fast enough
+    /// Print only errors; the exit code says whether the design is valid and fast enough
     #[arg(long, short, conflicts_with = "json")]
     pub(crate) quiet: bool,
 }

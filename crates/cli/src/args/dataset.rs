@@ -8,7 +8,7 @@ use clap::Args;
 use super::DesignArgs;
 use super::input::InputArgs;
 
-/// Turn a data set into that of its active regions, in the same form, with labels and tags
+/// Turn a data set into one that shows only active regions, in the same format, with labels and tags
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate dataset train-images-idx3-ubyte.gz -o regions
           foveate dataset photos/ -o regions --preset steady --resize 224x224

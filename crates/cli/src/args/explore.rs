@@ -10,8 +10,8 @@ use super::input::InputArgs;
 /// Measure many designs over clips: error against the ideal camera, area, speed, Pareto front
 ///
 /// Writes points.csv, points.parquet, clips.csv, pareto.csv, a configuration for every point and
-/// report.html. Finished results stay in the folder: run the same command again after an interrupt, or
-/// with a larger space, and only what is missing is done.
+/// report.html. Finished results stay in the folder: if you run the same command again after an
+/// interrupt, or with a larger space, it computes only what is missing.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate explore approximations scene:street -o out
           foveate explore space.toml street.mp4 bus.mp4 -o out --resize 640x360
@@ -22,13 +22,13 @@ pub(crate) struct ExploreArgs {
     /// File that says what varies, or the name of a space that comes with the program
     #[arg(value_name = "SPACE", required_unless_present = "list")]
     pub(crate) space: Option<PathBuf>,
-    /// Clips or sets: what `foveate simulate` takes, several scenes too
+    /// Clips or sets, as for `foveate simulate`; several scenes are allowed
     #[arg(value_name = "INPUT", required_unless_present_any = ["list", "print"])]
     pub(crate) inputs: Vec<PathBuf>,
     /// Folder to write, or to continue
     #[arg(long, short, value_name = "DIR", required_unless_present_any = ["list", "print"])]
     pub(crate) output: Option<PathBuf>,
-    /// Leave out synthesis; needs no Yosys
+    /// Skip synthesis; Yosys is then not needed
     #[arg(long)]
     pub(crate) no_area: bool,
     /// List the spaces that come with the program
@@ -43,7 +43,7 @@ pub(crate) struct ExploreArgs {
     /// Print all points as a Markdown table
     #[arg(long)]
     pub(crate) markdown: bool,
-    /// Neither progress nor a report; what --json and --markdown ask for is printed
+    /// Show no progress and no report; --json and --markdown still print
     #[arg(long, short)]
     pub(crate) quiet: bool,
     #[command(flatten)]

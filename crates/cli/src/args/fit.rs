@@ -12,11 +12,12 @@ use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that meets limits on your clips
 ///
-/// The configuration says what the camera is to do. An ideal camera does it in floating point over whole
-/// frames, and designs are compared with that: on the first half of every clip to choose, on the second
-/// half to report. The search covers region size, features, thresholds, pixel bits, windows, denoising,
-/// reference, organization, feed and fold. Exit code 1 if no design meets the limits, or if the second
-/// half does not confirm the choice; the nearest design is written all the same.
+/// The configuration is the task of the camera. An ideal camera performs the task in floating point over
+/// whole frames, and candidates are compared with it. The first half of every clip is used to choose a
+/// design, and the second half to report on it. The search covers region size, features, thresholds,
+/// pixel bits, windows, denoising, reference, organization, feed and fold. The exit code is 1 if no
+/// design meets the limits, or if the second half does not confirm the choice; the nearest design is
+/// still written.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples: foveate fit street.mp4 --min-fps 120 --max-flips 1% --max-lut 100
@@ -24,7 +25,7 @@ use super::{DesignArgs, at_least_one};
           foveate fit a.mp4 b.mp4 --resize 640x360 --min-psnr 30 --max-bytes 10000"
 )]
 pub(crate) struct FitArgs {
-    /// Clips: what `foveate simulate` takes, several scenes too
+    /// Clips, as for `foveate simulate`; several scenes are allowed
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
     #[command(flatten)]
@@ -38,7 +39,7 @@ pub(crate) struct FitArgs {
     /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Synthesize at most this many designs, the promising ones first
+    /// Synthesize at most this many designs, the most promising first
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = at_least_one())]
     pub(crate) max_syntheses: u32,
     #[command(flatten)]
@@ -54,19 +55,19 @@ pub(crate) struct ConstraintArgs {
     /// Frames per second that the array must reach
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = Rate::parse)]
     pub(crate) min_fps: Rate,
-    /// Clock for the frame rates; an assumption, not what a design reaches
+    /// Assumed clock for the frame rates; the hardware may be slower
     #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
     pub(crate) clock: Clock,
     /// First set the thresholds so that this share of the regions is active
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) target_active: Option<f64>,
-    /// At most this share of the regions may decide otherwise than the ideal camera
+    /// Largest share of the regions whose decision may differ from that of the ideal camera
     #[arg(long, value_name = "PERCENT", default_value = "1%", value_parser = percent)]
     pub(crate) max_flips: f64,
-    /// At most this share of what is active in the ideal camera may be missed
+    /// Largest share of what is active in the ideal camera that may be missed
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_missed: Option<f64>,
-    /// At least this PSNR of the rendered frames against those of the ideal camera, in dB
+    /// Smallest PSNR of the rendered frames against those of the ideal camera, in dB
     #[arg(long, value_name = "DB", value_parser = decibels)]
     pub(crate) min_psnr: Option<f64>,
     /// A relevant region may be stale for at most this many frames in a row

@@ -15,19 +15,19 @@ use crate::output;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Input options")]
 pub(crate) struct InputArgs {
-    /// Take at most this many frames per second, chosen by their times; none is repeated
+    /// Take at most this many frames per second, chosen by their times; no frame is repeated
     #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
     pub(crate) input_fps: Option<FrameRate>,
-    /// Take at most this many frames of every clip; of a scene, exactly this many
+    /// Take at most this many frames of every clip; a scene has exactly this many
     #[arg(long, visible_alias = "frames", value_name = "N", value_parser = at_least_one())]
     pub(crate) max_frames: Option<u32>,
     /// Frame rate of images, which have no times of their own
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = FrameRate::parse)]
     pub(crate) rate: FrameRate,
-    /// Leave out frames before this time: seconds, or HH:MM:SS
+    /// Skip frames before this time: seconds, or HH:MM:SS
     #[arg(long, value_name = "TIME", value_parser = parse_time)]
     pub(crate) start: Option<u64>,
-    /// Leave out frames at this time or later
+    /// Skip frames at this time or later
     #[arg(long, value_name = "TIME", value_parser = parse_time)]
     pub(crate) end: Option<u64>,
     /// Take this part of every frame

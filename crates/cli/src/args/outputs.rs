@@ -9,33 +9,33 @@ use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Outputs")]
 pub(crate) struct OutputArgs {
-    /// The rendered frames, as the receiver's screen shows them: numbered pictures, a lossless video
-    /// (FFV1), or a video for any player (H.264); video needs ffmpeg
+    /// Format of the rendered frames, which the receiver's screen shows: numbered pictures, a lossless
+    /// video (FFV1), or a video for any player (H.264); video needs ffmpeg
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Rendered::Png)]
     pub(crate) rendered: Rendered,
     /// The same as --rendered none
     #[arg(long, conflicts_with = "rendered")]
     pub(crate) no_rendered: bool,
-    /// The original frames with the decisions in colour
+    /// Write the original frames with the decisions in colour
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
     pub(crate) overlay: Option<Pictures>,
-    /// A map of every score
+    /// Write a map of every score
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
     pub(crate) heatmap: Option<Pictures>,
-    /// A table with one row per region and frame; several formats with commas
+    /// Write a table with one row per region and frame; separate several formats with commas
     #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',')]
     pub(crate) events: Vec<EventFormat>,
     /// Rows of the table to keep
     #[arg(long, value_enum, value_name = "WHICH", requires = "events")]
     pub(crate) only: Option<Only>,
-    /// Ordinary (x, y, t, p) events of the same frames, for comparison; several formats with commas
+    /// Write ordinary (x, y, t, p) events of the same frames; separate several formats with commas
     #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
     pub(crate) pixel_events: Vec<PixelEventFormat>,
-    /// How much a pixel must change to make an event: in grey levels [default: temporal.level + 1], or with
-    /// --log in the natural logarithm [default: 0.2]
+    /// Change of a pixel that makes a pixel event: in grey levels [default: temporal.level + 1], or in
+    /// natural logarithms with --log [default: 0.2]
     #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse_decimal, requires = "pixel_events")]
     pub(crate) contrast: Option<Decimal>,
-    /// Logarithmic pixels instead of linear ones
+    /// Make pixel events from logarithmic pixel values instead of linear ones
     #[arg(long, requires = "pixel_events")]
     pub(crate) log: bool,
 }

@@ -29,9 +29,9 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
         Verdict::Passed => return written,
         Verdict::Mismatch => "model and RTL do not agree".to_owned(),
         Verdict::Incomplete => format!(
-            "no mismatch, but not all of the Verilog was simulated: {}; `rpu` and `rcm` are simulated \
-             with what they instantiate: take other files out of the folder, or name the --level that \
-             is to be checked",
+            "no mismatch, but not all of the Verilog was simulated: {}. Foveate simulates `rpu` and \
+             `rcm` with the modules that they instantiate; remove other files from the folder, or choose \
+             one of the two with --level",
             summary.left_out()
         ),
     };

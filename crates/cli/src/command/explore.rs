@@ -26,7 +26,9 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
         return output::text(&BUILT_IN.iter().map(line).collect::<String>());
     }
     let (Some(file), output) = (&args.space, args.output.as_deref()) else {
-        return Err(CliError::Usage("name a space".to_owned()));
+        return Err(CliError::Usage(
+            "no space is given; name a file, or one of those that --list prints".to_owned(),
+        ));
     };
     let text = read(file)?;
     let space = Space::from_toml(&text).map_err(|error| blame(file, &error))?;
@@ -76,7 +78,7 @@ fn read(file: &Path) -> Result<String, CliError> {
         None => {
             let names: Vec<&str> = BUILT_IN.iter().map(|space| space.name).collect();
             Err(CliError::Usage(format!(
-                "no file `{}`, and no space of that name; those that come with the program are {}",
+                "there is no file `{}` and no built-in space of that name; the built-in spaces are {}",
                 file.display(),
                 names.join(" and ")
             )))

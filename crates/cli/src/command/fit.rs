@@ -52,16 +52,19 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
 /// What the exit code says.
 fn verdict(found: &Fit) -> Result<(), CliError> {
     if !found.problems.is_empty() {
-        return Err(CliError::Failed(format!("not all was seen: {}", found.problems.join("; "))));
+        return Err(CliError::Failed(format!(
+            "not all of the input was read: {}",
+            found.problems.join("; ")
+        )));
     }
     if !found.feasible {
-        return Err(CliError::Failed("no design holds all constraints".to_owned()));
+        return Err(CliError::Failed("no design meets all limits".to_owned()));
     }
     if !found.borne_out {
         let broken = found.design.held_out_held.iter().filter(|held| !held.holds);
         let broken: Vec<String> = broken.map(Held::text).collect();
         return Err(CliError::Failed(format!(
-            "the second half does not confirm it: {}",
+            "the second half of the clips does not confirm the design: {}",
             broken.join(", ")
         )));
     }
@@ -85,7 +88,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
             target.found * 100.0
         );
     }
-    let heading = if found.feasible { "Cheapest" } else { "No design holds all; nearest" };
+    let heading = if found.feasible { "Cheapest" } else { "No design meets all limits; nearest" };
     text.push('\n');
     paragraph(&mut text, &format!("{heading}: {}", design.summary), width, "  ");
     let (unit, array) = (&design.silicon.unit, &design.silicon.array);
@@ -123,7 +126,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
         paragraph(&mut text, &line, width, "  ");
     }
     if !found.feasible && found.binding.is_empty() {
-        text += "\nNo single constraint binds: every design breaks more than one.\n";
+        text += "\nNo single limit is binding: every design exceeds more than one.\n";
     }
     text += "\nWhy:\n";
     for line in &found.why {
@@ -133,7 +136,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
         Some(file) => {
             let _ = writeln!(
                 text,
-                "\n{} holds it: foveate generate --config {0} -o core",
+                "\nThe design is in {}. To build it: foveate generate --config {0} -o core",
                 file.display()
             );
         }

@@ -88,7 +88,7 @@ fn warn(benches: &[ShippedBench]) {
     for bench in benches {
         if let Some(shortcoming) = &bench.shortcoming {
             eprintln!(
-                "warning: tb/{0}_replay.v does not test all of `{0}`, and never says PASS: {shortcoming}",
+                "warning: tb/{0}_replay.v does not test all of `{0}`, so it never says PASS: {shortcoming}",
                 bench.top.module()
             );
         }

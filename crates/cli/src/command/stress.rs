@@ -37,7 +37,7 @@ pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
     match (interrupted.load(Ordering::Relaxed), broken) {
         (true, _) => Err(CliError::Stopped { done: format!("{} rows", rows.len()) }),
         (false, 0) => Ok(()),
-        (false, _) => Err(CliError::Failed(format!("{broken} of {} do not hold", rows.len()))),
+        (false, _) => Err(CliError::Failed(format!("{broken} of {} cases failed", rows.len()))),
     }
 }
 

@@ -59,7 +59,7 @@ fn a_folder_is_a_set_here_unless_someone_says_otherwise() {
     fail_in(dir.path(), 2, &["dataset", "scene:street", "-o", "no"], &["scene:street is a clip"]);
     fs::create_dir(dir.path().join("clips")).unwrap();
     fs::write(dir.path().join("clips/a.y4m"), "").unwrap();
-    let clips = ["`clips` holds clips and no images", "foveate simulate"];
+    let clips = ["`clips` holds clips but no images", "foveate simulate"];
     fail_in(dir.path(), 2, &["dataset", "clips", "-o", "no"], &clips);
     let timed = ["dataset", "pets", "-o", "no", "--input-fps", "5"];
     fail_in(dir.path(), 2, &timed, &["images of a set have no times"]);

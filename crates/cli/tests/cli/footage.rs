@@ -46,11 +46,14 @@ fn what_is_no_video_is_not_to_be_played() {
     fs::write(at("broken.mp4"), "no footage").unwrap();
     for (input, parts) in [
         ("empty.mp4", &["`empty.mp4` holds no frames: it is empty"][..]),
-        ("t10k-labels-idx1-ubyte", &["IDX file of labels", "name the file of their images"]),
+        ("t10k-labels-idx1-ubyte", &["IDX file of labels", "name the file of the images"]),
         ("floats.idx", &["IDX file, but not of 8-bit images"]),
         ("notes.txt", &["`notes.txt` is no input", "PNG", "IDX"]),
         ("v4l2:/dev/none", &["camera `/dev/none` gives no frame", "No such file", "connected"]),
-        ("https://example.org/a.mp4?x=[1]", &["is an address", "fetch it first", "yuv4mpegpipe"]),
+        (
+            "https://example.org/a.mp4?x=[1]",
+            &["is an address", "download it first", "yuv4mpegpipe"],
+        ),
         ("rtsp://camera/1", &["`rtsp://camera/1` is an address"]),
         ("missing.mp4", &["`missing.mp4` does not exist"]),
     ] {

@@ -142,5 +142,10 @@ fn a_camera_of_five_bits_sees_as_much_as_one_of_eight() {
         assert!((share / eight - 1.0).abs() < 0.1, "{share} of {eight}");
     }
     let args = ["check", "--set", "frame.pixel_bits=5", "--set", "temporal.level=40"];
-    fail_in(dir.path(), 2, &args, &["`temporal.level` = 40", "0..=30", "40 of 8 bits is 5 of 5"]);
+    fail_in(
+        dir.path(),
+        2,
+        &args,
+        &["`temporal.level` = 40", "0..=30", "40 at 8 bits is 5 at 5 bits"],
+    );
 }

@@ -113,7 +113,7 @@ impl Tally {
         need(self.blank > 0 || always_relevant(part), "no region is blank".to_owned());
         need(self.compared > 0, "nothing is compared with an earlier frame".to_owned());
         let silent = self.silent.join(" and ");
-        need(self.silent.is_empty(), format!("{silent} should be other than 0 once"));
+        need(self.silent.is_empty(), format!("{silent} never differs from 0"));
         (!missing.is_empty()).then(|| missing.join(", "))
     }
 

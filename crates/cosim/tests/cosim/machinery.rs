@@ -181,7 +181,7 @@ fn sources_of_something_else_are_refused_by_name() {
     }
     let other = edited("module tiny", "module tony");
     let error = run(Simulator::Iverilog, &other, &recording(1), false).unwrap_err();
-    assert!(error.to_string().starts_with("no module `tiny` in the Verilog (tiny.v)"), "{error}");
+    assert!(error.to_string().starts_with("the Verilog (tiny.v) has no module `tiny`"), "{error}");
     let other = TINY.replace("b_i", "other_i");
     let error = run(Simulator::Iverilog, &other, &recording(1), false).unwrap_err();
     assert!(error.to_string().starts_with("module `tiny` has no port `b_i`"), "{error}");

@@ -137,7 +137,10 @@ fn nothing_to_simulate_is_refused() {
     let design = design(&config(""), (1, 1));
     let stimulus = Stimulus { rounds: 0, ..Stimulus::default() };
     let error = stimulus.record(&design, &mut |_, _| {}).unwrap_err().to_string();
-    assert!(error.starts_with("nothing to simulate: no frames and rounds = 0"), "{error}");
+    assert!(
+        error.starts_with("nothing to simulate: no frames are given and rounds is 0"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -145,7 +148,7 @@ fn arrays_beyond_memory_are_refused_before_they_are_made() {
     let design = design(&config(""), (1, 1));
     let level = Level::Rcm { columns: 300, rows: 300 };
     let error = directed(level, 1).record(&design, &mut |_, _| {}).unwrap_err().to_string();
-    assert!(error.starts_with("an array of 90000 regions that take 5760000 pixels"), "{error}");
+    assert!(error.starts_with("an array of 90000 regions, which take 5760000 pixels"), "{error}");
     assert!(error.contains("at most 65536 regions and 67108864 pixels"), "{error}");
 }
 
@@ -168,5 +171,8 @@ fn frames_of_another_kind_are_refused() {
     let frames = vec![Frame::filled(24, 16, 8, 0).unwrap(), Frame::filled(24, 15, 8, 0).unwrap()];
     let stimulus = Stimulus { frames, ..Stimulus::default() };
     let error = stimulus.record(&design, &mut |_, _| {}).unwrap_err().to_string();
-    assert!(error.starts_with("frame 1 is 24x15 pixels of 8 bits, the design takes"), "{error}");
+    assert!(
+        error.starts_with("frame 1 has 24x15 pixels of 8 bits, but the design takes"),
+        "{error}"
+    );
 }

@@ -47,11 +47,11 @@ impl Rules for Pipelined {
         _: u32,
     ) -> Result<HardwareConfig, DesignError> {
         if asked.fold != 1 {
-            let remedy = "only the serial organization folds; use 1";
+            let remedy = "only the serial organization shares lanes; use 1";
             return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));
         }
         if let Some(memory) = asked.memory {
-            let remedy = "only the lanes of the serial organization have a memory of either kind; \
+            let remedy = "only the lanes of the serial organization have such a memory; \
                           leave the key out";
             return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
         }

@@ -51,7 +51,7 @@ impl Rules for Serial {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
             return Err(asked.clash("region.size", size.to_string(), &remedy));
         }
-        let why = format!(", the regions of the frame; fold = {regions} makes one lane");
+        let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
         in_range("hardware.fold", asked.fold, 1..=regions, &why)?;
         Ok(HardwareConfig { feed: Some(asked.feed.unwrap_or_default()), ..asked.clone() })
     }

@@ -301,7 +301,7 @@ fn a_pipelined_design_has_no_other_fold() {
     assert_eq!(
         refusal,
         "`hardware.fold` = 2 cannot be combined with organization = \"pipelined\"; only the serial \
-         organization folds; use 1"
+         organization shares lanes; use 1"
     );
     assert_eq!(design.largest_fold(u64::MAX), None);
 }

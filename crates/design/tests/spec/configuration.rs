@@ -122,24 +122,27 @@ fn wrong_types_name_the_key() {
 #[test]
 fn ranges_name_key_value_and_range() {
     for (toml, message) in [
-        ("[region]\nsize = 65\n", "`region.size` = 65 is out of range; valid is 2..=64"),
-        ("[frame]\npixel_bits = 17\n", "`frame.pixel_bits` = 17 is out of range; valid is 1..=16"),
-        ("[frame]\nwidth = 0\n", "`frame.width` = 0 is out of range; valid is 1..=16384"),
+        ("[region]\nsize = 65\n", "`region.size` = 65 is out of range; the valid range is 2..=64"),
+        (
+            "[frame]\npixel_bits = 17\n",
+            "`frame.pixel_bits` = 17 is out of range; the valid range is 1..=16",
+        ),
+        ("[frame]\nwidth = 0\n", "`frame.width` = 0 is out of range; the valid range is 1..=16384"),
         (
             "[hardware]\norganization = \"serial\"\nfold = 785\n",
-            "`hardware.fold` = 785 is out of range; valid is 1..=784, the regions of the frame; fold = 784 makes one lane",
+            "`hardware.fold` = 785 is out of range; the valid range is 1..=784 (the frame has 784 regions); fold = 784 makes one lane",
         ),
         (
             "[temporal]\nmin_count = 65\n",
-            "`temporal.min_count` = 65 is out of range; valid is 0..=64 for regions of 64 pixels",
+            "`temporal.min_count` = 65 is out of range; the valid range is 0..=64 for regions of 64 pixels",
         ),
         (
             "[[spatial]]\nfeature = \"edge\"\nlevel = 1531\n",
-            "`spatial[0].level` = 1531 is out of range; valid is 0..=1529, since pixels of 8 bits reach 1530, for `edge`",
+            "`spatial[0].level` = 1531 is out of range; the valid range is 0..=1529 (pixels of 8 bits reach 1530) for `edge`",
         ),
         (
             "[[spatial]]\nfeature = \"mad\"\nmin_score = 127.6\n",
-            "`spatial[0].min_score` = 127.6 is out of range; valid is 0..=127.5 for `mad`",
+            "`spatial[0].min_score` = 127.6 is out of range; the valid range is 0..=127.5 for `mad`",
         ),
     ] {
         assert_eq!(refusal(toml), message);

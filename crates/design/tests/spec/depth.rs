@@ -133,31 +133,31 @@ fn what_no_pixel_can_reach_is_refused_with_the_value_to_use() {
     for (overrides, message) in [
         (
             [five, "temporal.level=40"],
-            "`temporal.level` = 40 is out of range; valid is 0..=30 for pixels of 5 bits, which differ by at most 31; 40 of 8 bits is 5 of 5",
+            "`temporal.level` = 40 is out of range; the valid range is 0..=30 for pixels of 5 bits, which differ by at most 31; 40 at 8 bits is 5 at 5 bits",
         ),
         (
             ["frame.pixel_bits=8", "temporal.level=255"],
-            "`temporal.level` = 255 is out of range; valid is 0..=254 for pixels of 8 bits, which differ by at most 255",
+            "`temporal.level` = 255 is out of range; the valid range is 0..=254 for pixels of 8 bits, which differ by at most 255",
         ),
         (
             ["frame.pixel_bits=3", "spatial.0.level=100"],
-            "`spatial[0].level` = 100 is out of range; valid is 0..=41, since pixels of 3 bits reach 42, for `edge`; 100 of 8 bits is 3 of 3",
+            "`spatial[0].level` = 100 is out of range; the valid range is 0..=41 (pixels of 3 bits reach 42) for `edge`; 100 at 8 bits is 3 at 3 bits",
         ),
         (
             [five, "spatial=[{feature=\"corner\",level=31}]"],
-            "`spatial[0].level` = 31 is out of range; valid is 0..=30, since pixels of 5 bits reach 31, for `corner`; 31 of 8 bits is 3 of 5",
+            "`spatial[0].level` = 31 is out of range; the valid range is 0..=30 (pixels of 5 bits reach 31) for `corner`; 31 at 8 bits is 3 at 5 bits",
         ),
         (
             [five, "spatial=[{feature=\"mad\",min_score=20}]"],
-            "`spatial[0].min_score` = 20 is out of range; valid is 0..=15.5 for `mad`; 20 of 8 bits is 2.5 of 5",
+            "`spatial[0].min_score` = 20 is out of range; the valid range is 0..=15.5 for `mad`; 20 at 8 bits is 2.5 at 5 bits",
         ),
         (
             [five, "spatial=[{feature=\"variance\",min_score=300}]"],
-            "`spatial[0].min_score` = 300 is out of range; valid is 0..=240.25 for `variance`; 300 of 8 bits is 4.6875 of 5",
+            "`spatial[0].min_score` = 300 is out of range; the valid range is 0..=240.25 for `variance`; 300 at 8 bits is 4.6875 at 5 bits",
         ),
         (
             [five, "spatial.0.min_score=65"],
-            "`spatial[0].min_score` = 65 is out of range; valid is 0..=64 for `edge`",
+            "`spatial[0].min_score` = 65 is out of range; the valid range is 0..=64 for `edge`",
         ),
     ] {
         assert_eq!(refusal("", &overrides), message);

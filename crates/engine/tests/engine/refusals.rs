@@ -22,13 +22,13 @@ fn what_is_no_frame_of_the_design_is_refused() {
     let other = Frame::filled(20, 9, 8, 1).unwrap();
     assert_eq!(
         message(engine.step(&other)),
-        "a frame of 20x9 pixels of 8 bits was given to a design for 20x9 pixels of 6 bits; give it \
+        "the frame has 20x9 pixels of 8 bits, but the design takes 20x9 pixels of 6 bits; give it \
          frames of that kind"
     );
     assert_eq!(
         message(engine.step_u8(&[0; 179], 20)),
-        "179 pixels in rows 20 apart hold no frame of 20x9; the stride must be at least 20 and the \
-         pixels at least 180"
+        "179 pixels with a stride of 20 do not hold a frame of 20x9; the stride must be at least 20, \
+         and 180 pixels are needed"
     );
     assert!(engine.step_u8(&[0; 1000], 19).is_err());
     assert!(engine.step_u8(&[0; 1000], usize::MAX).is_err());
@@ -42,7 +42,7 @@ fn what_is_no_frame_of_the_design_is_refused() {
     assert_eq!(refused, "pixel (7, 1) is 64; the largest value of 6 bits is 63");
     assert_eq!((engine.outcome().clone(), engine.rendered().to_words()), before);
     let refused = message(engine.step_u16(&[0; 180], 20));
-    assert_eq!(refused, "pixels of 6 bits are held as u8; the design was given u16");
+    assert_eq!(refused, "pixels of 6 bits need the type u8, but u16 was given");
     assert!(Engine::new(&design(9)).step_u8(&[0; 180], 20).is_err());
 }
 
@@ -61,12 +61,12 @@ fn batches_with_a_wrong_frame_change_nothing() {
     );
     assert_eq!(
         refused(engine.step_batch_u8(&[&good[1..]], 20, None)),
-        "frame 0 of the batch: 179 pixels in rows 20 apart hold no frame of 20x9; the stride must \
-         be at least 20 and the pixels at least 180"
+        "frame 0 of the batch: 179 pixels with a stride of 20 do not hold a frame of 20x9; the stride \
+         must be at least 20, and 180 pixels are needed"
     );
     assert_eq!(
         refused(engine.step_batch_u16(&[&[0; 180]], 20, None)),
-        "pixels of 6 bits are held as u8; the design was given u16"
+        "pixels of 6 bits need the type u8, but u16 was given"
     );
     let mut screens = Screens::new();
     engine.step_batch_u8(&[good], 20, Some(&mut screens)).unwrap();

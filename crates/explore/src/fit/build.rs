@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Looks as silicon: what could be built of them, what it costs, which is cheapest.
+//! Builds looks: which arrays are possible, what each costs, and which is the cheapest.
 
 use foveate_design::{
     Config, Design, FeatureKind, Filter, MemoryKind, Neighborhood, Organization, Reference,
@@ -14,9 +14,9 @@ use crate::cost::Silicon;
 use crate::row::real;
 use crate::{ExploreError, Hooks};
 
-/// Looks that are built though they do not hold, where none does: the nearest.
+/// If no look meets the limits, this many of the nearest ones are built anyway.
 const NEAREST: usize = 6;
-/// Designs that are synthesized before it is looked whether one holds.
+/// Designs that are synthesized before checking whether one meets the limits.
 const BATCH: usize = 8;
 
 /// A design that could be built.
@@ -70,12 +70,12 @@ impl Candidate {
     }
 }
 
-/// What the ways to build a camera are bounded by.
+/// Bounds on the ways to build a camera.
 #[derive(Clone, Copy)]
 struct Bounds {
     /// Clocks that a frame may take.
     max_clocks: Option<u64>,
-    /// Of what the memories of lanes are to be built; each design's own rule where it is not said.
+    /// The kind of lane memory to build. If it is `None`, each design follows its own rule.
     memory: Option<MemoryKind>,
 }
 
@@ -109,14 +109,14 @@ pub(super) fn build(
     });
     if candidates.is_empty() {
         return Err(ExploreError::NoPoints {
-            settings: "every camera that was looked at".to_owned(),
+            settings: "all candidate cameras".to_owned(),
             reason: "none can be built".to_owned(),
         });
     }
     Ok(Built { candidates, left_out })
 }
 
-/// The looks than which none that holds is simpler.
+/// The simplest looks: those for which no simpler look meets the limits too.
 fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
     let simpler = |one: &Config, other: &Config| {
         let (one, other) = (complexity(one), complexity(other));
@@ -200,7 +200,7 @@ fn synthesize(
     Ok(designs.iter().zip(areas).map(candidate).collect())
 }
 
-/// Clocks per frame with which so many frames per second are reached.
+/// The most clocks per frame that reach this many frames per second.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -210,9 +210,9 @@ fn clocks(clock_hz: u64, fps: f64) -> u64 {
     (real(clock_hz) / fps.max(1e-9)).floor() as u64
 }
 
-/// Ways to build a camera. Where regions may share a unit: of each feed the deepest fold that is fast
-/// enough and its halvings, since units do not only shrink with their number. Where that is nowhere fast
-/// enough, the organizations in which they do not.
+/// Ways to build a camera. If regions may share a unit, these are, for each feed, the deepest fold that is
+/// fast enough and its halvings, because fewer units are not always smaller in total. If no fold is fast
+/// enough, these are the organizations in which regions do not share a unit.
 fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
     let Bounds { max_clocks, memory } = bounds;
     let with = |organization: Organization, feed| {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a design must hold, and how far it is from it.
+//! Limits that a design must meet, and how far it is from them.
 
 use foveate_design::Design;
 use foveate_fidelity::Figures;
@@ -8,10 +8,10 @@ use serde::Serialize;
 use crate::cost::Silicon;
 use crate::row::{bytes_per_frame, real};
 
-/// What a design must hold. Shares are 0..=1; what is not there does not matter.
+/// Limits that a design must meet. Shares are 0..=1. A limit that is `None` is not checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Constraints {
-    /// Share of regions whose action is another than the ideal's.
+    /// Share of regions whose action differs from the ideal's.
     pub max_flips: Option<f64>,
     /// Share of the area active in the ideal that is not active in the design.
     pub max_missed: Option<f64>,
@@ -33,18 +33,18 @@ pub struct Constraints {
     pub max_bram: Option<u64>,
 }
 
-/// A constraint beside what was found.
+/// A limit with the figure that was found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Held {
     /// The option that sets it, without its dashes.
     pub name: &'static str,
     /// The figure; infinite, which JSON has as null, for the PSNR of identical screens.
     pub value: f64,
-    /// What it must be at most, or at least.
+    /// The limit: the most or the least that the figure may be.
     pub limit: f64,
-    /// Whether it must be at least that.
+    /// Whether the limit is a minimum.
     pub at_least: bool,
-    /// Whether it holds.
+    /// Whether the limit is met.
     pub holds: bool,
 }
 
@@ -57,8 +57,8 @@ impl Held {
         Self { name, value, limit, at_least: true, holds: value >= limit }
     }
 
-    /// How far it is from being held: 0 when it is, 1 when it is twice or half of what it may be. Comparable
-    /// between constraints, and finite.
+    /// How far the figure is from the limit: 0 if the limit is met, 1 if the figure is twice or half of it.
+    /// The value is finite and comparable between limits.
     #[must_use]
     pub fn excess(&self) -> f64 {
         const LEAST: f64 = 1e-6;
@@ -71,12 +71,12 @@ impl Held {
     }
 }
 
-/// Whether all of them hold.
+/// Whether all limits are met.
 pub(super) fn all_hold(held: &[Held]) -> bool {
     held.iter().all(|held| held.holds)
 }
 
-/// How far they are from being held, together.
+/// How far all figures together are from their limits.
 pub(super) fn excess(held: &[Held]) -> f64 {
     held.iter().map(Held::excess).sum()
 }

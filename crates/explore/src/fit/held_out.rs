@@ -10,7 +10,7 @@ use crate::{Hooks, Progress};
 pub(super) struct Halves {
     /// For every clip the frames of its first half and all of its frames.
     pub(super) frames: Vec<(u64, u64)>,
-    /// Clips that ended before their end, and why.
+    /// Clips that ended too early, and why.
     pub(super) problems: Vec<String>,
 }
 

@@ -20,9 +20,9 @@ use crate::row::together;
 const SIDES: [u32; 3] = [4, 8, 16];
 /// The fewest bits per pixel that are tried.
 const FEWEST_BITS: u32 = 3;
-/// So many pairs of a region size and features are looked at closely, though they flip more than wanted.
+/// This many pairs of a region size and features are examined closely, even if they flip more than wanted.
 const AT_LEAST: usize = 3;
-/// Pairs that flip at most so many times what is wanted are looked at, too.
+/// Pairs that flip at most this many times the wanted share are examined, too.
 const SLACK: f64 = 1.5;
 
 /// A camera and how it did on the first halves.
@@ -67,12 +67,12 @@ impl<'a> Search<'a> {
         Ok(Self { constraints, footage, halves, task, seen: BTreeMap::new() })
     }
 
-    /// Everything that was looked at.
+    /// All cameras that were examined.
     pub(super) fn all(&self) -> impl Iterator<Item = &Look> {
         self.seen.values()
     }
 
-    /// A camera, if it was looked at.
+    /// A camera, if it was examined.
     pub(super) fn get(&self, config: &Config) -> Option<&Look> {
         self.seen.get(&config.to_toml())
     }
@@ -167,7 +167,7 @@ impl<'a> Search<'a> {
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Looks at cameras on the first halves; what is no design is left out.
+    /// Examines cameras on the first halves. Invalid designs are left out.
     pub(super) fn look(&mut self, configs: &[Config]) -> Result<Vec<Look>, ExploreError> {
         let designs: Vec<_> = configs.iter().filter_map(|config| config.validate().ok()).collect();
         let new: BTreeMap<String, _> = designs
@@ -187,7 +187,7 @@ impl<'a> Search<'a> {
         Ok(looks.collect())
     }
 
-    /// The figures of a camera on the second halves, which no choice has seen.
+    /// The figures of a camera on the second halves, which influenced no choice.
     pub(super) fn second_half(&self, look: &Look) -> Result<(Figures, Vec<Held>), ExploreError> {
         let design = look.config.validate()?;
         let mut measured = Vec::new();

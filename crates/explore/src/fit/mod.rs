@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cheapest design that a scene needs: fitted on the first half of every clip, reported on the second.
+//! Finds the cheapest design that a scene needs. It is fitted on the first half of every clip and reported
+//! on the second half.
 //!
-//! 1. With a wanted share of active regions, the task's thresholds are set to it ([`target`]).
-//! 2. Looks, which is what a camera sees and not how it is built: region sizes and features, each with
-//!    the thresholds that agree best with the ideal; of the best of them all pixel bits, windows,
-//!    filters and references ([`looks`]).
-//! 3. Of the looks that hold the constraints, those that no simpler one holds too, as silicon: the
-//!    deepest fold that is fast enough and its halvings, each feed; pipelined where no serial array is
-//!    ([`build`]). The most promising are synthesized first ([`rough`]).
-//! 4. The cheapest, and why nothing simpler would do ([`why`]).
+//! 1. If a share of active regions is wanted, the task's thresholds are set for it ([`target`]).
+//! 2. The search goes through looks. A look is what a camera sees, and not how it is built. It tries
+//!    region sizes and features, each with the thresholds that agree best with the ideal. For the best
+//!    of them it tries all pixel bits, windows, filters and references ([`looks`]).
+//! 3. Of the looks that meet the limits, only the simplest are built: a look is dropped if a simpler one
+//!    meets the limits too. Each is built with every feed and with the deepest fold that is fast enough
+//!    and its halvings, or pipelined if no serial array is fast enough ([`build`]). The most promising
+//!    designs are synthesized first ([`rough`]).
+//! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
 
 mod build;
 mod constraints;
@@ -37,26 +39,26 @@ pub use report::{Design, Fit, Target};
 /// What is to be fitted.
 #[derive(Clone, Debug)]
 pub struct FitRequest<'a> {
-    /// What the camera is to do: the ideal camera does it in floating point over whole frames.
+    /// The task of the camera. The ideal camera performs it in floating point over whole frames.
     pub task: &'a Config,
     /// Clips of one size.
     pub inputs: &'a [PathBuf],
     /// How they are read.
     pub input: &'a InputOptions,
-    /// What the design must hold.
+    /// The limits that the design must meet.
     pub constraints: &'a Constraints,
     /// The clock in Hz.
     pub clock_hz: u64,
     /// The wanted share of active regions, 0..=1; the task's thresholds are set to it.
     pub target_active: Option<f64>,
-    /// For areas.
+    /// The synthesizer, for areas.
     pub synthesizer: &'a Synthesizer,
-    /// The most designs that are synthesized, of all that hold what can be told without, or of the nearest.
+    /// The most designs that are synthesized: of those that meet all other limits, or of the nearest ones.
     pub most: usize,
 }
 
-/// Finds the cheapest design that holds the constraints on the first half of the footage, or the nearest
-/// if none does, and measures it on the second half.
+/// Finds the cheapest design that meets the limits on the first half of the footage, or the nearest one if
+/// no design does, and measures it on the second half.
 ///
 /// # Errors
 /// When an input cannot be read or is too short to be halved, Yosys is missing or fails, or `hooks`

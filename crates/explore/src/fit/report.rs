@@ -17,7 +17,7 @@ use crate::cost::Silicon;
 pub struct Target {
     /// The share that was wanted, 0..=1.
     pub wanted: f64,
-    /// The nearest that there is, on the first half.
+    /// The nearest share that was possible, on the first half.
     pub found: f64,
     /// The task with these thresholds, as TOML.
     pub task: String,
@@ -31,7 +31,7 @@ pub struct Design {
     pub config: Config,
     /// The same as TOML.
     pub toml: String,
-    /// In a few words.
+    /// A summary in a few words.
     pub summary: String,
     /// Clocks from one frame to the next.
     pub clocks_per_frame: u64,
@@ -39,17 +39,17 @@ pub struct Design {
     pub frames_per_second: f64,
     /// Its area.
     pub silicon: Silicon,
-    /// Figures on the first half, which it was fitted on.
+    /// Figures on the first half, on which it was fitted.
     pub fitted: Figures,
     /// Constraints on the first half.
     pub fitted_held: Vec<Held>,
-    /// Figures on the second half, which no choice has seen.
+    /// Figures on the second half, which influenced no choice.
     pub held_out: Figures,
     /// Constraints on the second half.
     pub held_out_held: Vec<Held>,
 }
 
-/// What came out.
+/// The result of a fit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fit {
     /// Version of this as JSON; changes when a field changes its meaning or goes.
@@ -58,24 +58,24 @@ pub struct Fit {
     pub frames: (u64, u64),
     /// The camera that designs are compared with, as TOML.
     pub task: String,
-    /// Its thresholds, where a share of active regions was wanted.
+    /// The thresholds of the task, if a share of active regions was wanted.
     pub target: Option<Target>,
     /// The clock in Hz.
     pub clock_hz: u64,
-    /// Cameras that were looked at, designs that were synthesized, and designs that were less promising.
+    /// Numbers of candidate cameras, of synthesized designs, and of less promising designs that were skipped.
     pub considered: (usize, usize, usize),
-    /// Whether the design holds all constraints on the first half.
+    /// Whether the design meets all limits on the first half.
     pub feasible: bool,
-    /// Whether it holds them on the second.
+    /// Whether it meets them on the second half.
     pub borne_out: bool,
-    /// Constraints without each of which alone there would be a design. Empty where there is one, and where
-    /// every design breaks more than one.
+    /// Binding limits: without any one of them there would be a design. Empty if there is a design, or if
+    /// every design exceeds more than one limit.
     pub binding: Vec<&'static str>,
-    /// The cheapest design, or the nearest where none holds all constraints.
+    /// The cheapest design, or the nearest one if no design meets all limits.
     pub design: Design,
-    /// Why it is this one.
+    /// Why this design was chosen.
     pub why: Vec<String>,
-    /// Clips that ended before their end, and why.
+    /// Clips that ended too early, and why.
     pub problems: Vec<String>,
 }
 

@@ -62,7 +62,7 @@ fn nearest(
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
     best.ok_or(ExploreError::NoPoints {
         settings: "every scale of the thresholds".to_owned(),
-        reason: "no scale is a design".to_owned(),
+        reason: "none gives a valid design".to_owned(),
     })
 }
 

@@ -111,7 +111,7 @@ fn verdict(look: &Look, built: &Built) -> String {
             format!("{flips:.2} % flips; {costs}{but}")
         }
         None => format!(
-            "{flips:.2} % flips; not synthesized, as less promising or beaten by a simpler one"
+            "{flips:.2} % flips; not synthesized, because it is less promising or a simpler one meets the limits"
         ),
     }
 }

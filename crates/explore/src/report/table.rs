@@ -36,19 +36,19 @@ pub(crate) struct Line {
 
 /// Name, unit and meaning of every figure, as the table has them.
 const FIGURES: [(&str, &str, &str); 8] = [
-    ("flipped", "%", "regions that are treated otherwise on the screen than by the ideal"),
-    ("missed", "%", "of what is active in the ideal, not active here"),
-    ("false", "%", "of what is active here, not active in the ideal"),
-    ("IoU", "", "overlap of the active areas, 1 is equal"),
-    ("PSNR", "dB", "screen against the screen of the ideal; = where they are equal"),
-    ("SSIM", "", "screen against the screen of the ideal, 1 is equal"),
+    ("flipped", "%", "regions that the ideal camera treats differently on the screen"),
+    ("missed", "%", "share of the ideal camera's active area that is not active here"),
+    ("false", "%", "share of the active area here that is not active in the ideal camera"),
+    ("IoU", "", "overlap of the active areas; 1 means equal"),
+    ("PSNR", "dB", "rendered frame against that of the ideal camera; = means equal"),
+    ("SSIM", "", "rendered frame against that of the ideal camera; 1 means equal"),
     ("stale", "levels", "mean difference of screen and scene in relevant regions, in grey levels"),
     ("bytes", "/frame", "bytes per frame that leave the array"),
 ];
 
 /// Name and meaning of every part of the area.
 const AREA: [(&str, &str, &str); 5] = [
-    ("LUT", "unit", "LUTs of one region unit, or of one lane of a serial design"),
+    ("LUT", "unit", "LUTs of one RPU, or of one lane of a serial design"),
     ("LUT", "array", "LUTs of the array, those used as memory included"),
     ("FF", "array", "flip-flops of the array"),
     ("LUTRAM", "array", "LUTs of the array used as memory, two SRL16 in one"),
@@ -64,7 +64,7 @@ pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
         numbers: false,
     };
     let axes: Vec<Column> = if settings.one_at_a_time {
-        vec![axis("what is changed", "the one setting that is not that of the start")]
+        vec![axis("what is changed", "the one setting that differs from the start")]
     } else {
         settings.names.iter().zip(&settings.keys).map(|(name, key)| axis(name, key)).collect()
     };

@@ -68,8 +68,9 @@ fn plot(settings: &Settings, rows: &[&Row], titles: &[String], axis: usize) -> O
     plot.posts =
         threshold.and_then(|x| field.post(x, format!("{name} of the ideal"))).into_iter().collect();
     if all > LINES {
-        plot.note =
-            format!("Of {all} lines the {LINES} whose other settings are nearest to the ideal's.");
+        plot.note = format!(
+            "{LINES} of {all} lines are shown: their other settings are nearest to the ideal's."
+        );
     }
     for (index, sweep) in sweeps.iter().enumerate() {
         let (class, shape) = look(index);

@@ -85,7 +85,7 @@ fn thresholds_are_in_grey_levels_of_the_start() {
 fn what_is_wrong_is_said_with_its_place() {
     let wrong = [
         ("methods = 'grid'", "unknown field"),
-        ("method = 'all'", "it takes \"grid\", \"each\" or \"sample\""),
+        ("method = 'all'", "use \"grid\", \"each\" or \"sample\""),
         ("method = 'sample'", "needs points"),
         ("points = 3", "only for method = \"sample\""),
         ("clock_mhz = 0", "not within 1 to 10000"),

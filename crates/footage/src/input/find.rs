@@ -113,8 +113,8 @@ fn labelled(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
         (true, false) => Err(FootageError::EmptyFolder { path: path.to_owned() }),
         (true, true) => {
             let problem = format!(
-                "folder `{}` holds clips and no images, and a set is made of images; \
-                 of clips `foveate simulate` makes a batch",
+                "folder `{}` holds clips but no images, and a set needs images; \
+                 use `foveate simulate` to run the clips as a batch",
                 path.display()
             );
             Err(FootageError::Option { option: "--images set", problem })
@@ -146,7 +146,7 @@ fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
         ([], [video, ..]) => Err(FootageError::Option {
             option: "the pattern",
             problem: format!(
-                "`{text}` matches videos, such as `{}`, and a pattern stands for images; name the videos or \
+                "`{text}` matches videos, such as `{}`, but a pattern is for images; name the videos or \
                  their folder, or leave the quotation marks out",
                 video.display()
             ),

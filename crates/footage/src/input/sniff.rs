@@ -33,8 +33,8 @@ pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
     let binary = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bin"));
     if start.starts_with(&idx::LABEL_MAGIC) {
         return Err(frameless(
-            "it is an IDX file of labels; name the file of their images, and this one with --labels if it is \
-             not beside that",
+            "it is an IDX file of labels; name the file of the images instead, and this one with --labels if the \
+             two are not in one folder",
         ));
     }
     if idx::is_other(&start) {

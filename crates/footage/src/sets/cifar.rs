@@ -44,7 +44,10 @@ impl Batch {
         let file = File::open(path).map_err(unreadable(path))?;
         let length = file.metadata().map_err(unreadable(path))?.len();
         let labels = labels_in_batch(length).ok_or_else(|| {
-            damaged(path, "its length is no multiple of 3073 (CIFAR-10) or 3074 (CIFAR-100) bytes")
+            damaged(
+                path,
+                "its length is not a multiple of 3073 (CIFAR-10) or 3074 (CIFAR-100) bytes",
+            )
         })?;
         let record = vec![0; labels + 3 * AREA];
         let total = length / record.len() as u64;

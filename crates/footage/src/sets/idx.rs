@@ -141,7 +141,7 @@ fn labels_of(path: &Path, images: u32) -> Result<Vec<u8>, FootageError> {
     let mut input = open_unpacked(path)?;
     let magic: [u8; 4] = read(&mut *input, path)?;
     if magic != LABEL_MAGIC {
-        return Err(damaged(path, "it is no IDX file of labels (00 00 08 01)"));
+        return Err(damaged(path, "it is not an IDX file of labels (00 00 08 01)"));
     }
     let total = number(&mut *input, path)?;
     if total != images {

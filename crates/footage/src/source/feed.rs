@@ -79,7 +79,7 @@ impl Input {
             return Err(FootageError::Option {
                 option: "--start, --end and --input-fps",
                 problem: format!(
-                    "images of a set have no times; leave it out for {}",
+                    "images of a set have no times; leave these options out for {}",
                     names.join(", ")
                 ),
             });
@@ -158,7 +158,7 @@ impl Input {
         }
         self.end();
         self.problem = Some(format!(
-            "the frame size changes from {}x{} to {}x{} at {}.{:06} s; --resize makes them one size",
+            "the frame size changes from {}x{} to {}x{} at {}.{:06} s; use --resize to make all one size",
             self.size.0,
             self.size.1,
             other_size.0,

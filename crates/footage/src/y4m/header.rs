@@ -25,8 +25,8 @@ pub(super) fn line(input: &mut dyn BufRead) -> Result<String, String> {
     let mut bytes = Vec::new();
     input.take(LINE).read_until(b'\n', &mut bytes).map_err(|error| error.to_string())?;
     match bytes.pop() {
-        Some(b'\n') => String::from_utf8(bytes).map_err(|_| "a header is no text".to_owned()),
-        _ => Err("it ends inside a header, or is no YUV4MPEG2".to_owned()),
+        Some(b'\n') => String::from_utf8(bytes).map_err(|_| "a header is not text".to_owned()),
+        _ => Err("it ends inside a header, or is not YUV4MPEG2".to_owned()),
     }
 }
 

@@ -126,7 +126,7 @@ fn a_frame_of_another_kind_is_refused_and_changes_nothing() {
     assert!(matches!(error, ModelError::FrameKind { .. }));
     assert_eq!(
         error.to_string(),
-        "a frame of 8x9 pixels of 8 bits was given to a design for 8x8 pixels of 8 bits; \
+        "the frame has 8x9 pixels of 8 bits, but the design takes 8x8 pixels of 8 bits; \
          give it frames of that kind"
     );
     assert!(camera.step(&Frame::filled(8, 8, 9, 0).unwrap()).is_err());

@@ -87,7 +87,7 @@ fn idx_files_that_are_wrong_are_named() {
     assert!(refusal(&images(), Some(&LABELS[..10])).contains("last label"));
     let fewer = [&[0, 0, 8, 1, 0, 0, 0, 2][..], &[1, 2]].concat();
     assert!(refusal(&images(), Some(&fewer)).contains("2 labels for 4 images"));
-    assert!(refusal(&images(), Some(&images())).contains("no IDX file of labels"));
+    assert!(refusal(&images(), Some(&images())).contains("not an IDX file of labels"));
     let huge = [0, 0, 8, 3, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255];
     assert!(refusal(&huge, None).contains("sides are 1..=16384"));
     let large = [0, 0, 8, 3, 255, 255, 255, 255, 0, 0, 64, 0, 0, 0, 64, 0];

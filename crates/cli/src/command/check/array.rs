@@ -130,7 +130,7 @@ impl Proposal {
                 format!("no fold reaches {wanted} frames/s; fold 1 is the fastest: {reach}")
             }
             None => format!(
-                "{wanted} frames/s are not reached: {reach}; take a faster clock or a smaller region.size"
+                "{wanted} frames/s are not reached: {reach}; use a faster clock or a smaller region.size"
             ),
         };
         Ok(Self {

@@ -24,7 +24,7 @@ pub(super) fn of(summary: &Summary, width: usize) -> String {
         }
     }
     for name in &summary.not_run {
-        add(&mut text, &format!("{name}: not run, after the mismatch above"), "", width);
+        add(&mut text, &format!("{name}: not run, because of the mismatch above"), "", width);
     }
     for left_out in &summary.not_simulated {
         add(&mut text, &format!("not simulated: {left_out}"), "", width);
