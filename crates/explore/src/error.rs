@@ -86,14 +86,6 @@ pub enum ExploreError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// The table cannot be written as Parquet.
-    #[error("cannot write `{}` as Parquet: {problem}", path.display())]
-    Parquet {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        problem: String,
-    },
     /// An input cannot be read.
     #[error(transparent)]
     Footage(Box<FootageError>),

@@ -8,17 +8,15 @@ use std::path::{Path, PathBuf};
 use foveate_design::{Config, Design};
 use foveate_footage::InputOptions;
 use foveate_staging::write_file;
-use serde::Serialize;
 
 use crate::cost::Silicon;
 use crate::footage::Footage;
 use crate::measure::Measured;
 use crate::objective::mark_fronts;
-use crate::point::described;
 use crate::row::Row;
 use crate::store::{Store, functional};
 use crate::table::{Table, errors, point};
-use crate::{ExploreError, Hooks, Point, Refused, Space, Synthesizer};
+use crate::{ClipRow, Exploration, ExploreError, Hooks, Point, Refused, Space, Synthesizer};
 
 /// What is explored.
 #[derive(Clone, Debug)]
@@ -31,48 +29,6 @@ pub struct Request<'a> {
     pub input: &'a InputOptions,
     /// The synthesizer, for areas; without it the figures have no areas.
     pub synthesizer: Option<&'a Synthesizer>,
-}
-
-/// What an exploration found.
-#[derive(Clone, Debug, Serialize)]
-pub struct Exploration {
-    /// Version of this as JSON; changes when a field changes its meaning or goes.
-    pub format_version: u32,
-    /// The program.
-    pub program: String,
-    /// Clips with their frames.
-    pub clips: Vec<ClipRow>,
-    /// Width and height of a frame.
-    pub size: (u32, u32),
-    /// The camera that designs are compared with, as TOML.
-    pub ideal: String,
-    /// Clock of the frame rates in MHz.
-    pub clock_mhz: u32,
-    /// Keys of the configuration that vary.
-    pub axes: Vec<String>,
-    /// The points.
-    pub rows: Vec<Row>,
-    /// Combinations that are not valid designs.
-    pub refused: Vec<Refused>,
-    /// Clips that ended too early and designs that Yosys did not synthesize, and why.
-    pub problems: Vec<String>,
-}
-
-impl Exploration {
-    /// What a point sets, as `key = value`.
-    #[must_use]
-    pub fn described(&self, row: &Row) -> String {
-        described(self.axes.iter().map(String::as_str), &row.settings)
-    }
-}
-
-/// A clip of an exploration.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct ClipRow {
-    /// Its name.
-    pub name: String,
-    /// Its frames.
-    pub frames: u64,
 }
 
 /// The file that marks a folder as an exploration and describes it.

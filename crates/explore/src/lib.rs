@@ -9,6 +9,7 @@
 
 mod cost;
 mod error;
+mod exploration;
 mod explore;
 mod fit;
 mod footage;
@@ -25,14 +26,14 @@ mod table;
 
 pub use cost::{Silicon, Synthesizer};
 pub use error::ExploreError;
-pub use explore::{ClipRow, Exploration, Request, explore};
+pub use exploration::{ClipRow, Exploration};
+pub use explore::{Request, explore};
 pub use fit::{Constraints, Design as FittedDesign, Fit, FitRequest, Held, Target, fit};
 pub use foveate_fidelity::{Figures, ScoreError};
-pub use method::Method;
-pub use objective::Fronts;
+pub use method::{Axis, Method};
 pub use point::{Point, Refused};
-pub use row::Row;
-pub use space::{Axis, BUILT_IN, BuiltIn, Space};
+pub use row::{Fronts, Row};
+pub use space::{BUILT_IN, BuiltIn, Space};
 
 /// Progress of an exploration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

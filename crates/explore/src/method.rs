@@ -3,10 +3,19 @@
 
 use std::collections::BTreeSet;
 
-use crate::space::Axis;
+use toml::Value;
 
 /// The most points of a space.
 pub(crate) const MAX_POINTS: usize = 100_000;
+
+/// A key of the configuration and the values it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Dotted, for example `region.size` or `spatial.0.level`.
+    pub key: String,
+    /// As the file has them.
+    pub values: Vec<Value>,
+}
 
 /// How the points of a space are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,8 +125,6 @@ fn sample(all: usize, points: usize, seed: u64) -> BTreeSet<usize> {
 
 #[cfg(test)]
 mod tests {
-    use toml::Value;
-
     use super::*;
 
     fn axes(sizes: &[usize]) -> Vec<Axis> {

@@ -2,11 +2,8 @@
 //! What points are judged by, and in which direction each figure is better. Tables, plots and the page take
 //! both from here; nothing else says which way is up.
 
-use serde::Serialize;
-
-use crate::Row;
 use crate::front::front;
-use crate::row::real;
+use crate::row::{Fronts, Row, real};
 
 /// A figure of a point by which points beat each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,17 +56,6 @@ impl Objective {
             Better::Larger => -value,
         })
     }
-}
-
-/// Which fronts a point is on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Fronts {
-    /// Of error and speed.
-    pub speed: bool,
-    /// Of error and LUTs of the array.
-    pub area: bool,
-    /// Of error, speed and LUTs of the array; without areas, as `speed`.
-    pub all: bool,
 }
 
 /// Which of some points no other beats: none is as good in all objectives and better in one.

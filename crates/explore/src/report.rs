@@ -20,6 +20,7 @@ pub(crate) mod sample;
 mod tests;
 
 use askama::Template;
+use foveate_palette::{DARK, LIGHT};
 
 use crate::{Exploration, ExploreError, Refused, Row};
 use card::Card;
@@ -38,6 +39,11 @@ const REFUSED: usize = 500;
 #[template(path = "report.html")]
 struct Page<'a> {
     program: &'a str,
+    /// Colours as variables, on a light ground and on a dark one.
+    light: String,
+    dark: String,
+    /// How many colours can be told apart.
+    colours: usize,
     title: String,
     problems: &'a [String],
     facts: Vec<Fact>,
@@ -73,6 +79,9 @@ pub(crate) fn page(exploration: &Exploration) -> Result<String, ExploreError> {
     let refused = exploration.refused.get(..REFUSED).unwrap_or(&exploration.refused);
     let page = Page {
         program: &exploration.program,
+        light: colour::variables(&LIGHT),
+        dark: colour::variables(&DARK),
+        colours: colour::COLOURS,
         title: summary::title(exploration),
         problems: &exploration.problems,
         facts: summary::facts(exploration),

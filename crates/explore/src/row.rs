@@ -5,7 +5,6 @@ use foveate_design::{Config, Design};
 use foveate_fidelity::{Figures, Tally};
 use serde::Serialize;
 
-use crate::Fronts;
 use crate::cost::{Silicon, speed};
 use crate::measure::Measured;
 
@@ -35,6 +34,17 @@ pub struct Row {
     pub simulated_per_second: f64,
     /// The fronts that it is on.
     pub front: Fronts,
+}
+
+/// Which fronts a point is on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Fronts {
+    /// Of error and speed.
+    pub speed: bool,
+    /// Of error and LUTs of the array.
+    pub area: bool,
+    /// Of error, speed and LUTs of the array; without areas, as `speed`.
+    pub all: bool,
 }
 
 impl Row {

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use crate::ExploreError;
-use crate::method::{MAX_POINTS, Method};
+use crate::method::{Axis, MAX_POINTS, Method};
 use crate::store::functional;
 
 /// Which designs to look at.
@@ -22,15 +22,6 @@ pub struct Space {
     pub method: Method,
     /// Assumed clock of the frame rates in MHz; the hardware may be slower.
     pub clock_mhz: u32,
-}
-
-/// A key of the configuration and the values it takes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// Dotted, for example `region.size` or `spatial.0.level`.
-    pub key: String,
-    /// As the file has them.
-    pub values: Vec<Value>,
 }
 
 /// A configuration as TOML, without the keys that it leaves out, so that a point can change it.

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Points as a table: one list of columns for CSV and Parquet.
 
-use std::fmt::Write as _;
+use std::io;
 use std::path::Path;
-use std::sync::Arc;
 
 use foveate_design::FeatureKind;
 use foveate_fidelity::Figures;
-use foveate_simulator::csv_field;
 use foveate_staging::write_file;
-use parquet::basic::Compression;
-use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
-use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::parser::parse_message_type;
+use foveate_tables::{Column, Kind, ParquetWriter, Value};
 
 use crate::ExploreError;
 use crate::row::{Row, real};
@@ -52,107 +45,49 @@ impl Table {
 
     /// CSV with a line of names.
     pub(crate) fn csv(&self) -> String {
-        let mut text = String::new();
-        let names: Vec<String> = self.columns.iter().map(|name| csv_field(name)).collect();
-        let _ = writeln!(text, "{}", names.join(","));
-        for row in &self.rows {
-            let cells: Vec<String> = row.iter().map(Cell::text).collect();
-            let _ = writeln!(text, "{}", cells.join(","));
-        }
-        text
+        let row = |row: &Vec<Cell>| row.iter().map(|cell| cell.value().to_string()).collect();
+        foveate_tables::csv(std::iter::once(self.columns.clone()).chain(self.rows.iter().map(row)))
     }
 
-    /// Parquet: Snappy, one group.
+    /// Parquet: one group.
     pub(crate) fn write_parquet(&self, path: &Path) -> Result<(), ExploreError> {
-        let bytes = self.parquet().map_err(|error| ExploreError::Parquet {
-            path: path.to_owned(),
-            problem: error.to_string(),
-        })?;
+        let bytes = self.parquet().map_err(ExploreError::io("write", path))?;
         Ok(write_file(path, &bytes)?)
     }
 
-    fn parquet(&self) -> Result<Vec<u8>, ParquetError> {
-        let properties = WriterProperties::builder()
-            .set_compression(Compression::SNAPPY)
-            .set_created_by(concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned())
-            .build();
-        let schema = Arc::new(parse_message_type(&self.schema())?);
-        let mut writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties))?;
-        let mut group = writer.next_row_group()?;
-        for column in 0..self.columns.len() {
-            let Some(mut writer) = group.next_column()? else { break };
-            let cells = self.rows.iter().filter_map(|row| row.get(column));
-            match self.rows.first().and_then(|row| row.get(column)) {
-                Some(Cell::Text(_)) => {
-                    let values: Vec<ByteArray> =
-                        cells.map(|cell| cell.plain().into_bytes().into()).collect();
-                    writer.typed::<ByteArrayType>().write_batch(&values, None, None)?;
-                }
-                Some(Cell::Flag(_)) => {
-                    let values: Vec<bool> = cells.map(|cell| *cell == Cell::Flag(true)).collect();
-                    writer.typed::<BoolType>().write_batch(&values, None, None)?;
-                }
-                Some(Cell::Count(_)) => {
-                    let values = cells.map(|cell| match cell {
-                        Cell::Count(value) => value.and_then(|value| i64::try_from(value).ok()),
-                        _ => None,
-                    });
-                    let (values, levels) = with_nulls(values);
-                    writer.typed::<Int64Type>().write_batch(&values, Some(&levels), None)?;
-                }
-                _ => {
-                    let values = cells.map(|cell| match cell {
-                        Cell::Real(value) => *value,
-                        _ => None,
-                    });
-                    let (values, levels) = with_nulls(values);
-                    writer.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
-                }
-            }
-            writer.close()?;
+    fn parquet(&self) -> io::Result<Vec<u8>> {
+        let cells = self.rows.first().into_iter().flatten();
+        let columns = self.columns.iter().zip(cells).map(|(name, cell)| cell.column(name));
+        let mut file = ParquetWriter::new(Vec::new(), "points", &columns.collect::<Vec<_>>())?;
+        for row in &self.rows {
+            file.push(row.iter().map(Cell::value));
         }
-        group.close()?;
-        writer.into_inner()
+        file.finish()
     }
-
-    fn schema(&self) -> String {
-        let mut text = String::from("message points { ");
-        for (column, name) in self.columns.iter().enumerate() {
-            let kind = match self.rows.first().and_then(|row| row.get(column)) {
-                Some(Cell::Text(_)) => "required binary",
-                Some(Cell::Flag(_)) => "required boolean",
-                Some(Cell::Count(_)) => "optional int64",
-                _ => "optional double",
-            };
-            let of = if kind == "required binary" { " (string)" } else { "" };
-            let _ = write!(text, "{kind} {}{of}; ", name.replace('.', "_"));
-        }
-        text + "}"
-    }
-}
-
-/// The values that are there, and for each place whether there is one.
-fn with_nulls<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
-    let (mut found, mut levels) = (Vec::new(), Vec::new());
-    for value in values {
-        levels.push(i16::from(value.is_some()));
-        found.extend(value);
-    }
-    (found, levels)
 }
 
 impl Cell {
-    fn plain(&self) -> String {
-        match self {
-            Self::Text(text) => text.clone(),
-            Self::Count(value) => value.map(|value| value.to_string()).unwrap_or_default(),
-            Self::Real(value) => value.map(|value| value.to_string()).unwrap_or_default(),
-            Self::Flag(value) => value.to_string(),
-        }
+    /// The column of cells like this one. In the names of Parquet, points are for columns inside columns.
+    fn column(&self, name: &str) -> Column {
+        let (kind, optional) = match self {
+            Self::Text(_) => (Kind::Text, false),
+            Self::Count(_) => (Kind::Long, true),
+            Self::Real(_) => (Kind::Real, true),
+            Self::Flag(_) => (Kind::Flag, false),
+        };
+        Column { name: name.replace('.', "_"), kind, optional }
     }
 
-    fn text(&self) -> String {
-        csv_field(&self.plain())
+    fn value(&self) -> Value<'_> {
+        match self {
+            Self::Text(text) => Value::Text(text),
+            Self::Count(Some(count)) => {
+                Value::Long(i64::try_from(*count).expect("nothing is counted up to 2^63"))
+            }
+            Self::Real(Some(value)) => Value::Real(*value),
+            Self::Flag(flag) => Value::Flag(*flag),
+            Self::Count(None) | Self::Real(None) => Value::None,
+        }
     }
 }
 

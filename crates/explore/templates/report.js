@@ -67,12 +67,13 @@
   pick.querySelector('select').addEventListener('change', function (event) {
     var axis = Number(event.target.value);
     legends.forEach(function (legend, index) { legend.hidden = index !== axis; });
+    var colours = {{ colours }};
     var marks = all('.mark[data-g]');
     marks.forEach(function (mark) {
       var group = Number(mark.dataset.g.split(' ')[axis]);
       var best = mark.classList.contains('best');
-      mark.setAttribute('class', 'mark k' + (group > 13 ? 7 : group % 7) + (best ? ' best' : ''));
-      var box = group > 6 ? group !== 14 : false;
+      mark.setAttribute('class', 'mark k' + (group >= 2 * colours ? colours : group % colours) + (best ? ' best' : ''));
+      var box = group >= colours ? group !== 2 * colours : false;
       mark.setAttribute('href', '#' + (best ? 'front-' : 'all-') + (box ? 'box' : 'dot'));
     });
     // Marks of one place that look different are rings around each other.

@@ -23,6 +23,47 @@ pub const CHANGED: Colour = [86, 180, 233];
 pub const SERIES: [Colour; 7] =
     [[0, 114, 178], [213, 94, 0], [204, 121, 167], [0, 0, 0], ACTIVE, RELEVANT, CHANGED];
 
+/// What a chart is drawn with, on paper, in a picture or on a page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Style {
+    /// Below everything.
+    pub ground: Colour,
+    /// Titles, axes and outlines.
+    pub ink: Colour,
+    /// What is said beside them.
+    pub quiet: Colour,
+    /// Lines across, behind everything.
+    pub grid: Colour,
+    /// Of each series, in order.
+    pub series: [Colour; SERIES.len()],
+    /// Of all series beyond those that can be told apart.
+    pub rest: Colour,
+}
+
+/// On a light ground: files, print, and pages by day.
+pub const LIGHT: Style = Style {
+    ground: [255, 255, 255],
+    ink: [0, 0, 0],
+    quiet: [90, 90, 90],
+    grid: [225, 225, 225],
+    series: SERIES,
+    rest: [160, 164, 169],
+};
+
+/// On a dark ground: pages by night. The series are those of [`LIGHT`], and what is black there is white.
+pub const DARK: Style = Style {
+    ground: [27, 30, 33],
+    ink: [230, 228, 223],
+    quiet: [154, 161, 168],
+    grid: [39, 43, 47],
+    series: {
+        let mut series = SERIES;
+        series[3] = [255, 255, 255];
+        series
+    },
+    rest: [109, 114, 120],
+};
+
 #[cfg(test)]
 mod tests {
     use super::vision::{VISIONS, distance};
@@ -30,14 +71,22 @@ mod tests {
 
     #[test]
     fn colours_can_be_told_apart_with_any_colour_vision() {
-        for vision in VISIONS {
-            for (index, &first) in SERIES.iter().enumerate() {
-                for &second in &SERIES[..index] {
+        for (vision, style) in VISIONS.into_iter().flat_map(|v| [(v, LIGHT), (v, DARK)]) {
+            for (index, &first) in style.series.iter().enumerate() {
+                for &second in &style.series[..index] {
                     let seen = distance(first, second, vision);
                     assert!(seen > 30.0, "{first:?} {second:?}: {seen}");
                 }
-                assert!(distance(first, [255; 3], vision) > 60.0, "{first:?} is lost on white");
+                let seen = distance(first, style.ground, vision);
+                assert!(seen > 60.0, "{first:?} is lost on {:?}: {seen}", style.ground);
             }
+        }
+    }
+
+    #[test]
+    fn a_series_has_one_colour_on_every_ground() {
+        for (light, dark) in LIGHT.series.into_iter().zip(DARK.series) {
+            assert!(light == dark || (light, dark) == ([0; 3], [255; 3]), "{light:?} {dark:?}");
         }
     }
 

@@ -13,7 +13,8 @@ use std::sync::{Mutex, PoisonError};
 use foveate_design::Config;
 use foveate_staging::StagedFolder;
 
-use crate::simulation::{INTERRUPTED, SIMULATION};
+use crate::output::INTERRUPTED;
+use crate::simulation::SIMULATION;
 use crate::{Hooks, Progress, RunOptions, Simulation, SimulatorError, Summary};
 use foveate_footage::{Clip, InputOptions, open};
 

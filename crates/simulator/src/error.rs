@@ -13,8 +13,6 @@ use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-use crate::output::is_full;
-
 /// A simulation that cannot be started or finished.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -129,4 +127,9 @@ impl SimulatorError {
             _ => false,
         }
     }
+}
+
+/// Whether an error of the operating system says that there is no room.
+pub(crate) fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
 }

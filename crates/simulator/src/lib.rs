@@ -17,6 +17,6 @@ pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
 pub use output::{
     Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent,
-    PixelEvents, Range, RunOptions, Summary, Traffic, csv_field, csv_name,
+    PixelEvents, Range, RunOptions, Summary, Traffic,
 };
 pub use simulation::{Hooks, Progress, Silent, Simulation};

@@ -22,10 +22,13 @@ mod options;
 mod overlay;
 mod packer;
 mod parquet;
+mod picture;
 mod pixel_camera;
 mod pixel_events;
 mod png;
+mod png_series;
 mod recorder;
+mod row_writer;
 mod sink;
 mod strip;
 mod summary;
@@ -33,22 +36,16 @@ mod table;
 mod video;
 
 pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
-pub use csv::{plain as csv_name, quoted as csv_field};
 pub use data_set::DataSet;
 pub use options::{EventTables, Medium, PixelEvents, RunOptions};
 pub use pixel_camera::{PixelCamera, PixelEvent};
-pub(crate) use recorder::{DISK_FULL, Recorder};
+pub(crate) use recorder::{DISK_FULL, INTERRUPTED, Recorder};
 pub use summary::{Grid, Range, Summary};
 
 use std::io;
 use std::path::Path;
 
 use crate::SimulatorError;
-
-/// Whether an error of the operating system says that there is no room.
-pub(crate) fn is_full(error: &io::Error) -> bool {
-    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
-}
 
 /// Names the file in an error of the operating system.
 fn cannot_write(path: &Path) -> impl Fn(io::Error) -> SimulatorError + '_ {

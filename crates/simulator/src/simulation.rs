@@ -7,13 +7,10 @@ use foveate_design::{Config, Design};
 use foveate_engine::Engine;
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 
-use crate::output::{DISK_FULL, Recorder};
+use crate::output::{DISK_FULL, INTERRUPTED, Recorder};
 use crate::{RunOptions, SimulatorError, Summary};
 use foveate_footage::{FootageError, read_ahead};
 use foveate_footage::{Kind, Source};
-
-/// What a summary says of a run that the user stopped.
-pub(crate) const INTERRUPTED: &str = "interrupted";
 
 /// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

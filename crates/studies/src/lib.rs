@@ -8,6 +8,7 @@
 
 mod chart;
 mod error;
+mod findings;
 mod number;
 mod rank;
 mod report;

@@ -10,10 +10,10 @@ use foveate_staging::{Kind, StagedFolder};
 use serde::Serialize;
 
 use crate::StudyError;
-use crate::chart::Chart;
-use crate::study::Study;
+use crate::findings::Findings;
+use crate::study::{Study, activity, histogram, redundancy, sensor, sweep, temporal};
 use crate::table::Table;
-use crate::watch::{Watched, Watcher};
+use crate::watch::Watcher;
 
 /// What is studied.
 #[derive(Clone, Debug)]
@@ -55,60 +55,6 @@ impl Report {
     }
 }
 
-/// What a study makes of what was seen.
-pub(crate) struct Findings {
-    pub(crate) table: Table,
-    pub(crate) charts: Vec<Chart>,
-    pub(crate) notes: Vec<String>,
-    pub(crate) problems: Vec<String>,
-}
-
-impl Findings {
-    /// Notes on the clips; charts are captioned with the first of them.
-    pub(crate) fn new<T>(study: Study, watched: &[Watched<T>], table: Table) -> Self {
-        let version = env!("CARGO_PKG_VERSION");
-        let mut notes = vec![format!("foveate {version} analyze {}", study.name())];
-        let mut problems = Vec::new();
-        for clip in watched {
-            let design = clip.points.first().map(|(design, _)| {
-                let (width, height) = (design.width(), design.height());
-                format!("design {}, {width}x{height} pixels, ", design.fingerprint())
-            });
-            notes.push(format!(
-                "{}: {}{} frames, inputs {}",
-                clip.name,
-                design.unwrap_or_default(),
-                clip.frames,
-                clip.inputs.join(" ")
-            ));
-            problems.extend(clip.problem.as_ref().map(|why| format!("{}: {why}", clip.name)));
-        }
-        notes.extend(problems.iter().map(|problem| format!("NOT COMPLETE: {problem}")));
-        Self { table, charts: Vec::new(), notes, problems }
-    }
-
-    /// Adds a chart with its caption: the program, the first design, the inputs.
-    pub(crate) fn chart<T>(&mut self, mut chart: Chart, watched: &[Watched<T>]) {
-        let program = self.notes.first().cloned().unwrap_or_default();
-        let mut designs: Vec<String> = watched
-            .iter()
-            .filter_map(|clip| clip.points.first().map(|(design, _)| design.fingerprint()))
-            .collect();
-        designs.sort();
-        designs.dedup();
-        let names: Vec<&str> = watched.iter().map(|clip| clip.name.as_str()).collect();
-        let first = |items: Vec<String>, most: usize| match items.len().saturating_sub(most) {
-            0 => items.join(", "),
-            more => format!("{} and {more} more", items[..most].join(", ")),
-        };
-        let names = first(names.into_iter().map(str::to_owned).collect(), 4);
-        let incomplete = if self.problems.is_empty() { "" } else { " · NOT COMPLETE" };
-        chart.caption =
-            format!("{program} · design {} · inputs {names}{incomplete}", first(designs, 2));
-        self.charts.push(chart);
-    }
-}
-
 /// Runs a study and writes `output`, which appears at the end.
 ///
 /// # Errors
@@ -125,7 +71,7 @@ pub fn analyze(
     let subjects = subjects(request.inputs, request.input)?;
     let watcher =
         Watcher { subjects: &subjects, config: request.config, input: request.input, hooks };
-    let findings = study.run(&watcher, request)?;
+    let findings = run(&watcher, request)?;
     let mut files = vec![format!("{}.csv", study.name())];
     staging.write(&files[0], findings.table.csv(&findings.notes).as_bytes())?;
     for chart in &findings.charts {
@@ -140,6 +86,18 @@ pub fn analyze(
     staging.commit()?;
     let Table { columns, rows } = findings.table;
     Ok(Report { study: study.name(), files, columns, rows, problems: findings.problems })
+}
+
+fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyError> {
+    match request.study {
+        Study::Activity => activity::run(watcher),
+        Study::Temporal => temporal::run(watcher),
+        Study::Redundancy => redundancy::run(watcher),
+        Study::MadHistogram => histogram::run(watcher),
+        Study::Size => sweep::size(watcher),
+        Study::Threshold => sweep::threshold(watcher),
+        Study::Sensor => sensor::run(watcher, request.sensor_events, request.sensor_start_us),
+    }
 }
 
 const STUDY: Kind = Kind { what: "a study (its CSV)", is: is_study, listed: true };

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which studies there are.
 
-mod activity;
-mod histogram;
-mod redundancy;
-mod sensor;
-mod sweep;
-mod temporal;
+pub(crate) mod activity;
+pub(crate) mod histogram;
+pub(crate) mod redundancy;
+pub(crate) mod sensor;
+pub(crate) mod sweep;
+pub(crate) mod temporal;
 
 use foveate_footage::Kind;
 
 use crate::StudyError;
-use crate::report::{Findings, Request};
-use crate::watch::{Watched, Watcher};
+use crate::watch::Watched;
 
 /// A study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,22 +55,6 @@ impl Study {
             Self::Size => "size",
             Self::Threshold => "threshold",
             Self::Sensor => "sensor",
-        }
-    }
-
-    pub(crate) fn run(
-        self,
-        watcher: &Watcher<'_>,
-        request: &Request<'_>,
-    ) -> Result<Findings, StudyError> {
-        match self {
-            Self::Activity => activity::run(watcher),
-            Self::Temporal => temporal::run(watcher),
-            Self::Redundancy => redundancy::run(watcher),
-            Self::MadHistogram => histogram::run(watcher),
-            Self::Size => sweep::size(watcher),
-            Self::Threshold => sweep::threshold(watcher),
-            Self::Sensor => sensor::run(watcher, request),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use foveate_simulator::csv_name;
+use foveate_tables::plain;
 
 /// A table. Cells are text that is already rounded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -26,7 +26,7 @@ impl Table {
         }
         let _ = writeln!(text, "{}", self.columns.join(","));
         for row in &self.rows {
-            let cells: Vec<String> = row.iter().map(|cell| csv_name(cell)).collect();
+            let cells: Vec<String> = row.iter().map(|cell| plain(cell)).collect();
             let _ = writeln!(text, "{}", cells.join(","));
         }
         text

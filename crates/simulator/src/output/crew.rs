@@ -8,9 +8,10 @@ use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle, available_parallelism};
 
-use super::gallery::Picture;
-use super::{cannot_write, is_full, png};
+use super::picture::Picture;
+use super::{cannot_write, png};
 use crate::SimulatorError;
+use crate::error::is_full;
 
 /// More do not help: something else is the limit then.
 const MOST: usize = 8;
@@ -61,8 +62,15 @@ impl Crew {
     }
 
     /// At most how many pictures may be on their way.
-    pub(super) fn on_the_way() -> usize {
+    fn on_the_way() -> usize {
         2 * Self::size() + 1
+    }
+
+    /// At most how many bytes the pictures need that are on their way, of `samples` bytes per pixel.
+    pub(super) fn owed(width: u32, height: u32, samples: u64) -> u64 {
+        // No PNG is longer than its pixels by more than a byte per row, some per block, and the frame.
+        let picture = (u64::from(width) * samples + 1) * u64::from(height);
+        (picture + picture / 1000 + 4096) * Self::on_the_way() as u64
     }
 
     /// Memory for a picture, as long as the last.

@@ -29,52 +29,12 @@ impl Csv {
         line.push(b'\n');
     }
 
+    /// Appends a line of fields that may need quotes.
+    pub(super) fn quoted<const N: usize>(&mut self, fields: [&str; N]) {
+        self.0.append(foveate_tables::csv([fields]).as_bytes());
+    }
+
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         self.0.write_out(all)
-    }
-}
-
-/// A field of a CSV file (RFC 4180).
-#[must_use]
-pub fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
-/// A name that every reader takes as it is, those too that know neither quotes nor that a `#` can be
-/// part of a name: the characters `,` `#` `"` `%` and control characters as in a URL (`%2C`).
-#[must_use]
-pub fn plain(name: &str) -> String {
-    use std::fmt::Write as _;
-    let mut text = String::with_capacity(name.len());
-    for letter in name.chars() {
-        match letter {
-            ',' | '#' | '"' | '%' | '\0'..='\x1F' | '\x7F' => {
-                let _ = write!(text, "%{:02X}", u32::from(letter));
-            }
-            other => text.push(other),
-        }
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_quoted_where_they_must_be() {
-        assert_eq!(quoted("a b.png"), "a b.png");
-        assert_eq!(quoted("a,\"b\".png"), "\"a,\"\"b\"\".png\"");
-    }
-
-    #[test]
-    fn plain_names_need_no_quotes_and_can_be_taken_back() {
-        assert_eq!(plain("clips/a b-1_\u{fc}.png"), "clips/a b-1_\u{fc}.png");
-        assert_eq!(plain("a,\"b\"#1 50%\n.png"), "a%2C%22b%22%231 50%25%0A.png");
-        assert_eq!(quoted(&plain("a,\"\r")), plain("a,\"\r"));
     }
 }

@@ -3,20 +3,21 @@
 //!
 //! What the columns are is said once, here; how they are written is the business of a [`RowWriter`].
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use foveate_design::Design;
+use foveate_tables::{Column, Kind, Value};
 
 use super::EventTables;
 use super::csv::Csv;
 use super::parquet::ParquetTable;
+use super::row_writer::RowWriter;
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
 
 /// What a column says of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Field {
+enum Field {
     Frame,
     Time,
     Column,
@@ -31,26 +32,8 @@ pub(super) enum Field {
     Action,
 }
 
-/// The type of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    Long,
-    Int,
-    Flag,
-    Text,
-}
-
-/// A field of a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Value {
-    Long(i64),
-    Int(i32),
-    Flag(bool),
-    Text(&'static str),
-}
-
 impl Field {
-    pub(super) fn kind(self) -> Kind {
+    fn kind(self) -> Kind {
         match self {
             Self::Frame | Self::Time | Self::Score(_) => Kind::Long,
             Self::Column | Self::Row | Self::Left | Self::Top | Self::Count => Kind::Int,
@@ -59,13 +42,14 @@ impl Field {
         }
     }
 
-    fn of(self, step: &Step<'_>, region: usize) -> Value {
+    fn of(self, step: &Step<'_>, region: usize) -> Value<'static> {
         let (columns, side) = (step.design.columns() as usize, step.design.region_size() as usize);
         let (column, row) = (region % columns, region / columns);
         let outcome = step.outcome;
         match self {
             Self::Frame => long(step.number),
-            Self::Time => long(step.source.time_us),
+            // A damaged clip may claim any time; beyond 292,000 years all are the same.
+            Self::Time => Value::Long(step.source.time_us.try_into().unwrap_or(i64::MAX)),
             Self::Column => int(column),
             Self::Row => int(row),
             Self::Left => int(column * side),
@@ -79,72 +63,33 @@ impl Field {
     }
 }
 
-/// Scores stay below `2^54` and times below `2^63`.
-fn long(value: u64) -> Value {
-    Value::Long(i64::try_from(value).unwrap_or(i64::MAX))
+fn long(value: u64) -> Value<'static> {
+    Value::Long(value.try_into().expect("scores are below 2^54, and frames are counted"))
 }
 
-/// Coordinates stay below `2^15` and counts below `2^13`.
-fn int(value: usize) -> Value {
-    Value::Int(i32::try_from(value).unwrap_or(i32::MAX))
-}
-
-impl fmt::Display for Value {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Long(value) => value.fmt(f),
-            Self::Int(value) => value.fmt(f),
-            Self::Flag(value) => u8::from(*value).fmt(f),
-            Self::Text(value) => f.write_str(value),
-        }
-    }
+fn int(value: usize) -> Value<'static> {
+    Value::Int(value.try_into().expect("coordinates are below 2^15 and counts below 2^13"))
 }
 
 /// The columns of a design's table, in order.
-pub(super) fn columns(design: &Design) -> Vec<(String, Field)> {
-    let named = |name: &str, field| (name.to_owned(), field);
-    let mut columns = vec![
-        named("frame", Field::Frame),
-        named("t_us", Field::Time),
-        named("x", Field::Column),
-        named("y", Field::Row),
-        named("x0", Field::Left),
-        named("y0", Field::Top),
-        named("srs", Field::Srs),
-        named("trs", Field::Trs),
+fn columns(design: &Design) -> Vec<(Column, Field)> {
+    let scores = design.features().iter().enumerate();
+    let scores =
+        scores.map(|(at, feature)| (format!("score_{}", feature.kind()), Field::Score(at)));
+    let named = |(name, field): (&str, Field)| (name.to_owned(), field);
+    let before = [
+        ("frame", Field::Frame),
+        ("t_us", Field::Time),
+        ("x", Field::Column),
+        ("y", Field::Row),
+        ("x0", Field::Left),
+        ("y0", Field::Top),
+        ("srs", Field::Srs),
+        ("trs", Field::Trs),
     ];
-    for (index, feature) in design.features().iter().enumerate() {
-        columns.push((format!("score_{}", feature.kind()), Field::Score(index)));
-    }
-    columns.push(named("t_count", Field::Count));
-    columns.push(named("action", Field::Action));
-    columns
-}
-
-/// A file format of the table.
-pub(super) trait RowWriter: Send {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value>);
-    /// As [`Sink::write_out`].
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
-    /// As [`Sink::expendable`].
-    fn expendable(&self) -> Option<PathBuf> {
-        None
-    }
-    fn finish(self: Box<Self>) -> Result<(), SimulatorError>;
-}
-
-impl RowWriter for Csv {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value>) {
-        self.line(values);
-    }
-
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Csv::write_out(self, all)
-    }
-
-    fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
-        Csv::write_out(&mut self, true)
-    }
+    let after = [("t_count", Field::Count), ("action", Field::Action)];
+    let all = before.map(named).into_iter().chain(scores).chain(after.map(named));
+    all.map(|(name, field)| (Column { name, kind: field.kind(), optional: false }, field)).collect()
 }
 
 /// One file of the table, open.
@@ -160,11 +105,10 @@ pub(super) fn sinks(
     design: &Design,
     tables: EventTables,
 ) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
-    let columns = columns(design);
-    let fields: Vec<Field> = columns.iter().map(|(_, field)| *field).collect();
+    let (columns, fields): (Vec<Column>, Vec<Field>) = columns(design).into_iter().unzip();
     let mut writers: Vec<Box<dyn RowWriter>> = Vec::new();
     if tables.csv {
-        let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         writers.push(Box::new(Csv::create(&folder.join("events.csv"), &names.join(","))?));
     }
     if tables.parquet {

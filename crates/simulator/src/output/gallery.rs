@@ -4,68 +4,19 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::Design;
-use foveate_frame::Plane;
 
 use super::Medium;
 use super::canvas::Canvas;
-use super::png::{self, PngSeries, low_byte};
+use super::crew::Crew;
+use super::picture::Picture;
+use super::png_series::PngSeries;
 use super::sink::{Sink, Step};
 use super::video::VideoFile;
 use crate::SimulatorError;
-use foveate_frame::{convert_depth, display_depth};
 
 /// Draws a picture of a frame and what came of it.
 pub(super) trait Painter: Send {
     fn paint(&mut self, step: &Step<'_>) -> Canvas;
-}
-
-/// What the samples of a picture are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Samples {
-    Grey8,
-    /// In native order.
-    Grey16,
-    Rgb8,
-}
-
-/// A picture as bytes.
-pub(super) struct Picture {
-    pub(super) width: u32,
-    pub(super) height: u32,
-    pub(super) samples: Samples,
-    pub(super) bytes: Vec<u8>,
-}
-
-impl From<Canvas> for Picture {
-    fn from(canvas: Canvas) -> Self {
-        let Canvas { width, height, rgb } = canvas;
-        Self { width, height, samples: Samples::Rgb8, bytes: rgb }
-    }
-}
-
-impl Picture {
-    /// What is on the screen, at the depth that [`display_depth`] gives it, in the memory of `bytes`.
-    pub(super) fn grey(step: &Step<'_>, mut bytes: Vec<u8>) -> Self {
-        let bits = step.design.pixel_bits();
-        let depth = display_depth(bits);
-        let shown = |value: u16| convert_depth(value, bits, depth);
-        bytes.clear();
-        let samples = match step.screen {
-            Plane::Bytes(pixels) if bits == depth => {
-                bytes.extend_from_slice(pixels);
-                Samples::Grey8
-            }
-            Plane::Bytes(pixels) => {
-                bytes.extend(pixels.iter().map(|&value| low_byte(shown(value.into()))));
-                Samples::Grey8
-            }
-            Plane::Words(pixels) => {
-                bytes.extend(pixels.iter().flat_map(|&value| shown(value).to_ne_bytes()));
-                Samples::Grey16
-            }
-        };
-        Self { width: step.design.width(), height: step.design.height(), samples, bytes }
-    }
 }
 
 /// A series, open.
@@ -122,7 +73,7 @@ impl Sink for Gallery {
         // A painting has some lines below the frame, and is drawn larger where that is small.
         let (lines, samples) = if self.painter.is_some() { (256, 12) } else { (0, 2) };
         match &self.series {
-            Series::Folder(_) => png::owed(design.width(), design.height() + lines, samples),
+            Series::Folder(_) => Crew::owed(design.width(), design.height() + lines, samples),
             Series::Video(_) => 0,
         }
     }

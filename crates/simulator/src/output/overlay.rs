@@ -10,7 +10,7 @@ use foveate_palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
 use super::canvas::{Canvas, Layout};
 use super::font;
 use super::gallery::Painter;
-use super::png::low_byte;
+use super::picture::low_byte;
 use super::sink::Step;
 use super::strip::Strip;
 

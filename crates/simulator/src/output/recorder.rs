@@ -19,9 +19,10 @@ use super::summary::Totals;
 use super::table::{FrameTable, Row};
 use super::{RunOptions, Summary, events};
 use crate::SimulatorError;
-use crate::simulation::INTERRUPTED;
 use foveate_footage::{SetForm, SourceFrame};
 
+/// What a summary says of a run that the user stopped.
+pub(crate) const INTERRUPTED: &str = "interrupted";
 /// How a full disk is called in a summary.
 pub(crate) const DISK_FULL: &str = "disk full";
 /// Bytes of an output that may wait in memory, beside those of its last frame.

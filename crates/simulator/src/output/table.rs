@@ -4,7 +4,9 @@
 
 use std::path::Path;
 
-use super::csv::{Csv, plain};
+use foveate_tables::plain;
+
+use super::csv::Csv;
 use crate::SimulatorError;
 
 /// What the table says of a frame.

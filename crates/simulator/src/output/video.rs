@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use foveate_toolchain::{Feeder, Invocation, Tool, Toolchain};
 
 use super::cannot_write;
-use super::gallery::{Picture, Samples};
+use super::picture::{Picture, Samples};
 use crate::SimulatorError;
 
 /// A video in the making.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One drawing for every backend: axes, series, legend beside them, caption below.
 
-use foveate_palette::{Colour, SERIES};
+use foveate_palette::{Colour, LIGHT};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -12,16 +12,20 @@ use super::{Bars, Chart, Line, SIZE, Shape};
 const LEGEND: u32 = 210;
 const LETTERS: usize = 25;
 const CAPTION: u32 = 24;
+const GROUND: RGBColor = rgb(LIGHT.ground);
+const INK: RGBColor = rgb(LIGHT.ink);
+const QUIET: RGBColor = rgb(LIGHT.quiet);
+const GRID: RGBColor = rgb(LIGHT.grid);
 /// With more points than this a line has no dots.
 const DOTS: usize = 40;
 
 type Result<DB> = std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
 pub(super) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shift>) -> Result<DB> {
-    root.fill(&WHITE)?;
+    root.fill(&GROUND)?;
     let (above, caption) = root.split_vertically(SIZE.1 - CAPTION);
     let (plot, legend) = above.split_horizontally(SIZE.0 - LEGEND);
-    let small = ("sans-serif", 11).into_font().color(&RGBColor(90, 90, 90));
+    let small = ("sans-serif", 11).into_font().color(&QUIET);
     caption.draw(&Text::new(chart.caption.clone(), (12, 4), small))?;
     match &chart.shape {
         Shape::Lines(lines) => {
@@ -38,15 +42,15 @@ pub(super) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shi
 
 /// Of a line by its number.
 fn colour(number: usize) -> RGBColor {
-    rgb(SERIES[number % SERIES.len()])
+    rgb(LIGHT.series[number % LIGHT.series.len()])
 }
 
-fn rgb([red, green, blue]: Colour) -> RGBColor {
+const fn rgb([red, green, blue]: Colour) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
 fn dashed(number: usize) -> bool {
-    number >= SERIES.len()
+    number >= LIGHT.series.len()
 }
 
 /// A little more than the largest, so that nothing touches the frame.
@@ -75,8 +79,8 @@ fn draw_lines<DB: DrawingBackend>(
         .y_desc(&chart.y)
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 15))
-        .light_line_style(WHITE)
-        .bold_line_style(RGBColor(225, 225, 225))
+        .light_line_style(GROUND)
+        .bold_line_style(GRID)
         .draw()?;
     for (number, line) in lines.iter().enumerate() {
         let points = line.points.iter().copied();
@@ -120,8 +124,8 @@ fn draw_bars<DB: DrawingBackend>(
         .y_desc(&chart.y)
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 15))
-        .light_line_style(WHITE)
-        .bold_line_style(RGBColor(225, 225, 225))
+        .light_line_style(GROUND)
+        .bold_line_style(GRID)
         .draw()?;
     let wide = 0.8 / number(series.len().max(1));
     for (at, bars) in series.iter().enumerate() {
@@ -133,7 +137,7 @@ fn draw_bars<DB: DrawingBackend>(
         context.draw_series(bars.values.iter().enumerate().map(bar))?;
         let whisker = |(group, &(from, to)): (usize, &(f64, f64))| {
             let middle = left(group) + 0.45 * wide;
-            PathElement::new(vec![(middle, from), (middle, to)], BLACK.stroke_width(2))
+            PathElement::new(vec![(middle, from), (middle, to)], INK.stroke_width(2))
         };
         context.draw_series(bars.ranges.iter().enumerate().map(whisker))?;
     }
@@ -141,7 +145,7 @@ fn draw_bars<DB: DrawingBackend>(
     let style = ("sans-serif", 13)
         .into_font()
         .transform(FontTransform::Rotate270)
-        .color(&BLACK)
+        .color(&INK)
         .pos(Pos::new(HPos::Right, VPos::Center));
     for (group, name) in groups.iter().enumerate() {
         let (x, y) = context.backend_coord(&(number(group) + 0.5, 0.0));
@@ -149,8 +153,7 @@ fn draw_bars<DB: DrawingBackend>(
         area.draw(&Text::new(cut(name, 20), (x - x0, y - y0 + 8), style.clone()))?;
     }
     let (width, height) = area.dim_in_pixel();
-    let axis =
-        ("sans-serif", 15).into_font().color(&BLACK).pos(Pos::new(HPos::Center, VPos::Bottom));
+    let axis = ("sans-serif", 15).into_font().color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
     let below = (i32::try_from(width / 2).unwrap_or(0), i32::try_from(height).unwrap_or(0) - 2);
     area.draw(&Text::new(chart.x.clone(), below, axis))
 }
@@ -187,7 +190,7 @@ fn draw_names_of_lines<DB: DrawingBackend>(
 }
 
 fn draw_name<DB: DrawingBackend>(name: &str, y: i32, area: &DrawingArea<DB, Shift>) -> Result<DB> {
-    let font = ("sans-serif", 13).into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
+    let font = ("sans-serif", 13).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(cut(name, LETTERS), (29, y), font))
 }
 

@@ -6,8 +6,8 @@ use std::slice::from_ref;
 use super::{Study, clips_only};
 use crate::StudyError;
 use crate::chart::{Chart, Line, Shape};
+use crate::findings::Findings;
 use crate::number::{percent, share};
-use crate::report::Findings;
 use crate::table::Table;
 use crate::tally::Regions;
 use crate::watch::Watcher;
@@ -25,7 +25,7 @@ const VIEWS: [View; 3] = [
     ("activity-trs", "changed (TRS)", |frame| frame.trs),
 ];
 
-pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let watched = watcher.watch(from_ref(watcher.config), |series: &mut Series, _, seen| {
         series.push((seen.time_us, Regions::of(seen)));
     })?;

@@ -7,8 +7,8 @@ use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
 use super::Study;
 use crate::StudyError;
 use crate::chart::{Chart, Line, Shape};
+use crate::findings::Findings;
 use crate::number::{coordinate, percent, share};
-use crate::report::Findings;
 use crate::table::Table;
 use crate::watch::Watcher;
 
@@ -21,7 +21,7 @@ struct Histogram {
     bins: Vec<u64>,
 }
 
-pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let own = watcher.config.spatial.iter().find(|entry| entry.feature == FeatureKind::Mad);
     let mad = own.cloned().unwrap_or_else(|| SpatialConfig::new(FeatureKind::Mad));
     let config = Config { spatial: vec![mad], ..watcher.config.clone() };

@@ -7,8 +7,8 @@ use foveate_palette::SERIES;
 use super::Study;
 use crate::StudyError;
 use crate::chart::{Bars, Chart, Shape};
+use crate::findings::Findings;
 use crate::number::{percent, share};
-use crate::report::Findings;
 use crate::table::Table;
 use crate::watch::Watcher;
 
@@ -22,7 +22,7 @@ struct Below {
     by_feature: Vec<u64>,
 }
 
-pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let config = with_every_feature(watcher.config);
     let watched = watcher.watch(&[config], |below: &mut Below, design, seen| {
         below.all += u64::from(design.regions());

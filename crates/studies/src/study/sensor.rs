@@ -3,17 +3,19 @@
 //! regions, of what the model counts with the events that the sensor itself sent meanwhile.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::Read;
 use std::path::Path;
 use std::slice::from_ref;
 
+use csv::{ErrorKind, ReaderBuilder, Trim};
 use flate2::read::MultiGzDecoder;
 use foveate_design::Design;
+use serde::Deserialize;
 
 use super::{Study, clips_only};
 use crate::StudyError;
+use crate::findings::Findings;
 use crate::rank::spearman;
-use crate::report::{Findings, Request};
 use crate::table::Table;
 use crate::watch::Watcher;
 
@@ -28,8 +30,13 @@ struct Counts {
     last_us: u64,
 }
 
-pub(super) fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyError> {
-    let path = request.sensor_events.ok_or(StudyError::NoSensorEvents)?;
+/// `start` is the time of the first frame on the clock of the events.
+pub(crate) fn run(
+    watcher: &Watcher<'_>,
+    events: Option<&Path>,
+    start: u64,
+) -> Result<Findings, StudyError> {
+    let path = events.ok_or(StudyError::NoSensorEvents)?;
     if watcher.subjects.len() != 1 {
         return Err(StudyError::OneClip { clips: watcher.subjects.len() });
     }
@@ -52,7 +59,6 @@ pub(super) fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findin
     clips_only(Study::Sensor, &watched)?;
     let mut table = Table::new(&COLUMNS);
     for (design, counts) in watched.iter().flat_map(|clip| &clip.points) {
-        let start = request.sensor_start_us;
         let times = (start, start.saturating_add(counts.last_us));
         let events = read(path, design, times)?.compared(path, times, design)?;
         for (name, own) in [
@@ -72,6 +78,14 @@ pub(super) fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findin
     let mut findings = Findings::new(Study::Sensor, &watched, table);
     findings.notes.push(format!("sensor events {}", path.display()));
     Ok(findings)
+}
+
+/// An event of a recording, which may have other columns, too.
+#[derive(Deserialize)]
+struct Event {
+    t_us: u64,
+    x: u64,
+    y: u64,
 }
 
 /// What a recording holds for a clip.
@@ -116,26 +130,11 @@ fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recor
     let packed = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
     let reader: Box<dyn Read> =
         if packed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
-    let mut lines = BufReader::new(reader).lines().enumerate();
-    let header = match lines.next() {
-        Some((_, line)) => line.map_err(|error| wrong(error.to_string()))?,
-        None => return Err(wrong("it is empty".to_owned())),
-    };
-    let column = |name: &str| {
-        let at = header.split(',').position(|column| column.trim() == name);
-        at.ok_or_else(|| wrong(format!("there is no column `{name}`")))
-    };
-    let places = [column("t_us")?, column("x")?, column("y")?];
+    let mut file = ReaderBuilder::new().flexible(true).trim(Trim::All).from_reader(reader);
     let per_region = vec![0; usize::try_from(design.regions()).unwrap_or_default()];
     let mut recorded = Recorded { per_region, times: None, meanwhile: false };
-    for (number, line) in lines {
-        let line = line.map_err(|error| wrong(error.to_string()))?;
-        let cells: Vec<&str> = line.split(',').collect();
-        let value = |place: usize| {
-            let cell = cells.get(place).and_then(|cell| cell.trim().parse::<u64>().ok());
-            cell.ok_or_else(|| wrong(format!("line {} has no number there", number + 1)))
-        };
-        let [t, x, y] = [value(places[0])?, value(places[1])?, value(places[2])?];
+    for event in file.deserialize() {
+        let Event { t_us: t, x, y } = event.map_err(|error| wrong(said(&error)))?;
         let (from, to) = recorded.times.unwrap_or((t, t));
         recorded.times = Some((from.min(t), to.max(t)));
         let meanwhile = t > first && t <= last;
@@ -147,4 +146,14 @@ fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recor
         }
     }
     Ok(recorded)
+}
+
+/// What is wrong, and in which line.
+fn said(error: &csv::Error) -> String {
+    match (error.kind(), error.position()) {
+        (ErrorKind::Deserialize { err, .. }, Some(place)) => {
+            format!("line {}: {err}", place.line())
+        }
+        _ => error.to_string(),
+    }
 }

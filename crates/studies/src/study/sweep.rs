@@ -7,8 +7,8 @@ use foveate_footage::Kind;
 use super::Study;
 use crate::StudyError;
 use crate::chart::{Chart, Line, Shape};
+use crate::findings::Findings;
 use crate::number::{coordinate, percent, share};
-use crate::report::Findings;
 use crate::table::Table;
 use crate::tally::{Regions, Tally};
 use crate::watch::{Watched, Watcher};
@@ -32,7 +32,7 @@ struct Key {
     points: Vec<(u64, Config)>,
 }
 
-pub(super) fn size(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn size(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let point = |&size: &u32| {
         let mut config = watcher.config.clone();
         config.region.size = size;
@@ -48,7 +48,7 @@ pub(super) fn size(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     run(Study::Size, watcher, &[key])
 }
 
-pub(super) fn threshold(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn threshold(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     run(
         Study::Threshold,
         watcher,

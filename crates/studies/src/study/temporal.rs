@@ -8,8 +8,8 @@ use foveate_palette::{ACTIVE, CHANGED, RELEVANT};
 use super::{Study, clips_only};
 use crate::StudyError;
 use crate::chart::{Bars, Chart, Shape};
+use crate::findings::Findings;
 use crate::number::{percent, share};
-use crate::report::Findings;
 use crate::table::Table;
 use crate::tally::{Regions, Tally};
 use crate::watch::Watcher;
@@ -26,7 +26,7 @@ const COLUMNS: [&str; 9] = [
     "design",
 ];
 
-pub(super) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let watched =
         watcher.watch(from_ref(watcher.config), |tally: &mut Tally, _, seen| tally.add(seen))?;
     clips_only(Study::Temporal, &watched)?;

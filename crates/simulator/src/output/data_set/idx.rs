@@ -8,7 +8,7 @@ use std::path::Path;
 use foveate_frame::Plane;
 
 use super::super::headed::HeadedFile;
-use super::super::png::low_byte;
+use super::super::picture::low_byte;
 use super::super::sink::{Sink, Step};
 use crate::SimulatorError;
 use foveate_footage::{FootageError, IdxFile};

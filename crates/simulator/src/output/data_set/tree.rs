@@ -11,9 +11,8 @@ use foveate_design::Design;
 
 use super::super::cannot_write;
 use super::super::crew::Crew;
-use super::super::csv::{Csv, quoted};
-use super::super::gallery::Picture;
-use super::super::png;
+use super::super::csv::Csv;
+use super::super::picture::Picture;
 use super::super::sink::{Sink, Step};
 use crate::SimulatorError;
 
@@ -81,8 +80,7 @@ impl Sink for Tree {
         let picture = Picture::grey(step, self.crew.spare());
         self.crew.push(self.folder.join(&below), picture);
         let label = step.source.label.as_deref().unwrap_or_default();
-        let (file, label) = (quoted(&below.display().to_string()), quoted(label));
-        self.table.line([step.number.to_string(), file, label]);
+        self.table.quoted([&step.number.to_string(), &below.display().to_string(), label]);
         Ok(())
     }
 
@@ -92,7 +90,7 @@ impl Sink for Tree {
     }
 
     fn owed(&self, design: &Design) -> u64 {
-        png::owed(design.width(), design.height(), 2)
+        Crew::owed(design.width(), design.height(), 2)
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {

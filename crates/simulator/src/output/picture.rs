@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A picture as bytes, on its way into a PNG or a video.
+
+use foveate_frame::{Plane, convert_depth, display_depth};
+
+use super::canvas::Canvas;
+use super::sink::Step;
+
+/// What the samples of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Samples {
+    Grey8,
+    /// In native order.
+    Grey16,
+    Rgb8,
+}
+
+/// A picture as bytes.
+pub(super) struct Picture {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) samples: Samples,
+    pub(super) bytes: Vec<u8>,
+}
+
+impl From<Canvas> for Picture {
+    fn from(canvas: Canvas) -> Self {
+        let Canvas { width, height, rgb } = canvas;
+        Self { width, height, samples: Samples::Rgb8, bytes: rgb }
+    }
+}
+
+impl Picture {
+    /// What is on the screen, at the depth that [`display_depth`] gives it, in the memory of `bytes`.
+    pub(super) fn grey(step: &Step<'_>, mut bytes: Vec<u8>) -> Self {
+        let bits = step.design.pixel_bits();
+        let depth = display_depth(bits);
+        let shown = |value: u16| convert_depth(value, bits, depth);
+        bytes.clear();
+        let samples = match step.screen {
+            Plane::Bytes(pixels) if bits == depth => {
+                bytes.extend_from_slice(pixels);
+                Samples::Grey8
+            }
+            Plane::Bytes(pixels) => {
+                bytes.extend(pixels.iter().map(|&value| low_byte(shown(value.into()))));
+                Samples::Grey8
+            }
+            Plane::Words(pixels) => {
+                bytes.extend(pixels.iter().flat_map(|&value| shown(value).to_ne_bytes()));
+                Samples::Grey16
+            }
+        };
+        Self { width: step.design.width(), height: step.design.height(), samples, bytes }
+    }
+}
+
+/// An 8-bit value as a byte.
+pub(super) fn low_byte(value: u16) -> u8 {
+    u8::try_from(value).unwrap_or(u8::MAX)
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Numbered PNG files in a folder of their own.
+
+use std::fs;
+use std::path::PathBuf;
+
+use super::cannot_write;
+use super::crew::Crew;
+use super::picture::Picture;
+use crate::SimulatorError;
+
+/// A folder of pictures `000000.png`, `000001.png` and on.
+pub(super) struct PngSeries {
+    folder: PathBuf,
+    next: u64,
+    pub(super) crew: Crew,
+}
+
+impl PngSeries {
+    pub(super) fn create(folder: PathBuf) -> Result<Self, SimulatorError> {
+        fs::create_dir(&folder).map_err(cannot_write(&folder))?;
+        Ok(Self { folder, next: 0, crew: Crew::new()? })
+    }
+
+    pub(super) fn push(&mut self, picture: Picture) {
+        let path = self.folder.join(format!("{:06}.png", self.next));
+        self.next += 1;
+        self.crew.push(path, picture);
+    }
+}

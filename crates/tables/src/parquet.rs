@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Parquet files: Snappy and signed integers, so that every reader takes them. Rows are kept in memory until
+//! their group is written.
+
+use std::fmt;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+use parquet::basic::Compression;
+use parquet::data_type::{
+    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int32Type, Int64Type,
+};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::parser::parse_message_type;
+
+use crate::{Column, Kind, Value};
+
+/// A Parquet file, open.
+pub struct ParquetWriter<W: Write + Send> {
+    file: SerializedFileWriter<W>,
+    columns: Vec<Pending>,
+    rows: usize,
+}
+
+/// What is not written yet of a column.
+struct Pending {
+    values: Values,
+    /// Of an optional column for each row 1 where there is a value, 0 where there is none.
+    levels: Option<Vec<i16>>,
+}
+
+enum Values {
+    Long(Vec<i64>),
+    Int(Vec<i32>),
+    Real(Vec<f64>),
+    Flag(Vec<bool>),
+    Text(Vec<ByteArray>),
+}
+
+impl<W: Write + Send> ParquetWriter<W> {
+    /// A file of rows called `message`, at its beginning.
+    ///
+    /// # Errors
+    /// When `to` cannot be written, or a column has a name that Parquet does not allow.
+    pub fn new(to: W, message: &str, columns: &[Column]) -> io::Result<Self> {
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::SNAPPY)
+            .set_created_by(concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned())
+            .build();
+        let schema = parse_message_type(&schema(message, columns)).map_err(failed)?;
+        let file = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties));
+        let columns = columns.iter().map(Pending::new).collect();
+        Ok(Self { file: file.map_err(failed)?, columns, rows: 0 })
+    }
+
+    /// Takes a row: a value for each column, of its type.
+    ///
+    /// # Panics
+    /// When a value has another type than its column, or is missing where it must not.
+    pub fn push<'a>(&mut self, row: impl IntoIterator<Item = Value<'a>>) {
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            column.push(value);
+        }
+        self.rows += 1;
+    }
+
+    /// Rows that are not written yet.
+    #[must_use]
+    pub fn pending(&self) -> usize {
+        self.rows
+    }
+
+    /// Writes the rows so far, as a group.
+    ///
+    /// # Errors
+    /// When the file cannot be written; it cannot be completed then.
+    pub fn write_group(&mut self) -> io::Result<()> {
+        self.group().map_err(failed)
+    }
+
+    /// Writes what is left, and the end of the file.
+    ///
+    /// # Errors
+    /// As [`ParquetWriter::write_group`].
+    pub fn finish(mut self) -> io::Result<W> {
+        if self.rows > 0 {
+            self.write_group()?;
+        }
+        self.file.into_inner().map_err(failed)
+    }
+
+    fn group(&mut self) -> Result<(), ParquetError> {
+        let mut group = self.file.next_row_group()?;
+        for pending in &mut self.columns {
+            let mut column = group.next_column()?.expect("the schema has the same columns");
+            pending.write(&mut column)?;
+            column.close()?;
+        }
+        group.close()?;
+        self.rows = 0;
+        Ok(())
+    }
+}
+
+impl<W: Write + Send> fmt::Debug for ParquetWriter<W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ParquetWriter").field("pending", &self.rows).finish_non_exhaustive()
+    }
+}
+
+impl Pending {
+    fn new(column: &Column) -> Self {
+        let values = match column.kind {
+            Kind::Long => Values::Long(Vec::new()),
+            Kind::Int => Values::Int(Vec::new()),
+            Kind::Real => Values::Real(Vec::new()),
+            Kind::Flag => Values::Flag(Vec::new()),
+            Kind::Text => Values::Text(Vec::new()),
+        };
+        Self { values, levels: column.optional.then(Vec::new) }
+    }
+
+    fn push(&mut self, value: Value<'_>) {
+        let there = value != Value::None;
+        match &mut self.levels {
+            Some(levels) => levels.push(i16::from(there)),
+            None => assert!(there, "every row has a value in a column that is not optional"),
+        }
+        match (&mut self.values, value) {
+            (_, Value::None) => {}
+            (Values::Long(values), Value::Long(value)) => values.push(value),
+            (Values::Int(values), Value::Int(value)) => values.push(value),
+            (Values::Real(values), Value::Real(value)) => values.push(value),
+            (Values::Flag(values), Value::Flag(value)) => values.push(value),
+            (Values::Text(values), Value::Text(value)) => values.push(value.into()),
+            (_, value) => panic!("{value:?} is not of the type of its column"),
+        }
+    }
+
+    fn write(&mut self, column: &mut SerializedColumnWriter<'_>) -> Result<(), ParquetError> {
+        let levels = self.levels.as_deref();
+        match &mut self.values {
+            Values::Long(values) => write::<Int64Type>(column, values, levels)?,
+            Values::Int(values) => write::<Int32Type>(column, values, levels)?,
+            Values::Real(values) => write::<DoubleType>(column, values, levels)?,
+            Values::Flag(values) => write::<BoolType>(column, values, levels)?,
+            Values::Text(values) => write::<ByteArrayType>(column, values, levels)?,
+        }
+        self.levels.iter_mut().for_each(Vec::clear);
+        Ok(())
+    }
+}
+
+fn write<T: DataType>(
+    column: &mut SerializedColumnWriter<'_>,
+    values: &mut Vec<T::T>,
+    levels: Option<&[i16]>,
+) -> Result<(), ParquetError> {
+    column.typed::<T>().write_batch(values, levels, None)?;
+    values.clear();
+    Ok(())
+}
+
+/// The columns in the language of Parquet.
+fn schema(message: &str, columns: &[Column]) -> String {
+    let line = |Column { name, kind, optional }: &Column| {
+        let presence = if *optional { "optional" } else { "required" };
+        match kind {
+            Kind::Long => format!("{presence} int64 {name};"),
+            Kind::Int => format!("{presence} int32 {name};"),
+            Kind::Real => format!("{presence} double {name};"),
+            Kind::Flag => format!("{presence} boolean {name};"),
+            Kind::Text => format!("{presence} binary {name} (string);"),
+        }
+    };
+    format!("message {message} {{ {} }}", columns.iter().map(line).collect::<String>())
+}
+
+/// What the system said, if it was the system, so that a full disk is recognized.
+fn failed(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(cause) => {
+            cause.downcast::<io::Error>().map_or_else(io::Error::other, |cause| *cause)
+        }
+        other => io::Error::other(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+
+    use super::*;
+
+    fn column(name: &str, kind: Kind, optional: bool) -> Column {
+        Column { name: name.to_owned(), kind, optional }
+    }
+
+    #[test]
+    fn every_kind_of_value_can_be_read_again_from_every_group() {
+        let kinds = [Kind::Long, Kind::Int, Kind::Real, Kind::Flag, Kind::Text];
+        let columns: Vec<Column> =
+            (0..).zip(kinds).map(|(at, kind)| column(&format!("c{at}"), kind, true)).collect();
+        let full = [
+            Value::Long(-1 << 40),
+            Value::Int(-7),
+            Value::Real(0.5),
+            Value::Flag(true),
+            Value::Text("a \u{fc}"),
+        ];
+        let to = tempfile::tempfile().unwrap();
+        let mut file = ParquetWriter::new(to, "rows", &columns).unwrap();
+        file.push(full);
+        file.push([Value::None; 5]);
+        assert_eq!(file.pending(), 2);
+        file.write_group().unwrap();
+        file.push(full);
+        let reader = SerializedFileReader::new(file.finish().unwrap()).unwrap();
+        assert_eq!(reader.num_row_groups(), 2);
+        let text = |row: parquet::record::Row| {
+            row.get_column_iter().map(|(_, field)| field.to_string()).collect::<Vec<_>>().join(" ")
+        };
+        let rows: Vec<String> =
+            reader.get_row_iter(None).unwrap().map(|row| text(row.unwrap())).collect();
+        let expected = "-1099511627776 -7 0.5 true \"a \u{fc}\"";
+        assert_eq!(rows, [expected, "null null null null null", expected]);
+    }
+
+    #[test]
+    #[should_panic(expected = "every row has a value")]
+    fn a_value_that_must_be_there_is() {
+        let mut file =
+            ParquetWriter::new(Vec::new(), "rows", &[column("a", Kind::Int, false)]).unwrap();
+        file.push([Value::None]);
+    }
+
+    #[test]
+    fn a_full_disk_is_told_from_other_errors() {
+        let cause = io::Error::from(io::ErrorKind::StorageFull);
+        assert_eq!(failed(ParquetError::External(cause.into())).kind(), io::ErrorKind::StorageFull);
+        assert_eq!(failed(ParquetError::General("x".to_owned())).kind(), io::ErrorKind::Other);
+    }
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tables as text.
+
+use std::fmt::Write as _;
+
+/// A CSV file (RFC 4180). All records have the same number of fields; those that need quotes get them.
+///
+/// # Panics
+/// When a record has another number of fields than the first.
+#[must_use]
+pub fn csv<R>(records: impl IntoIterator<Item = R>) -> String
+where
+    R: IntoIterator<Item: AsRef<[u8]>>,
+{
+    let mut file = csv::Writer::from_writer(Vec::new());
+    for record in records {
+        file.write_record(record).expect("memory takes everything, and records are alike");
+    }
+    let bytes = file.into_inner().expect("memory takes everything");
+    String::from_utf8(bytes).expect("fields are text")
+}
+
+/// A name that every reader takes as it is, those too that know neither quotes nor that a `#` can be
+/// part of a name: the characters `,` `#` `"` `%` and control characters as in a URL (`%2C`).
+#[must_use]
+pub fn plain(name: &str) -> String {
+    let mut text = String::with_capacity(name.len());
+    for letter in name.chars() {
+        match letter {
+            ',' | '#' | '"' | '%' | '\0'..='\x1F' | '\x7F' => {
+                let _ = write!(text, "%{:02X}", u32::from(letter));
+            }
+            other => text.push(other),
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_are_quoted_where_they_must_be() {
+        let records = [["name", "b"], ["a b.png", ""], ["a,\"b\".png", "c\nd"]];
+        assert_eq!(csv(records), "name,b\na b.png,\n\"a,\"\"b\"\".png\",\"c\nd\"\n");
+    }
+
+    #[test]
+    fn plain_names_need_no_quotes_and_can_be_taken_back() {
+        assert_eq!(plain("clips/a b-1_\u{fc}.png"), "clips/a b-1_\u{fc}.png");
+        assert_eq!(plain("a,\"b\"#1 50%\n.png"), "a%2C%22b%22%231 50%25%0A.png");
+        assert_eq!(csv([[plain("a,\"\r")]]), plain("a,\"\r") + "\n");
+    }
+}
