@@ -14,8 +14,22 @@ use serde_json::Value;
 /// The codes of 128 and the number of the signal.
 const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
 
+/// The command as a terminal starts it. Tests that run under `nohup` would have it ignore hangups.
+fn foveate() -> Command {
+    let executable = env!("CARGO_BIN_EXE_foveate");
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.map_or(0, |mask| u64::from_str_radix(mask.trim(), 16).unwrap());
+    if ignored & 1 == 0 {
+        return Command::new(executable);
+    }
+    let mut command = Command::new("env");
+    command.args(["--default-signal=HUP", executable]);
+    command
+}
+
 fn start(folder: &Path, args: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_foveate"))
+    foveate()
         .args(args)
         .current_dir(folder)
         .env("FOVEATE_PROGRESS", "0")
