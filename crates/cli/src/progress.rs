@@ -3,20 +3,17 @@
 //! is written.
 
 mod lines;
+mod stage;
 
+use std::fmt::Write;
 use std::io::IsTerminal as _;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use lines::Lines;
-
-const WORK: &str = "{spinner} {msg} [{elapsed}]";
-const STEPS: &str = "{msg} {wide_bar} {pos}/{len} [{elapsed}, {eta} left]";
-const FRAMES: &str = "{spinner} {pos} frames [{elapsed}, {per_sec:.1}] {msg}";
-const FRAMES_OF_ALL: &str =
-    "{wide_bar} {pos}/{len} frames [{elapsed}, {per_sec:.1}, {eta} left] {msg}";
+use stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, WORK};
 
 /// What a command is about. Nothing is shown before it says so, nothing when quiet, and nothing remains on
 /// a terminal when it is dropped.
@@ -25,13 +22,6 @@ pub(crate) struct Progress {
     stage: Arc<Mutex<Stage>>,
     /// Where standard error is no terminal, until the end.
     lines: Mutex<Option<Lines>>,
-}
-
-/// What goes on.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Stage {
-    style: Option<&'static str>,
-    what: String,
 }
 
 impl Progress {
@@ -43,7 +33,7 @@ impl Progress {
         } else {
             ProgressDrawTarget::stderr()
         });
-        let stage = Arc::new(Mutex::new(Stage::default()));
+        let stage = Arc::new(Mutex::new(Stage::new(Instant::now())));
         let lines = !quiet && !terminal;
         let lines = lines.then(|| Lines::start(bar.clone(), Arc::clone(&stage))).flatten();
         Self { bar, stage, lines: Mutex::new(lines) }
@@ -51,7 +41,7 @@ impl Progress {
 
     /// Work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
     pub(crate) fn work(&self, what: &str) {
-        self.enter(WORK, what);
+        self.enter(WORK, what, 0);
     }
 
     /// So many of all steps are done: `designs over clips`. While there is none to do it is [`Progress::work`].
@@ -59,14 +49,14 @@ impl Progress {
         if all == 0 {
             return self.work(what);
         }
-        self.enter(STEPS, what);
+        self.enter(STEPS, what, done);
         self.bar.set_length(all);
         self.bar.set_position(done);
     }
 
     /// So many frames are done, of so many if that is known; `note` stands beside it.
     pub(crate) fn frames(&self, done: u64, all: Option<u64>, note: &str) {
-        self.enter(if all.is_some() { FRAMES_OF_ALL } else { FRAMES }, note);
+        self.enter(if all.is_some() { FRAMES_OF_ALL } else { FRAMES }, note, done);
         if let Some(all) = all {
             self.bar.set_length(all.max(done));
         }
@@ -79,26 +69,43 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 
-    fn enter(&self, style: &'static str, what: &str) {
-        let mut stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
-        if stage.style == Some(style) && stage.what == what {
-            return;
-        }
-        if stage.style != Some(style) {
+    fn enter(&self, style: &'static str, what: &str, done: u64) {
+        // Not held while the bar is told: it asks for the stage when it draws.
+        let before = {
+            let mut stage = locked(&self.stage);
+            let before = (stage.style, stage.what.clone());
+            stage.enter(style, what, done, Instant::now());
+            before
+        };
+        if before.0 != Some(style) {
             // Only a program fault makes a template that cannot be read; the bar is then the plain one.
             if let Ok(template) = ProgressStyle::with_template(style) {
-                self.bar.set_style(template);
+                let stage = Arc::clone(&self.stage);
+                let left = move |bar: &ProgressState, text: &mut dyn Write| {
+                    let all = bar.len().unwrap_or(0);
+                    let left = locked(&stage).left(bar.pos(), all, Instant::now());
+                    let _ = match left {
+                        None => Ok(()),
+                        Some(Left::About(left)) => write!(text, ", {:#} left", HumanDuration(left)),
+                        Some(Left::MoreThan(left)) => {
+                            write!(text, ", over {:#} left", HumanDuration(left))
+                        }
+                    };
+                };
+                self.bar.set_style(template.with_key("left", left));
             }
             if !self.bar.is_hidden() {
                 self.bar.enable_steady_tick(Duration::from_millis(120));
             }
         }
-        if style == STEPS || stage.style != Some(style) {
-            self.bar.reset_eta();
+        if before.0 != Some(style) || before.1 != what {
+            self.bar.set_message(what.to_owned());
         }
-        self.bar.set_message(what.to_owned());
-        *stage = Stage { style: Some(style), what: what.to_owned() };
     }
+}
+
+fn locked(stage: &Mutex<Stage>) -> MutexGuard<'_, Stage> {
+    stage.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Drop for Progress {

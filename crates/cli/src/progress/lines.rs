@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar};
 
-use super::{FRAMES, FRAMES_OF_ALL, STEPS, Stage};
+use super::stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage};
 use crate::output;
 
 /// Seconds between lines; `0` for none.
@@ -50,7 +50,7 @@ impl Lines {
                     return;
                 }
                 let stage = stage.lock().unwrap_or_else(PoisonError::into_inner).clone();
-                if let Some(line) = line(&bar, &stage, start.elapsed()) {
+                if let Some(line) = line(&bar, &stage, start, Instant::now()) {
                     eprintln!("foveate: {line}");
                 }
             }
@@ -80,16 +80,18 @@ fn parse(text: &str) -> Option<Duration> {
     Some(Duration::from_secs(seconds))
 }
 
-/// What goes on, in words; nothing before the command has said so.
-fn line(bar: &ProgressBar, stage: &Stage, elapsed: Duration) -> Option<String> {
+/// What goes on, in words; nothing before the command has said so. `start` is when the command began.
+fn line(bar: &ProgressBar, stage: &Stage, start: Instant, now: Instant) -> Option<String> {
     let style = stage.style?;
-    let (done, what, elapsed) = (bar.position(), &stage.what, HumanDuration(elapsed));
-    let left = || match bar.eta() {
-        Duration::ZERO => String::new(),
-        left => format!(", about {} left", HumanDuration(left)),
+    let (done, what) = (bar.position(), &stage.what);
+    let all = bar.length().unwrap_or(done);
+    let elapsed = HumanDuration(now.saturating_duration_since(start));
+    let left = || match stage.left(done, all, now) {
+        None => String::new(),
+        Some(Left::About(left)) => format!(", about {} left", HumanDuration(left)),
+        Some(Left::MoreThan(left)) => format!(", more than {} left", HumanDuration(left)),
     };
     let note = if what.is_empty() { String::new() } else { format!(" ({what})") };
-    let all = bar.length().unwrap_or(done);
     Some(match style {
         STEPS => format!("{what}: {done} of {all} after {elapsed}{}", left()),
         FRAMES_OF_ALL => format!("{done} of {all} frames after {elapsed}{}{note}", left()),
@@ -100,7 +102,7 @@ fn line(bar: &ProgressBar, stage: &Stage, elapsed: Duration) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::WORK;
+    use super::super::stage::WORK;
     use super::*;
 
     #[test]
@@ -128,19 +130,26 @@ mod tests {
         let bar = ProgressBar::hidden();
         bar.set_length(40);
         bar.set_position(12);
-        let told = |style, what: &str| {
-            let stage = Stage { style, what: what.to_owned() };
-            let line = line(&bar, &stage, Duration::from_secs(65))?;
-            // How much is left depends on how fast the test is.
-            Some(line.split(", about").next()?.to_owned())
+        let start = Instant::now();
+        let told = |style, what: &str, first| {
+            let mut stage = Stage::new(start);
+            stage.enter(style, what, first, start);
+            line(&bar, &stage, start, start + Duration::from_secs(66)).unwrap()
         };
-        assert_eq!(told(None, ""), None);
-        assert_eq!(told(Some(WORK), "compiling").unwrap(), "compiling, 65 seconds so far");
-        assert_eq!(told(Some(STEPS), "designs").unwrap(), "designs: 12 of 40 after 65 seconds");
-        assert_eq!(told(Some(FRAMES_OF_ALL), "").unwrap(), "12 of 40 frames after 65 seconds");
+        assert_eq!(told(WORK, "compiling", 0), "compiling, 66 seconds so far");
+        assert_eq!(told(STEPS, "designs", 12), "designs: 12 of 40 after 66 seconds");
         assert_eq!(
-            told(Some(FRAMES), "1/2 clips").unwrap(),
-            "12 frames after 65 seconds (1/2 clips)"
+            told(STEPS, "designs", 0),
+            "designs: 12 of 40 after 66 seconds, about 3 minutes left"
         );
+        assert_eq!(
+            told(FRAMES_OF_ALL, "1/2 clips", 6),
+            "12 of 40 frames after 66 seconds, about 5 minutes left (1/2 clips)"
+        );
+        assert_eq!(told(FRAMES, "1/2 clips", 0), "12 frames after 66 seconds (1/2 clips)");
+        assert_eq!(line(&bar, &Stage::new(start), start, start), None);
+        bar.set_length(u64::MAX);
+        let most = "designs: 12 of 18446744073709551615 after 66 seconds, more than 7 days left";
+        assert_eq!(told(STEPS, "designs", 0), most);
     }
 }
