@@ -50,7 +50,8 @@ pub fn explore(
     let (width, height) = footage.size;
     let (points, refused) = space.points(width, height);
     if points.is_empty() {
-        let Refused { settings, reason } = refused.into_iter().next().unwrap_or_default();
+        let first = refused.into_iter().next().expect("a space has a combination");
+        let Refused { settings, reason } = first;
         return Err(ExploreError::NoPoints { settings, reason });
     }
     claim(output)?;
@@ -71,7 +72,8 @@ pub fn explore(
     mark_fronts(&mut rows);
     let of_clip = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| ClipRow {
         name: subject.name.clone(),
-        frames: measured.first().map_or(0, |first| first.tally.figures().frames),
+        // A space has a design.
+        frames: measured[0].tally.figures().frames,
     };
     let problem = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| {
         let problem = measured.iter().find_map(|one| one.problem.clone());

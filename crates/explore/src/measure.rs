@@ -73,7 +73,7 @@ impl Clip<'_> {
         let set = source.kind() == Kind::Set;
         let problem = thread::scope(|scope| {
             let (give, take) = sync_channel(AHEAD);
-            let end = self.parts.iter().map(|part| part.end).max().unwrap_or(0);
+            let end = self.parts.iter().map(|part| part.end).max().expect("a clip has a part");
             let judge = scope.spawn(move || judge(source, ideal, end, &give));
             let seen = self.watch(&mut candidates, set, take);
             let problem = judge.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
@@ -181,7 +181,7 @@ fn at_depths(
         let words = frame.plane().to_words().into_iter();
         let pixels = words.map(|pixel| convert_depth(pixel, own, bits));
         let raster = if bits <= 8 {
-            let bytes = pixels.map(|pixel| u8::try_from(pixel).unwrap_or(u8::MAX)).collect();
+            let bytes = pixels.map(|pixel| u8::try_from(pixel).expect("at most 8 bits")).collect();
             Raster::from_bytes(width, height, bits, bytes)
         } else {
             Raster::from_words(width, height, bits, pixels.collect())

@@ -19,7 +19,7 @@ pub struct Point {
 }
 
 /// A combination that is not a valid design.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refused {
     /// What was asked for, as `key = value`.
     pub settings: String,

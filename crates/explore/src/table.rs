@@ -93,7 +93,7 @@ impl Cell {
 
 /// The columns of a point.
 pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
-    let mut cells: Cells = vec![("point".to_owned(), count(number(row.number)))];
+    let mut cells: Cells = vec![("point".to_owned(), count(row.number as u64))];
     let settings = axes.iter().zip(&row.settings);
     cells.extend(settings.map(|(axis, value)| (axis.clone(), Cell::Text(value.clone()))));
     cells.extend(errors(&row.figures));
@@ -128,7 +128,7 @@ pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
 /// The columns that say what a row of one clip is about.
 pub(crate) fn names(point: usize, clip: &str) -> Cells {
     vec![
-        ("point".to_owned(), count(number(point))),
+        ("point".to_owned(), count(point as u64)),
         ("clip".to_owned(), Cell::Text(clip.to_owned())),
     ]
 }
@@ -174,8 +174,4 @@ fn score_names() -> impl Iterator<Item = &'static str> {
 
 fn count(value: u64) -> Cell {
     Cell::Count(Some(value))
-}
-
-fn number(value: usize) -> u64 {
-    u64::try_from(value).unwrap_or(u64::MAX)
 }

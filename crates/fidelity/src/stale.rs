@@ -129,7 +129,8 @@ impl<T: Sample> Watch<T> {
         let sum = |sum: u32, &value: &T::Sum| sum + value.into();
         tally.sum += u64::from(self.sums[columns.clone()].iter().fold(0, sum));
         tally.pixels += pixels;
-        let largest = self.largest[columns.clone()].iter().copied().max().unwrap_or_default();
+        let largest = self.largest[columns.clone()].iter().copied().max();
+        let largest = largest.expect("a region has pixels");
         tally.max = tally.max.max(largest.into());
         let above: u32 = self.counts[columns].iter().map(|&count| u32::from(count)).sum();
         let stale = u64::from(above) >= u64::from(self.min_count).min(pixels);

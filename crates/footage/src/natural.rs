@@ -34,7 +34,7 @@ fn names(mut a: &[u8], mut b: &[u8]) -> Ordering {
         let order = if first.is_ascii_digit() && second.is_ascii_digit() {
             numbers(take_number(&mut a), take_number(&mut b))
         } else {
-            (a, b) = (a.get(1..).unwrap_or_default(), b.get(1..).unwrap_or_default());
+            (a, b) = (&a[1..], &b[1..]);
             first.cmp(&second)
         };
         if order != Ordering::Equal {
@@ -49,7 +49,7 @@ fn take_number<'a>(text: &mut &'a [u8]) -> &'a [u8] {
     let (digits, rest) = text.split_at(end);
     *text = rest;
     let zeros = digits.iter().take_while(|&&digit| digit == b'0').count();
-    digits.get(zeros..).unwrap_or_default()
+    &digits[zeros..]
 }
 
 /// Without leading zeros the longer number is the larger.

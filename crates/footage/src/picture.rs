@@ -26,7 +26,7 @@ use foveate_frame::convert_depth;
 #[must_use]
 pub fn luma(red: u16, green: u16, blue: u16) -> u16 {
     let sum = 77 * u32::from(red) + 150 * u32::from(green) + 29 * u32::from(blue) + 128;
-    u16::try_from(sum >> 8).unwrap_or(u16::MAX)
+    u16::try_from(sum >> 8).expect("the weights sum to 256")
 }
 
 /// Reads an image file as a frame of `bits` bits per pixel.

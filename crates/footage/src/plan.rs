@@ -65,7 +65,7 @@ pub fn plan<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Result<Plan
         }
     }
     if clips.is_empty() {
-        let path = inputs.first().map(|path| path.to_path_buf()).unwrap_or_default();
+        let path = inputs.first().expect("without inputs there is one clip").to_path_buf();
         return Err(FootageError::EmptyFolder { path });
     }
     set_apart(&mut clips);

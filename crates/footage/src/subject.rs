@@ -23,15 +23,14 @@ pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<Subjec
     let mut found = Vec::new();
     let sheets = options.images == ImagesAs::CifarSheet;
     if inputs.len() > 1 && !sheets && matches!(plan(inputs, options), Ok(Plan::One)) {
-        let name = inputs.first().map(|path| name_of(path)).unwrap_or_default();
-        return Ok(vec![Subject { name, inputs: inputs.to_vec() }]);
+        return Ok(vec![Subject { name: name_of(&inputs[0]), inputs: inputs.to_vec() }]);
     }
     for input in inputs {
         match plan(&[input], options)? {
             Plan::One => found.push(Subject { name: name_of(input), inputs: vec![input.clone()] }),
             Plan::Batch(clips) => found.extend(clips.into_iter().map(|clip| {
-                let name = clip.inputs.first().map(|path| name_of(path)).unwrap_or_default();
-                Subject { name, inputs: clip.inputs }
+                // A clip has an input.
+                Subject { name: name_of(&clip.inputs[0]), inputs: clip.inputs }
             })),
         }
     }

@@ -64,8 +64,7 @@ pub fn run_batch(
         frames: AtomicU64::new(0),
     };
     let summary = batch.run()?;
-    // Plain data with text keys: this cannot fail.
-    let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
+    let text = serde_json::to_string_pretty(&summary).expect("plain data with text keys") + "\n";
     staging.write("summary.json", text.as_bytes())?;
     staging.commit()?;
     Ok(summary)

@@ -148,7 +148,7 @@ enum End {
 fn full(error: &SimulatorError, frames: u64) -> String {
     let file = match error {
         SimulatorError::Write { path, .. } | SimulatorError::VideoOutput { path, .. } => {
-            path.file_name().unwrap_or_default().display().to_string()
+            path.file_name().expect("an output has a name").display().to_string()
         }
         _ => String::new(),
     };

@@ -40,7 +40,8 @@ impl Findings {
 
     /// Adds a chart with its caption: the program, the first design, the inputs.
     pub(crate) fn chart<T>(&mut self, mut chart: Chart, watched: &[Watched<T>]) {
-        let program = self.notes.first().cloned().unwrap_or_default();
+        // The first note, which every study has.
+        let program = self.notes[0].clone();
         let mut designs: Vec<String> = watched
             .iter()
             .filter_map(|clip| clip.points.first().map(|(design, _)| design.fingerprint()))

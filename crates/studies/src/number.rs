@@ -5,7 +5,8 @@
 /// `part / whole` in millionths, rounded to the nearest; 0 of nothing.
 fn millionths(part: u64, whole: u64) -> u32 {
     let whole = u128::from(whole.max(1));
-    u32::try_from((u128::from(part) * 1_000_000 + whole / 2) / whole).unwrap_or(u32::MAX)
+    u32::try_from((u128::from(part) * 1_000_000 + whole / 2) / whole)
+        .expect("a part is no more than the whole")
 }
 
 /// A share with six digits after the point.

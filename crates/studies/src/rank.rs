@@ -27,7 +27,7 @@ fn doubled_ranks(values: &[u64]) -> Vec<i128> {
     let mut ranks = vec![0; values.len()];
     let mut before = 0_i128;
     for same in order.chunk_by(|&a, &b| values[a] == values[b]) {
-        let count = i128::try_from(same.len()).unwrap_or(i128::MAX);
+        let count = same.len() as i128;
         for &at in same {
             ranks[at] = 2 * before + count + 1;
         }

@@ -17,7 +17,7 @@ impl Regions {
     pub(crate) fn of(seen: &Seen<'_>) -> Self {
         let outcome = seen.outcome;
         Self {
-            all: u64::try_from(outcome.srs.len()).unwrap_or(u64::MAX),
+            all: outcome.srs.len() as u64,
             srs: count(&outcome.srs),
             trs: count(&outcome.trs),
             active: count(&outcome.active),

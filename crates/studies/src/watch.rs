@@ -85,7 +85,7 @@ impl Watcher<'_> {
         });
         let result = |slot: Mutex<Option<Result<_, _>>>| {
             let slot = slot.into_inner().unwrap_or_else(PoisonError::into_inner);
-            slot.unwrap_or(Err(StudyError::Cancelled))
+            slot.expect("the threads end when every clip was seen")
         };
         results.into_iter().map(result).collect()
     }

@@ -14,7 +14,7 @@ use foveate_explore::{
 use foveate_footage::ImagesAs;
 use foveate_toolchain::{Cache, Toolchain};
 
-use crate::args::ExploreArgs;
+use crate::args::{ExploreArgs, warn_of};
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, output};
@@ -33,12 +33,14 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     let text = read(file)?;
     let space = Space::from_toml(&text).map_err(|error| blame(file, &error))?;
     let Some(folder) = output.filter(|_| !args.print) else { return output::text(&text) };
+    let input = args.input.options(ImagesAs::Clip);
+    warn_of(&args.inputs, &input);
     let terminal = Terminal::new(args.quiet)?;
     let synthesizer = if args.no_area { None } else { Some(terminal.synthesizer()?) };
     let request = Request {
         space: &space,
         inputs: &args.inputs,
-        input: &args.input.options(ImagesAs::Clip),
+        input: &input,
         synthesizer: synthesizer.as_ref(),
     };
     let found = explore(&request, folder, &terminal);

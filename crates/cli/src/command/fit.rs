@@ -9,7 +9,7 @@ use foveate_footage::ImagesAs;
 use foveate_staging::{check_file, write_file};
 
 use super::explore::Terminal;
-use crate::args::FitArgs;
+use crate::args::{FitArgs, warn_of};
 use crate::error::CliError;
 use crate::output;
 
@@ -18,12 +18,14 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     if let Some(file) = &args.output {
         check_file(file)?;
     }
+    let input = args.input.options(ImagesAs::Clip);
+    warn_of(&args.inputs, &input);
     let terminal = Terminal::new(args.quiet)?;
     let synthesizer = terminal.synthesizer()?;
     let request = FitRequest {
         task: &task,
         inputs: &args.inputs,
-        input: &args.input.options(ImagesAs::Clip),
+        input: &input,
         constraints: &args.constraints.constraints(),
         clock_hz: args.constraints.clock.0,
         target_active: args.constraints.target_active,

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{fail_in, run_in};
+use crate::common::{fail_in, foveate, run_in};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::{data_folder, require_tools};
 
@@ -155,6 +155,31 @@ fn images_without_their_labels_are_told() {
         let args = ["simulate", input, "--labels", labels, "-o", "no"];
         fail_in(dir.path(), 2, &args, &["--labels", labels, "IDX"]);
     }
+}
+
+/// A folder of which only a part is taken.
+#[test]
+fn every_command_that_reads_clips_says_what_it_leaves_out() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir_all(dir.path().join("clip/more")).unwrap();
+    for name in ["clip/0.pgm", "clip/1.pgm", "clip/more/0.pgm"] {
+        pgm(&dir.path().join(name), (16, 16), |x, y| (x * y).to_le_bytes()[0]);
+    }
+    fs::write(dir.path().join("space.toml"), "[vary]\nregion.size = [8]\n").unwrap();
+    let warning = "foveate: warning: images in folders below `clip`, such as `clip/more`";
+    for args in [
+        &["simulate", "clip"][..],
+        &["analyze", "temporal", "clip"],
+        &["explore", "space.toml", "clip", "--no-area"],
+    ] {
+        let said = said(dir.path(), args);
+        assert!(said.starts_with(warning) && said.lines().count() == 1, "{args:?}: {said}");
+    }
+    // What it says comes before the search for tools.
+    let fit =
+        foveate(&["fit", "clip"]).current_dir(dir.path()).env("FOVEATE_YOSYS", "gone").output();
+    let said = String::from_utf8(fit.unwrap().stderr).unwrap();
+    assert!(said.starts_with(warning) && said.lines().count() == 2, "{said}");
 }
 
 /// A picture whose rows are pictures themselves, and a photograph of the same shape.

@@ -81,7 +81,7 @@ fn scaled(task: &Config, octaves: f64) -> Config {
             // Deviations scale with contrast, their squares with its square.
             let factor = (0..entry.feature.measure().power()).map(|_| factor).product::<f64>();
             let scale = |score: Decimal| {
-                let score: f64 = score.to_string().parse().unwrap_or_default();
+                let score: f64 = score.to_string().parse().expect("a decimal is a number");
                 Decimal::from_f64((score * factor * 1000.0).round() / 1000.0)
             };
             entry.min_score = entry.min_score.and_then(scale);

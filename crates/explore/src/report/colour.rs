@@ -103,7 +103,8 @@ impl Grouping {
             labels = numbers.into_iter().map(|(_, label)| label).collect();
         }
         let place = |value: &String| labels.iter().position(|label| label == value);
-        let of_row = values.iter().map(|value| place(value).unwrap_or(0).min(GROUPS)).collect();
+        let group = |value| place(value).expect("every value has a label").min(GROUPS);
+        let of_row = values.iter().map(group).collect();
         let more = labels.len() > GROUPS;
         labels.truncate(GROUPS);
         let label =

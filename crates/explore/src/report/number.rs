@@ -47,8 +47,7 @@ pub(crate) fn tick(value: f64) -> String {
 
 /// A number of things: `1 clip`, `2 clips`.
 pub(crate) fn things(count: usize, one: &str) -> String {
-    let count = u64::try_from(count).unwrap_or(u64::MAX);
-    format!("{} {one}{}", grouped(count), if count == 1 { "" } else { "s" })
+    format!("{} {one}{}", grouped(count as u64), if count == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]

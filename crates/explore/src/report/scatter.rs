@@ -92,7 +92,7 @@ impl Scatter {
             if on_front[index] {
                 steps.push((x, y));
             }
-            let title = titles.get(index).cloned().unwrap_or_default();
+            let title = titles[index].clone();
             marks.push(mark(row, index, (x, y), on_front[index], groupings, title));
         }
         // What is drawn later lies above.
@@ -127,7 +127,7 @@ fn mark(
     groupings: &[Grouping],
     title: String,
 ) -> Mark {
-    let group = |grouping: &Grouping| grouping.of_row.get(index).copied().unwrap_or(0);
+    let group = |grouping: &Grouping| grouping.of_row[index];
     let groups: Vec<String> = groupings.iter().map(|one| group(one).to_string()).collect();
     let chosen = groupings.iter().find(|grouping| grouping.chosen);
     let (class, shape) = super::colour::look(chosen.map_or(0, group));
@@ -168,7 +168,8 @@ pub(crate) fn stack(marks: &mut [Mark]) {
         let named: Vec<String> = others.iter().take(12).map(usize::to_string).collect();
         let more = if others.len() > named.len() { " and more" } else { "" };
         mark.title += &format!("\nat the same place: {}{more}", named.join(", "));
-        let above = looks.iter().position(|other| *other == look(mark)).unwrap_or(0);
+        let above = looks.iter().position(|other| *other == look(mark));
+        let above = above.expect("every mark was looked at");
         let above = u8::try_from(above).unwrap_or(u8::MAX);
         mark.scale = (above > 0).then(|| text(1.0 + f64::from(above) / 2.0));
     }

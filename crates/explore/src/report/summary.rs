@@ -39,7 +39,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
     let area = rows.iter().any(|row| row.silicon.is_some());
     let (width, height) = exploration.size;
     let fact = |name, value, note| Fact { name, value, note };
-    let count = |count: usize| grouped(u64::try_from(count).unwrap_or(u64::MAX));
+    let count = |count: usize| grouped(count as u64);
     vec![
         fact(
             "Designs",

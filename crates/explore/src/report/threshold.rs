@@ -87,7 +87,7 @@ fn plot(settings: &Settings, rows: &[&Row], titles: &[String], axis: usize) -> O
                 class: class.clone(),
                 shape,
                 groups: String::new(),
-                title: titles.get(*of_row).cloned().unwrap_or_default(),
+                title: titles[*of_row].clone(),
             });
         }
         let class = if index % 2 == 1 { class + " dashed" } else { class };

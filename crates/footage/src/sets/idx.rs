@@ -101,7 +101,7 @@ impl Feed for Idx {
 
 fn form_of(images: &Path, labels: Option<&Path>) -> Result<SetForm, FootageError> {
     let file = |path: &Path| -> Result<IdxFile, FootageError> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = path.file_name().expect("a file has a name").to_string_lossy().into_owned();
         Ok(IdxFile { name, packed: is_packed(path)? })
     };
     let files = SetFiles::Idx { images: file(images)?, labels: labels.map(file).transpose()? };

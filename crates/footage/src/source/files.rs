@@ -31,7 +31,7 @@ pub(crate) struct ImageFiles {
 
 impl ImageFiles {
     pub(crate) fn new(files: Vec<ImageFile>, bits: u32, rate: FrameRate, kind: Kind) -> Self {
-        let total = u64::try_from(files.len()).unwrap_or(u64::MAX);
+        let total = files.len() as u64;
         let names: BTreeSet<&String> =
             files.iter().filter_map(|file| file.label.as_ref()).collect();
         let labels = if names.is_empty() {

@@ -54,15 +54,14 @@ fn scaled<T: Copy + Into<u64>>(values: &[T], from: (u32, u32), to: (u32, u32)) -
     for span in &rows {
         sums.fill(0);
         for (y, weight) in span.parts() {
-            let row = values.chunks_exact(sums.len()).nth(y as usize).unwrap_or_default();
+            let row = &values[y * sums.len()..];
             for (sum, &value) in sums.iter_mut().zip(row) {
                 *sum += weight * value.into();
             }
         }
         pixels.extend(columns.iter().map(|span| {
-            let sum: u64 = span.parts().map(|(x, weight)| weight * sums[x as usize]).sum();
-            // A mean of pixels is no larger than the largest of them.
-            u16::try_from((sum + area / 2) / area).unwrap_or(u16::MAX)
+            let sum: u64 = span.parts().map(|(x, weight)| weight * sums[x]).sum();
+            u16::try_from((sum + area / 2) / area).expect("no mean is above the largest pixel")
         }));
     }
     pixels
@@ -83,11 +82,11 @@ fn spans(from: u32, to: u32) -> Vec<Span> {
 
 impl Span {
     /// Source pixels with their weights, which add up to the size of the source.
-    fn parts(&self) -> impl Iterator<Item = (u32, u64)> + '_ {
+    fn parts(&self) -> impl Iterator<Item = (usize, u64)> + '_ {
         (self.start / self.scale..self.end.div_ceil(self.scale)).map(|i| {
             let (low, high) = (i * self.scale, (i + 1) * self.scale);
             let weight = self.end.min(high) - self.start.max(low);
-            (u32::try_from(i).unwrap_or(u32::MAX), weight)
+            (usize::try_from(i).expect("it is a pixel of the source"), weight)
         })
     }
 }

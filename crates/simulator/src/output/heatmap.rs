@@ -72,7 +72,7 @@ impl Heatmap {
                 score * last / max
             }
         };
-        u64::try_from(place).unwrap_or(STEPS - 1)
+        u64::try_from(place).expect("no score is above the largest")
     }
 
     fn draw_bar(&self, canvas: &mut Canvas, layout: Layout) {
@@ -81,7 +81,7 @@ impl Heatmap {
         let height = font::SIZE.1 * dot;
         let title = format!("{} 0", self.title);
         let left = canvas.text(2 * dot, top, dot, &title) + dot;
-        let letters = u32::try_from(self.label.len()).unwrap_or_default();
+        let letters = u32::try_from(self.label.len()).expect("labels are short");
         let right = layout.width.saturating_sub((letters * (font::SIZE.0 + 1) + 3) * dot);
         let width = right.saturating_sub(left).max(1);
         for x in 0..width {
@@ -89,7 +89,7 @@ impl Heatmap {
         }
         canvas.text(right + dot, top, dot, &self.label);
         let tick = self.place(self.threshold) * u64::from(width) / STEPS;
-        let tick = left + u32::try_from(tick).unwrap_or_default();
+        let tick = left + u32::try_from(tick).expect("it is on the bar");
         canvas.fill(tick, top - dot, dot, height + 2 * dot, TEXT);
     }
 }
@@ -114,7 +114,7 @@ impl Painter for Heatmap {
 }
 
 fn colour(place: u64) -> Colour {
-    let place = usize::try_from(place.min(STEPS - 1)).unwrap_or_default();
+    let place = usize::try_from(place.min(STEPS - 1)).expect("STEPS are few");
     let colour = VIRIDIS.eval_rational(place, 256);
     [colour.r, colour.g, colour.b]
 }

@@ -113,7 +113,7 @@ impl NpyWriter {
 /// A header of `SIZE` bytes, a multiple of 64: a type and a shape as Python writes them.
 pub(super) fn header<const SIZE: usize>(descr: &str, shape: &str) -> Vec<u8> {
     const PREFIX: usize = 10;
-    let length = u16::try_from(SIZE - PREFIX).unwrap_or(u16::MAX);
+    let length = u16::try_from(SIZE - PREFIX).expect("a header has a few bytes");
     let dictionary = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let padded = format!("{dictionary:<0$}\n", SIZE - PREFIX - 1);
     [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..], padded.as_bytes()].concat()

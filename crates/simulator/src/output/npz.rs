@@ -133,9 +133,9 @@ impl Entry {
     }
 
     fn name_and_sizes(&self, mut bytes: Vec<u8>, between: &[u8], sizes: &[u64]) -> Vec<u8> {
-        let size = u16::try_from(8 * sizes.len()).unwrap_or(u16::MAX);
+        let size = u16::try_from(8 * sizes.len()).expect("two or three sizes");
         let name = format!("{}.npy", self.name);
-        bytes.extend(u16::try_from(name.len()).unwrap_or(u16::MAX).to_le_bytes());
+        bytes.extend(u16::try_from(name.len()).expect("names are short").to_le_bytes());
         bytes.extend((size + 4).to_le_bytes());
         bytes.extend(between);
         bytes.extend(name.as_bytes());
@@ -165,5 +165,5 @@ fn end(start: u64, size: u64, entries: u64) -> Vec<u8> {
 }
 
 fn length<T>(items: &[T]) -> u64 {
-    u64::try_from(items.len()).unwrap_or(u64::MAX)
+    items.len() as u64
 }

@@ -112,7 +112,7 @@ fn shade(grey: u32, tint: Option<Colour>) -> Colour {
         Some(tint) => tint.map(|colour| u32::midpoint(grey, colour.into())),
         None => [grey / 2; 3],
     };
-    mixed.map(|value| low_byte(u16::try_from(value).unwrap_or(u16::MAX)))
+    mixed.map(|value| u8::try_from(value).expect("between two bytes"))
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ impl Packer {
         let mut whole = Hasher::new();
         whole.update(header);
         whole.combine(&self.checksum);
-        let last = self.encoder.finish().unwrap_or_default();
+        let last = self.encoder.finish().expect("memory takes everything");
         (last, whole.finalize(), self.length + header.len() as u64)
     }
 }

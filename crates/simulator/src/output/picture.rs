@@ -57,5 +57,5 @@ impl Picture {
 
 /// An 8-bit value as a byte.
 pub(super) fn low_byte(value: u16) -> u8 {
-    u8::try_from(value).unwrap_or(u8::MAX)
+    u8::try_from(value).expect("it has 8 bits")
 }

@@ -56,8 +56,8 @@ impl PixelCamera {
             None => i64::from(design.temporal().level + 1) * 1_000_000,
         };
         if contrast < SMALLEST_CONTRAST {
-            let contrast = options.contrast.map(|value| value.to_string()).unwrap_or_default();
-            return Err(SimulatorError::Contrast { contrast });
+            let contrast = options.contrast.expect("those that nobody asked for are larger");
+            return Err(SimulatorError::Contrast { contrast: contrast.to_string() });
         }
         let max = design.pixel_max();
         let levels = (0..=max).map(|value| level(value, max, options.log)).collect();

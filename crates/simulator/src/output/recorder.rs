@@ -169,7 +169,7 @@ impl Recorder {
 fn give_up(path: &Path, problem: &mut Option<String>) {
     // It is useless; where it cannot be removed it is at least named.
     let _ = std::fs::remove_file(path);
-    let name = path.file_name().unwrap_or_default().display();
+    let name = path.file_name().expect("an output has a name").display();
     let left_out = format!("{name} is left out");
     *problem = Some(match problem.take() {
         Some(problem) => format!("{problem}; {left_out}"),

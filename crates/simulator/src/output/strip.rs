@@ -68,7 +68,8 @@ impl Strip {
             let frames = if index == last { self.frames_in_last } else { self.frames_per_bar };
             let share = active * u64::from(height) / (regions * frames);
             // A bar with any active region shows.
-            let share = u32::try_from(share).unwrap_or(height).max(u32::from(active > 0));
+            let share = u32::try_from(share).expect("no more regions are active than there are");
+            let share = share.max(u32::from(active > 0));
             canvas.fill(left, bottom - share, bar, share, colour);
         }
         let right = canvas.width.saturating_sub(4 * 4 * layout.dot);

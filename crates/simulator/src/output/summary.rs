@@ -126,7 +126,7 @@ impl Totals {
         };
         let regions = u64::from(design.regions());
         let all = regions * self.frames;
-        let (min, max) = self.extremes.unwrap_or_default();
+        let (min, max) = self.extremes.expect("a run without a frame has no summary");
         Summary {
             format_version: FORMAT_VERSION,
             foveate_version: env!("CARGO_PKG_VERSION"),
@@ -157,8 +157,7 @@ impl Summary {
     /// The summary as a JSON document.
     #[must_use]
     pub fn to_json(&self) -> String {
-        // Plain data with text keys: this cannot fail.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        serde_json::to_string_pretty(self).expect("plain data with text keys") + "\n"
     }
 
     pub(super) fn write(&self, path: &Path) -> Result<(), SimulatorError> {
@@ -171,7 +170,7 @@ fn share(part: u64, whole: u64) -> f64 {
     const UNIT: u128 = 1_000_000;
     let whole = u128::from(whole.max(1));
     let millionths = (u128::from(part) * UNIT + whole / 2) / whole;
-    f64::from(u32::try_from(millionths).unwrap_or(u32::MAX)) / 1e6
+    f64::from(u32::try_from(millionths).expect("a part is no more than the whole")) / 1e6
 }
 
 #[cfg(test)]

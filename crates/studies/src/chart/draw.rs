@@ -107,7 +107,7 @@ fn draw_bars<DB: DrawingBackend>(
     series: &[Bars],
     area: &DrawingArea<DB, Shift>,
 ) -> Result<DB> {
-    let number = |count: usize| f64::from(u32::try_from(count).unwrap_or(u32::MAX));
+    let number = |count: usize| f64::from(u32::try_from(count).expect("bars are few"));
     let tops = series.iter().flat_map(|bars| {
         bars.values.iter().copied().chain(bars.ranges.iter().map(|range| range.1))
     });
@@ -154,7 +154,8 @@ fn draw_bars<DB: DrawingBackend>(
     }
     let (width, height) = area.dim_in_pixel();
     let axis = ("sans-serif", 15).into_font().color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
-    let below = (i32::try_from(width / 2).unwrap_or(0), i32::try_from(height).unwrap_or(0) - 2);
+    let [middle, bottom] = [width / 2, height].map(|at| i32::try_from(at).expect("within SIZE"));
+    let below = (middle, bottom - 2);
     area.draw(&Text::new(chart.x.clone(), below, axis))
 }
 

@@ -26,7 +26,7 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let mad = own.cloned().unwrap_or_else(|| SpatialConfig::new(FeatureKind::Mad));
     let config = Config { spatial: vec![mad], ..watcher.config.clone() };
     let watched = watcher.watch(&[config], |histogram: &mut Histogram, design, seen| {
-        histogram.bins.resize(usize::try_from(BINS).unwrap_or_default(), 0);
+        histogram.bins.resize(usize::try_from(BINS).expect("BINS are few"), 0);
         for &score in seen.outcome.scores.iter().flatten() {
             histogram.all += 1;
             histogram.bins[bin(design, score)] += 1;
@@ -82,5 +82,5 @@ fn bin(design: &Design, score: u64) -> usize {
     let unit = u128::from(design.region_pixels()) << fraction;
     let half = 1_u128 << (design.pixel_bits() - 1);
     let bin = u128::from(score) * u128::from(BINS) / (unit * half);
-    usize::try_from(bin.min(u128::from(BINS) - 1)).unwrap_or_default()
+    usize::try_from(bin.min(u128::from(BINS) - 1)).expect("BINS are few")
 }

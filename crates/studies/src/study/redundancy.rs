@@ -30,7 +30,7 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
         let scored = design.features().iter().zip(&seen.outcome.scores);
         for (sum, (feature, scores)) in below.by_feature.iter_mut().zip(scored) {
             let low = scores.iter().filter(|&&score| score < feature.min_score()).count();
-            *sum += u64::try_from(low).unwrap_or(u64::MAX);
+            *sum += low as u64;
         }
     })?;
     let names = FeatureKind::ALL.iter().map(|kind| kind.name());

@@ -131,7 +131,7 @@ fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recor
     let reader: Box<dyn Read> =
         if packed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
     let mut file = ReaderBuilder::new().flexible(true).trim(Trim::All).from_reader(reader);
-    let per_region = vec![0; usize::try_from(design.regions()).unwrap_or_default()];
+    let per_region = vec![0; design.regions() as usize];
     let mut recorded = Recorded { per_region, times: None, meanwhile: false };
     for event in file.deserialize() {
         let Event { t_us: t, x, y } = event.map_err(|error| wrong(said(&error)))?;
@@ -142,7 +142,7 @@ fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recor
         if meanwhile && x < u64::from(design.width()) && y < u64::from(design.height()) {
             let size = u64::from(design.region_size());
             let region = y / size * u64::from(design.columns()) + x / size;
-            recorded.per_region[usize::try_from(region).unwrap_or_default()] += 1;
+            recorded.per_region[usize::try_from(region).expect("it is in the frame")] += 1;
         }
     }
     Ok(recorded)

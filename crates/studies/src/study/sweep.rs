@@ -81,7 +81,7 @@ fn min_score(config: &Config) -> Key {
 fn level(config: &Config) -> Key {
     let point = |value| {
         let mut config = config.clone();
-        config.temporal.level = Some(u32::try_from(value).unwrap_or(u32::MAX));
+        config.temporal.level = Some(u32::try_from(value).expect("at most a pixel"));
         (value, config)
     };
     // A level of the largest pixel or more is no design: nothing differs by more.
@@ -99,7 +99,7 @@ fn level(config: &Config) -> Key {
 fn min_count(config: &Config) -> Key {
     let point = |value| {
         let mut config = config.clone();
-        config.temporal.min_count = u32::try_from(value).unwrap_or(u32::MAX);
+        config.temporal.min_count = u32::try_from(value).expect("one of COUNTS");
         (value, config)
     };
     Key {
@@ -142,7 +142,7 @@ fn run(study: Study, watcher: &Watcher<'_>, keys: &[Key]) -> Result<Findings, St
         first = range.end;
         let mut lines = Vec::new();
         for clip in watched.iter().filter(|clip| !key.temporal || clip.kind == Kind::Clip) {
-            let points = clip.points.get(range.clone()).unwrap_or_default();
+            let points = &clip.points[range.clone()];
             for ((value, _), (design, tally)) in key.points.iter().zip(points) {
                 let sum = tally.sum();
                 let mut row = vec![clip.name.clone(), key.name.clone(), value.to_string()];

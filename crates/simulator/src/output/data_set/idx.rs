@@ -78,10 +78,9 @@ struct LabelBytes {
 
 impl Sink for LabelBytes {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        // The reader of IDX makes text of bytes.
         let label = step.source.label.as_deref().and_then(|label| label.parse().ok());
         self.count += 1;
-        self.file.write(&[label.unwrap_or_default()]);
+        self.file.write(&[label.expect("the reader of IDX makes text of a byte for every image")]);
         Ok(())
     }
 
