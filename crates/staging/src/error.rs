@@ -11,7 +11,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum StagingError {
     /// A path that names no folder that can be made.
-    #[error("output `{}` is not the name of a folder; choose another", path.display())]
+    #[error("output `{}` does not name a folder that can be created; choose another", path.display())]
     NoName {
         /// The path as given.
         path: PathBuf,
