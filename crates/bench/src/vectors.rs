@@ -35,7 +35,7 @@ pub(crate) struct Control {
 impl Vectors {
     pub(crate) fn read(design: &Design, recording: &Recording) -> Result<Self, BenchError> {
         let layout = recording.inputs();
-        let pixel = field(layout, PortRole::Pixel);
+        let pixel = field(layout, PortRole::Pixel).expect("an array takes pixels");
         let ready = field(recording.outputs(), PortRole::Ready);
         let (mut controls, mut pixels) = (Vec::new(), Vec::new());
         let (mut is_ready, mut taken) = (true, 0);
@@ -45,9 +45,8 @@ impl Vectors {
             is_ready = ready.is_none_or(|field| field.get(expected, 0) == 1);
             controls.push(control);
             let narrow = |value: u64| u16::try_from(value).expect("a pixel has at most 16 bits");
-            let lanes = pixel.map_or(0, |field| field.port.lanes);
-            let value = |lane| pixel.map_or(0, |field| field.get(input, lane));
-            pixels.extend((0..lanes).map(|lane| narrow(value(lane))));
+            let lanes = 0..pixel.port.lanes;
+            pixels.extend(lanes.map(|lane| narrow(pixel.get(input, lane))));
         })?;
         let byte = |&pixel| u8::try_from(pixel).expect("a pixel of at most 8 bits");
         Ok(Self {

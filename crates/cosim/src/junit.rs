@@ -70,6 +70,5 @@ pub fn junit_error(name: &str, problem: &str) -> String {
 fn rendered(suite: TestSuite) -> String {
     let mut report = Report::new("foveate cosim");
     report.add_test_suite(suite);
-    // Writing into memory cannot fail.
-    report.to_string().unwrap_or_default()
+    report.to_string().expect("writing into memory does not fail")
 }

@@ -128,7 +128,7 @@ impl<'a> Follower<'a> {
         };
         // The slots of a lane follow each other.
         let in_slot = if self.is_raster { number } else { number % (width * width) };
-        let signed = |value: u64| i64::try_from(value).unwrap_or(i64::MAX) - halo;
+        let signed = |value: u64| i64::try_from(value).expect("a place in a frame") - halo;
         (signed(in_slot % width), signed(in_slot / width))
     }
 }

@@ -56,7 +56,7 @@ impl<T: Lane> Plan<T> {
         let regions = sums.changed.iter().zip(affected).zip(valid);
         let last = results.temporal_count.iter_mut().zip(&*results.actions);
         for (((&changed, &affected), &valid), (count, &action)) in regions.zip(last) {
-            let changed = u32::try_from(changed).unwrap_or(n);
+            let changed = u32::try_from(changed).expect("no more than the pixels of a region");
             *count = match affected {
                 true => {
                     if valid {

@@ -44,7 +44,8 @@ impl<'a, T: Lane> Pixels<'a, T> {
         for y in rows {
             let largest = raw.row(y).iter().copied().fold(T::default(), T::max);
             if largest.into() > max {
-                let x = raw.row(y).iter().position(|&pixel| pixel == largest).unwrap_or_default();
+                let x = raw.row(y).iter().position(|&pixel| pixel == largest);
+                let x = x.expect("the largest pixel of a row is in it");
                 let (bits, max) = (design.pixel_bits(), design.pixel_max());
                 return Err(EngineError::PixelRange { x, y, value: largest.into(), bits, max });
             }

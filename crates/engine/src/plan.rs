@@ -169,7 +169,10 @@ impl<T: Lane> SeamMasks<T> {
 
 /// Half of an edge level, rounded down, as lane type: at most 3 * 65535.
 fn half<S: TryFrom<u32> + From<T>, T: Lane<Signed = S>>(level: u32) -> S {
-    S::try_from(level / 2).unwrap_or_else(|_| S::from(T::MAX))
+    let half = S::try_from(level / 2);
+    half.unwrap_or_else(|_| {
+        unreachable!("a level is at most that of the largest gradient, not {level}")
+    })
 }
 
 /// A size, coordinate or number of a region as an index. Lossless: `usize` has 32 bits or more on

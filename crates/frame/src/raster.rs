@@ -172,7 +172,7 @@ fn check_values<T: Copy + Ord + Into<u16>>(
     pixels: &[T],
 ) -> Result<(), FrameError> {
     let max = u16::MAX >> (16 - bits);
-    let largest = pixels.iter().copied().max().map_or(0, Into::into);
+    let largest = pixels.iter().copied().max().expect("a frame has pixels").into();
     if largest <= max {
         return Ok(());
     }

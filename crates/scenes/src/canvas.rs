@@ -37,7 +37,7 @@ impl Canvas {
 
     pub(crate) fn get(&self, x: u32, y: u32) -> u16 {
         let index = y as usize * self.width as usize + x as usize;
-        self.pixels.get(index).copied().unwrap_or(0)
+        self.pixels[index]
     }
 
     /// Width in parts of units.
@@ -65,7 +65,7 @@ impl Canvas {
                 let index = y as usize * self.width as usize + x as usize;
                 if let Some(pixel) = self.pixels.get_mut(index) {
                     let sum = u32::from(*pixel) * (full - weight) + u32::from(shade) * weight;
-                    *pixel = u16::try_from(sum / full).unwrap_or(u16::MAX);
+                    *pixel = u16::try_from(sum / full).expect("a mean of two shades");
                 }
             }
         }
@@ -92,8 +92,10 @@ impl Canvas {
     fn pixels_of(&self, bounds: Bounds) -> (std::ops::Range<u32>, std::ops::Range<u32>) {
         let whole = UNITS_HIGH * UNIT;
         let pixel = |parts: i64| parts * i64::from(self.height) / whole;
-        let clamp =
-            |pixel: i64, max: u32| u32::try_from(pixel.clamp(0, i64::from(max))).unwrap_or(0);
+        let clamp = |pixel: i64, max: u32| {
+            u32::try_from(pixel.clamp(0, i64::from(max)))
+                .expect("between 0 and the side of a canvas")
+        };
         (
             clamp(pixel(bounds.left) - 1, self.width)..clamp(pixel(bounds.right) + 2, self.width),
             clamp(pixel(bounds.top) - 1, self.height)..clamp(pixel(bounds.bottom) + 2, self.height),
@@ -165,14 +167,15 @@ impl Pen<'_> {
     }
 
     fn convex(&mut self, corners: &[(i64, i64)], shade: u16, opacity: u32) {
+        const CORNERS: &str = "a polygon has corners";
         let corners: Vec<_> = corners.iter().map(|&(x, y)| self.place(x, y)).collect();
         let xs = corners.iter().map(|corner| corner.0);
         let ys = corners.iter().map(|corner| corner.1);
         let bounds = Bounds {
-            left: xs.clone().min().unwrap_or(0),
-            top: ys.clone().min().unwrap_or(0),
-            right: xs.max().unwrap_or(0),
-            bottom: ys.max().unwrap_or(0),
+            left: xs.clone().min().expect(CORNERS),
+            top: ys.clone().min().expect(CORNERS),
+            right: xs.max().expect(CORNERS),
+            bottom: ys.max().expect(CORNERS),
         };
         let next = corners.iter().cycle().skip(1);
         let sides: Vec<_> = corners.iter().zip(next).collect();

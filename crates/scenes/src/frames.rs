@@ -57,14 +57,14 @@ impl SceneFrames {
         self.made(|x, y| {
             let light = i32::from(canvas.get(x + corner.0, y + corner.1));
             let noisy = light + amplitude * noise::bell(0x5EED, t, x, y);
-            u32::try_from(noisy.clamp(0, 65_535)).unwrap_or(0) >> (16 - self.size.bits)
+            u32::try_from(noisy.clamp(0, 65_535)).expect("not negative") >> (16 - self.size.bits)
         })
     }
 
     fn made(&self, mut pixel: impl FnMut(u32, u32) -> u32) -> Option<Frame> {
         let SceneSize { width, height, bits, .. } = self.size;
         let limit = self.size.max();
-        let pixel = |x, y| u16::try_from(pixel(x, y).min(limit)).unwrap_or(u16::MAX);
+        let pixel = |x, y| u16::try_from(pixel(x, y).min(limit)).expect("of at most 16 bits");
         // A size in range is a valid frame.
         Frame::from_fn(width, height, bits, pixel).ok()
     }

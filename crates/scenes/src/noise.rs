@@ -9,13 +9,13 @@ pub(crate) fn hash(seed: u64, a: u32, b: u32, c: u32) -> u64 {
 /// A number in `0..bound`, taken from the hash; `bound` is at least 1.
 pub(crate) fn pick(seed: u64, a: u32, b: u32, c: u32, bound: u32) -> u32 {
     let high = hash(seed, a, b, c) >> 32;
-    u32::try_from((high * u64::from(bound)) >> 32).unwrap_or(0)
+    u32::try_from((high * u64::from(bound)) >> 32).expect("below the bound")
 }
 
 /// Nearly normal noise: the number of ones among 16 fair bits less its mean, -8..=8, deviation 2.
 pub(crate) fn bell(seed: u64, t: u32, x: u32, y: u32) -> i32 {
     let ones = (hash(seed, t, x, y) & 0xFFFF).count_ones();
-    i32::try_from(ones).unwrap_or(0) - 8
+    i32::try_from(ones).expect("at most 16") - 8
 }
 
 fn mix(value: u64) -> u64 {

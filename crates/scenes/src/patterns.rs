@@ -21,7 +21,9 @@ pub(crate) fn pixel(scene: Scene, size: &SceneSize, t: u32, x: u32, y: u32) -> u
         Scene::LightStep => bars(max / 2, x, y) + (max - max / 2) * ((t / LIGHT_PERIOD) & 1),
         Scene::OnePixel => one_pixel(size, t, x, y),
         Scene::LateChange => late_change(size, t, x, y),
-        Scene::Random => u32::try_from(noise::hash(0xF0, t, x, y) & u64::from(max)).unwrap_or(0),
+        Scene::Random => {
+            u32::try_from(noise::hash(0xF0, t, x, y) & u64::from(max)).expect("at most the largest")
+        }
     }
 }
 

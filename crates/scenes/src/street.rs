@@ -48,7 +48,7 @@ fn paint_backdrop(canvas: &mut Canvas, mood: Mood) {
     let wide = canvas.parts_wide() / UNIT + 1;
     let mut pen = Pen { canvas, origin: (0, 0), facing: 1, light: mood.light() };
     for step in 0..GROUND / 4 {
-        let shade = u32::try_from(196 + step).unwrap_or(196);
+        let shade = u32::try_from(196 + step).expect("a shade");
         // Each band reaches below the next, so that no seam shows between two.
         pen.rect(0, 4 * step, wide, 4 * step + 8, shade);
     }
@@ -63,7 +63,7 @@ fn paint_road(pen: &mut Pen<'_>, wide: i64) {
     pen.rect(0, GROUND, wide, top, 172);
     pen.rect(0, top - 3, wide, top + 1, 206);
     for row in top..bottom {
-        let shade = u32::try_from(78 + (row - top) / 4).unwrap_or(78);
+        let shade = u32::try_from(78 + (row - top) / 4).expect("a shade");
         pen.rect(0, row, wide, row + 2, shade);
     }
     for lane in [163, 184] {

@@ -5,7 +5,7 @@ use foveate_frame::Frame;
 
 /// A frame of the design's kind, from a function of column and row.
 pub(crate) fn frame(size: (u32, u32), bits: u32, pixel: impl Fn(u32, u32) -> u32) -> Frame {
-    let pixel = |x, y| u16::try_from(pixel(x, y)).unwrap_or(u16::MAX);
+    let pixel = |x, y| u16::try_from(pixel(x, y)).expect("a pixel has at most 16 bits");
     Frame::from_fn(size.0, size.1, bits, pixel)
         .unwrap_or_else(|error| unreachable!("a case makes valid frames: {error}"))
 }
@@ -30,7 +30,7 @@ impl Random {
     pub(crate) fn frame(&mut self, size: (u32, u32), bits: u32) -> Frame {
         let (width, height) = (size.0 as usize, size.1 as usize);
         let pixels = (0..width * height)
-            .map(|_| u16::try_from(self.below(1 << bits)).unwrap_or(u16::MAX))
+            .map(|_| u16::try_from(self.below(1 << bits)).expect("a pixel has at most 16 bits"))
             .collect();
         Frame::new(size.0, size.1, bits, pixels)
             .unwrap_or_else(|error| unreachable!("random frames are valid: {error}"))

@@ -118,7 +118,9 @@ impl<'a> Clocks<'a> {
     fn interrupt(&mut self, frame: &Frame) {
         let streams = self.streams(frame);
         let cut = self.random.below(streams.len() as u64);
-        for pixels in streams.iter().take(usize::try_from(cut).unwrap_or(0)) {
+        for pixels in
+            streams.iter().take(usize::try_from(cut).expect("less than the pixels of a stream"))
+        {
             self.clock(Some(pixels), &mut Vec::new());
         }
         let idle = vec![0; self.design.regions() as usize];
@@ -142,7 +144,7 @@ impl<'a> Clocks<'a> {
             stream
         };
         let streams: Vec<_> = (0..self.design.regions()).map(stream).collect();
-        let length = streams.first().map_or(0, Vec::len);
+        let length = streams[0].len();
         (0..length).map(|at| streams.iter().map(|stream| stream[at]).collect()).collect()
     }
 }

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 use std::time::Duration;
 
@@ -51,7 +52,7 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<Yosys
         .sources(&job.sources)
         .finish();
     let log = cache.get_or_build(&key, LOG, |dir| run_in(toolchain, job, dir))?;
-    let dir = log.path().parent().unwrap_or(Path::new("."));
+    let dir = log.path().parent().expect("the log lies in the folder of its entry");
     let read = |name: &str| {
         let path = dir.join(name);
         fs::read(&path).map_err(ToolError::io("read", &path))
@@ -75,7 +76,8 @@ pub fn cell_models(toolchain: &Toolchain, cache: &Cache, file: &str) -> Result<S
     let path = run.log.lines().find_map(|line| {
         line.strip_prefix("Parsing Verilog input from `")?.split_once('\'').map(|(path, _)| path)
     });
-    let path = Path::new(path.unwrap_or(file));
+    let unknown = ToolError::io("find in the library of Yosys", Path::new(file));
+    let path = Path::new(path.ok_or_else(|| unknown(ErrorKind::NotFound.into()))?);
     fs::read_to_string(path).map_err(ToolError::io("read the cell models of Yosys in", path))
 }
 

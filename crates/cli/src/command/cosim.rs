@@ -48,14 +48,13 @@ fn all(
     toolchain: &Toolchain,
     cache: &Cache,
 ) -> Result<Summary, CliError> {
-    let design = jobs.first().map(|job| job.design.fingerprint()).unwrap_or_default();
-    let left_out = match (&args.rtl, jobs.first()) {
-        (Some(_), Some(job)) => {
-            let tops: Vec<&str> =
-                jobs.iter().map(|job| job.stimulus.level.top().module()).collect();
-            not_simulated(&job.sources, &tops)
-        }
-        _ => Vec::new(),
+    let first = jobs.first().expect("there is at least one");
+    let design = first.design.fingerprint();
+    let left_out = if args.rtl.is_some() {
+        let tops: Vec<&str> = jobs.iter().map(|job| job.stimulus.level.top().module()).collect();
+        not_simulated(&first.sources, &tops)
+    } else {
+        Vec::new()
     };
     let (mut reports, mut left) = (Vec::new(), jobs.into_iter());
     for mut job in left.by_ref() {

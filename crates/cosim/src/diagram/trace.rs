@@ -87,7 +87,7 @@ fn part(design: &Design) -> Result<(Design, String), CosimError> {
 /// Noise in the first region, one level elsewhere.
 fn frame(part: &Design) -> Frame {
     let side = part.region_size();
-    let max = u16::try_from(part.pixel_max()).unwrap_or(u16::MAX);
+    let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
     let square = Picture::Noise.draw(side as usize, max, false, &mut Random::new(1));
     let pixel = |x: u32, y: u32| {
         if x < side && y < side { square[(y * side + x) as usize] } else { max / 3 }

@@ -77,7 +77,7 @@ impl Picture {
             Self::Quadrant => extreme(x < side / 2 && y < side / 2),
             Self::Ramp => {
                 let steps = 2 * side - 2;
-                u16::try_from(usize::from(max) * (x + y) / steps).unwrap_or(max)
+                u16::try_from(usize::from(max) * (x + y) / steps).expect("no more than the largest")
             }
             Self::Flat => max / 3,
         };

@@ -46,7 +46,7 @@ impl<'a> Player<'a> {
         cancel: &'a AtomicBool,
     ) -> Self {
         let model = model(part.organization())(part, top);
-        let max = u16::try_from(part.pixel_max()).unwrap_or(u16::MAX);
+        let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
         Self {
             part,
             garbage: vec![max; model.width()],

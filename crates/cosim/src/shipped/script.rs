@@ -136,12 +136,15 @@ impl<'a> Stage<'a> {
         let regions = part.regions();
         let count = (MAX_DRAWN / part.region_pixels()).clamp(6, 48).min(regions);
         let last = u64::from(count - 1).max(1);
-        let place = |number: u32| u64::from(number) * u64::from(regions - 1) / last;
+        let place = |number: u32| {
+            let place = u64::from(number) * u64::from(regions - 1) / last;
+            u32::try_from(place).expect("a region of the array")
+        };
         Self {
             part,
-            places: (0..count).map(|number| u32::try_from(place(number)).unwrap_or(0)).collect(),
+            places: (0..count).map(place).collect(),
             side: part.region_size() as usize,
-            max: u16::try_from(part.pixel_max()).unwrap_or(u16::MAX),
+            max: u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits"),
         }
     }
 
@@ -273,6 +276,6 @@ fn actor(
 }
 
 fn size(part: &Design) -> (usize, u16) {
-    let max = u16::try_from(part.pixel_max()).unwrap_or(u16::MAX);
+    let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
     (part.region_size() as usize, max)
 }

@@ -61,6 +61,6 @@ impl Look {
         let differs = |(now, then): &(&u16, &u16)| {
             u32::from(now.abs_diff(**then)) > thresholds.temporal_level
         };
-        u32::try_from(pairs.filter(differs).count()).unwrap_or(u32::MAX)
+        u32::try_from(pairs.filter(differs).count()).expect("at most the pixels of a region")
     }
 }

@@ -49,7 +49,7 @@ impl Counter {
         let at = |role| outputs.fields().iter().find(|field| field.port.role == role);
         let is_high = |role| at(role).is_some_and(|field| field.get(expected, 0) == 1);
         if is_high(PortRole::DecisionValid) {
-            let lanes = at(PortRole::Srs).map_or(0, |field| field.port.lanes);
+            let lanes = at(PortRole::Srs).expect("where there are decisions").port.lanes;
             for lane in 0..lanes {
                 let bit = |role| at(role).is_some_and(|field| field.get(expected, lane) == 1);
                 match (bit(PortRole::Srs), bit(PortRole::Trs)) {

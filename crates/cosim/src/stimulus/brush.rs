@@ -140,12 +140,12 @@ impl Artist {
         let mut corner = || i64::from(self.random.pixel(self.max));
         let (a, b, c, d) = (corner(), corner(), corner(), corner());
         let span = i64::try_from(self.side).expect("a square is small");
-        self.fill(|max, (x, y)| {
+        self.fill(|_, (x, y)| {
             let (x, y) = [x, y].map(|at| i64::try_from(at).expect("a square is small")).into();
             let upper = a * (span - x) + b * x;
             let lower = c * (span - x) + d * x;
             let value = (upper * (span - y) + lower * y) / (span * span);
-            u16::try_from(value).unwrap_or(max).min(max)
+            u16::try_from(value).expect("between the corners")
         })
     }
 

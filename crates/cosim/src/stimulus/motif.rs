@@ -174,7 +174,7 @@ impl Artist {
         };
         let trials = (0..=self.count / step).map(|trial| mixed(offset + trial * step));
         let distance = |square: &Vec<u16>| self.gauge.read(meter, square, &before).abs_diff(wanted);
-        self.pixels = trials.min_by_key(distance).unwrap_or(drawn);
+        self.pixels = trials.min_by_key(distance).expect("there is a first trial");
     }
 }
 

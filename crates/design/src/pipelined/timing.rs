@@ -39,7 +39,7 @@ impl PipelinedTiming {
         };
         let window = if design.has_feature_window() { flush } else { 0 };
         let slowest = design.features().iter().map(|f| f.kind().score_latency()).max();
-        let tail_delay = slowest.map_or(0, |latency| latency - 1);
+        let tail_delay = slowest.expect("a design has a feature") - 1;
         let decision_frames = u32::from(design.has_second_pass());
         Self {
             cycles_per_frame: design.stream_pixels(),

@@ -101,7 +101,7 @@ fn circle(graph: &Graph<'_>, waiting: &[u32], mut net: u32) -> String {
     while !seen.contains(&net) {
         seen.push(net);
         let before = graph.arcs.iter().find(|arc| arc.to == net && waiting[arc.from as usize] > 0);
-        net = before.map_or(net, |arc| arc.from);
+        net = before.expect("a net that waits has one before it that does").from;
     }
     let around = seen.iter().skip_while(|&&other| other != net);
     let mut names: Vec<String> = around.map(|&net| format!("`{}`", graph.name(net))).collect();

@@ -74,7 +74,8 @@ impl House {
 
     /// A window, or on the ground floor here and there a door.
     fn window(&self, pen: &mut Pen<'_>, x: i64, y: i64, wall: u32) {
-        let place = u32::try_from(x.rem_euclid(1 << 20) * 512 + y.rem_euclid(512)).unwrap_or(0);
+        let place = x.rem_euclid(1 << 20) * 512 + y.rem_euclid(512);
+        let place = u32::try_from(place).expect("29 bits");
         let bottom = y + 9;
         if bottom > GROUND - 8 && self.choose(place, 3) == 0 {
             pen.rect(x - 1, y - 1, x + 7, GROUND, wall + 40);
@@ -100,8 +101,8 @@ fn tree(pen: &mut Pen<'_>, x: i64, number: u32) {
     pen.rect(x - 9, GROUND - 12, x + 9, GROUND, 92);
     pen.rect(x - 1, GROUND - 24, x + 2, GROUND, 62);
     let leaves = [(0, -34, 11), (-5, -27, 8), (6, -28, 8), (1, -43, 7), (-3, -38, 8)];
-    for (index, (dx, dy, radius)) in leaves.into_iter().enumerate() {
-        let shade = 74 + 9 * pick(SEED, number, 9, u32::try_from(index).unwrap_or(0), 4);
+    for (index, (dx, dy, radius)) in (0..).zip(leaves) {
+        let shade = 74 + 9 * pick(SEED, number, 9, index, 4);
         pen.disc(x + dx, GROUND + dy, radius * UNIT, shade);
     }
 }

@@ -31,8 +31,8 @@ const LANES: [Lane; 3] = [
 const REACH: i64 = 120;
 
 pub(super) fn paint(canvas: &mut Canvas, mood: Mood, t: u32) {
-    for (number, lane) in LANES.iter().enumerate() {
-        lane.paint(canvas, mood, t, u32::try_from(number).unwrap_or(0));
+    for (number, lane) in (0..).zip(&LANES) {
+        lane.paint(canvas, mood, t, number);
     }
     pedestrians(canvas, mood, t);
 }
@@ -46,7 +46,7 @@ impl Lane {
         let last = (wide + REACH * UNIT - shift).div_euclid(spacing);
         for car in first..=last {
             let origin = (shift + car * spacing, self.ground * UNIT);
-            let which = u32::try_from(car.rem_euclid(1 << 20)).unwrap_or(0);
+            let which = u32::try_from(car.rem_euclid(1 << 20)).expect("20 bits");
             let mut pen = Pen { canvas, origin, facing: self.facing, light: mood.light() };
             let paint = [218, 44, 160, 232, 92][pick(0xCA2, number, which, 0, 5) as usize];
             let spin = i64::from(t) * self.speed / UNIT;

@@ -11,7 +11,7 @@ pub(super) fn sky(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
     match mood {
         Mood::Day => {
             for cloud in 0..=wide / 90 {
-                let number = u32::try_from(cloud).unwrap_or(0);
+                let number = u32::try_from(cloud).expect("few clouds");
                 let x = 90 * cloud + i64::from(pick(SEED, number, 0, 0, 50));
                 let y = 14 + i64::from(pick(SEED, number, 1, 0, 18));
                 for (dx, dy, radius) in [(0, 0, 6), (8, -3, 8), (17, -1, 7), (25, 1, 5)] {
@@ -21,7 +21,7 @@ pub(super) fn sky(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
         }
         Mood::Night => {
             for star in 0..=wide / 9 {
-                let number = u32::try_from(star).unwrap_or(0);
+                let number = u32::try_from(star).expect("few stars");
                 let x = 9 * star + i64::from(pick(SEED, number, 2, 0, 9));
                 let y = i64::from(pick(SEED, number, 3, 0, 60));
                 pen.glow_disc(x, y, UNIT * 3 / 4, 120 + pick(SEED, number, 4, 0, 100), OPAQUE);
@@ -52,11 +52,11 @@ pub(super) fn rain(canvas: &mut Canvas, t: u32) {
     let wide = canvas.parts_wide() / UNIT + 1;
     let fall = (UNITS_HIGH + 2 * LENGTH) * UNIT;
     for drop in 0..=wide / 2 {
-        let number = u32::try_from(drop).unwrap_or(0);
+        let number = u32::try_from(drop).expect("few drops");
         let speed = UNIT * (11 + i64::from(pick(SEED, number, 5, 0, 6)));
         let way = i64::from(pick(SEED, number, 6, 0, 1 << 14)) + speed * i64::from(t);
-        let round = u32::try_from(way / fall % (1 << 20)).unwrap_or(0);
-        let (min, span) = (-20, u32::try_from(wide + 40).unwrap_or(1));
+        let round = u32::try_from(way / fall % (1 << 20)).expect("20 bits");
+        let (min, span) = (-20, u32::try_from(wide + 40).expect("a width in units"));
         let x = UNIT * (min + i64::from(pick(SEED, number, 7, round, span)));
         let y = way % fall - LENGTH * UNIT;
         let mut pen = Pen { canvas, origin: (x - y / 6, y), facing: 1, light: 256 };

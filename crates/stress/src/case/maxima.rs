@@ -52,7 +52,7 @@ pub(crate) fn counts(_: Depth) -> Vec<Row> {
         let outcome = Camera::new(&design)
             .step(&slope)
             .map(|outcome| (outcome.scores[0][0], u64::from(outcome.temporal_count[0])));
-        let (hits, changed) = outcome.unwrap_or_default();
+        let (hits, changed) = outcome.expect("the slope is a frame of the design");
         let n = u64::from(design.region_pixels());
         let designs = format!("edge and temporal, N {side}, P {bits}");
         Row::equal("count reaches n", designs, 2 * n, hits + changed)

@@ -58,7 +58,8 @@ impl Worst {
             self.relevant += 1;
             self.broken +=
                 u64::from(temporal.min_count > 0 && above >= temporal.min_count as usize);
-            self.difference = self.difference.max(off.into_iter().max().unwrap_or(0));
+            self.difference =
+                self.difference.max(off.into_iter().max().expect("a region has pixels"));
         }
     }
 }

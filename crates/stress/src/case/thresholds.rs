@@ -63,7 +63,11 @@ fn scores(kind: FeatureKind, rounds: u64) -> Row {
         let mut config = bare(kind);
         config.spatial[0].level = Some(40);
         let score = ask(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
-        let score = score.and_then(|score| u32::try_from(score).ok()).unwrap_or(0);
+        let Some(score) = score else {
+            answers.push(false);
+            continue;
+        };
+        let score = u32::try_from(score).expect("no more than the pixels of a region");
         for min in [score.saturating_sub(1), score, (score + 1).min(SIDE * SIDE)] {
             config.spatial[0].min_score = Some(Decimal::whole(min.into()));
             let voted = ask(&config, [&frame, &frame], |o| o.srs[0], |o| o.srs[0]);
@@ -77,7 +81,7 @@ fn scores(kind: FeatureKind, rounds: u64) -> Row {
 fn levels(rounds: u64) -> Row {
     let mut answers = Vec::new();
     for step in 1..=rounds.min(255) {
-        let step = u32::try_from(step).unwrap_or(1);
+        let step = u32::try_from(step).expect("at most 255");
         // A vertical step of brightness: |Gx| is four times its height in the two columns beside it.
         let frame = crate::pixels::frame((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
         for level in [4 * step - 1, 4 * step, 4 * step + 1] {
@@ -96,8 +100,9 @@ fn counts(rounds: u64) -> Row {
     let mut answers = Vec::new();
     for seed in 0..rounds {
         let mut random = Random::new(seed);
-        let changed = u32::try_from(random.below(u64::from(SIDE * SIDE) + 1)).unwrap_or(0);
-        let by = 1 + u32::try_from(random.below(200)).unwrap_or(0);
+        let changed = random.below(u64::from(SIDE * SIDE) + 1);
+        let changed = u32::try_from(changed).expect("at most the pixels of a region");
+        let by = 1 + u32::try_from(random.below(200)).expect("below 200");
         let still = crate::pixels::frame((SIDE, SIDE), 8, |_, _| 20);
         let moved = crate::pixels::frame((SIDE, SIDE), 8, |x, y| {
             if y * SIDE + x < changed { 20 + by } else { 20 }

@@ -105,14 +105,15 @@ fn notes(report: &Report) -> Vec<String> {
             .to_owned(),
     );
     let rtl = report.rows.iter().find(|row| row.level == Level::Rtl);
-    if let Some(Measured { files_clocks_per_second: Some(files), unpacking, .. }) =
-        rtl.and_then(|row| row.measured.as_ref())
+    if let Some(Measured {
+        files_clocks_per_second: Some(files), unpacking: Some(unpacking), ..
+    }) = rtl.and_then(|row| row.measured.as_ref())
     {
         notes.push(format!(
             "times are from memory, without files and without a look at the outputs; RTL from file to file: \
              {} clocks/s; unpacking its inputs is {:.1} % of its time",
             short(*files),
-            unpacking.unwrap_or(0.0) * 100.0
+            unpacking * 100.0
         ));
     }
     notes

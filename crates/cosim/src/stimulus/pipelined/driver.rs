@@ -183,6 +183,5 @@ impl<'a> Driver<'a> {
 /// into step. Neither pixels nor borders nor thresholds move a decision in time.
 fn decides(scout: &mut PipelinedRpu, inputs: &Inputs<'_>) -> bool {
     let &Inputs { reset, valid, border, pixels, ref thresholds } = inputs;
-    let pixel = pixels.first().copied().unwrap_or(0);
-    scout.step(&RpuInput { reset, valid, pixel, border }, thresholds).decision_valid
+    scout.step(&RpuInput { reset, valid, pixel: pixels[0], border }, thresholds).decision_valid
 }

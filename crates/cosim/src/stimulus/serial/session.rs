@@ -57,7 +57,7 @@ impl<'a> Session<'a> {
             artists,
             clocks_per_frame: timing.clocks_per_frame(),
             first_score: timing.edges_to_ready() - timing.edges_to_step(steps),
-            unload: timing.phases().last().map_or(0, |&(_, steps)| steps),
+            unload: timing.phases().last().expect("a frame has phases").1,
         }
     }
 
@@ -206,7 +206,7 @@ impl<'a> Session<'a> {
 
     /// A frame as the pixel port takes it; what it shows for empty slots is random.
     fn feed(&mut self, frame: &Frame) -> Feed {
-        let max = u16::try_from(self.design.pixel_max()).unwrap_or(u16::MAX);
+        let max = u16::try_from(self.design.pixel_max()).expect("a pixel has at most 16 bits");
         Feed::of(self.design, frame, || self.random.pixel(max))
     }
 
