@@ -10,7 +10,7 @@ use foveate_design::{
 };
 
 /// From this many pixels per region on, the time to build with Verilator is won back.
-const COMPILED_FROM: u32 = 32 * 32;
+const COMPILED_FROM: u32 = 16 * 16;
 
 fn simulator(config: &Config) -> Simulator {
     if config.region.size * config.region.size >= COMPILED_FROM {

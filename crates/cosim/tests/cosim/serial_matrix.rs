@@ -20,7 +20,7 @@ struct Case {
 }
 
 /// From so much work on (clocks of a frame x lanes), the time to build with Verilator is won back.
-const COMPILED_FROM: u64 = 4000;
+const COMPILED_FROM: u64 = 1000;
 
 impl Case {
     fn lane(config: Config) -> Self {

@@ -150,10 +150,10 @@ impl Planted {
         }
     }
 
-    /// Compiled where it is large.
+    /// Compiled where a frame takes long.
     pub(crate) fn simulator(self) -> Simulator {
         match self {
-            Self::SerialMany => Simulator::Verilator,
+            Self::SerialMany | Self::SerialSent | Self::SerialBlock => Simulator::Verilator,
             _ => Simulator::Iverilog,
         }
     }
