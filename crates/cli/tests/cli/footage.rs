@@ -48,13 +48,13 @@ fn what_is_no_video_is_not_to_be_played() {
         ("empty.mp4", &["`empty.mp4` holds no frames: it is empty"][..]),
         ("t10k-labels-idx1-ubyte", &["IDX file of labels", "name the file of the images"]),
         ("floats.idx", &["IDX file, but not of 8-bit images"]),
-        ("notes.txt", &["`notes.txt` is no input", "PNG", "IDX"]),
+        ("notes.txt", &["`notes.txt` is not an image", "PNG", "IDX"]),
         ("v4l2:/dev/none", &["camera `/dev/none` gives no frame", "No such file", "connected"]),
         (
             "https://example.org/a.mp4?x=[1]",
-            &["is an address", "download it first", "yuv4mpegpipe"],
+            &["is a URL", "download it first", "yuv4mpegpipe"],
         ),
-        ("rtsp://camera/1", &["`rtsp://camera/1` is an address"]),
+        ("rtsp://camera/1", &["`rtsp://camera/1` is a URL"]),
         ("missing.mp4", &["`missing.mp4` does not exist"]),
     ] {
         fail_in(dir.path(), 2, &["simulate", input, "-o", "out"], parts);
@@ -101,7 +101,7 @@ fn images_and_videos_side_by_side_are_a_question() {
     fail_in(dir.path(), 2, &["simulate", "mixed/*.mp4", "-o", "out"], &videos);
     assert_eq!(said(dir.path(), &["simulate", "mixed/*.png"]), "");
     let set = said(dir.path(), &["dataset", "mixed"]);
-    assert!(set.contains("warning: a set is made of images: videos in `mixed`"), "{set}");
+    assert!(set.contains("warning: a set consists of images: videos in `mixed`"), "{set}");
     fs::remove_file(dir.path().join("mixed/clip.mp4")).unwrap();
     let clip = said(dir.path(), &["simulate", "mixed"]);
     assert!(

@@ -6,7 +6,10 @@ use foveate_design::{Config, Design, FeatureKind};
 use foveate_emit::{SourceFile, Top, verilog};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
+use std::num::NonZero;
 use std::path::Path;
+use std::process::Command;
+use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 const TOPS: [Top; 2] = [Top::Rpu, Top::Rcm];
@@ -219,8 +222,53 @@ fn tied(files: &mut [SourceFile], top: &str) -> Vec<String> {
     outputs
 }
 
+/// What plays a bench: Icarus is quick to build, Verilator quick to run.
+#[derive(Clone, Copy)]
+enum Player {
+    Icarus,
+    Verilator,
+}
+
+impl Player {
+    /// Builds the simulation of a folder.
+    fn build(self, dir: &Path, files: &[SourceFile], bench: &ShippedBench) {
+        let toolchain = Toolchain::system();
+        let top = format!("{}_replay", bench.top.module());
+        let compile = match self {
+            Self::Icarus => {
+                let args = ["-g2005", "-s", &top, "-o", "simulation"];
+                toolchain.invocation(Tool::Iverilog).unwrap().args(args)
+            }
+            // As `tb/replay.sh` does.
+            Self::Verilator => {
+                let args = ["--binary", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style"];
+                let start = ["--x-assign", "unique", "--x-initial", "unique"];
+                let place = ["--Mdir", "built", "-o", "../simulation", "--top-module", &top];
+                let compile = toolchain.invocation(Tool::Verilator).unwrap();
+                compile.args(args).args(start).args(place)
+            }
+        };
+        let compile = compile.dir(dir).args(files.iter().map(|file| file.path.clone()));
+        toolchain.run_checked(&compile.arg(&bench.files[0].path)).unwrap();
+    }
+
+    /// Whether a run passes, and what it says.
+    fn play(self, dir: &Path, args: &[&str]) -> (bool, String) {
+        let mut command = match self {
+            Self::Icarus => {
+                let mut vvp = Command::new("vvp");
+                vvp.args(["-n", "simulation"]);
+                vvp
+            }
+            Self::Verilator => Command::new(dir.join("simulation")),
+        };
+        let output = command.args(args).current_dir(dir).output().unwrap();
+        (output.status.success(), String::from_utf8(output.stdout).unwrap())
+    }
+}
+
 /// What a bench says as shipped, and with each output tied to 0: whether it passed.
-fn negative_control(toml: &str, top: Top) {
+fn negative_control(toml: &str, top: Top, player: Player) {
     let design = design(toml);
     let bench = bench(&design, top);
     assert_eq!(bench.shortcoming, None, "{toml}");
@@ -233,15 +281,9 @@ fn negative_control(toml: &str, top: Top) {
         std::fs::write(path, &file.contents).unwrap();
     };
     files.iter().chain(&bench.files).for_each(put);
-    let program = build(dir.path(), &files, &bench);
-    let play = |tie: &str| -> (bool, String) {
-        let toolchain = Toolchain::system();
-        let vectors = format!("+vectors={}", bench.files[1].path);
-        let run = toolchain.invocation(Tool::Vvp).unwrap().dir(dir.path());
-        let run = run.args(["-n", &program, &vectors, "+stop", tie]);
-        let output = toolchain.run(&run).unwrap();
-        (output.is_success(), output.log().clone())
-    };
+    player.build(dir.path(), &files, &bench);
+    let vectors = format!("+vectors={}", bench.files[1].path);
+    let play = |tie: &str| player.play(dir.path(), &[&vectors, "+stop", tie]);
     let (is_pass, log) = play("+tie=-1");
     let passed = log.contains(&format!("PASS {} clocks", bench.clocks));
     assert!(is_pass && passed, "{top:?} {toml}\n{log}");
@@ -255,16 +297,6 @@ fn negative_control(toml: &str, top: Top) {
         let fails = !is_pass && is_named && log.contains("\nFAIL ") && !log.contains("PASS");
         assert!(fails, "{top:?} with {name} tied to 0 must fail: {log}\n{toml}");
     }
-}
-
-fn build(dir: &Path, files: &[SourceFile], bench: &ShippedBench) -> String {
-    let toolchain = Toolchain::system();
-    let name = format!("{}_replay", bench.top.module());
-    let compile = toolchain.invocation(Tool::Iverilog).unwrap().dir(dir);
-    let compile = compile.args(["-g2005", "-s", &name, "-o", "simulation"]);
-    let compile = compile.args(files.iter().map(|file| file.path.clone()));
-    toolchain.run_checked(&compile.arg(&bench.files[0].path)).unwrap();
-    "simulation".to_owned()
 }
 
 fn of_organization(size: u32, serial: Option<(u32, &str)>) -> String {
@@ -288,7 +320,7 @@ fn every_tied_output_fails() {
         of_organization(8, Some((3, "raster"))),
         of_organization(4, Some((7, "parallel"))),
     ] {
-        TOPS.into_iter().for_each(|top| negative_control(&toml, top));
+        TOPS.into_iter().for_each(|top| negative_control(&toml, top, Player::Icarus));
     }
 }
 
@@ -296,9 +328,28 @@ fn every_tied_output_fails() {
 #[test]
 #[ignore = "takes many minutes"]
 fn every_tied_output_fails_at_every_size() {
-    if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
+    if !require_tools(&[Tool::Iverilog, Tool::Vvp, Tool::Verilator]) {
         return;
     }
+    let designs = Mutex::new(matrix().into_iter());
+    let control = || {
+        while let Some((toml, player)) = { designs.lock().unwrap().next() } {
+            for top in TOPS {
+                negative_control(&toml, top, player);
+                println!("fails with every output: {top:?} {}", toml.replace('\n', " "));
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, NonZero::get) {
+            scope.spawn(control);
+        }
+    });
+}
+
+/// Frames of large regions have too many clocks for Icarus.
+fn matrix() -> Vec<(String, Player)> {
+    let mut list = Vec::new();
     for size in [2, 8, 20, 32, 48, 64] {
         let mut designs = vec![of_organization(size, None)];
         if size >= 4 {
@@ -308,14 +359,12 @@ fn every_tied_output_fails_at_every_size() {
                 }
             }
         }
+        let player = if size <= 8 { Player::Icarus } else { Player::Verilator };
         for toml in designs {
             for neighborhood in ["isolated", "shared"] {
-                let toml = format!("region.neighborhood = '{neighborhood}'\n{toml}");
-                for top in TOPS {
-                    negative_control(&toml, top);
-                    println!("fails with every output: {top:?} {}", toml.replace('\n', " "));
-                }
+                list.push((format!("region.neighborhood = '{neighborhood}'\n{toml}"), player));
             }
         }
     }
+    list
 }
