@@ -39,11 +39,15 @@ impl<S: Sum> Moments<S> {
         })
     }
 
-    /// The scores of a feature, where they are formed.
-    pub(crate) fn scores(&self, kind: FeatureKind) -> &Row<S> {
+    /// The scores of a feature: where they are formed, or where the variance is held for the second pass.
+    pub(crate) fn scores<'a>(
+        &'a self,
+        kind: FeatureKind,
+        held_variance: Option<&'a Row<S>>,
+    ) -> &'a Row<S> {
         match kind {
             FeatureKind::Mad => &self.deviations,
-            FeatureKind::Variance => &self.variance,
+            FeatureKind::Variance => held_variance.unwrap_or(&self.variance),
             FeatureKind::Edge | FeatureKind::Corner => unreachable!("{kind} counts hits"),
         }
     }

@@ -223,11 +223,8 @@ impl<Y: Types> Tail<Y> {
             let held = self.held.as_ref().map(|held| &held.hits);
             return Scores::Counts(&held.unwrap_or(&self.hits)[place]);
         }
-        Scores::Sums(match (&self.held, &self.moments) {
-            (Some(held), _) if !kind.has_second_pass() => &held.variance,
-            (_, Some(moments)) => moments.scores(kind),
-            (_, None) => unreachable!("a feature that counts no hits has sums"),
-        })
+        let moments = self.moments.as_ref().expect("a feature that counts no hits has sums");
+        Scores::Sums(moments.scores(kind, self.held.as_ref().map(|held| &held.variance)))
     }
 
     /// What the temporal count ports show.

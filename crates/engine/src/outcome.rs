@@ -3,9 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_design::Action;
-
-use crate::plan::FEATURES;
+use foveate_design::{Action, FeatureKind};
 
 /// Scores and decisions of every region, numbered row by row: the fields of the functional model's
 /// outcome. The rendered frame is at [`Engine::rendered`](crate::Engine::rendered).
@@ -64,7 +62,7 @@ pub(crate) struct Results<'a> {
     pub(crate) actions: &'a mut [Action],
     pub(crate) temporal_count: &'a mut [u32],
     /// By feature; empty where the design has fewer.
-    pub(crate) scores: [&'a mut [u64]; FEATURES],
+    pub(crate) scores: [&'a mut [u64]; FeatureKind::COUNT],
 }
 
 impl<'a> Results<'a> {
@@ -99,19 +97,13 @@ impl Results<'_> {
     /// The results of some of the regions.
     #[inline(always)]
     pub(crate) fn rows(&mut self, regions: Range<usize>) -> Results<'_> {
-        let [a, b, c, d] = &mut self.scores;
         Results {
             srs: &mut self.srs[regions.clone()],
             trs: &mut self.trs[regions.clone()],
             active: &mut self.active[regions.clone()],
             actions: &mut self.actions[regions.clone()],
             temporal_count: &mut self.temporal_count[regions.clone()],
-            scores: [
-                within(a, &regions),
-                within(b, &regions),
-                within(c, &regions),
-                within(d, &regions),
-            ],
+            scores: self.scores.each_mut().map(|scores| within(scores, &regions)),
         }
     }
 }

@@ -8,9 +8,6 @@ use foveate_design::{
 use foveate_lanes::Aligned;
 use foveate_lanes::{BLOCK, Lane, threshold};
 
-/// Features a design can have.
-pub(crate) const FEATURES: usize = 4;
-
 /// Blocks in a batch of rows.
 const BATCH: usize = 32;
 

@@ -50,10 +50,7 @@ fn what_is_no_video_is_not_to_be_played() {
         ("floats.idx", &["IDX file, but not of 8-bit images"]),
         ("notes.txt", &["`notes.txt` is not an image", "PNG", "IDX"]),
         ("v4l2:/dev/none", &["camera `/dev/none` gives no frame", "No such file", "connected"]),
-        (
-            "https://example.org/a.mp4?x=[1]",
-            &["is a URL", "download it first", "yuv4mpegpipe"],
-        ),
+        ("https://example.org/a.mp4?x=[1]", &["is a URL", "download it first", "yuv4mpegpipe"]),
         ("rtsp://camera/1", &["`rtsp://camera/1` is a URL"]),
         ("missing.mp4", &["`missing.mp4` does not exist"]),
     ] {

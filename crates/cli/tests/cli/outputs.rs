@@ -154,7 +154,7 @@ fn explain_says_why_in_text_and_json() {
     assert_eq!((&told["frame"], &told["region"]["x0"]), (&2.into(), &24.into()));
     assert_eq!(told["raw"].as_array().unwrap().len(), 8);
     let rule = told["rule"].as_str().unwrap().split(": ").next().unwrap().to_owned();
-    assert!(text.contains(&format!("Table I   {rule}")), "{text}");
+    assert!(text.contains(&format!("decision  {rule}")), "{text}");
     // What simulate says of the same region.
     succeed_in(dir.path(), &simulate(&["--events", "csv"]));
     let table = fs::read_to_string(dir.path().join("out/events.csv")).unwrap();

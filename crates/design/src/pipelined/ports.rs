@@ -26,7 +26,7 @@ pub(crate) fn rcm(design: &Design) -> Vec<Port> {
         Spread::PerRegion => {
             port.lanes = design.regions();
             port.per_lane = true;
-            port.doc.push_str("; region i in lane i");
+            port.doc.push_str("; element i is region i");
             Some(port)
         }
     };

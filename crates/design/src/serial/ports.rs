@@ -14,7 +14,7 @@ pub(crate) fn ports(design: &Design) -> Vec<Port> {
         Feed::Parallel => {
             port.lanes = design.lanes();
             port.per_lane = true;
-            port.doc.push_str("; lane i in lane i");
+            port.doc.push_str("; element i is lane i");
             port
         }
     };

@@ -151,7 +151,8 @@ fn feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<FeatureRec
         "edge" => (6 * max - 1, small(n).prop_map(|hits| 1000 * hits).boxed()),
         "corner" => (max - 1, small(n).prop_map(|hits| 1000 * hits).boxed()),
         "mad" => (0, small(400).prop_map(move |permille| permille * max).boxed()),
-        _ => (0, small(200).prop_map(move |permille| permille * max * max).boxed()),
+        "variance" => (0, small(200).prop_map(move |permille| permille * max * max).boxed()),
+        _ => panic!("`{name}` needs thresholds that some regions reach"),
     };
     let fraction_max = (0..).find(|bits| 1i64 << bits >= n).unwrap();
     (small(level_max), minimum, 0u32..=fraction_max)

@@ -57,7 +57,7 @@ impl Display for Explanation {
         let trs = u8::from(self.trs);
         writeln!(f, "{:<9} {count} changed {sign} {min_count}: TRS {trs}", "temporal")?;
         let then = self.rule.replacen(": ", "\n          ", 1);
-        writeln!(f, "{:<9} {then}", "Table I")
+        writeln!(f, "{:<9} {then}", "decision")
     }
 }
 

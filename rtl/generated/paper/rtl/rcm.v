@@ -12,19 +12,19 @@ module rcm #(
     input  wire                      clk_i,             // clock, rising edge
     input  wire                      rst_i,             // synchronous reset, active high
     input  wire                      valid_i,           // a pixel is taken at this edge
-    input  wire [COLUMNS*ROWS*8-1:0] pixel_i,           // pixel, row by row; region i in lane i
+    input  wire [COLUMNS*ROWS*8-1:0] pixel_i,           // pixel, row by row; element i is region i
     input  wire [10:0]               edge_level_i,      // a pixel is a hit above this
     input  wire [6:0]                edge_min_i,        // the feature votes from this score on
     input  wire [7:0]                temporal_level_i,  // a pixel has changed above this difference
     input  wire [6:0]                temporal_min_i,    // TRS from this count on
     output wire                      decision_valid_o,  // decision and scores are those of a whole frame
-    output wire [COLUMNS*ROWS-1:0]   srs_o,             // spatial relevance; 0 unless decision_valid_o; region i in lane i
-    output wire [COLUMNS*ROWS-1:0]   trs_o,             // temporal relevance; 0 unless decision_valid_o; region i in lane i
-    output wire [COLUMNS*ROWS-1:0]   active_o,          // SRS and TRS; 0 unless decision_valid_o; region i in lane i
-    output wire [COLUMNS*ROWS*7-1:0] edge_score_o,      // score; final with decision_valid_o; region i in lane i
-    output wire [COLUMNS*ROWS*7-1:0] temporal_count_o,  // changed pixels; final with decision_valid_o; region i in lane i
-    output wire [COLUMNS*ROWS-1:0]   forward_valid_o,   // a pixel of an active region leaves; region i in lane i
-    output wire [COLUMNS*ROWS*8-1:0] forward_pixel_o    // that pixel; 0 unless forward_valid_o; region i in lane i
+    output wire [COLUMNS*ROWS-1:0]   srs_o,             // spatial relevance; 0 unless decision_valid_o; element i is region i
+    output wire [COLUMNS*ROWS-1:0]   trs_o,             // temporal relevance; 0 unless decision_valid_o; element i is region i
+    output wire [COLUMNS*ROWS-1:0]   active_o,          // SRS and TRS; 0 unless decision_valid_o; element i is region i
+    output wire [COLUMNS*ROWS*7-1:0] edge_score_o,      // score; final with decision_valid_o; element i is region i
+    output wire [COLUMNS*ROWS*7-1:0] temporal_count_o,  // changed pixels; final with decision_valid_o; element i is region i
+    output wire [COLUMNS*ROWS-1:0]   forward_valid_o,   // a pixel of an active region leaves; element i is region i
+    output wire [COLUMNS*ROWS*8-1:0] forward_pixel_o    // that pixel; 0 unless forward_valid_o; element i is region i
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.

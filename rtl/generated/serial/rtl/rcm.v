@@ -17,7 +17,7 @@ module rcm #(
     input  wire                                                     clk_i,               // clock, rising edge
     input  wire                                                     rst_i,               // synchronous reset, active high
     input  wire                                                     valid_i,             // a pixel is taken at this edge, if ready_o
-    input  wire [((COLUMNS*ROWS+3)/4)*8-1:0]                        pixel_i,             // pixel, row by row; lane i in lane i
+    input  wire [((COLUMNS*ROWS+3)/4)*8-1:0]                        pixel_i,             // pixel, row by row; element i is lane i
     input  wire [10:0]                                              edge_level_i,        // a pixel is a hit above this
     input  wire [6:0]                                               edge_min_i,          // the feature votes from this score on
     input  wire [7:0]                                               temporal_level_i,    // a pixel has changed above this difference
@@ -31,8 +31,8 @@ module rcm #(
     output wire                                                     srs_o,               // spatial relevance; 0 unless decision_valid_o
     output wire                                                     trs_o,               // temporal relevance; 0 unless decision_valid_o
     output wire                                                     active_o,            // SRS and TRS; 0 unless decision_valid_o
-    output wire [((COLUMNS*ROWS+3)/4)-1:0]                          forward_valid_o,     // a pixel of an active region leaves; lane i in lane i
-    output wire [((COLUMNS*ROWS+3)/4)*8-1:0]                        forward_pixel_o,     // that pixel; only with forward_valid_o; lane i in lane i
+    output wire [((COLUMNS*ROWS+3)/4)-1:0]                          forward_valid_o,     // a pixel of an active region leaves; element i is lane i
+    output wire [((COLUMNS*ROWS+3)/4)*8-1:0]                        forward_pixel_o,     // that pixel; only with forward_valid_o; element i is lane i
     output wire [5:0]                                               forward_position_o,  // its number in its region; only with forward_valid_o
     output wire [1:0]                                               forward_slot_o       // slot of its region in its lane; only with forward_valid_o
 );
