@@ -50,7 +50,7 @@ impl PipelinedArray {
         self.level
     }
 
-    /// One rising edge: the pixel of element i is region i of `pixels`. Without `valid`, `pixels` are not
+    /// One rising edge: the pixel of region i in lane i of `pixels`. Without `valid`, `pixels` are not
     /// looked at.
     ///
     /// # Panics

@@ -36,7 +36,7 @@ impl PipelinedRcm {
         }
     }
 
-    /// One rising edge: the pixel of element i is region i of `pixels`, its outputs in lane i of what
+    /// One rising edge: the pixel of region i in lane i of `pixels`, its outputs in lane i of what
     /// is returned.
     ///
     /// # Panics
