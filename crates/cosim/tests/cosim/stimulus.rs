@@ -137,10 +137,7 @@ fn nothing_to_simulate_is_refused() {
     let design = design(&config(""), (1, 1));
     let stimulus = Stimulus { rounds: 0, ..Stimulus::default() };
     let error = stimulus.record(&design, &mut |_, _| {}).unwrap_err().to_string();
-    assert!(
-        error.starts_with("nothing to simulate: no frames are given and rounds is 0"),
-        "{error}"
-    );
+    assert!(error.contains("no frames are given and rounds is 0"), "{error}");
 }
 
 #[test]
@@ -149,7 +146,7 @@ fn arrays_beyond_memory_are_refused_before_they_are_made() {
     let level = Level::Rcm { columns: 300, rows: 300 };
     let error = directed(level, 1).record(&design, &mut |_, _| {}).unwrap_err().to_string();
     assert!(error.starts_with("an array of 90000 regions, which take 5760000 pixels"), "{error}");
-    assert!(error.contains("at most 65536 regions and 67108864 pixels"), "{error}");
+    assert!(error.contains("the limits are 65536 regions and 67108864 pixels"), "{error}");
 }
 
 #[test]
