@@ -114,7 +114,7 @@ fn a_folder_that_cannot_be_made_is_the_users_affair() {
     assert!(error.is_environment(), "{error:?}");
     let text = error.to_string();
     assert!(text.starts_with("cannot create `/proc/none/foveate`"), "{text}");
-    assert!(text.contains("set FOVEATE_CACHE to a folder"), "{text}");
+    assert!(text.contains("set FOVEATE_CACHE to a writable folder"), "{text}");
 }
 
 #[test]
