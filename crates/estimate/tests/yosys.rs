@@ -71,7 +71,7 @@ fn mistakes_are_named() {
     }
     let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
     let error = estimate(&tools, &cache, &EstimateJob { units: 5, ..toy(4) }).unwrap_err();
-    let expected = "`rcm` has 4 instances of `rpu`, but the design has 5";
+    let expected = "`rcm` has 4 instances of `rpu`, but the design has 5; the Verilog may belong to another design";
     assert_eq!(error.to_string(), expected);
 
     let mut job = toy(4);
