@@ -151,7 +151,7 @@ mod tests {
         assert_eq!(Frame::filled(1, 1, 17, 0), Err(FrameError::PixelBits { bits: 17 }));
         assert_eq!(Frame::filled(1, 1, 0, 0), Err(FrameError::PixelBits { bits: 0 }));
         let message = Frame::new(3, 2, 8, vec![0; 5]).unwrap_err().to_string();
-        assert_eq!(message, "a frame of 3x2 needs 6 pixels, 5 were given");
+        assert_eq!(message, "a frame of 3x2 needs 6 pixels, but 5 were given");
         let message = Frame::new(2, 2, 3, vec![7, 0, 8, 0]).unwrap_err().to_string();
         assert_eq!(message, "pixel (0, 1) is 8; the largest value of 3 bits is 7");
         assert!(Frame::filled(2, 2, 16, u16::MAX).is_ok());
