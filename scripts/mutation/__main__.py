@@ -21,7 +21,7 @@ import time
 
 from design import LATER, WORK, designs, recorded
 from mutants import drawn, pools, wanted
-from verdicts import REASONS, Journal, everywhere, judge, judge_longer, prove, reasons, replay
+from verdicts import REASONS, Journal, claimed_equal, judge, judge_longer, prove, reasons, replay
 
 
 def examine(organization, options, excuses, used):
@@ -88,12 +88,13 @@ def shown_to_others(organization, unknown):
 def control_proofs(mutants, survivors, all_of, pool):
     """The negative control of the proofs: a mutant of the same module that was killed must not be proven equal."""
     proven = {mutant.place(): mutant.proof for mutant in survivors if mutant.proof}
-    killed = {mutant.place(): mutant for mutant in mutants if mutant.verdict == "killed" and mutant.place() in proven}
-    controls = list(killed.values())
-    claims = pool.map(lambda mutant: everywhere(mutant, all_of, proven[mutant.place()]), controls)
-    for mutant, claim in zip(controls, claims, strict=True):
-        if claim:
-            sys.exit(f"mutation: proven equal is what the vectors tell apart: {mutant}")
+    killed = collections.defaultdict(list)
+    for mutant in mutants:
+        if mutant.verdict == "killed" and mutant.place() in proven:
+            killed[mutant.place()].append(mutant)
+    for claimed in pool.map(lambda place: claimed_equal(killed[place], all_of, proven[place]), killed):
+        if claimed:
+            sys.exit(f"mutation: proven equal is what the vectors tell apart: {claimed}")
 
 
 def excuse(survivors, excuses, used, verbose):

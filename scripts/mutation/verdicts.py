@@ -126,3 +126,12 @@ def everywhere(mutant, all_of, proof, around=True):
 def prove(mutant, all_of):
     if everywhere(mutant, all_of, "equal"):
         mutant.verdict, mutant.proof = "equivalent", "equal"
+
+
+def claimed_equal(killed, all_of, proof):
+    """The last of these mutants that is a circuit, if the proof holds for it."""
+    for mutant in reversed(killed):
+        # Simulation kills a net with two drivers, or none; synthesis chooses a value for it, and a proof says nothing.
+        if everywhere(mutant, all_of, "same") is not None:
+            return mutant if everywhere(mutant, all_of, proof) else None
+    return None

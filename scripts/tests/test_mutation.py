@@ -139,5 +139,23 @@ class Reasons(unittest.TestCase):
         self.assertTrue(verdicts.reasons())
 
 
+class ControlOfProofs(unittest.TestCase):
+    def claimed(self, *mutants):
+        """The claim about mutants of these answers to the proofs `same` and `equal`."""
+        design = SimpleNamespace(name="d", late=False, top="top", has=lambda module: True, variants=lambda module: ["leaf"],
+                                 same=lambda module, text, inside=None: text[0], equal=lambda module, text, inside=None: text[1])
+        killed = [SimpleNamespace(module="leaf", design=None, apart=set(), text=answers) for answers in mutants]
+        found = verdicts.claimed_equal(killed, [design], "equal")
+        return found and found.text
+
+    def test_a_killed_mutant_that_is_proven_equal_is_found(self):
+        self.assertEqual(self.claimed((False, True)), (False, True))
+        self.assertIsNone(self.claimed((False, False)))
+
+    def test_a_net_with_two_drivers_controls_nothing(self):
+        self.assertIsNone(self.claimed((None, True)))
+        self.assertEqual(self.claimed((False, True), (None, False)), (False, True))
+
+
 if __name__ == "__main__":
     unittest.main()
