@@ -7,13 +7,13 @@ mod stage;
 
 use std::fmt::Write;
 use std::io::IsTerminal as _;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use lines::Lines;
-use stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, WORK};
+use stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, WORK, locked};
 
 /// What a command is about. Nothing is shown before it says so, nothing when quiet, and nothing remains on
 /// a terminal when it is dropped.
@@ -102,10 +102,6 @@ impl Progress {
             self.bar.set_message(what.to_owned());
         }
     }
-}
-
-fn locked(stage: &Mutex<Stage>) -> MutexGuard<'_, Stage> {
-    stage.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Drop for Progress {

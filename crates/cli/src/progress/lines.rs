@@ -3,13 +3,13 @@
 //! minute at last.
 
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar};
 
-use super::stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage};
+use super::stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, locked};
 use crate::output;
 
 /// Seconds between lines; `0` for none.
@@ -49,7 +49,7 @@ impl Lines {
                 if end.recv_timeout(pause) != Err(RecvTimeoutError::Timeout) {
                     return;
                 }
-                let stage = stage.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                let stage = locked(&stage).clone();
                 if let Some(line) = line(&bar, &stage, start, Instant::now()) {
                     eprintln!("foveate: {line}");
                 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a command is about, since when, and how long the rest of it takes at the pace of what is done.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 pub(super) const WORK: &str = "{spinner} {msg} [{elapsed}]";
@@ -62,6 +63,11 @@ impl Stage {
             _ => Left::MoreThan(LONGEST),
         })
     }
+}
+
+/// The stage, whether or not a thread that held it has panicked: it is whole at any time.
+pub(super) fn locked(stage: &Mutex<Stage>) -> MutexGuard<'_, Stage> {
+    stage.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
