@@ -5,7 +5,7 @@
 2. Makes the mutants: one edit each, from a seed, spread over all leaves and rendered modules of an organization (mutants.py).
    The edits are those of edits.py; parameter defaults, limits, clocks and loop steps are left alone, declared ranges only become narrower.
 3. Replays the vectors of the designs that contain the module, smallest first, until a mismatch (verdicts.py). A replay that
-   takes 12 times the processor time of the unmutated one counts as a mismatch, too.
+   takes 12 times the processor time of the unmutated one, or in which Icarus aborts, counts as a mismatch, too.
 4. Where Icarus makes the same program, the mutant is not in the design. A survivor is equivalent if Yosys makes the same netlist
    of it in every design. It is no mutant if it leaves a net without a driver or with two: every synthesis tool refuses that.
    What is left sees longer vectors.
@@ -123,10 +123,10 @@ def print_counts(organization, found, mutants, open_ones, seconds):
     count = collections.Counter(mutant.verdict for mutant in mutants)
     alike = sum(1 for mutant in mutants if mutant.verdict == "equivalent" and mutant.proof == "same")
     longer = sum(1 for mutant in mutants if mutant.by and mutant.by[0] > 0)
-    hangs = sum(1 for mutant in mutants if mutant.by and mutant.by[2] == "hang")
+    hangs, aborts = (sum(1 for mutant in mutants if mutant.by and mutant.by[2] == outcome) for outcome in ("hang", "abort"))
     print(f"{organization}: {len(mutants)} mutants of {len(found)} modules: {count['killed']} killed ({longer} of them by the"
-          f" longer vectors, {hangs} by time), {count['equivalent']} proven equivalent ({alike} of them by the same netlist),"
-          f" {count['waived']} waived with a reason, {open_ones} open; {seconds:.0f} s", flush=True)
+          f" longer vectors, {hangs} by time, {aborts} by an abort of Icarus), {count['equivalent']} proven equivalent ({alike} of"
+          f" them by the same netlist), {count['waived']} waived with a reason, {open_ones} open; {seconds:.0f} s", flush=True)
 
 
 def main():

@@ -123,8 +123,8 @@ class Design:
         return self.compiled(module, text)[0] == self.program
 
     def run(self, stage, module, text):
-        """`pass`, `fail`, `hang`, `refused` if it does not elaborate, or `same` if it is the same program, of a module with another
-        text."""
+        """`pass`, `fail`, `hang`, `abort` if Icarus itself gives up, `refused` if it does not elaborate, or `same` if it is the same
+        program, of a module with another text."""
         self.record(stage)
         with self.lock:
             if not self.program:
@@ -141,6 +141,9 @@ class Design:
         verdicts = [line.split()[0] for line in done.stdout.splitlines() if line.startswith(("PASS ", "FAIL "))]
         if verdicts:
             return {"PASS": "pass", "FAIL": "fail"}[verdicts[-1]]
+        # An assertion of Icarus, of a part-select beyond its vector: no run of such a design ends with PASS.
+        if done.returncode == -signal.SIGABRT:
+            return "abort"
         raise RuntimeError(f"{self.name}: the replay says neither PASS nor FAIL: {(done.stdout + done.stderr)[-300:]}")
 
     def chparam(self):
