@@ -2,10 +2,9 @@
 //! A frame and what follows, clock by clock, as the model shows it.
 
 use crate::error::CosimError;
-use crate::layout::Layout;
 use crate::level::Level;
-use crate::shipped::{Applied, Model, Picture, Record, model};
-use crate::stimulus::Random;
+use crate::shipped::{Model, Picture, Record, model};
+use crate::stimulus::{Applied, Random};
 use foveate_design::{Design, Direction, Port, PortRole};
 use foveate_emit::Top;
 use foveate_frame::Frame;
@@ -99,8 +98,6 @@ fn frame(part: &Design) -> Frame {
 /// A trace under way.
 struct Take<'a> {
     model: Box<dyn Model>,
-    inputs: Layout,
-    outputs: Layout,
     record: Record,
     thresholds: Thresholds,
     garbage: Vec<u16>,
@@ -112,16 +109,15 @@ struct Take<'a> {
 impl<'a> Take<'a> {
     fn new(part: &Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
         let ports = top.ports(part);
-        let (inputs, outputs) = (Layout::inputs(&ports), Layout::outputs(&ports));
+        let record = Record::of(&ports);
         let model = model(part.organization())(part, top);
-        let shown = inputs.fields().iter().chain(outputs.fields()).map(|field| &field.port);
+        let shown =
+            record.inputs.fields().iter().chain(record.outputs.fields()).map(|field| &field.port);
         let signals = shown.filter(|port| is_shown(port)).map(signal).collect();
         Self {
             garbage: vec![0; model.width()],
-            record: Record { input: inputs.record(), expected: outputs.record() },
+            record,
             model,
-            inputs,
-            outputs,
             thresholds: Thresholds::of(part),
             edge: 0,
             trace: Trace { title, signals, stretches: Vec::new(), frames: Vec::new() },
@@ -135,10 +131,8 @@ impl<'a> Take<'a> {
             match self.model.quiet_clocks() {
                 0 | 1 => self.clock(false, None)?,
                 quiet => {
-                    let pixels = &self.garbage;
-                    let thresholds = &self.thresholds;
-                    let applied = Applied { reset: false, valid: false, pixels, thresholds };
-                    self.model.skip(&applied, &self.inputs, &self.outputs, &mut self.record);
+                    let applied = Applied::idle(&self.garbage, &self.thresholds);
+                    self.model.skip(&applied, &mut self.record);
                     self.keep(quiet);
                 }
             }
@@ -150,25 +144,23 @@ impl<'a> Take<'a> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        let (valid, thresholds) = (pixels.is_some(), &self.thresholds);
-        let pixels = pixels.unwrap_or(&self.garbage);
-        let applied = Applied { reset, valid, pixels, thresholds };
-        self.model.clock(&applied, &self.inputs, &self.outputs, &mut self.record);
+        let idle = Applied::idle(pixels.unwrap_or(&self.garbage), &self.thresholds);
+        let applied = Applied { reset, valid: pixels.is_some(), ..idle };
+        self.model.clock(&applied, &mut self.record);
         self.keep(1);
         Ok(())
     }
 
     fn keep(&mut self, clocks: u64) {
-        let valid = self.inputs.fields().iter().find(|field| field.port.role == PortRole::Valid);
-        let is_valid = valid.is_some_and(|field| field.get(&self.record.input, 0) == 1);
-        let input =
-            self.inputs.fields().iter().filter(|field| is_shown(&field.port)).map(|field| {
-                let says = field.port.role != PortRole::Pixel || is_valid;
-                says.then(|| field.get(&self.record.input, 0))
-            });
-        let expected = &self.record.expected;
-        let output = self.outputs.fields().iter().map(|field| {
-            let says = self.outputs.compared_lanes(field, expected).next() == Some(0);
+        let Record { inputs, outputs, input, expected } = &self.record;
+        let valid = inputs.fields().iter().find(|field| field.port.role == PortRole::Valid);
+        let is_valid = valid.is_some_and(|field| field.get(input, 0) == 1);
+        let input = inputs.fields().iter().filter(|field| is_shown(&field.port)).map(|field| {
+            let says = field.port.role != PortRole::Pixel || is_valid;
+            says.then(|| field.get(input, 0))
+        });
+        let output = outputs.fields().iter().map(|field| {
+            let says = outputs.compared_lanes(field, expected).next() == Some(0);
             says.then(|| field.get(expected, 0))
         });
         let values: Vec<_> = input.chain(output).collect();

@@ -21,7 +21,7 @@ use crate::error::CosimError;
 use crate::harness::{bench_file, told_bench};
 use foveate_design::{Design, Port};
 use foveate_emit::{SourceFile, Top};
-pub(crate) use model::{Applied, Model, Record};
+pub(crate) use model::{Model, Record};
 pub(crate) use picture::Picture;
 use player::Player;
 pub(crate) use player::model;

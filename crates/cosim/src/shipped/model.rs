@@ -2,9 +2,9 @@
 //! What the benches and diagrams ask of the cycle-level model of any organization.
 
 use crate::layout::Layout;
-use foveate_design::Design;
+use crate::stimulus::Applied;
+use foveate_design::{Design, Port};
 use foveate_frame::Frame;
-use foveate_model::Thresholds;
 
 /// A cycle-level model with its values in records.
 pub(crate) trait Model {
@@ -13,21 +13,12 @@ pub(crate) trait Model {
     /// What the pixel port takes of a frame, one after the other.
     fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>>;
     /// One edge.
-    fn clock(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    );
-    /// As many edges without a pixel as [`Model::quiet_clocks`] says, at once.
-    fn skip(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    );
+    fn clock(&mut self, applied: &Applied<'_>, record: &mut Record);
+    /// As many edges without a pixel as [`Model::quiet_clocks`] says, at once. Where something may be seen
+    /// at every clock, that is one edge.
+    fn skip(&mut self, applied: &Applied<'_>, record: &mut Record) {
+        self.clock(applied, record);
+    }
     /// For how many clocks without a pixel the outputs stay as they are.
     fn quiet_clocks(&self) -> u64;
     /// Whether a pixel is taken.
@@ -39,16 +30,17 @@ pub(crate) trait Model {
     fn frames_behind(&self) -> u32;
 }
 
-/// What is applied for a clock.
-pub(crate) struct Applied<'a> {
-    pub(crate) reset: bool,
-    pub(crate) valid: bool,
-    pub(crate) pixels: &'a [u16],
-    pub(crate) thresholds: &'a Thresholds,
-}
-
-/// What goes in and what comes out, as bytes.
+/// What goes in and what comes out at one clock, as bytes.
 pub(crate) struct Record {
+    pub(crate) inputs: Layout,
+    pub(crate) outputs: Layout,
     pub(crate) input: Vec<u8>,
     pub(crate) expected: Vec<u8>,
+}
+
+impl Record {
+    pub(crate) fn of(ports: &[Port]) -> Self {
+        let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
+        Self { input: inputs.record(), expected: outputs.record(), inputs, outputs }
+    }
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One RPU or an array of them: a pixel of every region at every clock, back to back.
 
-use super::model::{Applied, Model, Record};
-use crate::layout::Layout;
-use crate::stimulus::{Inputs, Machine, PipelinedCodec};
+use super::model::{Model, Record};
+use crate::stimulus::{Applied, Machine, PipelinedCodec};
 use foveate_design::{Design, PipelinedTiming};
 use foveate_emit::Top;
 use foveate_frame::Frame;
@@ -49,29 +48,11 @@ impl Model for Pipelined {
         (0..length).map(beat).collect()
     }
 
-    fn clock(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    ) {
-        let &Applied { reset, valid, pixels, thresholds } = applied;
-        let applied = Inputs { reset, valid, pixels, border: ALL_SIDES, thresholds: *thresholds };
+    fn clock(&mut self, applied: &Applied<'_>, record: &mut Record) {
+        let applied = Applied { border: ALL_SIDES, ..*applied };
         self.machine.step(&applied, &mut self.shown);
-        self.codec.inputs(inputs, &applied, &mut record.input);
-        self.codec.outputs(outputs, &self.shown, &mut record.expected);
-    }
-
-    /// Never more than one edge: something may be seen at every clock.
-    fn skip(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    ) {
-        self.clock(applied, inputs, outputs, record);
+        self.codec.inputs(&record.inputs, &applied, &mut record.input);
+        self.codec.outputs(&record.outputs, &self.shown, &mut record.expected);
     }
 
     fn quiet_clocks(&self) -> u64 {

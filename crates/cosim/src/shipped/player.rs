@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Plays a script to the cycle-level model, clock by clock, and records it.
 
-use super::model::{Applied, Model, Record};
+use super::model::Model;
 use super::script::{Script, Shot};
 use super::tape::Tape;
 use super::{pipelined, serial};
 use crate::error::CosimError;
+use crate::stimulus::Applied;
 use foveate_design::{Design, Organization};
 use foveate_emit::Top;
 use foveate_model::Thresholds;
@@ -33,7 +34,6 @@ pub(super) struct Player<'a> {
     model: Box<dyn Model>,
     tape: &'a mut Tape,
     cancel: &'a AtomicBool,
-    record: Record,
     /// What is at the pixel port while it shows nothing of use.
     garbage: Vec<u16>,
 }
@@ -47,14 +47,7 @@ impl<'a> Player<'a> {
     ) -> Self {
         let model = model(part.organization())(part, top);
         let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-        Self {
-            part,
-            garbage: vec![max; model.width()],
-            model,
-            record: Record { input: tape.inputs.record(), expected: tape.outputs.record() },
-            tape,
-            cancel,
-        }
+        Self { part, garbage: vec![max; model.width()], model, tape, cancel }
     }
 
     /// Plays all sequences. The first begins twice: a reset forgets what was under way.
@@ -75,8 +68,8 @@ impl<'a> Player<'a> {
     fn reset(&mut self, shot: &Shot) -> Result<(), CosimError> {
         let garbage = self.garbage.clone();
         for valid in [true, false] {
-            let thresholds = &shot.thresholds;
-            self.clock(&Applied { reset: true, valid, pixels: &garbage, thresholds })?;
+            let applied = Applied::idle(&garbage, &shot.thresholds);
+            self.clock(&Applied { reset: true, valid, ..applied })?;
         }
         Ok(())
     }
@@ -105,7 +98,7 @@ impl<'a> Player<'a> {
                 self.idle(1, thresholds)?;
             }
             self.wait(thresholds)?;
-            self.clock(&Applied { reset: false, valid: true, pixels, thresholds })?;
+            self.clock(&Applied::valid(pixels, thresholds))?;
         }
         Ok(())
     }
@@ -116,8 +109,7 @@ impl<'a> Player<'a> {
         let garbage = self.garbage.clone();
         for _ in 0..REFUSED {
             if !self.model.is_ready() {
-                let pixels = &garbage;
-                self.clock(&Applied { reset: false, valid: true, pixels, thresholds })?;
+                self.clock(&Applied::valid(&garbage, thresholds))?;
             }
         }
         self.wait(thresholds)?;
@@ -152,7 +144,7 @@ impl<'a> Player<'a> {
     fn idle(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {
         let garbage = self.garbage.clone();
         for _ in 0..clocks {
-            self.clock(&Applied { reset: false, valid: false, pixels: &garbage, thresholds })?;
+            self.clock(&Applied::idle(&garbage, thresholds))?;
         }
         Ok(())
     }
@@ -161,15 +153,13 @@ impl<'a> Player<'a> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        let Self { model, tape, record, .. } = self;
-        model.clock(applied, &tape.inputs, &tape.outputs, record);
-        tape.push(&record.input, &record.expected, 1)
+        self.model.clock(applied, &mut self.tape.record);
+        self.tape.push(1)
     }
 
     fn skip(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {
-        let Self { model, tape, record, garbage, .. } = self;
-        let applied = Applied { reset: false, valid: false, pixels: garbage, thresholds };
-        model.skip(&applied, &tape.inputs, &tape.outputs, record);
-        tape.push(&record.input, &record.expected, clocks)
+        let applied = Applied::idle(&self.garbage, thresholds);
+        self.model.skip(&applied, &mut self.tape.record);
+        self.tape.push(clocks)
     }
 }

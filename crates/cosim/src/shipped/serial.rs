@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A serial array: it takes a frame, works on it, and is ready again when everything has left.
 
-use super::model::{Applied, Model, Record};
-use crate::layout::Layout;
-use crate::stimulus::{Feed, SerialCodec};
+use super::model::{Model, Record};
+use crate::stimulus::{Applied, Feed, SerialCodec};
 use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_frame::Frame;
-use foveate_model::{SerialInput, SerialRcm};
+use foveate_model::SerialRcm;
 
 pub(super) fn model(part: &Design, _: Top) -> Box<dyn Model> {
     Box::new(Serial { array: SerialRcm::new(part), codec: SerialCodec::new(part) })
@@ -27,32 +26,16 @@ impl Model for Serial {
         Feed::of(part, frame, || 0).beats().map(<[u16]>::to_vec).collect()
     }
 
-    fn clock(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    ) {
-        let &Applied { reset, valid, pixels, thresholds } = applied;
-        let applied = SerialInput { reset, valid, pixels, thresholds };
-        let shown = self.array.step(&applied);
-        self.codec.inputs(inputs, &applied, &mut record.input);
-        self.codec.outputs(outputs, shown, &mut record.expected);
+    fn clock(&mut self, applied: &Applied<'_>, record: &mut Record) {
+        let shown = self.array.step(&applied.of_array());
+        self.codec.inputs(&record.inputs, applied, &mut record.input);
+        self.codec.outputs(&record.outputs, shown, &mut record.expected);
     }
 
-    fn skip(
-        &mut self,
-        applied: &Applied<'_>,
-        inputs: &Layout,
-        outputs: &Layout,
-        record: &mut Record,
-    ) {
-        let &Applied { reset, valid, pixels, thresholds } = applied;
-        let applied = SerialInput { reset, valid, pixels, thresholds };
-        self.codec.inputs(inputs, &applied, &mut record.input);
+    fn skip(&mut self, applied: &Applied<'_>, record: &mut Record) {
         let shown = self.array.skip(self.array.quiet_clocks());
-        self.codec.outputs(outputs, shown, &mut record.expected);
+        self.codec.inputs(&record.inputs, applied, &mut record.input);
+        self.codec.outputs(&record.outputs, shown, &mut record.expected);
     }
 
     fn quiet_clocks(&self) -> u64 {

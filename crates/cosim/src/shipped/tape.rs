@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Vectors under way: packed into text, and counted.
 
+use super::model::Record;
 use super::tally::{Counter, Tally};
 use crate::error::CosimError;
-use crate::layout::Layout;
 use crate::packer::Packer;
 use foveate_design::{Design, Port};
 use std::path::Path;
 
 /// Takes clocks; what it makes of them stays in memory.
 pub(super) struct Tape {
-    pub(super) inputs: Layout,
-    pub(super) outputs: Layout,
+    /// The clock that comes next.
+    pub(super) record: Record,
     packer: Packer<Vec<u8>>,
     counter: Counter,
     clocks: u64,
@@ -19,24 +19,19 @@ pub(super) struct Tape {
 
 impl Tape {
     pub(super) fn new(part: &Design, ports: &[Port]) -> Self {
-        let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
+        let record = Record::of(ports);
         Self {
-            packer: Packer::new(&inputs, &outputs, Vec::new()),
-            counter: Counter::new(part, &outputs),
-            inputs,
-            outputs,
+            packer: Packer::new(&record.inputs, &record.outputs, Vec::new()),
+            counter: Counter::new(part, &record.outputs),
+            record,
             clocks: 0,
         }
     }
 
-    /// So many clocks with the same inputs and outputs.
-    pub(super) fn push(
-        &mut self,
-        input: &[u8],
-        expected: &[u8],
-        clocks: u64,
-    ) -> Result<(), CosimError> {
-        self.counter.see(&self.outputs, expected);
+    /// So many clocks as the record has one.
+    pub(super) fn push(&mut self, clocks: u64) -> Result<(), CosimError> {
+        let Record { outputs, input, expected, .. } = &self.record;
+        self.counter.see(outputs, expected);
         self.clocks += clocks;
         let pushed = self.packer.push(input, expected, clocks);
         pushed.map_err(CosimError::io("write", Path::new("vectors")))
@@ -47,6 +42,6 @@ impl Tape {
         let bytes = self.packer.finish();
         let bytes = bytes.map_err(CosimError::io("write", Path::new("vectors")))?;
         let text = String::from_utf8_lossy(&bytes).into_owned();
-        Ok((self.counter.finish(&self.outputs), self.clocks, text))
+        Ok((self.counter.finish(&self.record.outputs), self.clocks, text))
     }
 }

@@ -7,8 +7,10 @@
 //! something else under way. Everything follows from the design, the seed and the frames.
 
 mod aim;
+mod applied;
 mod brush;
 mod gauge;
+mod kinds;
 mod motif;
 mod pipelined;
 mod random;
@@ -19,11 +21,12 @@ mod serial;
 use crate::error::CosimError;
 use crate::level::Level;
 use crate::recording::{Recorder, Recording};
+pub(crate) use applied::Applied;
 use foveate_design::{Design, Organization};
 use foveate_frame::Frame;
 pub(crate) use motif::{Artist, Motif};
+pub(crate) use pipelined::Machine;
 pub use pipelined::PipelinedCodec;
-pub(crate) use pipelined::{Inputs, Machine};
 pub(crate) use random::Random;
 use run::Run;
 pub(crate) use serial::Feed;

@@ -2,9 +2,10 @@
 //! Streams frames into the model, clock by clock, and records what goes in and what comes out.
 
 use super::super::aim::Ranges;
+use super::super::applied::Applied;
 use super::super::random::Random;
 use super::super::sequence::{Aim, Gaps};
-use super::machine::{Inputs, Machine, PipelinedCodec};
+use super::machine::{Machine, PipelinedCodec};
 use crate::error::CosimError;
 use crate::recording::Recorder;
 use foveate_design::{Design, Thresholds as Mode};
@@ -156,7 +157,7 @@ impl<'a> Driver<'a> {
         }
         let pixels = pixels.unwrap_or(&self.garbage);
         let mut inputs =
-            Inputs { reset, valid, pixels, border: self.border, thresholds: self.thresholds };
+            Applied { reset, valid, pixels, border: self.border, thresholds: self.thresholds };
         if self.aim != Aim::Design {
             let lane = self.random.up_to(self.garbage.len().saturating_sub(1) as u64);
             if decides(&mut self.scout, &inputs) {
@@ -181,7 +182,7 @@ impl<'a> Driver<'a> {
 /// Whether a decision is there after this edge. The scout must take every edge of a sequence; it takes
 /// none of those whose thresholds are not aimed, and the reset that begins a sequence brings it back
 /// into step. Neither pixels nor borders nor thresholds move a decision in time.
-fn decides(scout: &mut PipelinedRpu, inputs: &Inputs<'_>) -> bool {
-    let &Inputs { reset, valid, border, pixels, ref thresholds } = inputs;
+fn decides(scout: &mut PipelinedRpu, inputs: &Applied<'_>) -> bool {
+    let &Applied { reset, valid, border, pixels, ref thresholds } = inputs;
     scout.step(&RpuInput { reset, valid, pixel: pixels[0], border }, thresholds).decision_valid
 }

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cycle-level model behind one interface, and its values in records.
 
+use super::super::applied::Applied;
+use super::super::kinds::Kinds;
 use crate::layout::Layout;
-use foveate_design::{Design, FeatureKind, PortRole};
-use foveate_model::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput, Thresholds};
-
-/// What is applied at one edge.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Inputs<'a> {
-    pub(crate) reset: bool,
-    pub(crate) valid: bool,
-    /// One pixel per lane.
-    pub(crate) pixels: &'a [u16],
-    pub(crate) border: u8,
-    pub(crate) thresholds: Thresholds,
-}
+use foveate_design::{Design, PortRole};
+use foveate_model::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput};
 
 /// A model of one RPU or of an array of them.
 #[derive(Clone, Debug)]
@@ -24,7 +15,7 @@ pub(crate) enum Machine {
 }
 
 impl Machine {
-    pub(crate) fn step(&mut self, inputs: &Inputs<'_>, outputs: &mut Vec<RpuOutput>) {
+    pub(crate) fn step(&mut self, inputs: &Applied<'_>, outputs: &mut Vec<RpuOutput>) {
         outputs.clear();
         match self {
             Self::Rpu(rpu) => {
@@ -49,60 +40,18 @@ impl Machine {
 /// Puts values of pipelined models into records.
 #[derive(Clone, Debug)]
 pub struct PipelinedCodec {
-    kinds: Vec<FeatureKind>,
+    kinds: Kinds,
 }
 
 impl PipelinedCodec {
     /// The codec of a design.
     #[must_use]
     pub fn new(design: &Design) -> Self {
-        Self { kinds: design.features().iter().map(|feature| feature.kind()).collect() }
+        Self { kinds: Kinds::of(design) }
     }
 
-    fn index(&self, kind: FeatureKind) -> usize {
-        self.kinds
-            .iter()
-            .position(|&own| own == kind)
-            .expect("a port is of a feature of the design")
-    }
-
-    pub(crate) fn inputs(&self, layout: &Layout, inputs: &Inputs<'_>, record: &mut [u8]) {
-        let thresholds = &inputs.thresholds;
-        for field in layout.fields() {
-            let value = match field.port.role {
-                PortRole::Reset => inputs.reset.into(),
-                PortRole::Valid => inputs.valid.into(),
-                PortRole::Border => inputs.border.into(),
-                PortRole::Level(kind) => thresholds.level[self.index(kind)].into(),
-                PortRole::MinScore(kind) => thresholds.min_score[self.index(kind)],
-                PortRole::TemporalLevel => thresholds.temporal_level.into(),
-                PortRole::TemporalMinCount => thresholds.temporal_min_count.into(),
-                PortRole::Pixel => {
-                    for (lane, &pixel) in (0..field.port.lanes).zip(inputs.pixels) {
-                        field.set(record, lane, pixel.into());
-                    }
-                    continue;
-                }
-                PortRole::Clock
-                | PortRole::DecisionValid
-                | PortRole::Srs
-                | PortRole::Trs
-                | PortRole::Active
-                | PortRole::Score(_)
-                | PortRole::TemporalCount
-                | PortRole::ForwardValid
-                | PortRole::ForwardPixel
-                | PortRole::Ready
-                | PortRole::ScoreValid
-                | PortRole::ScoreIndex
-                | PortRole::Region
-                | PortRole::AnyScore
-                | PortRole::ForwardPosition
-                | PortRole::ForwardSlot
-                | PortRole::ForwardRegion => continue,
-            };
-            field.set(record, 0, value);
-        }
+    pub(crate) fn inputs(&self, layout: &Layout, applied: &Applied<'_>, record: &mut [u8]) {
+        applied.write(&self.kinds, layout, record);
     }
 
     /// The outputs of all RPUs after an edge.
@@ -114,7 +63,7 @@ impl PipelinedCodec {
                     PortRole::Srs => output.srs.into(),
                     PortRole::Trs => output.trs.into(),
                     PortRole::Active => output.active.into(),
-                    PortRole::Score(kind) => output.scores[self.index(kind)],
+                    PortRole::Score(kind) => output.scores[self.kinds.index(kind)],
                     PortRole::TemporalCount => output.temporal_count.into(),
                     PortRole::ForwardValid => output.forward_valid.into(),
                     PortRole::ForwardPixel => output.forward_pixel.into(),

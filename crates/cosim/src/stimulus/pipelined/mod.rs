@@ -13,8 +13,8 @@ use crate::level::Level;
 use driver::Driver;
 use foveate_design::PipelinedTiming;
 use foveate_model::{PipelinedRcm, PipelinedRpu};
+pub(crate) use machine::Machine;
 pub use machine::PipelinedCodec;
-pub(crate) use machine::{Inputs, Machine};
 use session::Session;
 
 pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {

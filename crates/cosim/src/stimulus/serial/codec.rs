@@ -1,49 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What goes into the model of an array, and what comes out, in records.
 
+use super::super::applied::Applied;
+use super::super::kinds::Kinds;
 use crate::layout::Layout;
-use foveate_design::{Design, FeatureKind, PortRole};
-use foveate_model::{SerialInput, SerialOutput};
+use foveate_design::{Design, PortRole};
+use foveate_model::SerialOutput;
 
 /// Puts values of serial models into records.
 #[derive(Clone, Debug)]
 pub struct SerialCodec {
-    kinds: Vec<FeatureKind>,
+    kinds: Kinds,
 }
 
 impl SerialCodec {
     /// The codec of a design.
     #[must_use]
     pub fn new(design: &Design) -> Self {
-        Self { kinds: design.features().iter().map(|feature| feature.kind()).collect() }
+        Self { kinds: Kinds::of(design) }
     }
 
-    fn index(&self, kind: FeatureKind) -> usize {
-        self.kinds
-            .iter()
-            .position(|&own| own == kind)
-            .expect("a port is of a feature of the design")
-    }
-
-    pub(crate) fn inputs(&self, layout: &Layout, input: &SerialInput<'_>, record: &mut [u8]) {
-        let thresholds = input.thresholds;
-        for field in layout.fields() {
-            let value = match field.port.role {
-                PortRole::Reset => input.reset.into(),
-                PortRole::Valid => input.valid.into(),
-                PortRole::Level(kind) => thresholds.level[self.index(kind)].into(),
-                PortRole::MinScore(kind) => thresholds.min_score[self.index(kind)],
-                PortRole::TemporalLevel => thresholds.temporal_level.into(),
-                PortRole::TemporalMinCount => thresholds.temporal_min_count.into(),
-                PortRole::Pixel => {
-                    field.set_all(record, input.pixels.iter().map(|&pixel| pixel.into()));
-                    continue;
-                }
-                // Outputs, and what only pipelined designs have.
-                _ => continue,
-            };
-            field.set(record, 0, value);
-        }
+    pub(crate) fn inputs(&self, layout: &Layout, applied: &Applied<'_>, record: &mut [u8]) {
+        applied.write(&self.kinds, layout, record);
     }
 
     /// The outputs of the array after an edge.

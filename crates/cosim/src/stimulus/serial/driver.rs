@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Offers frames to the model of an array, clock by clock, and records what goes in and what comes out.
 
+use super::super::applied::Applied;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
 use super::aim::{Aim, Aimer};
@@ -9,7 +10,7 @@ use super::feed::Feed;
 use crate::error::CosimError;
 use crate::recording::Recorder;
 use foveate_design::{Design, Thresholds as Mode};
-use foveate_model::{SerialInput, SerialOutput, SerialRcm, Thresholds};
+use foveate_model::{SerialOutput, SerialRcm, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -204,9 +205,9 @@ impl<'a> Driver<'a> {
             self.aimer.shake(&mut self.thresholds, &mut self.random);
         }
         let pixels = pixels.unwrap_or(&self.garbage);
-        let input = SerialInput { reset, valid, pixels, thresholds: &self.thresholds };
-        let output = self.model.step(&input);
-        self.codec.inputs(self.recorder.inputs(), &input, &mut self.input);
+        let applied = Applied { reset, valid, pixels, border: 0, thresholds: self.thresholds };
+        let output = self.model.step(&applied.of_array());
+        self.codec.inputs(self.recorder.inputs(), &applied, &mut self.input);
         self.codec.outputs(self.recorder.outputs(), output, &mut self.expected);
         self.recorder.push(&self.input, &self.expected)
     }
