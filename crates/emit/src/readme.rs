@@ -148,9 +148,9 @@ fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
     }
 }
 
-/// Frames per second at 100 MHz, rounded down; with a decimal where they are few.
+/// Frames per second at the 250 MHz of the constraints, rounded down; with a decimal where they are few.
 fn rate(clocks: u64) -> String {
-    let tenths = 1_000_000_000 / clocks;
+    let tenths = 2_500_000_000 / clocks;
     if tenths < 1000 {
         format!("{}.{}", tenths / 10, tenths % 10)
     } else {

@@ -110,7 +110,7 @@ fn ports(text: &mut String, module: &str, rows: &[PortRow]) {
     for row in rows {
         let lanes = if row.lanes == 1 { String::new() } else { format!("{} x ", row.lanes) };
         let bits = format!("{lanes}{}", row.width);
-        let start = format!("  {:<6} {bits:>10}  {:<17} ", row.direction, row.name);
+        let start = format!("  {:<6} {bits:>10}  {:<18} ", row.direction, row.name);
         wrap(text, &start, &row.doc);
     }
 }
