@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::{Config, Design};
 use foveate_footage::InputOptions;
 use foveate_staging::write_file;
+use foveate_tables::Table;
 
 use crate::cost::Silicon;
 use crate::footage::Footage;
@@ -15,7 +16,7 @@ use crate::measure::Measured;
 use crate::objective::mark_fronts;
 use crate::row::Row;
 use crate::store::{Store, functional};
-use crate::table::{Table, errors, point};
+use crate::table::{errors, point};
 use crate::{ClipRow, Exploration, ExploreError, Hooks, Point, Refused, Space, Synthesizer};
 
 /// What is explored.
@@ -154,7 +155,8 @@ fn write(
     };
     let points = table(&mut rows.iter());
     write_file(&output.join("points.csv"), points.csv().as_bytes())?;
-    points.write_parquet(&output.join("points.parquet"))?;
+    let parquet = output.join("points.parquet");
+    write_file(&parquet, &points.parquet("points").map_err(ExploreError::io("write", &parquet))?)?;
     let pareto = table(&mut rows.iter().filter(|row| row.front.all));
     write_file(&output.join("pareto.csv"), pareto.csv().as_bytes())?;
     let clips = exploration.clips.iter().zip(measured).flat_map(|(clip, measured)| {

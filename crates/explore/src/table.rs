@@ -1,95 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Points as a table: one list of columns for CSV and Parquet.
 
-use std::io;
-use std::path::Path;
-
 use foveate_design::FeatureKind;
 use foveate_fidelity::Figures;
-use foveate_staging::write_file;
-use foveate_tables::{Column, Kind, ParquetWriter, Value};
+use foveate_tables::{Cell, Cells};
 
-use crate::ExploreError;
 use crate::row::{Row, real};
-
-/// A value of the table. Numbers that are not there are empty in CSV and null in Parquet.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Cell {
-    Text(String),
-    Count(Option<u64>),
-    Real(Option<f64>),
-    Flag(bool),
-}
-
-/// Columns with their values, row by row.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Table {
-    pub(crate) columns: Vec<String>,
-    pub(crate) rows: Vec<Vec<Cell>>,
-}
-
-/// The cells of a row with their names.
-type Cells = Vec<(String, Cell)>;
-
-impl Table {
-    /// A table of rows that have the same columns.
-    pub(crate) fn of(rows: impl Iterator<Item = Cells>) -> Self {
-        let mut table = Self::default();
-        for row in rows {
-            let (columns, cells) = row.into_iter().unzip();
-            table.columns = columns;
-            table.rows.push(cells);
-        }
-        table
-    }
-
-    /// CSV with a line of names.
-    pub(crate) fn csv(&self) -> String {
-        let row = |row: &Vec<Cell>| row.iter().map(|cell| cell.value().to_string()).collect();
-        foveate_tables::csv(std::iter::once(self.columns.clone()).chain(self.rows.iter().map(row)))
-    }
-
-    /// Parquet: one group.
-    pub(crate) fn write_parquet(&self, path: &Path) -> Result<(), ExploreError> {
-        let bytes = self.parquet().map_err(ExploreError::io("write", path))?;
-        Ok(write_file(path, &bytes)?)
-    }
-
-    fn parquet(&self) -> io::Result<Vec<u8>> {
-        let cells = self.rows.first().into_iter().flatten();
-        let columns = self.columns.iter().zip(cells).map(|(name, cell)| cell.column(name));
-        let mut file = ParquetWriter::new(Vec::new(), "points", &columns.collect::<Vec<_>>())?;
-        for row in &self.rows {
-            file.push(row.iter().map(Cell::value));
-        }
-        file.finish()
-    }
-}
-
-impl Cell {
-    /// The column of cells like this one. In the names of Parquet, points are for columns inside columns.
-    fn column(&self, name: &str) -> Column {
-        let (kind, optional) = match self {
-            Self::Text(_) => (Kind::Text, false),
-            Self::Count(_) => (Kind::Long, true),
-            Self::Real(_) => (Kind::Real, true),
-            Self::Flag(_) => (Kind::Flag, false),
-        };
-        Column { name: name.replace('.', "_"), kind, optional }
-    }
-
-    fn value(&self) -> Value<'_> {
-        match self {
-            Self::Text(text) => Value::Text(text),
-            Self::Count(Some(count)) => {
-                Value::Long(i64::try_from(*count).expect("nothing is counted up to 2^63"))
-            }
-            Self::Real(Some(value)) => Value::Real(*value),
-            Self::Flag(flag) => Value::Flag(*flag),
-            Self::Count(None) | Self::Real(None) => Value::None,
-        }
-    }
-}
 
 /// The columns of a point.
 pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
