@@ -11,6 +11,7 @@ mod explain;
 mod explore;
 mod fit;
 mod frames;
+mod infer;
 mod input;
 mod outputs;
 #[cfg(test)]
@@ -34,6 +35,7 @@ pub(crate) use dataset::DatasetArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
+pub(crate) use infer::InferArgs;
 pub(crate) use input::warn_of;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use stress::StressArgs;
@@ -62,6 +64,7 @@ pub(crate) enum Command {
     Analyze(AnalyzeArgs),
     Explore(ExploreArgs),
     Fit(FitArgs),
+    Infer(InferArgs),
     Stress(StressArgs),
     Bench(BenchArgs),
     Presets(PresetsArgs),

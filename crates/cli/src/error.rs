@@ -10,6 +10,7 @@ use foveate_design::DesignError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
+use foveate_inference::InferenceError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_studies::StudyError;
@@ -36,6 +37,8 @@ pub(crate) enum CliError {
     Study(Box<StudyError>),
     #[error(transparent)]
     Explore(Box<ExploreError>),
+    #[error(transparent)]
+    Inference(Box<InferenceError>),
     #[error(transparent)]
     Output(#[from] StagingError),
     #[error(transparent)]
@@ -74,6 +77,11 @@ impl CliError {
                 ExploreError::Cancelled => interrupt::exit_code(),
                 ExploreError::Footage(error) => footage_code(error),
                 ExploreError::Estimate(error) => estimate_code(error),
+                _ => INPUT,
+            },
+            Self::Inference(error) => match error.as_ref() {
+                InferenceError::Cancelled => interrupt::exit_code(),
+                InferenceError::Footage(error) => footage_code(error),
                 _ => INPUT,
             },
             Self::Failed(_) => 1,
@@ -150,6 +158,12 @@ impl From<StudyError> for CliError {
 impl From<ExploreError> for CliError {
     fn from(error: ExploreError) -> Self {
         Self::Explore(Box::new(error))
+    }
+}
+
+impl From<InferenceError> for CliError {
+    fn from(error: InferenceError) -> Self {
+        Self::Inference(Box::new(error))
     }
 }
 

@@ -40,6 +40,7 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Analyze(args) => command::analyze::run(args),
         Command::Explore(args) => command::explore::run(args),
         Command::Fit(args) => command::fit::run(args),
+        Command::Infer(args) => command::infer::run(args),
         Command::Stress(args) => command::stress::run(args),
         Command::Bench(args) => command::bench::run(args),
         Command::Presets(args) => command::presets::run(args),

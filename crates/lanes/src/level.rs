@@ -46,7 +46,9 @@ impl Level {
         let mut levels = vec![Self::PORTABLE];
         #[cfg(target_arch = "x86_64")]
         {
-            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2");
+            let avx2 = is_x86_feature_detected!("avx2")
+                && is_x86_feature_detected!("bmi2")
+                && is_x86_feature_detected!("fma");
             let avx512 = is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512bw")
                 && is_x86_feature_detected!("avx512dq")
@@ -73,6 +75,18 @@ impl Level {
         }
     }
 
+    /// Bits of a vector register.
+    #[must_use]
+    pub fn register_bits(self) -> usize {
+        match self.0 {
+            Set::Portable => 128,
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 => 256,
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx512 => 512,
+        }
+    }
+
     /// Runs a task with these instructions.
     pub fn run(self, task: impl Task) {
         match self.0 {
@@ -89,13 +103,13 @@ impl Level {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,bmi2")]
+#[target_feature(enable = "avx2,bmi2,fma")]
 fn run_avx2(task: impl Task) {
     task.run();
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,bmi2,avx512f,avx512bw,avx512dq,avx512vl")]
+#[target_feature(enable = "avx2,bmi2,fma,avx512f,avx512bw,avx512dq,avx512vl")]
 fn run_avx512(task: impl Task) {
     task.run();
 }

@@ -12,6 +12,7 @@ pub(crate) mod explain;
 pub(crate) mod explore;
 pub(crate) mod fit;
 pub(crate) mod generate;
+pub(crate) mod infer;
 pub(crate) mod presets;
 pub(crate) mod simulate;
 pub(crate) mod stress;

@@ -12,7 +12,7 @@ use foveate_toolchain::testing::require_tools;
 
 /// Not run here: they take minutes, each is the subject of other tests, and `examples` in the sources
 /// sees that they are taken.
-const LONG: [&str; 11] = [
+const LONG: [&str; 12] = [
     "foveate cosim",
     "foveate estimate",
     "foveate bench",
@@ -22,6 +22,8 @@ const LONG: [&str; 11] = [
     "foveate explore space.toml",
     "foveate explore designs",
     "foveate fit",
+    // A network that is not shipped.
+    "foveate infer resnet50.onnx",
     // Events of a real sensor, and a folder of the system.
     "foveate analyze sensor",
     "foveate completions bash > /etc/",
@@ -58,6 +60,8 @@ fn furnish(folder: &Path) {
     fs::copy(folder.join("core/design.toml"), folder.join("camera.toml")).unwrap();
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let idx: Vec<u8> = header.into_iter().chain((0..512_u32).map(|p| p.to_le_bytes()[0])).collect();
+    let denoiser = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/denoiser.onnx");
+    fs::copy(denoiser, folder.join("denoiser.onnx")).unwrap();
     // The reader goes by the content, not by the name.
     fs::write(folder.join("train-images-idx3-ubyte.gz"), idx).unwrap();
     for batch in ["data_batch_1.bin", "data_batch_2.bin"] {

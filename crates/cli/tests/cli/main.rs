@@ -14,6 +14,7 @@ mod force;
 mod full_disk;
 mod hardware;
 mod help;
+mod infer;
 mod inputs;
 mod outputs;
 mod progress;

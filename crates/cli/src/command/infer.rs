@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate infer`: a network behind the camera, and what the camera's masks save it.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use foveate_footage::{ImagesAs, open};
+use foveate_inference::{Hooks, Inference, Options, Progress, Summary};
+
+use crate::args::{InferArgs, warn_of};
+use crate::error::CliError;
+use crate::progress::Progress as Shown;
+use crate::{interrupt, output};
+
+pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
+    let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
+    warn_of(&args.inputs, &input);
+    let source = open(&args.inputs, &config, &input)?;
+    let inference = Inference::new(&config, &args.network, source)?;
+    let options = Options {
+        mode: args.mode,
+        mapping: args.mapping(),
+        reference: args.has_reference(),
+        overwrite: args.force,
+    };
+    let mut hooks = Terminal { shown: Shown::new(args.quiet), interrupted: interrupt::flag()? };
+    let summary = inference.run(&args.output, &options, &mut hooks);
+    hooks.shown.finish();
+    let summary = summary?;
+    match (args.json, args.quiet) {
+        (true, _) => output::json(&summary)?,
+        (false, false) => output::text(&text(&args.output, &summary))?,
+        (false, true) => {}
+    }
+    let Some(problem) = summary.problem else { return Ok(()) };
+    if hooks.interrupted.load(Ordering::Relaxed) {
+        return Err(CliError::Interrupted { path: args.output.clone() });
+    }
+    Err(CliError::Failed(format!("`{}` is not complete: {problem}", args.output.display())))
+}
+
+/// Draws progress and listens for Ctrl-C.
+struct Terminal {
+    shown: Shown,
+    interrupted: Arc<AtomicBool>,
+}
+
+impl Hooks for Terminal {
+    fn progress(&mut self, progress: Progress) {
+        self.shown.frames(progress.done, progress.total, "");
+    }
+
+    fn cancelled(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+}
+
+fn text(folder: &Path, summary: &Summary) -> String {
+    let mut text = format!(
+        "{}: {} frames of {} x {} pixels, mode {}\n",
+        folder.display(),
+        summary.frames,
+        summary.width,
+        summary.height,
+        summary.mode
+    );
+    if summary.counted_frames == 0 {
+        text.push_str("the only frame was computed whole; savings begin with a second one\n");
+        return text;
+    }
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let of_dense =
+        |macs: f64| if summary.macs.dense == 0.0 { 0.0 } else { macs / summary.macs.dense };
+    let _ = writeln!(
+        text,
+        "regions    active {}, changed {}",
+        percent(summary.active_share),
+        percent(summary.changed_share)
+    );
+    let _ = writeln!(
+        text,
+        "MACs       {:.1} M per frame; needed {}, computed {}",
+        summary.macs.dense / 1e6,
+        percent(of_dense(summary.macs.needed)),
+        percent(of_dense(summary.macs.scheduled))
+    );
+    let megabytes = |bytes: u64| {
+        #[allow(clippy::cast_precision_loss, reason = "shown with one decimal")]
+        let bytes = bytes as f64;
+        format!("{:.1} MB", bytes / 1e6)
+    };
+    let _ = writeln!(
+        text,
+        "memory     weights {}, kept tensors {}, masks {}",
+        megabytes(summary.weight_bytes),
+        megabytes(summary.kept_bytes),
+        megabytes(summary.mask_bytes)
+    );
+    let _ = write!(text, "time       {:.2} ms per frame", 1e3 * summary.seconds_per_frame);
+    if let Some(error) = &summary.error {
+        let _ = writeln!(text, ", whole {:.2} ms", 1e3 * error.dense_seconds_per_frame);
+        let _ = writeln!(
+            text,
+            "outputs    relative RMS error {:.2e}, largest error {:.2e}, same largest value in {} of frames",
+            error.relative_rms,
+            error.largest,
+            percent(error.agreement)
+        );
+        let _ = writeln!(
+            text,
+            "frames     {} of {} differ from a whole computation in some bit of some tensor",
+            error.different_frames, summary.frames
+        );
+    } else {
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! infer, end to end, with the network that is shipped.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{fail_in, files_below, succeed_in};
+use serde_json::Value;
+
+const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
+
+fn summary(folder: &Path, more: &[&str]) -> Value {
+    let args =
+        ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "5", "--json", "--force"];
+    serde_json::from_str(&succeed_in(folder, &[&args[..], more].concat())).unwrap()
+}
+
+#[test]
+fn exact_modes_are_exact_and_save_most_of_the_work() {
+    let dir = tempfile::tempdir().unwrap();
+    for mode in ["exact", "compare"] {
+        let found = summary(dir.path(), &["--mode", mode, "--reference"]);
+        assert_eq!((&found["frames"], &found["counted_frames"]), (&5.into(), &4.into()));
+        assert_eq!(
+            (&found["error"]["different_frames"], &found["error"]["relative_rms"]),
+            (&0.into(), &0.0.into())
+        );
+        // Four layers of 3x3, of 1, 12, 12 and 12 channels.
+        let dense = 224.0 * 224.0 * 9.0 * (12.0 + 144.0 + 144.0 + 12.0);
+        assert_eq!(found["macs"]["dense"], dense);
+        let needed = found["macs"]["needed"].as_f64().unwrap() / dense;
+        assert!(0.0 < needed && needed < 0.2, "{needed}");
+        assert!(found["changed_share"].as_f64().unwrap() < needed, "a change spreads");
+    }
+    let names: Vec<_> =
+        files_below(dir.path()).into_iter().map(|(name, _)| name.display().to_string()).collect();
+    for name in ["frames.csv", "frames.parquet", "inference.json", "layers.csv", "layers.parquet"] {
+        assert!(names.iter().any(|found| found.ends_with(name)), "{name} in {names:?}");
+    }
+    let layers = fs::read_to_string(dir.path().join("out/layers.csv")).unwrap();
+    assert!(
+        layers.lines().nth(1).unwrap().contains(",Conv+Relu,1x12x224x224,5419008,"),
+        "{layers}"
+    );
+    assert_eq!(fs::read_to_string(dir.path().join("out/frames.csv")).unwrap().lines().count(), 6);
+}
+
+#[test]
+fn approximate_modes_say_how_wrong_they_are() {
+    let dir = tempfile::tempdir().unwrap();
+    let exact = summary(dir.path(), &[]);
+    assert_eq!(exact["error"], Value::Null);
+    let needed = |found: &Value| found["macs"]["needed"].as_f64().unwrap();
+    for mode in ["truncate=0.05", "fixed"] {
+        let found = summary(dir.path(), &["--mode", mode]);
+        assert_eq!(found["mode"], mode);
+        assert!(needed(&found) < needed(&exact), "{mode}");
+        let error = found["error"]["relative_rms"].as_f64().unwrap();
+        assert!(0.0 < error && error < 0.2, "{mode}: {error}");
+    }
+    let dense = summary(dir.path(), &["--mode", "dense"]);
+    assert_eq!(dense["macs"]["needed"], dense["macs"]["dense"]);
+}
+
+#[test]
+fn images_of_a_set_begin_with_black() {
+    let dir = tempfile::tempdir().unwrap();
+    // Two images of 16x16 pixels, the second black.
+    let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
+    let pixels = (0..512u32).map(|at| if at < 256 { (at * 37 % 256).to_le_bytes()[0] } else { 0 });
+    fs::write(
+        dir.path().join("train-images"),
+        header.into_iter().chain(pixels).collect::<Vec<u8>>(),
+    )
+    .unwrap();
+    let args = ["infer", DENOISER, "train-images", "-o", "out", "--reference"];
+    let text = succeed_in(dir.path(), &args);
+    assert!(text.contains("0 of 2 differ"), "{text}");
+    let frames = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
+    let needed: Vec<f64> = frames
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(6).unwrap().parse().unwrap())
+        .collect();
+    assert!(needed[0] > 0.0 && needed[1] == 0.0, "{frames}");
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_what_would() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("text.onnx"), "no network").unwrap();
+    let infer = |network: &str, more: &[&str], parts: &[&str]| {
+        let args = ["infer", network, "scene:zero", "-o", "out", "--max-frames", "2"];
+        fail_in(dir.path(), 2, &[&args[..], more].concat(), parts);
+    };
+    infer("text.onnx", &[], &["`text.onnx` is not an ONNX model"]);
+    infer("none.onnx", &[], &["cannot read `none.onnx`"]);
+    infer(DENOISER, &["--mean", "0.1,0.2"], &["--mean has 2 values", "1 channels"]);
+    fs::create_dir(dir.path().join("out")).unwrap();
+    fs::write(dir.path().join("out/mine"), "mine").unwrap();
+    infer(DENOISER, &["--force"], &["out"]);
+    assert_eq!(fs::read_to_string(dir.path().join("out/mine")).unwrap(), "mine");
+}
+
+#[test]
+fn quiet_is_quiet() {
+    let dir = tempfile::tempdir().unwrap();
+    let args = ["infer", DENOISER, "scene:zero", "-o", "out", "--max-frames", "1"];
+    assert_eq!(succeed_in(dir.path(), &[&args[..], &["--quiet"]].concat()), "");
+    let text = succeed_in(dir.path(), &[&args[..], &["--force"]].concat());
+    assert!(text.contains("the only frame was computed whole"), "{text}");
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs a network on what a region-based event camera sends, and counts what the camera saves it.
+//!
+//! The network sees the rendered frames, as the receiver has them. A region whose rendered pixels are those of the frame before has not changed, so
+//! everything that depends on such regions alone need not be computed again. An [`Inference`] runs a camera and a network over a clip or a set,
+//! and writes how much was needed, layer by layer and frame by frame.
+
+mod error;
+mod inference;
+mod picture;
+mod summary;
+mod tally;
+
+pub use error::InferenceError;
+pub use inference::{Hooks, Inference, Options, Progress};
+pub use picture::Mapping;
+pub use summary::{Error, Layer, Macs, Summary};

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a run says at its end, and its tables.
+
+use crate::Mapping;
+use crate::tally::{Distance, Positions, Reference};
+use foveate_network::{Mode, Network};
+use foveate_tables::{Cell, Cells, Table};
+use serde::Serialize;
+
+/// A run of a network behind a camera. All shares and means are over the counted frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    pub format_version: u32,
+    /// The program.
+    pub foveate_version: &'static str,
+    /// Whether the inputs were read to their end.
+    pub complete: bool,
+    /// Why not.
+    pub problem: Option<String>,
+    /// The inputs as they were named.
+    pub inputs: Vec<String>,
+    /// The network's file.
+    pub network: String,
+    /// What was computed: `dense`, `exact`, `compare`, `truncate=0.1` or `fixed`.
+    pub mode: String,
+    /// How pixels became inputs.
+    pub mapping: Mapping,
+    /// Width of the frames.
+    pub width: u32,
+    /// Height of the frames.
+    pub height: u32,
+    /// Frames that were seen.
+    pub frames: u64,
+    /// Frames that are counted: all of a set, of a clip all but the first, which is computed whole.
+    pub counted_frames: u64,
+    /// Share of regions that were active.
+    pub active_share: f64,
+    /// Share of regions whose rendered pixels changed.
+    pub changed_share: f64,
+    /// Multiplications and additions of a frame, as means.
+    pub macs: Macs,
+    /// Bytes of all weights.
+    pub weight_bytes: u64,
+    /// Bytes of all tensors, which are kept from frame to frame.
+    pub kept_bytes: u64,
+    /// Bytes of the masks of all tensors, a bit per position.
+    pub mask_bytes: u64,
+    /// Mean time of a frame in this run in seconds.
+    pub seconds_per_frame: f64,
+    /// How far the outputs are from those of a whole computation, if one ran beside.
+    pub error: Option<Error>,
+    /// Every layer.
+    pub layers: Vec<Layer>,
+}
+
+/// Multiplications and additions per frame.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Macs {
+    /// Of a whole computation.
+    pub dense: f64,
+    /// Of the positions whose windows hold a change.
+    pub needed: f64,
+    /// Of the positions that were computed.
+    pub scheduled: f64,
+}
+
+/// A comparison with a whole computation.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Error {
+    /// Frames with a tensor in which a value has other bits.
+    pub different_frames: u64,
+    /// Share of frames in which every output has its largest value at the same place.
+    pub agreement: f64,
+    /// The largest difference of an output.
+    pub largest: f64,
+    /// Root of the mean squared difference of the outputs, as a share of that of their values.
+    pub relative_rms: f64,
+    /// Mean time of a whole computation in this run in seconds.
+    pub dense_seconds_per_frame: f64,
+}
+
+/// What one node did.
+#[derive(Clone, Debug, Serialize)]
+pub struct Layer {
+    /// Its name in the model.
+    pub name: String,
+    /// Its operator.
+    pub operator: String,
+    /// Shape of its output.
+    pub shape: Vec<usize>,
+    /// Multiplications and additions for a whole frame.
+    pub macs: u64,
+    /// Share of the positions whose windows hold a change.
+    pub needed_share: f64,
+    /// Share of the positions that were computed; above 1 where whole blocks cover more than there is.
+    pub scheduled_share: f64,
+    /// Share of the positions that were passed on as changed.
+    pub changed_share: f64,
+    /// Bytes of its weights.
+    pub weight_bytes: u64,
+    /// Bytes of its output.
+    pub output_bytes: u64,
+    /// Root of the mean squared difference from a whole computation, as a share of that of its values.
+    pub relative_rms: Option<f64>,
+}
+
+/// What a mode is called on the command line.
+pub(crate) fn mode_name(mode: Mode) -> String {
+    match mode {
+        Mode::Dense => "dense".to_owned(),
+        Mode::Exact => "exact".to_owned(),
+        Mode::Compare => "compare".to_owned(),
+        Mode::Truncate(limit) => format!("truncate={limit}"),
+        Mode::Fixed => "fixed".to_owned(),
+    }
+}
+
+/// The layers from their sums.
+pub(crate) fn layers(
+    network: &Network,
+    sums: &[Positions],
+    reference: Option<&Reference<'_>>,
+) -> Vec<Layer> {
+    let layer = |(node, sums): (usize, &Positions)| {
+        let (place, form) = (&network.nodes()[node], network.form(node + 1));
+        let share = |count: u64| ratio(count, sums.all);
+        Layer {
+            name: place.name().to_owned(),
+            operator: place.kind().to_owned(),
+            shape: form.shape().to_vec(),
+            macs: network.macs(node),
+            needed_share: share(sums.needed),
+            scheduled_share: share(sums.scheduled),
+            changed_share: share(sums.changed),
+            weight_bytes: place.weight_bytes(),
+            output_bytes: 4 * form.elements() as u64,
+            relative_rms: reference.map(|reference| reference.layers[node].relative()),
+        }
+    };
+    sums.iter().enumerate().map(layer).collect()
+}
+
+/// The sums of all layers.
+pub(crate) fn macs(layers: &[Layer]) -> Macs {
+    #[allow(clippy::cast_precision_loss, reason = "a mean")]
+    let sum = |share: fn(&Layer) -> f64| {
+        layers.iter().map(|layer| layer.macs as f64 * share(layer)).sum()
+    };
+    Macs {
+        dense: sum(|_| 1.0),
+        needed: sum(|layer| layer.needed_share),
+        scheduled: sum(|layer| layer.scheduled_share),
+    }
+}
+
+/// The comparison of the outputs.
+pub(crate) fn error(reference: &Reference<'_>, outputs: &Distance) -> Error {
+    #[allow(clippy::cast_precision_loss, reason = "a mean")]
+    let frames = reference.frames.max(1) as f64;
+    Error {
+        different_frames: reference.different,
+        agreement: ratio(reference.agreeing, reference.frames),
+        largest: outputs.largest,
+        relative_rms: outputs.relative(),
+        dense_seconds_per_frame: reference.seconds / frames,
+    }
+}
+
+/// A share; 0 of nothing.
+#[allow(clippy::cast_precision_loss, reason = "a share")]
+pub(crate) fn ratio(part: u64, all: u64) -> f64 {
+    if all == 0 { 0.0 } else { part as f64 / all as f64 }
+}
+
+impl Summary {
+    /// A row per layer.
+    pub(crate) fn layer_table(&self) -> Table {
+        let row = |(number, layer): (usize, &Layer)| -> Cells {
+            let shape = layer.shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
+            let real = |value: f64| Cell::Real(Some(value));
+            let count = |value: u64| Cell::Count(Some(value));
+            [
+                ("layer", count(number as u64)),
+                ("name", Cell::Text(layer.name.clone())),
+                ("operator", Cell::Text(layer.operator.clone())),
+                ("shape", Cell::Text(shape)),
+                ("macs", count(layer.macs)),
+                ("needed_share", real(layer.needed_share)),
+                ("scheduled_share", real(layer.scheduled_share)),
+                ("changed_share", real(layer.changed_share)),
+                ("weight_bytes", count(layer.weight_bytes)),
+                ("output_bytes", count(layer.output_bytes)),
+                ("relative_rms", Cell::Real(layer.relative_rms)),
+            ]
+            .map(|(name, cell)| (name.to_owned(), cell))
+            .into()
+        };
+        Table::of(self.layers.iter().enumerate().map(row))
+    }
+}

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs a network frame by frame, and computes again only what may have changed.
+
+use crate::mask::Mask;
+use crate::network::Network;
+use crate::operator::{Job, everything};
+use crate::tensor::{Tensor, for_each_run};
+use foveate_lanes::Level;
+
+/// What is computed for a frame after the first. The first is always computed whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mode {
+    /// Everything.
+    Dense,
+    /// Every output whose window holds an input that may have changed. Equal to [`Mode::Dense`] bit for bit.
+    Exact,
+    /// The same, but an output that came out equal has not changed. Equal to [`Mode::Dense`] bit for bit.
+    Compare,
+    /// A position of which no value differs by more than this from the value that was last passed on keeps that value.
+    Truncate(f32),
+    /// In every tensor only the positions that lie under a changed part of the picture. Wrong at its borders.
+    Fixed,
+}
+
+/// What a node did for a frame, in positions of its output.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Positions whose windows hold a change.
+    pub needed: usize,
+    /// Positions that were computed.
+    pub scheduled: usize,
+    /// Positions that were passed on as changed.
+    pub changed: usize,
+}
+
+/// A network with all tensors of the frame that it has seen last.
+#[derive(Clone, Debug)]
+pub struct Executor<'a> {
+    network: &'a Network,
+    mode: Mode,
+    level: Level,
+    /// All values, as they were passed on.
+    kept: Vec<Tensor>,
+    /// What has changed of each.
+    masks: Vec<Mask>,
+    work: Vec<Work>,
+    /// Where a node computes whose output is compared.
+    fresh: Vec<f32>,
+    has_begun: bool,
+}
+
+impl<'a> Executor<'a> {
+    /// An executor that has seen no frame.
+    #[must_use]
+    pub fn new(network: &'a Network, mode: Mode) -> Self {
+        let forms = || (0..=network.nodes().len()).map(|value| network.form(value));
+        Self {
+            network,
+            mode,
+            level: Level::detect(),
+            kept: forms().map(|form| Tensor::zeros(form.clone())).collect(),
+            masks: forms().map(|form| Mask::empty(form.height(), form.width())).collect(),
+            work: vec![Work::default(); network.nodes().len()],
+            fresh: Vec::new(),
+            has_begun: false,
+        }
+    }
+
+    /// Runs the network on the next picture, which differs from the one before at most at the positions `changed`. Returns what every node
+    /// did.
+    ///
+    /// # Panics
+    /// If picture or mask have not the size of the network's input.
+    pub fn step(&mut self, picture: &[f32], changed: &Mask) -> &[Work] {
+        let input = self.network.input();
+        assert_eq!(picture.len(), input.elements(), "a picture has as many values as the input");
+        assert_eq!(
+            (changed.height(), changed.width()),
+            (input.height(), input.width()),
+            "a bit per position"
+        );
+        if self.has_begun && self.mode != Mode::Dense {
+            self.masks[0].clone_from(changed);
+        } else {
+            self.masks[0].fill();
+        }
+        self.accept(picture);
+        for node in 0..self.work.len() {
+            self.run(node, changed);
+        }
+        self.has_begun = true;
+        &self.work
+    }
+
+    /// A value as it was passed on.
+    #[must_use]
+    pub fn value(&self, value: usize) -> &Tensor {
+        &self.kept[value]
+    }
+
+    /// What has changed of a value.
+    #[must_use]
+    pub fn mask(&self, value: usize) -> &Mask {
+        &self.masks[value]
+    }
+
+    /// Takes over the picture.
+    fn accept(&mut self, picture: &[f32]) {
+        let form = self.network.input().clone();
+        let mut fresh = std::mem::take(&mut self.fresh);
+        fresh.clear();
+        fresh.extend_from_slice(picture);
+        let fresh = Tensor::new(form, fresh);
+        if matches!(self.mode, Mode::Compare | Mode::Truncate(_)) && self.has_begun {
+            self.masks[0] = moved(&self.kept[0], &fresh, &self.masks[0], 0.0);
+        }
+        copy(&fresh, &mut self.kept[0], &self.masks[0]);
+        self.fresh = fresh.into_values();
+    }
+
+    fn run(&mut self, node: usize, camera: &Mask) {
+        let place = &self.network.nodes()[node];
+        let form = self.network.form(node + 1);
+        let sources: Vec<_> = place
+            .inputs()
+            .iter()
+            .map(|&value| (self.network.form(value), &self.masks[value]))
+            .collect();
+        let at = match self.mode {
+            _ if !self.has_begun => Mask::full(form.height(), form.width()),
+            Mode::Dense => Mask::full(form.height(), form.width()),
+            Mode::Fixed if form.has_positions() => under(camera, form.height(), form.width()),
+            Mode::Fixed => everything(&[(self.network.input(), camera)], form),
+            Mode::Exact | Mode::Compare | Mode::Truncate(_) => {
+                place.operator.spread(&sources, form)
+            }
+        };
+        let (before, rest) = self.kept.split_at_mut(node + 1);
+        let inputs: Vec<&Tensor> = place.inputs().iter().map(|&value| &before[value]).collect();
+        let kept = &mut rest[0];
+        let (needed, scheduled) = (at.count(), place.operator.scheduled(&at));
+        let compute = |output: &mut Tensor| {
+            if !at.is_empty() {
+                place.operator.compute(Job { inputs: &inputs, output, at: &at, level: self.level });
+            }
+        };
+        let changed = match self.mode {
+            // What is computed beside the positions that are wanted is what stands there.
+            Mode::Dense | Mode::Exact => {
+                compute(kept);
+                at
+            }
+            _ if !self.has_begun => {
+                compute(kept);
+                at
+            }
+            mode => {
+                let mut values = std::mem::take(&mut self.fresh);
+                values.resize(form.elements(), 0.0);
+                let mut fresh = Tensor::new(form.clone(), values);
+                compute(&mut fresh);
+                let changed = match mode {
+                    Mode::Truncate(limit) => moved(kept, &fresh, &at, limit),
+                    Mode::Compare => moved(kept, &fresh, &at, 0.0),
+                    _ => at,
+                };
+                copy(&fresh, kept, &changed);
+                self.fresh = fresh.into_values();
+                changed
+            }
+        };
+        self.work[node] = Work { needed, scheduled, changed: changed.count() };
+        self.masks[node + 1] = changed;
+    }
+}
+
+/// The positions of `at` of which a value differs by more than `limit`; with a limit of 0, in any bit.
+fn moved(kept: &Tensor, fresh: &Tensor, at: &Mask, limit: f32) -> Mask {
+    let form = kept.form();
+    let (inner, places, width) = (form.inner(), form.places(), form.width());
+    let mut moved = Mask::empty(form.height(), width);
+    for_each_run(form, at, |run| {
+        let start = run.start;
+        let pairs = kept.values()[run.clone()].iter().zip(&fresh.values()[run]);
+        for (index, (kept, fresh)) in (start..).zip(pairs) {
+            // What is no number is neither more nor less.
+            let is_near =
+                kept.to_bits() == fresh.to_bits() || (limit > 0.0 && (kept - fresh).abs() <= limit);
+            if !is_near {
+                let place = index / inner % places;
+                moved.insert(place % width, place / width);
+            }
+        }
+    });
+    moved
+}
+
+/// Copies the values of some positions.
+fn copy(from: &Tensor, to: &mut Tensor, at: &Mask) {
+    let form = from.form();
+    for_each_run(form, at, |run| to.values_mut()[run.clone()].copy_from_slice(&from.values()[run]));
+}
+
+/// The positions of a smaller or larger tensor that lie under the positions of a mask.
+fn under(mask: &Mask, height: usize, width: usize) -> Mask {
+    let range = |outputs: usize, inputs: usize| -> Vec<(usize, usize)> {
+        let first = |at: usize| (at * inputs / outputs).min(inputs - 1);
+        (0..outputs)
+            .map(|at| (first(at), ((at + 1) * inputs).div_ceil(outputs).max(first(at) + 1) - 1))
+            .collect()
+    };
+    mask.between(&range(height, mask.height()), &range(width, mask.width()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::form::Form;
+    use crate::mask::Window;
+    use crate::operator::{Activation, Arithmetic, Binary, Conv, Operator, Pointwise};
+    use std::sync::Arc;
+
+    /// What may be wrong with how a change spreads.
+    #[derive(Clone, Copy, Debug)]
+    enum Fault {
+        None,
+        /// The padding is one less than it is.
+        Padding,
+        /// The outputs begin one input later.
+        Phase,
+        /// Only the first of several inputs counts.
+        MissedUnion,
+        /// The last tap of the window is missing.
+        Kernel,
+    }
+
+    /// An operator with a fault in its spread alone.
+    #[derive(Debug)]
+    struct Faulty {
+        operator: Arc<dyn Operator>,
+        window: Window,
+        fault: Fault,
+    }
+
+    impl Operator for Faulty {
+        fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+            self.operator.form(inputs)
+        }
+
+        fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+            let window = self.window;
+            let wrong = match self.fault {
+                Fault::None => return self.operator.spread(inputs, output),
+                Fault::MissedUnion => return self.operator.spread(&inputs[..1], output),
+                Fault::Padding => Window { before: window.before - 1, ..window },
+                Fault::Phase => Window { before: window.before + 1, ..window },
+                Fault::Kernel => Window { kernel: window.kernel - 1, ..window },
+            };
+            inputs[0].1.through(wrong, wrong, output.height(), output.width())
+        }
+
+        fn compute(&self, job: Job<'_>) {
+            self.operator.compute(job);
+        }
+    }
+
+    /// A convolution with stride 2 and the sum of two branches, of which one operator has a fault.
+    fn network(in_convolution: Fault, in_sum: Fault) -> Network {
+        let window = Window { kernel: 3, stride: 2, dilation: 1, before: 1, after: 1 };
+        let weights: Vec<f32> = (1..=27u8).map(|weight| f32::from(weight) / 27.0).collect();
+        let level = Level::detect();
+        let conv = Conv::new(&[3, 1, 3, 3], &weights, None, window, window, 1, level).unwrap();
+        let mut network = Network::new(Form::features(vec![1, 1, 24, 24])).unwrap();
+        let faulty = |operator, fault| Arc::new(Faulty { operator, window, fault });
+        let first =
+            network.push("a", "Conv", faulty(Arc::new(conv), in_convolution), vec![0]).unwrap();
+        let minus = Arc::new(Pointwise(Activation::Abs));
+        let second = network.push("b", "Abs", minus, vec![first]).unwrap();
+        // The second input of the sum comes from a branch of its own.
+        let pool = Conv::new(&[3, 1, 3, 3], &weights, None, window, window, 1, level).unwrap();
+        let third = network.push("c", "Conv", Arc::new(pool), vec![0]).unwrap();
+        let half = Binary {
+            kind: Arithmetic::Mul,
+            constant: Some((Tensor::new(Form::whole(vec![]), vec![0.0]), false)),
+        };
+        let none = network.push("d", "Mul", Arc::new(half), vec![second]).unwrap();
+        let sum = Arc::new(Binary { kind: Arithmetic::Add, constant: None });
+        network.push("e", "Add", faulty(sum, in_sum), vec![none, third]).unwrap();
+        network
+    }
+
+    /// Whether a single changed pixel, wherever it is, leaves all tensors as a whole computation has them.
+    fn is_exact(network: &Network) -> bool {
+        (0..24).all(|at| {
+            let mut picture = vec![0.5; 24 * 24];
+            let (mut dense, mut exact) =
+                (Executor::new(network, Mode::Dense), Executor::new(network, Mode::Compare));
+            dense.step(&picture, &Mask::full(24, 24));
+            exact.step(&picture, &Mask::full(24, 24));
+            picture[at * 25] = 0.75;
+            let changed = Mask::from_fn(24, 24, |x, y| (x, y) == (at, at));
+            dense.step(&picture, &changed);
+            exact.step(&picture, &changed);
+            (0..=network.nodes().len())
+                .all(|value| dense.value(value).differences(exact.value(value)).is_empty())
+        })
+    }
+
+    #[test]
+    fn planted_faults_are_caught() {
+        assert!(is_exact(&network(Fault::None, Fault::None)));
+        for fault in [Fault::Padding, Fault::Phase, Fault::Kernel] {
+            assert!(!is_exact(&network(fault, Fault::None)), "{fault:?}");
+        }
+        assert!(!is_exact(&network(Fault::None, Fault::MissedUnion)));
+    }
+}

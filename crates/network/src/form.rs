@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The shape of a tensor, and which of its axes are positions in the picture.
+
+use std::ops::Range;
+
+/// A shape, of which some axes are the rows and columns of the picture.
+///
+/// In memory a tensor is `outer` x `height` x `width` x `inner` values, row by row. The features of a convolution have their channels
+/// outside; after a transposition to NHWC they are inside. A tensor without positions, such as the logits of a classifier, has one position
+/// that stands for everything.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Form {
+    shape: Vec<usize>,
+    positions: Range<usize>,
+}
+
+impl Form {
+    /// Features `[1, channels, height, width]`, or any other shape with two axes after the first two.
+    #[must_use]
+    pub fn features(shape: Vec<usize>) -> Self {
+        if shape.len() == 4 { Self { shape, positions: 2..4 } } else { Self::whole(shape) }
+    }
+
+    /// A tensor without positions.
+    #[must_use]
+    pub fn whole(shape: Vec<usize>) -> Self {
+        Self { shape, positions: 0..0 }
+    }
+
+    /// A shape with these axes, one or two, as positions.
+    pub(crate) fn at(shape: Vec<usize>, positions: Range<usize>) -> Self {
+        debug_assert!(positions.len() <= 2 && positions.end <= shape.len());
+        Self { shape, positions }
+    }
+
+    /// The length of every axis.
+    #[must_use]
+    pub fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+
+    /// Values in all.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        self.shape.iter().product()
+    }
+
+    /// The axes that are positions.
+    pub(crate) fn axes(&self) -> Range<usize> {
+        self.positions.clone()
+    }
+
+    /// Whether it has positions at all.
+    pub(crate) fn has_positions(&self) -> bool {
+        !self.positions.is_empty()
+    }
+
+    /// Rows of positions.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        if self.positions.len() == 2 { self.shape[self.positions.start] } else { 1 }
+    }
+
+    /// Positions of a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        if self.has_positions() { self.shape[self.positions.end - 1] } else { 1 }
+    }
+
+    /// Positions in all.
+    #[must_use]
+    pub fn places(&self) -> usize {
+        self.height() * self.width()
+    }
+
+    /// Values outside the positions: how often all positions come one after the other.
+    pub(crate) fn outer(&self) -> usize {
+        if self.has_positions() { self.shape[..self.positions.start].iter().product() } else { 1 }
+    }
+
+    /// Values inside a position, one after the other.
+    pub(crate) fn inner(&self) -> usize {
+        let from = if self.has_positions() { self.positions.end } else { 0 };
+        self.shape[from..].iter().product()
+    }
+
+    /// The shape as messages show it.
+    pub(crate) fn describe(&self) -> String {
+        let sizes: Vec<String> = self.shape.iter().map(ToString::to_string).collect();
+        format!("[{}]", sizes.join(", "))
+    }
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How many channels and positions the inner loop takes at once: as many sums as fit into the registers.
+
+use foveate_lanes::Level;
+use std::ops::Range;
+
+/// The sizes of the inner loop's blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Blocking {
+    /// Positions of a panel: two registers of them.
+    pub(crate) lanes: usize,
+    /// Channels that a block may have, with the time that it takes: that of so many tenths of a channel in the best block, as measured.
+    sizes: &'static [(usize, usize)],
+}
+
+impl Blocking {
+    pub(crate) const BITS_128: Self = Self { lanes: 8, sizes: &[(4, 40)] };
+    pub(crate) const BITS_256: Self = Self { lanes: 16, sizes: &[(6, 60), (4, 46)] };
+    pub(crate) const BITS_512: Self =
+        Self { lanes: 32, sizes: &[(12, 120), (10, 103), (6, 62), (4, 50)] };
+
+    pub(crate) fn of(level: Level) -> Self {
+        match level.register_bits() {
+            512 => Self::BITS_512,
+            256 => Self::BITS_256,
+            _ => Self::BITS_128,
+        }
+    }
+
+    /// The fastest blocks for so many channels. The last may have more channels than are left.
+    pub(crate) fn blocks(self, channels: usize) -> Vec<Range<usize>> {
+        // The time for each number of channels, and the block that it begins with.
+        let mut best = vec![(0, 0)];
+        for left in 1..=channels {
+            let time =
+                |&(size, time): &(usize, usize)| (best[left.saturating_sub(size)].0 + time, size);
+            best.push(self.sizes.iter().map(time).min().expect("there are sizes"));
+        }
+        let mut blocks = Vec::new();
+        let mut first = 0;
+        while first < channels {
+            let size = best[channels - first].1;
+            blocks.push(first..first + size);
+            first += size;
+        }
+        blocks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_cover_all_channels() {
+        for blocking in [Blocking::BITS_128, Blocking::BITS_256, Blocking::BITS_512] {
+            for channels in 1..300 {
+                let blocks = blocking.blocks(channels);
+                assert!(blocks.windows(2).all(|pair| pair[0].end == pair[1].start));
+                let end = blocks.last().unwrap().end;
+                assert!(
+                    blocks[0].start == 0 && (channels..channels + 4).contains(&end),
+                    "{channels}: {blocks:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn usual_numbers_of_channels_need_no_padding() {
+        let sizes = |channels| {
+            Blocking::BITS_512
+                .blocks(channels)
+                .into_iter()
+                .map(|block| block.len())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(sizes(24), [12, 12]);
+        for channels in [16, 32, 64, 96, 128, 256, 512] {
+            assert_eq!(sizes(channels).iter().sum::<usize>(), channels);
+        }
+    }
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The inner loops of convolutions. Every output is summed in one fixed order, whoever computes it and whatever is computed beside it, so
+//! that a part of a tensor has the same bits as in the whole.
+
+mod blocking;
+mod depthwise;
+mod gather;
+mod micro;
+mod panels;
+mod weights;
+
+pub(crate) use blocking::Blocking;
+pub(crate) use depthwise::Depthwise;
+pub(crate) use gather::{CHUNK, Chunk, Picture, chunks};
+pub(crate) use panels::{Outputs, convolve, scheduled};
+pub(crate) use weights::Weights;

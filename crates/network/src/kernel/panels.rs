@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Convolution at any set of positions: their inputs are gathered into panels, which are multiplied with the weights.
+
+use super::blocking::Blocking;
+use super::gather::{CHUNK, Chunk, Picture};
+use super::micro::multiply;
+use super::weights::Weights;
+use foveate_lanes::{Level, Task};
+use std::ops::Range;
+
+/// Inputs that are multiplied before the next are gathered: a panel of them stays in the nearest cache.
+const DEPTH: usize = 384;
+/// Panels that share a pass over the weights.
+const GROUP: usize = 3;
+
+/// Positions that are computed for so many chunks: whole panels.
+pub(crate) fn scheduled(chunks: usize, blocking: Blocking) -> usize {
+    (chunks * CHUNK).next_multiple_of(blocking.lanes)
+}
+
+/// Some channels of the outputs.
+pub(crate) struct Outputs<'a> {
+    /// Channel by channel, each of `places` positions in rows of `width`.
+    pub(crate) values: &'a mut [f32],
+    /// The blocks of these channels.
+    pub(crate) blocks: &'a [Range<usize>],
+    pub(crate) places: usize,
+    pub(crate) width: usize,
+}
+
+/// Computes the channels of `outputs` at the chunks. `finish` is applied to every output.
+pub(crate) fn convolve(
+    level: Level,
+    picture: &Picture<'_>,
+    weights: &Weights,
+    chunks: &[Chunk],
+    outputs: Outputs<'_>,
+    finish: impl Fn(f32) -> f32,
+) {
+    let work = Work { picture, weights, chunks, outputs, finish };
+    match weights.blocking().lanes {
+        32 => level.run(Of::<_, 32, true>(work)),
+        16 => level.run(Of::<_, 16, true>(work)),
+        _ => level.run(Of::<_, 8, false>(work)),
+    }
+}
+
+struct Work<'a, F> {
+    picture: &'a Picture<'a>,
+    weights: &'a Weights,
+    chunks: &'a [Chunk],
+    outputs: Outputs<'a>,
+    finish: F,
+}
+
+/// The work for panels of so many positions.
+struct Of<'a, F, const LANES: usize, const FUSED: bool>(Work<'a, F>);
+
+impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F, LANES, FUSED> {
+    #[inline(always)]
+    fn run(self) {
+        let Work { picture, weights, chunks, outputs, finish } = self.0;
+        let Outputs { values, blocks, places, width } = outputs;
+        let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
+        let (first, stride) = (first.start, last.end - first.start);
+        let depth = weights.depth();
+        let offsets = picture.offsets();
+        let mut gathered = vec![[0.0; LANES]; DEPTH.min(depth) * GROUP];
+        let mut sums = vec![[0.0; LANES]; stride * GROUP];
+        for group in chunks.chunks(GROUP * LANES / CHUNK) {
+            let panels = group.len().div_ceil(LANES / CHUNK);
+            for panel in sums.chunks_mut(stride).take(panels) {
+                for (channel, sum) in (first..).zip(panel) {
+                    *sum = [weights.bias(channel); LANES];
+                }
+            }
+            for from in (0..depth).step_by(DEPTH) {
+                let inputs = from..depth.min(from + DEPTH);
+                let gathered = &mut gathered[..panels * inputs.len()];
+                picture.gather(&offsets, &inputs, group, gathered);
+                for block in blocks {
+                    let products = weights.of(block, &inputs);
+                    for (panel, gathered) in gathered.chunks(inputs.len()).enumerate() {
+                        let sums = &mut sums[panel * stride + block.start - first..][..block.len()];
+                        add_block::<LANES, FUSED>(products, gathered, sums);
+                    }
+                }
+            }
+            for (sums, chunks) in sums.chunks(stride).zip(group.chunks(LANES / CHUNK)) {
+                for (sums, plane) in sums.iter().zip(values.chunks_mut(places)) {
+                    scatter(sums, chunks, plane, width, &finish);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the products of a block.
+#[inline(always)]
+fn add_block<const LANES: usize, const FUSED: bool>(
+    weights: &[f32],
+    inputs: &[[f32; LANES]],
+    sums: &mut [[f32; LANES]],
+) {
+    match (LANES, sums.len()) {
+        (32, 12) => add::<LANES, 12, FUSED>(weights, inputs, sums),
+        (32, 10) => add::<LANES, 10, FUSED>(weights, inputs, sums),
+        (16 | 32, 6) => add::<LANES, 6, FUSED>(weights, inputs, sums),
+        _ => add::<LANES, 4, FUSED>(weights, inputs, sums),
+    }
+}
+
+/// Adds the products of a block of so many channels.
+#[inline(always)]
+fn add<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
+    weights: &[f32],
+    inputs: &[[f32; LANES]],
+    sums: &mut [[f32; LANES]],
+) {
+    let sums = sums.try_into().expect("a block has a sum for each of its channels");
+    multiply::<CHANNELS, LANES, FUSED>(weights.as_chunks().0, inputs, sums);
+}
+
+/// Writes the outputs of a channel to their positions.
+#[inline(always)]
+fn scatter(
+    sums: &[f32],
+    chunks: &[Chunk],
+    plane: &mut [f32],
+    width: usize,
+    finish: impl Fn(f32) -> f32,
+) {
+    for (sums, chunk) in sums.chunks(CHUNK).zip(chunks) {
+        let row = &mut plane[chunk.y * width + chunk.x..(chunk.y + 1) * width];
+        for (output, &sum) in row.iter_mut().zip(sums) {
+            *output = finish(sum);
+        }
+    }
+}

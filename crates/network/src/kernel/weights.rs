@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Weights in the order in which the inner loop reads them.
+
+use super::blocking::Blocking;
+use std::ops::Range;
+
+/// The weights of a group of output channels, block by block. A block holds one weight per channel for the first input, then for the second,
+/// and so on. Channels that only fill the last block have weights of 0.
+#[derive(Clone, Debug)]
+pub(crate) struct Weights {
+    blocking: Blocking,
+    blocks: Vec<Range<usize>>,
+    channels: usize,
+    /// Products of an output.
+    depth: usize,
+    packed: Vec<f32>,
+    bias: Vec<f32>,
+}
+
+impl Weights {
+    /// Packs a row of `depth` weights per channel.
+    pub(crate) fn new(rows: &[f32], depth: usize, bias: &[f32], blocking: Blocking) -> Self {
+        let channels = rows.len() / depth;
+        let blocks = blocking.blocks(channels);
+        let mut packed = Vec::with_capacity(rows.len());
+        for block in &blocks {
+            for input in 0..depth {
+                packed.extend(
+                    block
+                        .clone()
+                        .map(|channel| rows.get(channel * depth + input).copied().unwrap_or(0.0)),
+                );
+            }
+        }
+        Self { blocking, blocks, channels, depth, packed, bias: bias.to_vec() }
+    }
+
+    pub(crate) fn blocking(&self) -> Blocking {
+        self.blocking
+    }
+
+    pub(crate) fn depth(&self) -> usize {
+        self.depth
+    }
+
+    pub(crate) fn channels(&self) -> usize {
+        self.channels
+    }
+
+    /// The channels of all blocks.
+    pub(crate) fn blocks(&self) -> &[Range<usize>] {
+        &self.blocks
+    }
+
+    /// The weights of a block for some inputs.
+    pub(super) fn of(&self, block: &Range<usize>, inputs: &Range<usize>) -> &[f32] {
+        let start = block.start * self.depth;
+        &self.packed[start + inputs.start * block.len()..start + inputs.end * block.len()]
+    }
+
+    /// What the sum of a channel begins with.
+    pub(super) fn bias(&self, channel: usize) -> f32 {
+        self.bias.get(channel).copied().unwrap_or(0.0)
+    }
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Neural networks over frames of which only a part has changed.
+//!
+//! A [`Network`] is read from an ONNX file. An [`Executor`] runs it frame by frame and keeps every tensor. From the positions of the picture that
+//! may have changed it derives, layer by layer, those of every tensor (a [`Mask`]), and computes these alone. In the exact [`Mode`]s the result
+//! is bit for bit that of a whole computation: every value is summed in one fixed order, whoever computes it.
+
+mod error;
+mod executor;
+mod form;
+mod kernel;
+mod mask;
+mod network;
+pub mod onnx;
+mod operator;
+mod read;
+mod tensor;
+
+pub use error::NetworkError;
+pub use executor::{Executor, Mode, Work};
+pub use form::Form;
+pub use mask::{Mask, Window};
+pub use network::{Network, Node};
+pub use read::{FrameSize, operators};
+pub use tensor::Tensor;

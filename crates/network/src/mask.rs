@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which positions of a tensor may have changed, a bit per position.
+
+/// A set of positions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    height: usize,
+    width: usize,
+    /// Words of a row; bit `x % 64` of word `x / 64` is position x.
+    pitch: usize,
+    words: Vec<u64>,
+}
+
+/// How the positions of an output depend on those of an input along one axis: output `o` sees the inputs
+/// `o * stride - before + k * dilation`, for `k` from 0 to `kernel - 1`, as far as they exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Inputs that an output sees.
+    pub kernel: usize,
+    /// Inputs from one output to the next.
+    pub stride: usize,
+    /// Inputs from one tap to the next.
+    pub dilation: usize,
+    /// Padding before the first input.
+    pub before: usize,
+    /// Padding after the last input.
+    pub after: usize,
+}
+
+impl Window {
+    /// The window in which an output sees the input of its own position alone.
+    pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, before: 0, after: 0 };
+
+    /// Inputs from the first tap to the last.
+    #[must_use]
+    pub fn span(&self) -> usize {
+        (self.kernel - 1) * self.dilation + 1
+    }
+
+    /// The input of a tap, where it exists.
+    #[inline(always)]
+    pub(crate) fn input(&self, output: usize, tap: usize, inputs: usize) -> Option<usize> {
+        let at = (output * self.stride + tap * self.dilation).checked_sub(self.before)?;
+        (at < inputs).then_some(at)
+    }
+}
+
+impl Mask {
+    /// No position.
+    #[must_use]
+    pub fn empty(height: usize, width: usize) -> Self {
+        let pitch = width.div_ceil(64);
+        Self { height, width, pitch, words: vec![0; pitch * height] }
+    }
+
+    /// Every position.
+    #[must_use]
+    pub fn full(height: usize, width: usize) -> Self {
+        let mut mask = Self::empty(height, width);
+        mask.fill();
+        mask
+    }
+
+    /// The positions for which `is` holds; it takes x and y.
+    #[must_use]
+    pub fn from_fn(height: usize, width: usize, is: impl Fn(usize, usize) -> bool) -> Self {
+        let mut mask = Self::empty(height, width);
+        for y in 0..height {
+            for x in 0..width {
+                if is(x, y) {
+                    mask.insert(x, y);
+                }
+            }
+        }
+        mask
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Positions of a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// How many positions are in it.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.words.iter().map(|word| word.count_ones() as usize).sum()
+    }
+
+    /// Whether no position is in it.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.words.iter().all(|&word| word == 0)
+    }
+
+    /// Whether a position is in it.
+    #[must_use]
+    pub fn contains(&self, x: usize, y: usize) -> bool {
+        self.words[y * self.pitch + x / 64] >> (x % 64) & 1 == 1
+    }
+
+    /// Adds a position.
+    pub fn insert(&mut self, x: usize, y: usize) {
+        self.words[y * self.pitch + x / 64] |= 1 << (x % 64);
+    }
+
+    /// Takes a position out.
+    pub fn remove(&mut self, x: usize, y: usize) {
+        self.words[y * self.pitch + x / 64] &= !(1 << (x % 64));
+    }
+
+    /// Adds every position.
+    pub fn fill(&mut self) {
+        for y in 0..self.height {
+            let row = &mut self.words[y * self.pitch..][..self.pitch];
+            row.fill(u64::MAX);
+            if !self.width.is_multiple_of(64)
+                && let Some(last) = row.last_mut()
+            {
+                *last = (1 << (self.width % 64)) - 1;
+            }
+        }
+    }
+
+    /// Adds the positions of another mask of the same size.
+    pub fn union(&mut self, other: &Self) {
+        debug_assert_eq!((self.height, self.width), (other.height, other.width));
+        for (own, other) in self.words.iter_mut().zip(&other.words) {
+            *own |= other;
+        }
+    }
+
+    /// Whether every position is in another mask, too.
+    #[must_use]
+    pub fn is_subset(&self, other: &Self) -> bool {
+        self.words.iter().zip(&other.words).all(|(own, other)| own & !other == 0)
+    }
+
+    /// The runs of neighboring positions of a row, as first position and length.
+    pub fn runs(&self, y: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let row = self.row(y);
+        let mut from = 0;
+        std::iter::from_fn(move || {
+            let start = next(row, from, self.width, false)?;
+            let end = next(row, start, self.width, true).unwrap_or(self.width);
+            from = end;
+            Some((start, end - start))
+        })
+    }
+
+    /// The positions of `height` x `width` outputs that see a position of this mask through a window.
+    #[must_use]
+    pub fn through(&self, rows: Window, columns: Window, height: usize, width: usize) -> Self {
+        let mut seen = Self::empty(height, width);
+        let mut line = vec![0; self.pitch];
+        for y in 0..height {
+            line.fill(0);
+            for tap in 0..rows.kernel {
+                if let Some(input) = rows.input(y, tap, self.height) {
+                    for (line, word) in line.iter_mut().zip(self.row(input)) {
+                        *line |= word;
+                    }
+                }
+            }
+            if line.iter().any(|&word| word != 0) {
+                seen.see_row(y, &line, self.width, columns);
+            }
+        }
+        seen
+    }
+
+    /// As [`Mask::through`], where an output sees the inputs from a first to a last one of each axis.
+    #[must_use]
+    pub fn between(&self, rows: &[(usize, usize)], columns: &[(usize, usize)]) -> Self {
+        let mut seen = Self::empty(rows.len(), columns.len());
+        for (y, &(top, bottom)) in rows.iter().enumerate() {
+            for (x, &(left, right)) in columns.iter().enumerate() {
+                let sees = |y| next(self.row(y), left, right + 1, false).is_some();
+                if (top..=bottom).any(sees) {
+                    seen.insert(x, y);
+                }
+            }
+        }
+        seen
+    }
+
+    /// Adds to row `y` the outputs that see a position of `line`.
+    fn see_row(&mut self, y: usize, line: &[u64], inputs: usize, columns: Window) {
+        let row = &mut self.words[y * self.pitch..][..self.pitch];
+        if columns.stride == 1 {
+            for tap in 0..columns.kernel {
+                shifted_into(row, line, columns.before, tap * columns.dilation);
+            }
+            if !self.width.is_multiple_of(64)
+                && let Some(last) = row.last_mut()
+            {
+                *last &= (1 << (self.width % 64)) - 1;
+            }
+            return;
+        }
+        let mut from = 0;
+        while let Some(x) = next(line, from, inputs, false) {
+            for tap in 0..columns.kernel {
+                let Some(at) = (x + columns.before).checked_sub(tap * columns.dilation) else {
+                    continue;
+                };
+                if at % columns.stride == 0 && at / columns.stride < self.width {
+                    row[at / columns.stride / 64] |= 1 << (at / columns.stride % 64);
+                }
+            }
+            from = x + 1;
+        }
+    }
+
+    fn row(&self, y: usize) -> &[u64] {
+        &self.words[y * self.pitch..][..self.pitch]
+    }
+}
+
+/// The first position from `from` on, before `end`, that is in the row; or that is not, where `is_gap`.
+fn next(row: &[u64], from: usize, end: usize, is_gap: bool) -> Option<usize> {
+    let mut at = from;
+    while at < end {
+        let word = if is_gap { !row[at / 64] } else { row[at / 64] };
+        let left = word >> (at % 64);
+        if left != 0 {
+            let found = at + left.trailing_zeros() as usize;
+            return (found < end).then_some(found);
+        }
+        at = (at / 64 + 1) * 64;
+    }
+    None
+}
+
+/// Adds the bits of `line`, moved up by `up` and down by `down`.
+fn shifted_into(row: &mut [u64], line: &[u64], up: usize, down: usize) {
+    let word =
+        |at: isize| usize::try_from(at).ok().and_then(|at| line.get(at)).copied().unwrap_or(0);
+    // Bit x of the result is bit x - up + down of the line.
+    let by = down.cast_signed() - up.cast_signed();
+    let (words, bits) = (by.div_euclid(64), by.rem_euclid(64));
+    for (at, row) in row.iter_mut().enumerate() {
+        let low = word(at.cast_signed() + words) >> bits;
+        let high = if bits == 0 { 0 } else { word(at.cast_signed() + words + 1) << (64 - bits) };
+        *row |= low | high;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn window() -> impl Strategy<Value = Window> {
+        (1..6usize, 1..4usize, 1..4usize, 0..6usize, 0..6usize).prop_map(
+            |(kernel, stride, dilation, before, after)| Window {
+                kernel,
+                stride,
+                dilation,
+                before,
+                after,
+            },
+        )
+    }
+
+    proptest! {
+        #[test]
+        fn outputs_see_what_their_windows_see(
+            rows in window(), columns in window(), bits in proptest::collection::vec(any::<u32>(), 7),
+            width in 1..140usize, height in 1..7usize,
+        ) {
+            let is = |x: usize, y: usize| bits[y] >> (x * 7 % 32) & 1 == 1 && !x.is_multiple_of(3);
+            let mask = Mask::from_fn(height, width, is);
+            let (out_height, out_width) = (height + 3, width.div_ceil(columns.stride) + 2);
+            let seen = mask.through(rows, columns, out_height, out_width);
+            let naive = Mask::from_fn(out_height, out_width, |x, y| {
+                (0..rows.kernel).filter_map(|tap| rows.input(y, tap, height)).any(|y| {
+                    (0..columns.kernel).filter_map(|tap| columns.input(x, tap, width)).any(|x| is(x, y))
+                })
+            });
+            prop_assert_eq!(seen, naive);
+        }
+
+        #[test]
+        fn runs_are_the_positions(bits in any::<u128>(), width in 1..128usize) {
+            let mask = Mask::from_fn(1, width, |x, _| bits >> x & 1 == 1);
+            let mut again = Mask::empty(1, width);
+            let mut before = None;
+            for (start, length) in mask.runs(0) {
+                prop_assert!(length > 0 && before.is_none_or(|end| end < start));
+                (start..start + length).for_each(|x| again.insert(x, 0));
+                before = Some(start + length);
+            }
+            prop_assert_eq!(&mask, &again);
+            prop_assert_eq!(mask.count(), (0..width).filter(|x| bits >> x & 1 == 1).count());
+        }
+    }
+
+    #[test]
+    fn a_full_mask_has_no_bits_beyond_its_rows() {
+        for width in [1, 63, 64, 65, 200] {
+            let mask = Mask::full(3, width);
+            assert_eq!(mask.count(), 3 * width);
+            assert_eq!(mask, Mask::from_fn(3, width, |_, _| true));
+        }
+    }
+}

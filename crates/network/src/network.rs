@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A network: operators in an order in which each comes after those whose outputs it takes.
+
+use crate::error::NetworkError;
+use crate::form::Form;
+use crate::operator::Operator;
+use std::sync::Arc;
+
+/// Values of the largest tensor.
+const MAX_ELEMENTS: usize = 1 << 28;
+/// Values of all tensors together, which a run keeps.
+const MAX_KEPT: usize = 1 << 30;
+
+/// A network whose shapes are known. Value 0 is its input, value `i + 1` the output of node `i`.
+#[derive(Clone, Debug)]
+pub struct Network {
+    forms: Vec<Form>,
+    nodes: Vec<Node>,
+    outputs: Vec<usize>,
+}
+
+/// An operator at its place.
+#[derive(Clone, Debug)]
+pub struct Node {
+    name: String,
+    kind: String,
+    pub(crate) operator: Arc<dyn Operator>,
+    inputs: Vec<usize>,
+}
+
+impl Node {
+    /// Its name in the model, or one made from its operator.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What its operator is called.
+    #[must_use]
+    pub fn kind(&self) -> &str {
+        &self.kind
+    }
+
+    /// The values that it takes.
+    #[must_use]
+    pub fn inputs(&self) -> &[usize] {
+        &self.inputs
+    }
+
+    /// Bytes of its weights.
+    #[must_use]
+    pub fn weight_bytes(&self) -> u64 {
+        self.operator.weight_bytes()
+    }
+}
+
+impl Network {
+    /// A network that has only an input so far.
+    pub(crate) fn new(input: Form) -> Result<Self, NetworkError> {
+        limit(&input).map_err(NetworkError::Network)?;
+        Ok(Self { forms: vec![input], nodes: Vec::new(), outputs: Vec::new() })
+    }
+
+    /// Adds a node, and returns its value.
+    pub(crate) fn push(
+        &mut self,
+        name: &str,
+        kind: &str,
+        operator: Arc<dyn Operator>,
+        inputs: Vec<usize>,
+    ) -> Result<usize, NetworkError> {
+        let forms: Vec<&Form> = inputs.iter().map(|&value| &self.forms[value]).collect();
+        let form = operator.form(&forms).and_then(|form| limit(&form).map(|()| form));
+        let problem = |problem| NetworkError::Node {
+            node: name.to_owned(),
+            operator: kind.to_owned(),
+            problem,
+        };
+        let form = form.map_err(problem)?;
+        let kept: usize = self.forms.iter().map(Form::elements).sum();
+        if kept + form.elements() > MAX_KEPT {
+            return Err(problem(format!(
+                "all tensors up to here have more than {MAX_KEPT} values"
+            )));
+        }
+        self.forms.push(form);
+        self.nodes.push(Node { name: name.to_owned(), kind: kind.to_owned(), operator, inputs });
+        Ok(self.nodes.len())
+    }
+
+    /// Says which values are the outputs.
+    pub(crate) fn finish(&mut self, outputs: Vec<usize>) {
+        self.outputs = outputs;
+    }
+
+    /// Lets the last node do something else with the same inputs and the same form.
+    pub(crate) fn replace_last(&mut self, kind: &str, operator: Arc<dyn Operator>) {
+        let last = self.nodes.last_mut().expect("there is a node to replace");
+        last.operator = operator;
+        kind.clone_into(&mut last.kind);
+    }
+
+    /// The nodes in order.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The form of the input.
+    #[must_use]
+    pub fn input(&self) -> &Form {
+        &self.forms[0]
+    }
+
+    /// The form of a value.
+    #[must_use]
+    pub fn form(&self, value: usize) -> &Form {
+        &self.forms[value]
+    }
+
+    /// The values that are outputs of the network.
+    #[must_use]
+    pub fn outputs(&self) -> &[usize] {
+        &self.outputs
+    }
+
+    /// Multiplications and additions of a node for a whole frame.
+    #[must_use]
+    pub fn macs(&self, node: usize) -> u64 {
+        let form = &self.forms[node + 1];
+        self.nodes[node].operator.macs_per_position(form) * form.places() as u64
+    }
+
+    /// Bytes of all tensors of a frame, which are kept from frame to frame.
+    #[must_use]
+    pub fn kept_bytes(&self) -> u64 {
+        4 * self.forms.iter().map(|form| form.elements() as u64).sum::<u64>()
+    }
+}
+
+/// Refuses a tensor that is too large.
+fn limit(form: &Form) -> Result<(), String> {
+    let elements =
+        form.shape().iter().try_fold(1usize, |product, &length| product.checked_mul(length));
+    match elements {
+        Some(1..=MAX_ELEMENTS) => Ok(()),
+        Some(0) => Err(format!("a tensor is empty: {}", form.describe())),
+        _ => Err(format!("a tensor has more than {MAX_ELEMENTS} values: {}", form.describe())),
+    }
+}

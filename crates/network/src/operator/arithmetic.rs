@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Two tensors, element by element, each repeated along the axes in which it has one element.
+
+use super::{Job, Operator, same_position};
+use crate::form::Form;
+use crate::mask::Mask;
+use crate::tensor::{Tensor, for_each_run};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arithmetic {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Pow,
+    Min,
+    Max,
+}
+
+impl Arithmetic {
+    #[inline(always)]
+    fn of(self, a: f32, b: f32) -> f32 {
+        match self {
+            Self::Add => a + b,
+            Self::Sub => a - b,
+            Self::Mul => a * b,
+            Self::Div => a / b,
+            Self::Pow => a.powf(b),
+            Self::Min => {
+                if b < a || b.is_nan() {
+                    b
+                } else {
+                    a
+                }
+            }
+            Self::Max => {
+                if b > a || b.is_nan() {
+                    b
+                } else {
+                    a
+                }
+            }
+        }
+    }
+}
+
+/// The operation on two inputs of the frame, or on one and a constant.
+#[derive(Clone, Debug)]
+pub(crate) struct Binary {
+    pub(crate) kind: Arithmetic,
+    /// A constant operand, and whether it is the first.
+    pub(crate) constant: Option<(Tensor, bool)>,
+}
+
+impl Binary {
+    fn operands<'a>(&'a self, inputs: &[&'a Form]) -> Result<[&'a Form; 2], String> {
+        match (inputs, &self.constant) {
+            (&[a, b], None) => Ok([a, b]),
+            (&[a], Some((constant, true))) => Ok([constant.form(), a]),
+            (&[a], Some((constant, false))) => Ok([a, constant.form()]),
+            _ => Err("it takes two tensors".to_owned()),
+        }
+    }
+}
+
+impl Operator for Binary {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let [a, b] = self.operands(inputs)?;
+        let shape = broadcast(a.shape(), b.shape())
+            .ok_or_else(|| format!("{} and {} do not fit together", a.describe(), b.describe()))?;
+        // Positions are those of an operand of the frame that has all of them.
+        let whole = inputs.iter().find(|form| form.has_positions() && kept(form, &shape));
+        Ok(match whole {
+            Some(form) => {
+                let new = shape.len() - form.shape().len();
+                Form::at(shape, form.axes().start + new..form.axes().end + new)
+            }
+            None => Form::whole(shape),
+        })
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        same_position(inputs, output)
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let Job { inputs, output, at, .. } = job;
+        let form = output.form().clone();
+        let (a, b) = match (inputs, &self.constant) {
+            (&[a, b], _) => (a, b),
+            (&[a], Some((constant, true))) => (constant, a),
+            (&[a], Some((constant, false))) => (a, constant),
+            _ => unreachable!("the form says how many there are"),
+        };
+        let (of_a, of_b) = (Steps::of(a.form(), &form), Steps::of(b.form(), &form));
+        let last = form.shape().last().copied().unwrap_or(1);
+        let to = output.values_mut();
+        for_each_run(&form, at, |run| {
+            let mut start = run.start;
+            while start < run.end {
+                let end = run.end.min((start / last + 1) * last);
+                let (a, b) = (of_a.values(a, start, end), of_b.values(b, start, end));
+                self.line(a, b, &mut to[start..end]);
+                start = end;
+            }
+        });
+    }
+}
+
+impl Binary {
+    /// A line of values; an operand of one value is repeated.
+    fn line(&self, a: &[f32], b: &[f32], to: &mut [f32]) {
+        match (a.len() == to.len(), b.len() == to.len()) {
+            (true, true) => to
+                .iter_mut()
+                .zip(a.iter().zip(b))
+                .for_each(|(to, (&a, &b))| *to = self.kind.of(a, b)),
+            (true, false) => to.iter_mut().zip(a).for_each(|(to, &a)| *to = self.kind.of(a, b[0])),
+            (false, true) => to.iter_mut().zip(b).for_each(|(to, &b)| *to = self.kind.of(a[0], b)),
+            (false, false) => to.fill(self.kind.of(a[0], b[0])),
+        }
+    }
+}
+
+/// Whether a form has its positions in a shape, none repeated.
+fn kept(form: &Form, shape: &[usize]) -> bool {
+    let new = shape.len() - form.shape().len();
+    form.axes().all(|axis| form.shape()[axis] == shape[axis + new])
+}
+
+/// The shape of both together.
+fn broadcast(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
+    let axes = a.len().max(b.len());
+    let size = |shape: &[usize], axis: usize| {
+        (axis + shape.len()).checked_sub(axes).map_or(1, |axis| shape[axis])
+    };
+    let together = |axis| match (size(a, axis), size(b, axis)) {
+        (a, b) if a == b || b == 1 => Some(a),
+        (1, b) => Some(b),
+        _ => None,
+    };
+    (0..axes).map(together).collect()
+}
+
+/// Where the values of an operand are, by the axes of the output.
+struct Steps {
+    shape: Vec<usize>,
+    /// Values from one index of an axis to the next; 0 where the operand is repeated.
+    steps: Vec<usize>,
+}
+
+impl Steps {
+    fn of(operand: &Form, output: &Form) -> Self {
+        let new = output.shape().len() - operand.shape().len();
+        let mut steps = vec![0; output.shape().len()];
+        let mut step = 1;
+        for (axis, &size) in operand.shape().iter().enumerate().rev() {
+            steps[axis + new] = if size == 1 { 0 } else { step };
+            step *= size;
+        }
+        Self { shape: output.shape().to_vec(), steps }
+    }
+
+    /// The values of a line of the output, or the one value that is repeated there.
+    fn values<'a>(&self, operand: &'a Tensor, start: usize, end: usize) -> &'a [f32] {
+        let (mut rest, mut at) = (start, 0);
+        for (&size, &step) in self.shape.iter().zip(&self.steps).rev() {
+            at += rest % size * step;
+            rest /= size;
+        }
+        let repeated = self.steps.last().is_none_or(|&step| step == 0);
+        &operand.values()[at..if repeated { at + 1 } else { at + end - start }]
+    }
+}

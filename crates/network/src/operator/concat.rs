@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tensors one behind the other, along an axis.
+
+use super::{Job, Operator, everything, same_position};
+use crate::form::Form;
+use crate::mask::Mask;
+
+#[derive(Clone, Debug)]
+pub(crate) struct Concat {
+    /// Negative from the last axis on.
+    pub(crate) axis: i64,
+}
+
+impl Concat {
+    fn axis(&self, form: &Form) -> Result<usize, String> {
+        axis(self.axis, form)
+    }
+}
+
+/// An axis of a form, counted from the end where it is negative.
+pub(super) fn axis(axis: i64, form: &Form) -> Result<usize, String> {
+    let count = form.shape().len();
+    let from_end = axis.checked_add(i64::try_from(count).unwrap_or(i64::MAX));
+    let own = if axis < 0 { from_end.unwrap_or(-1) } else { axis };
+    usize::try_from(own)
+        .ok()
+        .filter(|&own| own < count)
+        .ok_or_else(|| format!("{} has no axis {axis}", form.describe()))
+}
+
+impl Operator for Concat {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let first = *inputs.first().ok_or("it has no inputs")?;
+        let axis = self.axis(first)?;
+        let mut shape = first.shape().to_vec();
+        for form in &inputs[1..] {
+            let fits = form.shape().len() == shape.len()
+                && (0..shape.len()).all(|at| at == axis || form.shape()[at] == shape[at]);
+            if !fits {
+                return Err(format!(
+                    "{} and {} do not fit together along axis {axis}",
+                    first.describe(),
+                    form.describe()
+                ));
+            }
+            shape[axis] += form.shape()[axis];
+        }
+        let alike = inputs.iter().all(|form| form.axes() == first.axes());
+        Ok(if alike && !first.axes().contains(&axis) {
+            Form::at(shape, first.axes())
+        } else {
+            Form::whole(shape)
+        })
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        if output.has_positions() {
+            same_position(inputs, output)
+        } else {
+            everything(inputs, output)
+        }
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let Job { inputs, output, at, .. } = job;
+        let form = output.form().clone();
+        let axis = self.axis(&form).expect("the form has it");
+        let behind = |form: &Form| form.shape()[axis..].iter().product::<usize>();
+        let whole = behind(&form);
+        let mut offset = 0;
+        for input in inputs {
+            let own = behind(input.form());
+            if form.has_positions() {
+                // Positions are inside what is joined, or outside of it: a run stays a run.
+                crate::tensor::for_each_run(input.form(), at, |run| {
+                    for from in Lines::of(run, own) {
+                        let to = from.start / own * whole + offset + from.start % own;
+                        output.values_mut()[to..to + from.len()]
+                            .copy_from_slice(&input.values()[from]);
+                    }
+                });
+            } else if !at.is_empty() {
+                let lines = output.values_mut().chunks_mut(whole).zip(input.values().chunks(own));
+                lines.for_each(|(to, from)| to[offset..offset + own].copy_from_slice(from));
+            }
+            offset += own;
+        }
+    }
+}
+
+/// A range cut where multiples of a length are.
+struct Lines {
+    rest: std::ops::Range<usize>,
+    length: usize,
+}
+
+impl Lines {
+    fn of(rest: std::ops::Range<usize>, length: usize) -> Self {
+        Self { rest, length }
+    }
+}
+
+impl Iterator for Lines {
+    type Item = std::ops::Range<usize>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        let start = self.rest.start;
+        self.rest.start = self.rest.end.min((start / self.length + 1) * self.length);
+        Some(start..self.rest.start)
+    }
+}

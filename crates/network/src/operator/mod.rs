@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The operators of a network: what each makes of its inputs, where, and how a change spreads through it.
+
+mod activation;
+mod arithmetic;
+mod concat;
+mod conv;
+mod linear;
+mod pad;
+mod pool;
+mod reduce;
+mod reshape;
+mod resize;
+mod scale;
+mod slice;
+mod softmax;
+mod transpose;
+
+pub(crate) use activation::{Activation, Pointwise};
+pub(crate) use arithmetic::{Arithmetic, Binary};
+pub(crate) use concat::Concat;
+pub(crate) use conv::Conv;
+pub(crate) use linear::{Linear, MatMul};
+pub(crate) use pad::Pad;
+pub(crate) use pool::{Pool, PoolKind};
+pub(crate) use reduce::{Reduce, Reduction};
+pub(crate) use reshape::Reshape;
+pub(crate) use resize::{Coordinates, Nearest, Resize, ResizeKind, Size};
+pub(crate) use scale::Scale;
+pub(crate) use slice::Slice;
+pub(crate) use softmax::Softmax;
+pub(crate) use transpose::Transpose;
+
+use crate::form::Form;
+use crate::mask::Mask;
+use crate::tensor::Tensor;
+use foveate_lanes::Level;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// One operator with its attributes and weights.
+pub(crate) trait Operator: Debug + Send + Sync {
+    /// The form of the output.
+    ///
+    /// # Errors
+    /// In words, when the operator does not take such inputs.
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String>;
+
+    /// The positions of the output that depend on a changed position of an input. By default each depends on its own position.
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        same_position(inputs, output)
+    }
+
+    /// Computes the output, at least at the positions of the job. What it writes elsewhere is what a whole computation would write there.
+    fn compute(&self, job: Job<'_>);
+
+    /// Multiplications and additions of one position of the output.
+    fn macs_per_position(&self, _output: &Form) -> u64 {
+        0
+    }
+
+    /// Positions that are computed where those of a mask are wanted.
+    fn scheduled(&self, at: &Mask) -> usize {
+        at.count()
+    }
+
+    /// The same operator with an activation on its outputs, if it can apply one itself.
+    fn finished(&self, _activation: Activation) -> Option<Arc<dyn Operator>> {
+        None
+    }
+
+    /// Bytes of the weights.
+    fn weight_bytes(&self) -> u64 {
+        0
+    }
+}
+
+/// What an operator has to do for one frame.
+pub(crate) struct Job<'a> {
+    pub(crate) inputs: &'a [&'a Tensor],
+    pub(crate) output: &'a mut Tensor,
+    pub(crate) at: &'a Mask,
+    pub(crate) level: Level,
+}
+
+/// The union of all masks. Where an input has other positions than the output, everything depends on it.
+pub(crate) fn same_position(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+    let mut seen = Mask::empty(output.height(), output.width());
+    for (form, mask) in inputs {
+        if (form.height(), form.width()) == (output.height(), output.width()) {
+            seen.union(mask);
+        } else if !mask.is_empty() {
+            seen.fill();
+        }
+    }
+    seen
+}
+
+/// Everything, if anything has changed.
+pub(crate) fn everything(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+    let mut seen = Mask::empty(output.height(), output.width());
+    if inputs.iter().any(|(_, mask)| !mask.is_empty()) {
+        seen.fill();
+    }
+    seen
+}
+
+/// The form of the only input.
+pub(crate) fn only<'a>(inputs: &[&'a Form]) -> Result<&'a Form, String> {
+    match inputs {
+        [input] => Ok(input),
+        _ => Err(format!("it takes one tensor that is not constant, but has {}", inputs.len())),
+    }
+}
+
+/// The channels, rows and columns of features.
+pub(crate) fn features(form: &Form) -> Result<[usize; 3], String> {
+    match *form.shape() {
+        [1, channels, height, width] if form.axes() == (2..4) => Ok([channels, height, width]),
+        _ => Err(format!(
+            "its input must be features [1, channels, height, width], not {}",
+            form.describe()
+        )),
+    }
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A constant around the rows and columns of features.
+
+use super::{Job, Operator, features, only};
+use crate::form::Form;
+use crate::mask::{Mask, Window};
+
+#[derive(Clone, Debug)]
+pub(crate) struct Pad {
+    /// Above, to the left, below and to the right.
+    pub(crate) around: [usize; 4],
+    pub(crate) value: f32,
+}
+
+impl Pad {
+    fn windows(&self) -> [Window; 2] {
+        let [top, left, bottom, right] = self.around;
+        let window = |before, after| Window { before, after, ..Window::SAME };
+        [window(top, bottom), window(left, right)]
+    }
+}
+
+impl Operator for Pad {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let [channels, height, width] = features(only(inputs)?)?;
+        let [top, left, bottom, right] = self.around;
+        Ok(Form::features(vec![1, channels, height + top + bottom, width + left + right]))
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        let [rows, columns] = self.windows();
+        inputs[0].1.through(rows, columns, output.height(), output.width())
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let Job { inputs, output, at, .. } = job;
+        let form = output.form().clone();
+        let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
+        let [rows, columns] = self.windows();
+        crate::tensor::for_each_run(&form, at, |run| {
+            for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
+                let (channel, y, x) = (
+                    place / form.places(),
+                    place / form.width() % form.height(),
+                    place % form.width(),
+                );
+                *to = match (rows.input(y, 0, height), columns.input(x, 0, width)) {
+                    (Some(y), Some(x)) => inputs[0].values()[(channel * height + y) * width + x],
+                    _ => self.value,
+                };
+            }
+        });
+    }
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Features of another height and width.
+
+use super::{Job, Operator, features, only};
+use crate::form::Form;
+use crate::mask::Mask;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ResizeKind {
+    Nearest(Nearest),
+    Linear,
+}
+
+/// How a coordinate becomes a whole one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Nearest {
+    RoundPreferFloor,
+    RoundPreferCeil,
+    Floor,
+    Ceil,
+}
+
+/// Where an output lies in the input, by the names of ONNX.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Coordinates {
+    HalfPixel,
+    PytorchHalfPixel,
+    AlignCorners,
+    Asymmetric,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Resize {
+    pub(crate) kind: ResizeKind,
+    pub(crate) coordinates: Coordinates,
+    pub(crate) size: Size,
+}
+
+/// Rows and columns of the output, as ONNX says them.
+#[derive(Clone, Debug)]
+pub(crate) enum Size {
+    Scales([f32; 2]),
+    Sizes([usize; 2]),
+}
+
+/// What an output takes along one axis: two inputs, and the share of the second.
+#[derive(Clone, Copy, Debug)]
+struct Taps {
+    first: usize,
+    second: usize,
+    share: f32,
+}
+
+impl Resize {
+    fn outputs(&self, axis: usize, inputs: usize) -> usize {
+        match self.size {
+            Size::Sizes(sizes) => sizes[axis],
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                clippy::cast_precision_loss,
+                reason = "the definition of ONNX"
+            )]
+            Size::Scales(scales) => (inputs as f32 * scales[axis]).floor() as usize,
+        }
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "coordinates are below 2^24"
+    )]
+    fn taps(&self, axis: usize, inputs: usize, outputs: usize) -> Vec<Taps> {
+        let scale = match self.size {
+            Size::Scales(scales) => scales[axis],
+            Size::Sizes(_) => outputs as f32 / inputs as f32,
+        };
+        let last = inputs - 1;
+        let tap = |output: usize| {
+            let at = output as f32;
+            let at = match self.coordinates {
+                Coordinates::PytorchHalfPixel if outputs == 1 => 0.0,
+                Coordinates::HalfPixel | Coordinates::PytorchHalfPixel => (at + 0.5) / scale - 0.5,
+                Coordinates::AlignCorners if outputs == 1 => 0.0,
+                Coordinates::AlignCorners => at * last as f32 / (outputs - 1) as f32,
+                Coordinates::Asymmetric => at / scale,
+            };
+            match self.kind {
+                ResizeKind::Nearest(nearest) => {
+                    let whole = match nearest {
+                        Nearest::RoundPreferFloor => (at - 0.5).ceil(),
+                        Nearest::RoundPreferCeil => (at + 0.5).floor(),
+                        Nearest::Floor => at.floor(),
+                        Nearest::Ceil => at.ceil(),
+                    };
+                    let first = (whole.max(0.0) as usize).min(last);
+                    Taps { first, second: first, share: 0.0 }
+                }
+                ResizeKind::Linear => {
+                    let at = at.clamp(0.0, last as f32);
+                    let first = at.floor() as usize;
+                    Taps { first, second: (first + 1).min(last), share: at - at.floor() }
+                }
+            }
+        };
+        (0..outputs).map(tap).collect()
+    }
+}
+
+impl Operator for Resize {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let [channels, height, width] = features(only(inputs)?)?;
+        let (height, width) = (self.outputs(0, height), self.outputs(1, width));
+        if height == 0 || width == 0 {
+            return Err("its output is empty".to_owned());
+        }
+        Ok(Form::features(vec![1, channels, height, width]))
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        let (form, mask) = inputs[0];
+        let range = |taps: Vec<Taps>| -> Vec<(usize, usize)> {
+            taps.iter().map(|taps| (taps.first, taps.second)).collect()
+        };
+        let rows = range(self.taps(0, form.height(), output.height()));
+        let columns = range(self.taps(1, form.width(), output.width()));
+        mask.between(&rows, &columns)
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let Job { inputs, output, at, .. } = job;
+        let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
+        let form = output.form().clone();
+        let rows = self.taps(0, height, form.height());
+        let columns = self.taps(1, width, form.width());
+        crate::tensor::for_each_run(&form, at, |run| {
+            for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
+                let (channel, y, x) = (
+                    place / form.places(),
+                    place / form.width() % form.height(),
+                    place % form.width(),
+                );
+                let plane = &inputs[0].values()[channel * height * width..][..height * width];
+                let (row, column) = (rows[y], columns[x]);
+                let line = |y: usize| {
+                    let (left, right) =
+                        (plane[y * width + column.first], plane[y * width + column.second]);
+                    left + (right - left) * column.share
+                };
+                let (above, below) = (line(row.first), line(row.second));
+                *to = above + (below - above) * row.share;
+            }
+        });
+    }
+}

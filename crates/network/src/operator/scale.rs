@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A factor and an offset per channel: batch normalization after training.
+
+use super::{Job, Operator, only};
+use crate::form::Form;
+
+#[derive(Clone, Debug)]
+pub(crate) struct Scale {
+    factors: Vec<f32>,
+    offsets: Vec<f32>,
+}
+
+impl Scale {
+    /// `scale * (x - mean) / sqrt(variance + epsilon) + bias`.
+    pub(crate) fn normalization(
+        scale: &[f32],
+        bias: &[f32],
+        mean: &[f32],
+        variance: &[f32],
+        epsilon: f32,
+    ) -> Result<Self, String> {
+        if [bias.len(), mean.len(), variance.len()] != [scale.len(); 3] {
+            return Err("scale, bias, mean and variance differ in length".to_owned());
+        }
+        let factor = |(scale, variance): (&f32, &f32)| scale / (variance + epsilon).sqrt();
+        let factors: Vec<f32> = scale.iter().zip(variance).map(factor).collect();
+        let offsets = bias
+            .iter()
+            .zip(mean)
+            .zip(&factors)
+            .map(|((bias, mean), factor)| bias - mean * factor)
+            .collect();
+        Ok(Self { factors, offsets })
+    }
+}
+
+impl Operator for Scale {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let form = only(inputs)?;
+        match form.shape().get(1) {
+            Some(&channels) if channels == self.factors.len() && form.shape()[0] == 1 => {
+                Ok(form.clone())
+            }
+            _ => Err(format!(
+                "its input must have {} channels, not {}",
+                self.factors.len(),
+                form.describe()
+            )),
+        }
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let Job { inputs, output, at, .. } = job;
+        let form = output.form().clone();
+        let plane = form.elements() / self.factors.len();
+        let (from, to) = (inputs[0].values(), output.values_mut());
+        crate::tensor::for_each_run(&form, at, |run| {
+            let start = run.start;
+            for (place, (to, &from)) in (start..).zip(to[run.clone()].iter_mut().zip(&from[run])) {
+                let channel = place / plane;
+                *to = from.mul_add(self.factors[channel], self.offsets[channel]);
+            }
+        });
+    }
+
+    fn weight_bytes(&self) -> u64 {
+        8 * self.factors.len() as u64
+    }
+}

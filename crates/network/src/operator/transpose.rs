@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The axes in another order.
+
+use super::{Job, Operator, only};
+use crate::form::Form;
+
+#[derive(Clone, Debug)]
+pub(crate) struct Transpose {
+    /// For each axis of the output, that of the input.
+    pub(crate) order: Vec<usize>,
+}
+
+impl Operator for Transpose {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let input = only(inputs)?;
+        let mut sorted = self.order.clone();
+        sorted.sort_unstable();
+        if !sorted.into_iter().eq(0..input.shape().len()) {
+            return Err(format!(
+                "{:?} is not an order of the axes of {}",
+                self.order,
+                input.describe()
+            ));
+        }
+        let shape = self.order.iter().map(|&axis| input.shape()[axis]).collect();
+        let place = |axis| self.order.iter().position(|&from| from == axis);
+        let axes = input.axes();
+        let start = place(axes.start).filter(|_| input.has_positions());
+        // Rows must stay before columns, side by side.
+        let together = start.filter(|&start| {
+            axes.clone().enumerate().all(|(at, axis)| place(axis) == Some(start + at))
+        });
+        Ok(match together {
+            Some(start) => Form::at(shape, start..start + axes.len()),
+            None => Form::whole(shape),
+        })
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let Job { inputs, output, at, .. } = job;
+        if at.is_empty() {
+            return;
+        }
+        let shape = inputs[0].form().shape();
+        let mut steps = vec![1; shape.len()];
+        for axis in (1..shape.len()).rev() {
+            steps[axis - 1] = steps[axis] * shape[axis];
+        }
+        let form = output.form().clone();
+        let steps: Vec<usize> = self.order.iter().map(|&axis| steps[axis]).collect();
+        crate::tensor::for_each_run(&form, at, |run| {
+            for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
+                let (mut rest, mut from) = (place, 0);
+                for (&size, &step) in form.shape().iter().zip(&steps).rev() {
+                    from += rest % size * step;
+                    rest /= size;
+                }
+                *to = inputs[0].values()[from];
+            }
+        });
+    }
+}

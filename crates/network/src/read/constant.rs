@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Constants of a model.
+
+use crate::onnx::{TensorProto, data_type};
+use std::io::{Read as _, Seek as _, SeekFrom};
+use std::path::{Component, Path, PathBuf};
+
+/// A constant tensor.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Constant {
+    pub(super) shape: Vec<usize>,
+    pub(super) values: Values,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Values {
+    Floats(Vec<f32>),
+    Integers(Vec<i64>),
+}
+
+/// The folder of the model, in which data outside of the file must lie.
+pub(super) struct Folder(PathBuf);
+
+impl Folder {
+    pub(super) fn of(model: &Path) -> Self {
+        Self(model.parent().unwrap_or_else(|| Path::new("")).to_owned())
+    }
+}
+
+impl Constant {
+    pub(super) fn integers(shape: Vec<usize>, values: Vec<i64>) -> Self {
+        Self { shape, values: Values::Integers(values) }
+    }
+
+    /// Decodes a tensor. Memory grows with the data that is there, not with what the shape claims.
+    pub(super) fn read(tensor: &TensorProto, folder: &Folder) -> Result<Self, String> {
+        let length = |&length: &i64| {
+            usize::try_from(length).map_err(|_| format!("its shape has a length of {length}"))
+        };
+        let shape: Vec<usize> = tensor.dims.iter().map(length).collect::<Result<_, _>>()?;
+        let kind = tensor.data_type.unwrap_or(0);
+        let values = if tensor.data_location == Some(TensorProto::EXTERNAL) {
+            decode(kind, &external(tensor, folder)?)?
+        } else if let Some(raw) = &tensor.raw_data {
+            decode(kind, raw)?
+        } else {
+            unpacked(kind, tensor)?
+        };
+        let wanted = shape.iter().try_fold(1usize, |product, &length| product.checked_mul(length));
+        if wanted != Some(values.count()) {
+            return Err(format!("it has {} values, but the shape {shape:?}", values.count()));
+        }
+        Ok(Self { shape, values })
+    }
+
+    /// Its values as integers.
+    pub(super) fn as_integers(&self) -> Result<&[i64], String> {
+        match &self.values {
+            Values::Integers(values) => Ok(values),
+            Values::Floats(_) => {
+                Err("a constant must be of integers, but is of floating-point values".to_owned())
+            }
+        }
+    }
+
+    /// Its values as floating-point ones.
+    pub(super) fn as_floats(&self) -> Result<&[f32], String> {
+        match &self.values {
+            Values::Floats(values) => Ok(values),
+            Values::Integers(_) => {
+                Err("a constant must be of floating-point values, but is of integers".to_owned())
+            }
+        }
+    }
+}
+
+impl Values {
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Floats(values) => values.len(),
+            Self::Integers(values) => values.len(),
+        }
+    }
+}
+
+/// Values from bytes, the lowest first.
+fn decode(kind: i32, bytes: &[u8]) -> Result<Values, String> {
+    fn each<const N: usize, T>(bytes: &[u8], of: impl Fn([u8; N]) -> T) -> Result<Vec<T>, String> {
+        let (values, rest) = bytes.as_chunks::<N>();
+        if rest.is_empty() {
+            Ok(values.iter().map(|&bytes| of(bytes)).collect())
+        } else {
+            Err(format!("{} bytes are not values of {N} bytes", bytes.len()))
+        }
+    }
+    Ok(match kind {
+        data_type::FLOAT => Values::Floats(each(bytes, f32::from_le_bytes)?),
+        #[allow(clippy::cast_possible_truncation, reason = "weights are 32 bits wide here")]
+        data_type::DOUBLE => Values::Floats(each(bytes, |bytes| f64::from_le_bytes(bytes) as f32)?),
+        data_type::FLOAT16 => Values::Floats(each(bytes, |bytes| half(u16::from_le_bytes(bytes)))?),
+        data_type::BFLOAT16 => Values::Floats(each(bytes, |bytes| {
+            f32::from_bits(u32::from(u16::from_le_bytes(bytes)) << 16)
+        })?),
+        data_type::INT64 => Values::Integers(each(bytes, i64::from_le_bytes)?),
+        data_type::INT32 => {
+            Values::Integers(each(bytes, |bytes| i64::from(i32::from_le_bytes(bytes)))?)
+        }
+        data_type::INT8 => {
+            Values::Integers(each(bytes, |bytes| i64::from(i8::from_le_bytes(bytes)))?)
+        }
+        data_type::UINT8 | data_type::BOOL => {
+            Values::Integers(each(bytes, |[byte]| i64::from(byte))?)
+        }
+        other => return Err(unknown(other)),
+    })
+}
+
+/// Values that are fields of the message.
+fn unpacked(kind: i32, tensor: &TensorProto) -> Result<Values, String> {
+    Ok(match kind {
+        data_type::FLOAT => Values::Floats(tensor.float_data.clone()),
+        #[allow(clippy::cast_possible_truncation, reason = "weights are 32 bits wide here")]
+        data_type::DOUBLE => {
+            Values::Floats(tensor.double_data.iter().map(|&value| value as f32).collect())
+        }
+        data_type::INT64 => Values::Integers(tensor.int64_data.clone()),
+        data_type::INT32 | data_type::INT8 | data_type::UINT8 | data_type::BOOL => {
+            Values::Integers(tensor.int32_data.iter().map(|&value| i64::from(value)).collect())
+        }
+        other => return Err(unknown(other)),
+    })
+}
+
+fn unknown(kind: i32) -> String {
+    format!("values of type {kind} of ONNX are not supported")
+}
+
+/// A value of 16 bits: IEEE 754 binary16.
+fn half(bits: u16) -> f32 {
+    let (sign, exponent, fraction) = (bits >> 15, bits >> 10 & 31, bits & 1023);
+    let fraction = f32::from(fraction);
+    let value = match exponent {
+        0 => fraction * f32::powi(2.0, -24),
+        31 if fraction == 0.0 => f32::INFINITY,
+        31 => f32::NAN,
+        _ => (1.0 + fraction / 1024.0) * f32::powi(2.0, i32::from(exponent) - 15),
+    };
+    if sign == 1 { -value } else { value }
+}
+
+/// The bytes of a tensor in a file of its own, which must lie in the folder of the model.
+fn external(tensor: &TensorProto, folder: &Folder) -> Result<Vec<u8>, String> {
+    let entry = |key: &str| {
+        tensor
+            .external_data
+            .iter()
+            .find(|entry| entry.key.as_deref() == Some(key))
+            .and_then(|entry| entry.value.as_deref())
+    };
+    let number = |key: &str| {
+        entry(key)
+            .map(|text| text.parse::<u64>().map_err(|_| format!("its {key} is no number: {text}")))
+            .transpose()
+    };
+    let location = Path::new(entry("location").ok_or("its data has no location")?);
+    if !location.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        return Err(format!(
+            "its data `{}` is outside the folder of the model",
+            location.display()
+        ));
+    }
+    let path = folder.0.join(location);
+    let fails =
+        |error: std::io::Error| format!("cannot read its data `{}`: {error}", path.display());
+    let outside =
+        |_| format!("its data `{}` is outside the folder of the model", location.display());
+    let (real, root) = (
+        path.canonicalize().map_err(fails)?,
+        if folder.0.as_os_str().is_empty() { Path::new(".") } else { &folder.0 }
+            .canonicalize()
+            .map_err(fails)?,
+    );
+    real.strip_prefix(root).map_err(outside)?;
+    let mut file = std::fs::File::open(real).map_err(fails)?;
+    let all = file.metadata().map_err(fails)?.len();
+    let offset = number("offset")?.unwrap_or(0);
+    let length = number("length")?.unwrap_or(all.saturating_sub(offset));
+    if offset.checked_add(length).is_none_or(|end| end > all) {
+        return Err(format!(
+            "its data is {length} bytes from {offset} on, but `{}` has {all}",
+            location.display()
+        ));
+    }
+    file.seek(SeekFrom::Start(offset)).map_err(fails)?;
+    let mut bytes = Vec::new();
+    file.take(length).read_to_end(&mut bytes).map_err(fails)?;
+    Ok(bytes)
+}

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A node as operators read it: attributes with their defaults, constants, and values.
+
+use super::Known;
+use super::constant::{Constant, Folder};
+use crate::form::Form;
+use crate::mask::Window;
+use crate::onnx::{AttributeProto, NodeProto};
+use std::collections::HashMap;
+
+pub(super) struct NodeReader<'a> {
+    pub(super) node: &'a NodeProto,
+    pub(super) known: &'a HashMap<String, Known>,
+    pub(super) folder: &'a Folder,
+    pub(super) forms: &'a dyn Fn(usize) -> Form,
+}
+
+impl<'a> NodeReader<'a> {
+    pub(super) fn kind(&self) -> &str {
+        self.node.op_type.as_deref().unwrap_or_default()
+    }
+
+    fn attribute(&self, name: &str) -> Option<&AttributeProto> {
+        self.node.attribute.iter().find(|attribute| attribute.name.as_deref() == Some(name))
+    }
+
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.attribute(name).is_some()
+    }
+
+    pub(super) fn int(&self, name: &str, default: i64) -> i64 {
+        self.attribute(name).and_then(|attribute| attribute.i).unwrap_or(default)
+    }
+
+    pub(super) fn float(&self, name: &str, default: f32) -> f32 {
+        self.attribute(name).and_then(|attribute| attribute.f).unwrap_or(default)
+    }
+
+    pub(super) fn text(&self, name: &str, default: &'static str) -> String {
+        let text = self.attribute(name).and_then(|attribute| attribute.s.as_deref());
+        text.map_or_else(|| default.to_owned(), |text| String::from_utf8_lossy(text).into_owned())
+    }
+
+    pub(super) fn ints(&self, name: &str) -> Option<&[i64]> {
+        self.attribute(name).map(|attribute| attribute.ints.as_slice())
+    }
+
+    /// A constant that is an attribute.
+    pub(super) fn tensor(&self, name: &str) -> Result<Option<Constant>, String> {
+        let tensor = self.attribute(name).and_then(|attribute| attribute.t.as_ref());
+        tensor.map(|tensor| Constant::read(tensor, self.folder)).transpose()
+    }
+
+    /// What an input is, if the node has it.
+    pub(super) fn input(&self, at: usize) -> Option<&'a Known> {
+        self.node
+            .input
+            .get(at)
+            .filter(|name| !name.is_empty())
+            .and_then(|name| self.known.get(name))
+    }
+
+    /// An input that is a constant.
+    pub(super) fn constant(&self, at: usize, what: &str) -> Result<Option<&'a Constant>, String> {
+        match self.input(at) {
+            None => Ok(None),
+            Some(Known::Constant(constant)) => Ok(Some(constant)),
+            Some(Known::Value(_)) => Err(format!("its {what} must be constant")),
+        }
+    }
+
+    /// An input that must be there, and constant.
+    pub(super) fn wanted(&self, at: usize, what: &str) -> Result<&'a Constant, String> {
+        self.constant(at, what)?.ok_or_else(|| format!("it has no {what}"))
+    }
+
+    /// An input that is a value of the network.
+    pub(super) fn value(&self, at: usize) -> Result<usize, String> {
+        match self.input(at) {
+            Some(&Known::Value(value)) => Ok(value),
+            Some(Known::Constant(_)) => Err(format!("its input {at} must not be constant")),
+            None => Err(format!("it has no input {at}")),
+        }
+    }
+
+    /// Integers from an attribute or, in later versions of the operator, from an input.
+    pub(super) fn ints_of(
+        &self,
+        attribute: &str,
+        input: usize,
+    ) -> Result<Option<Vec<i64>>, String> {
+        if let Some(ints) = self.ints(attribute) {
+            return Ok(Some(ints.to_vec()));
+        }
+        let constant = self.constant(input, attribute)?;
+        constant.map(|constant| constant.as_integers().map(<[i64]>::to_vec)).transpose()
+    }
+
+    /// The windows of a convolution or of pooling over `kernel` rows and columns; `value` is the input.
+    pub(super) fn windows(&self, kernel: [usize; 2], value: usize) -> Result<[Window; 2], String> {
+        let two = |name: &str| -> Result<[usize; 2], String> {
+            match self.ints(name) {
+                None => Ok([1, 1]),
+                Some(&[rows, columns]) => Ok([positive(name, rows)?, positive(name, columns)?]),
+                Some(ints) => Err(format!("its {name} has {} values, not 2", ints.len())),
+            }
+        };
+        let (stride, dilation) = (two("strides")?, two("dilations")?);
+        let form = (self.forms)(value);
+        let sizes = [form.height(), form.width()];
+        let pads = match (self.text("auto_pad", "NOTSET").as_str(), self.ints("pads")) {
+            ("VALID", _) | ("NOTSET", None) => [[0; 2]; 2],
+            ("NOTSET", Some(&[top, left, bottom, right])) => {
+                let pad = |pad: i64| {
+                    usize::try_from(pad)
+                        .ok()
+                        .filter(|&pad| pad < 1 << 16)
+                        .ok_or_else(|| format!("its pads are {pad}; they must be 0 to 65535"))
+                };
+                [[pad(top)?, pad(bottom)?], [pad(left)?, pad(right)?]]
+            }
+            ("NOTSET", Some(pads)) => {
+                return Err(format!("its pads have {} values, not 4", pads.len()));
+            }
+            (mode @ ("SAME_UPPER" | "SAME_LOWER"), _) => {
+                let along = |axis: usize| {
+                    let span = (kernel[axis] - 1) * dilation[axis] + 1;
+                    let outputs = sizes[axis].div_ceil(stride[axis]);
+                    let all = ((outputs - 1) * stride[axis] + span).saturating_sub(sizes[axis]);
+                    if mode == "SAME_UPPER" {
+                        [all / 2, all.div_ceil(2)]
+                    } else {
+                        [all.div_ceil(2), all / 2]
+                    }
+                };
+                [along(0), along(1)]
+            }
+            (mode, _) => return Err(format!("its auto_pad is `{mode}`")),
+        };
+        let window = |axis: usize| Window {
+            kernel: kernel[axis],
+            stride: stride[axis],
+            dilation: dilation[axis],
+            before: pads[axis][0],
+            after: pads[axis][1],
+        };
+        Ok([window(0), window(1)])
+    }
+
+    /// `kernel_shape`.
+    pub(super) fn kernel(&self) -> Result<Option<[usize; 2]>, String> {
+        match self.ints("kernel_shape") {
+            None => Ok(None),
+            Some(&[rows, columns]) => {
+                Ok(Some([positive("kernel_shape", rows)?, positive("kernel_shape", columns)?]))
+            }
+            Some(ints) => Err(format!("its kernel_shape has {} values, not 2", ints.len())),
+        }
+    }
+}
+
+/// A length that is at least 1.
+pub(super) fn positive(what: &str, value: i64) -> Result<usize, String> {
+    usize::try_from(value)
+        .ok()
+        .filter(|&value| (1..1 << 16).contains(&value))
+        .ok_or_else(|| format!("its {what} is {value}; it must be 1 to 65535"))
+}
+
+/// A length as ONNX counts.
+pub(super) fn signed(length: usize) -> i64 {
+    i64::try_from(length).expect("a length is below 2^63")
+}
+
+/// A place, counted from the end where it is negative.
+pub(super) fn from_start(at: i64, length: usize) -> i64 {
+    if at < 0 { at.saturating_add(signed(length)) } else { at }
+}

@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is computed anew is enough: every tensor of every frame has the bits of a whole computation.
+
+use crate::model::{Model, Value, noise};
+use foveate_network::{Executor, Mask, Mode, Network};
+use proptest::prelude::*;
+
+/// A layer of a random network.
+#[derive(Clone, Debug)]
+enum Layer {
+    Conv {
+        channels: usize,
+        kernel: [i64; 2],
+        strides: [i64; 2],
+        dilations: [i64; 2],
+        pads: [i64; 4],
+    },
+    Depthwise {
+        kernel: i64,
+        stride: i64,
+        pads: [i64; 4],
+    },
+    Grouped,
+    Pool {
+        max: bool,
+        kernel: i64,
+        stride: i64,
+        pad: i64,
+        ceil: bool,
+    },
+    Relu,
+    Sigmoid,
+    Residual,
+    Join {
+        up: bool,
+    },
+    Scale,
+    Cut {
+        axis: i64,
+        start: i64,
+        step: i64,
+    },
+    Pad {
+        around: [i64; 4],
+    },
+    /// To so many halves of the size.
+    Resize {
+        linear: bool,
+        halves: u8,
+    },
+    Softmax,
+    /// Channels to the end and back.
+    Turn,
+    /// A factor per channel that depends on the whole picture.
+    Squeeze,
+}
+
+fn layer() -> impl Strategy<Value = Layer> {
+    let pads = || prop::array::uniform4(0..3i64);
+    prop_oneof![
+        4 => (1..14usize, prop::array::uniform2(1..4i64), prop::array::uniform2(1..4i64), prop::array::uniform2(1..3i64), pads())
+            .prop_map(|(channels, kernel, strides, dilations, pads)| Layer::Conv { channels, kernel, strides, dilations, pads }),
+        2 => (1..4i64, 1..3i64, pads()).prop_map(|(kernel, stride, pads)| Layer::Depthwise { kernel, stride, pads }),
+        1 => Just(Layer::Grouped),
+        2 => (any::<bool>(), 2..4i64, 1..4i64, 0..2i64, any::<bool>()).prop_map(|(max, kernel, stride, pad, ceil)| Layer::Pool { max, kernel, stride, pad, ceil }),
+        2 => Just(Layer::Relu),
+        1 => Just(Layer::Sigmoid),
+        2 => Just(Layer::Residual),
+        2 => any::<bool>().prop_map(|up| Layer::Join { up }),
+        1 => Just(Layer::Scale),
+        1 => (1..4i64, 0..2i64, 1..3i64).prop_map(|(axis, start, step)| Layer::Cut { axis, start, step }),
+        1 => pads().prop_map(|around| Layer::Pad { around }),
+        1 => (any::<bool>(), prop_oneof![Just(1u8), Just(3), Just(4)]).prop_map(|(linear, halves)| Layer::Resize { linear, halves }),
+        1 => Just(Layer::Softmax),
+        1 => Just(Layer::Turn),
+        1 => Just(Layer::Squeeze),
+    ]
+}
+
+/// The network of these layers, those left out that do not fit; the sizes are followed here by hand.
+fn network(channels: usize, [height, width]: [usize; 2], layers: &[Layer]) -> Network {
+    let mut model = Model::new(&[1, signed(channels), signed(height), signed(width)]);
+    let mut now = State {
+        name: "picture".to_owned(),
+        channels,
+        height: signed(height),
+        width: signed(width),
+    };
+    for (at, layer) in layers.iter().enumerate() {
+        if let Some(next) = add(&mut model, &now, layer, at as u64 + 1) {
+            now = next;
+        }
+    }
+    // Something that depends on everything, and something that does not.
+    let mean = model.node("GlobalAveragePool", &[&now.name], &[]);
+    let flat = model.node("Flatten", &[&mean], &[]);
+    model.output(&flat);
+    model.read(width, height).unwrap()
+}
+
+#[derive(Clone)]
+struct State {
+    name: String,
+    channels: usize,
+    height: i64,
+    width: i64,
+}
+
+fn signed(length: usize) -> i64 {
+    i64::try_from(length).unwrap()
+}
+
+fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State> {
+    let State { name, channels, height, width } = now.clone();
+    let outputs = |length: i64, kernel: i64, stride: i64, dilation: i64, pads: i64| {
+        let room = length + pads - (kernel - 1) * dilation - 1;
+        (room >= 0).then(|| room / stride + 1)
+    };
+    let of = |name: String| Some(State { name, ..now.clone() });
+    match layer.clone() {
+        Layer::Conv { channels: outer, kernel: [h, w], strides, dilations, pads } => {
+            let height = outputs(height, h, strides[0], dilations[0], pads[0] + pads[2])?;
+            let width = outputs(width, w, strides[1], dilations[1], pads[1] + pads[3])?;
+            let count = outer * channels * usize::try_from(h * w).unwrap();
+            let weights =
+                model.floats(&[signed(outer), signed(channels), h, w], &noise(seed, count));
+            let bias = model.floats(&[signed(outer)], &noise(seed + 100, outer));
+            let attributes = [
+                ("strides", Value::Ints(strides.to_vec())),
+                ("dilations", Value::Ints(dilations.to_vec())),
+                ("pads", Value::Ints(pads.to_vec())),
+            ];
+            let name = model.node("Conv", &[&name, &weights, &bias], &attributes);
+            Some(State { name, channels: outer, height, width })
+        }
+        Layer::Depthwise { kernel, stride, pads } => {
+            let height = outputs(height, kernel, stride, 1, pads[0] + pads[2])?;
+            let width = outputs(width, kernel, stride, 1, pads[1] + pads[3])?;
+            let weights = model.floats(
+                &[signed(channels), 1, kernel, kernel],
+                &noise(seed, channels * usize::try_from(kernel * kernel).unwrap()),
+            );
+            let attributes = [
+                ("strides", Value::Ints(vec![stride; 2])),
+                ("pads", Value::Ints(pads.to_vec())),
+                ("group", Value::Int(signed(channels))),
+            ];
+            let name = model.node("Conv", &[&name, &weights], &attributes);
+            Some(State { name, height, width, ..now.clone() })
+        }
+        Layer::Grouped => {
+            let inner = channels.checked_div(2).filter(|&inner| inner > 1 && channels % 2 == 0)?;
+            let weights = model.floats(&[10, signed(inner), 3, 3], &noise(seed, 90 * inner));
+            let attributes = [("pads", Value::Ints(vec![1; 4])), ("group", Value::Int(2))];
+            Some(State {
+                name: model.node("Conv", &[&name, &weights], &attributes),
+                channels: 10,
+                ..now.clone()
+            })
+        }
+        Layer::Pool { max, kernel, stride, pad, ceil } => {
+            let along = |length: i64| {
+                let outputs = outputs(length, kernel, stride, 1, 2 * pad)?;
+                let used = (outputs - 1) * stride + kernel;
+                Some(
+                    outputs
+                        + i64::from(
+                            ceil && used < length + 2 * pad && outputs * stride < length + pad,
+                        ),
+                )
+            };
+            let (height, width) = (along(height)?, along(width)?);
+            let attributes = [
+                ("kernel_shape", Value::Ints(vec![kernel; 2])),
+                ("strides", Value::Ints(vec![stride; 2])),
+                ("pads", Value::Ints(vec![pad; 4])),
+                ("ceil_mode", Value::Int(ceil.into())),
+                ("count_include_pad", Value::Int(i64::from(seed.is_multiple_of(2)))),
+            ];
+            let name =
+                model.node(if max { "MaxPool" } else { "AveragePool" }, &[&name], &attributes);
+            Some(State { name, height, width, ..now.clone() })
+        }
+        Layer::Relu => of(model.node("Relu", &[&name], &[])),
+        Layer::Sigmoid => of(model.node("Sigmoid", &[&name], &[])),
+        Layer::Residual => {
+            let weights = model.floats(
+                &[signed(channels), signed(channels), 3, 3],
+                &noise(seed, channels * channels * 9),
+            );
+            let branch =
+                model.node("Conv", &[&name, &weights], &[("pads", Value::Ints(vec![1; 4]))]);
+            of(model.node("Add", &[&name, &branch], &[]))
+        }
+        Layer::Join { up } => {
+            let weights = model.floats(&[3, signed(channels), 1, 3], &noise(seed, channels * 9));
+            let branch =
+                model.node("Conv", &[&name, &weights], &[("pads", Value::Ints(vec![0, 1, 0, 1]))]);
+            let inputs = if up { [&name, &branch] } else { [&branch, &name] };
+            let name = model.node(
+                "Concat",
+                &inputs.map(String::as_str),
+                &[("axis", Value::Int(if up { 1 } else { -3 }))],
+            );
+            (channels < 20).then(|| State { name, channels: channels + 3, ..now.clone() })
+        }
+        Layer::Scale => {
+            let factor = model.floats(&[1, signed(channels), 1, 1], &noise(seed, channels));
+            of(model.node("Mul", &[&factor, &name], &[]))
+        }
+        Layer::Cut { axis, start, step } => {
+            let length = [0, signed(channels), height, width][usize::try_from(axis).unwrap()];
+            let count = (length - start + step - 1) / step;
+            if count < 1 {
+                return None;
+            }
+            let [starts, ends, axes, steps] =
+                [start, i64::MAX, axis, step].map(|value| model.ints(&[value]));
+            let name = model.node("Slice", &[&name, &starts, &ends, &axes, &steps], &[]);
+            let mut next = State { name, ..now.clone() };
+            match axis {
+                1 => next.channels = usize::try_from(count).unwrap(),
+                2 => next.height = count,
+                _ => next.width = count,
+            }
+            Some(next)
+        }
+        Layer::Pad { around: [top, left, bottom, right] } => {
+            let pads = model.ints(&[0, 0, top, left, 0, 0, bottom, right]);
+            let value = model.floats(&[], &[0.25]);
+            let name = model.node("Pad", &[&name, &pads, &value], &[]);
+            Some(State {
+                name,
+                height: height + top + bottom,
+                width: width + left + right,
+                ..now.clone()
+            })
+        }
+        Layer::Resize { linear, halves } => {
+            if height * width > 4000 || height < 2 || width < 2 {
+                return None;
+            }
+            let by = f32::from(halves) / 2.0;
+            let scales = model.floats(&[4], &[1.0, 1.0, by, by]);
+            let mode = ("mode", Value::Text(if linear { "linear" } else { "nearest" }));
+            let coordinates = (
+                "coordinate_transformation_mode",
+                Value::Text(if seed.is_multiple_of(2) { "half_pixel" } else { "asymmetric" }),
+            );
+            let name = model.node("Resize", &[&name, "", &scales], &[mode, coordinates]);
+            let scaled = |length: i64| length * i64::from(halves) / 2;
+            Some(State { name, height: scaled(height), width: scaled(width), ..now.clone() })
+        }
+        Layer::Softmax => of(model.node("Softmax", &[&name], &[("axis", Value::Int(1))])),
+        Layer::Turn => {
+            let turned =
+                model.node("Transpose", &[&name], &[("perm", Value::Ints(vec![0, 2, 3, 1]))]);
+            let turned = model.node("LeakyRelu", &[&turned], &[("alpha", Value::Float(0.1))]);
+            of(model.node("Transpose", &[&turned], &[("perm", Value::Ints(vec![0, 3, 1, 2]))]))
+        }
+        Layer::Squeeze => {
+            let mean = model.node("GlobalAveragePool", &[&name], &[]);
+            let gate = model.node("HardSigmoid", &[&mean], &[]);
+            of(model.node("Mul", &[&name, &gate], &[]))
+        }
+    }
+}
+
+/// Frames of which each differs from the one before at the positions of its mask, and mostly only there.
+fn clip(
+    channels: usize,
+    [height, width]: [usize; 2],
+    masks: &[Vec<(usize, usize, usize)>],
+) -> Vec<(Vec<f32>, Mask)> {
+    let mut picture = noise(7, channels * height * width);
+    let mut frames = vec![(picture.clone(), Mask::empty(height, width))];
+    for (number, blobs) in masks.iter().enumerate() {
+        let is = |x: usize, y: usize| {
+            blobs.iter().any(|&(left, top, side)| {
+                (left..left + side).contains(&x) && (top..top + side).contains(&y)
+            })
+        };
+        let mask = Mask::from_fn(height, width, is);
+        let fresh = noise(number as u64 + 50, picture.len());
+        for (at, value) in picture.iter_mut().enumerate() {
+            // Not every pixel of a changed region has changed.
+            if is(at % width, at / width % height) && at % 5 != 0 {
+                *value = fresh[at];
+            }
+        }
+        frames.push((picture.clone(), mask));
+    }
+    frames
+}
+
+/// The first value of a frame that differs from a whole computation, in words.
+fn difference(network: &Network, mode: Mode, frames: &[(Vec<f32>, Mask)]) -> Option<String> {
+    let (mut dense, mut other) =
+        (Executor::new(network, Mode::Dense), Executor::new(network, mode));
+    let mut before: Vec<_> = Vec::new();
+    for (number, (picture, mask)) in frames.iter().enumerate() {
+        dense.step(picture, mask);
+        other.step(picture, mask);
+        for value in 0..=network.nodes().len() {
+            let what =
+                || value.checked_sub(1).map_or("picture", |node| network.nodes()[node].kind());
+            let differences = dense.value(value).differences(other.value(value));
+            if !differences.is_empty() {
+                return Some(format!("{mode:?}: frame {number}, value {value} ({})", what()));
+            }
+            // What has really changed is in the mask.
+            if let Some(before) = before.get(value)
+                && !dense.value(value).differences(before).is_subset(other.mask(value))
+            {
+                return Some(format!(
+                    "{mode:?}: frame {number}, value {value} ({}) changed outside of its mask",
+                    what()
+                ));
+            }
+        }
+        before = (0..=network.nodes().len()).map(|value| dense.value(value).clone()).collect();
+    }
+    None
+}
+
+fn blobs() -> impl Strategy<Value = Vec<Vec<(usize, usize, usize)>>> {
+    prop::collection::vec(prop::collection::vec((0..40usize, 0..30usize, 1..7usize), 0..4), 1..4)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn parts_have_the_bits_of_the_whole(
+        channels in prop_oneof![Just(1usize), Just(3)], height in 6..26usize, width in 6..40usize,
+        layers in prop::collection::vec(layer(), 1..8), masks in blobs(),
+    ) {
+        let network = network(channels, [height, width], &layers);
+        let frames = clip(channels, [height, width], &masks);
+        for mode in [Mode::Exact, Mode::Compare, Mode::Truncate(0.0)] {
+            prop_assert_eq!(difference(&network, mode, &frames), None);
+        }
+    }
+}
+
+/// Few chunks, many, and those at borders: a row of every length.
+#[test]
+fn rows_of_every_length_have_the_bits_of_the_whole() {
+    for width in 6..30 {
+        let layers = [
+            Layer::Conv {
+                channels: 13,
+                kernel: [3, 3],
+                strides: [1, 1],
+                dilations: [1, 1],
+                pads: [1; 4],
+            },
+            Layer::Relu,
+            Layer::Conv {
+                channels: 37,
+                kernel: [3, 3],
+                strides: [2, 2],
+                dilations: [1, 1],
+                pads: [1; 4],
+            },
+            Layer::Residual,
+        ];
+        let network = network(1, [9, width], &layers);
+        let frames = clip(
+            1,
+            [9, width],
+            &[vec![(width / 2, 3, 2)], vec![(0, 0, 1), (width - 1, 8, 1)], vec![(0, 0, 40)]],
+        );
+        assert_eq!(difference(&network, Mode::Exact, &frames), None, "{width}");
+    }
+}
+
+/// The negative control: a mask that misses a changed pixel is found.
+#[test]
+fn a_change_outside_of_the_mask_is_found() {
+    let layers = [Layer::Conv {
+        channels: 4,
+        kernel: [3, 3],
+        strides: [1, 1],
+        dilations: [1, 1],
+        pads: [1; 4],
+    }];
+    let network = network(1, [12, 12], &layers);
+    let mut frames = clip(1, [12, 12], &[vec![(3, 3, 4)]]);
+    frames[1].1.remove(6, 6);
+    assert!(difference(&network, Mode::Exact, &frames).unwrap().contains("frame 1, value 0"));
+}
+
+/// Little is passed on, so that little is computed; and the output stays near.
+#[test]
+fn truncation_computes_less_and_stays_near() {
+    let layers = [
+        Layer::Conv {
+            channels: 6,
+            kernel: [3, 3],
+            strides: [1, 1],
+            dilations: [1, 1],
+            pads: [1; 4],
+        },
+        Layer::Relu,
+        Layer::Conv {
+            channels: 6,
+            kernel: [3, 3],
+            strides: [1, 1],
+            dilations: [1, 1],
+            pads: [1; 4],
+        },
+    ];
+    let network = network(1, [20, 20], &layers);
+    let full = Mask::full(20, 20);
+    let picture = noise(3, 400);
+    let shifted: Vec<f32> = picture
+        .iter()
+        .enumerate()
+        .map(|(at, value)| if at == 210 { value + 0.5 } else { value + 0.001 })
+        .collect();
+    let needed = |mode| {
+        let mut executor = Executor::new(&network, mode);
+        executor.step(&picture, &full);
+        let needed: usize = executor.step(&shifted, &full).iter().map(|work| work.needed).sum();
+        (needed, executor.value(3).values().to_vec())
+    };
+    let ((exact, right), (truncated, near)) = (needed(Mode::Exact), needed(Mode::Truncate(0.1)));
+    assert!(truncated < exact, "{truncated} of {exact}");
+    let worst = right.iter().zip(&near).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    assert!(worst > 0.0 && worst < 0.1 * 54.0, "{worst}");
+}
+
+/// The fixed mode copies what lies outside of the camera's mask.
+#[test]
+fn the_fixed_mode_is_wrong_at_borders_only() {
+    let layers = [Layer::Conv {
+        channels: 2,
+        kernel: [3, 3],
+        strides: [1, 1],
+        dilations: [1, 1],
+        pads: [1; 4],
+    }];
+    let network = network(1, [16, 16], &layers);
+    let frames = clip(1, [16, 16], &[vec![(4, 4, 6)]]);
+    let (mut dense, mut fixed) =
+        (Executor::new(&network, Mode::Dense), Executor::new(&network, Mode::Fixed));
+    for (picture, mask) in &frames {
+        dense.step(picture, mask);
+        fixed.step(picture, mask);
+    }
+    let wrong = dense.value(1).differences(fixed.value(1));
+    let is_ring = |x: usize, y: usize| {
+        (3..=10).contains(&x)
+            && (3..=10).contains(&y)
+            && !((4..=9).contains(&x) && (4..=9).contains(&y))
+    };
+    assert!(!wrong.is_empty() && wrong.is_subset(&Mask::from_fn(16, 16, is_ring)));
+}

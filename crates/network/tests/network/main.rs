@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Networks from ONNX bytes, run in every mode.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod documents;
+mod exact;
+mod model;
+mod oracle;
+mod refused;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Makes ONNX models.
+
+use foveate_network::onnx::{
+    AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto, TensorShapeProto,
+    TensorTypeProto, TypeProto, ValueInfoProto, data_type,
+};
+use foveate_network::{FrameSize, Network, NetworkError};
+use prost::Message as _;
+use std::path::Path;
+
+/// A model under way. Its input is `picture`.
+#[derive(Default)]
+pub(crate) struct Model {
+    pub(crate) graph: GraphProto,
+    count: usize,
+}
+
+impl Model {
+    pub(crate) fn new(shape: &[i64]) -> Self {
+        let mut model = Self::default();
+        model.graph.input.push(value("picture", shape));
+        model
+    }
+
+    /// A constant of floating-point values; returns its name.
+    pub(crate) fn floats(&mut self, shape: &[i64], values: &[f32]) -> String {
+        let tensor = TensorProto {
+            data_type: Some(data_type::FLOAT),
+            float_data: values.to_vec(),
+            ..TensorProto::default()
+        };
+        self.constant(shape, tensor)
+    }
+
+    /// A constant of integers; returns its name.
+    pub(crate) fn ints(&mut self, values: &[i64]) -> String {
+        let tensor = TensorProto {
+            data_type: Some(data_type::INT64),
+            int64_data: values.to_vec(),
+            ..TensorProto::default()
+        };
+        self.constant(&[values.len().cast_signed() as i64], tensor)
+    }
+
+    fn constant(&mut self, shape: &[i64], tensor: TensorProto) -> String {
+        self.count += 1;
+        let name = format!("constant{}", self.count);
+        self.graph.initializer.push(TensorProto {
+            name: Some(name.clone()),
+            dims: shape.to_vec(),
+            ..tensor
+        });
+        name
+    }
+
+    /// A node; returns the name of its output.
+    pub(crate) fn node(
+        &mut self,
+        kind: &str,
+        inputs: &[&str],
+        attributes: &[(&str, Value)],
+    ) -> String {
+        self.count += 1;
+        let output = format!("value{}", self.count);
+        self.graph.node.push(NodeProto {
+            op_type: Some(kind.to_owned()),
+            name: Some(format!("{kind}{}", self.count)),
+            input: inputs.iter().map(|&name| name.to_owned()).collect(),
+            output: vec![output.clone()],
+            attribute: attributes.iter().map(|(name, value)| value.attribute(name)).collect(),
+            ..NodeProto::default()
+        });
+        output
+    }
+
+    /// Says that a value is an output.
+    pub(crate) fn output(&mut self, name: &str) {
+        self.graph.output.push(value(name, &[]));
+    }
+
+    pub(crate) fn bytes(self) -> Vec<u8> {
+        ModelProto { ir_version: Some(8), graph: Some(self.graph), ..ModelProto::default() }
+            .encode_to_vec()
+    }
+
+    pub(crate) fn read(self, width: usize, height: usize) -> Result<Network, NetworkError> {
+        Network::parse(&self.bytes(), Path::new("test.onnx"), FrameSize { width, height })
+    }
+}
+
+/// The value of an attribute.
+#[derive(Clone)]
+pub(crate) enum Value {
+    Int(i64),
+    Ints(Vec<i64>),
+    Float(f32),
+    Text(&'static str),
+}
+
+impl Value {
+    fn attribute(&self, name: &str) -> AttributeProto {
+        let mut attribute =
+            AttributeProto { name: Some(name.to_owned()), ..AttributeProto::default() };
+        match self {
+            Self::Int(value) => attribute.i = Some(*value),
+            Self::Ints(values) => attribute.ints.clone_from(values),
+            Self::Float(value) => attribute.f = Some(*value),
+            Self::Text(text) => attribute.s = Some(text.as_bytes().to_vec()),
+        }
+        attribute
+    }
+}
+
+fn value(name: &str, shape: &[i64]) -> ValueInfoProto {
+    let dim = shape.iter().map(|&length| Dimension { dim_value: Some(length) }).collect();
+    let tensor = TensorTypeProto {
+        elem_type: Some(data_type::FLOAT),
+        shape: Some(TensorShapeProto { dim }),
+    };
+    ValueInfoProto {
+        name: Some(name.to_owned()),
+        r#type: Some(TypeProto { tensor_type: Some(tensor) }),
+    }
+}
+
+/// Values that look random, and are the same every time.
+pub(crate) fn noise(seed: u64, count: usize) -> Vec<f32> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        // 24 bits, from -1 to 1.
+        (u16::try_from(state >> 48).unwrap() as f32) / 32768.0 - 1.0
+    };
+    (0..count).map(|_| next()).collect()
+}

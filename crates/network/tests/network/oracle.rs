@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Convolution and pooling against the formulas of the ONNX standard, in double precision.
+
+use crate::model::{Model, Value, noise};
+use foveate_network::{Executor, Mask, Mode};
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+
+    #[test]
+    fn convolution_is_that_of_the_standard(
+        groups in 1..4usize, inner in 1..4usize, outer in 1..20usize, size in (4..14usize, 4..20usize),
+        kernel in (1..4usize, 1..4usize), stride in (1..4usize, 1..4usize), dilation in (1..3usize, 1..3usize), pads in prop::array::uniform4(0..3usize),
+    ) {
+        let (inputs, outputs) = (groups * inner, groups * outer);
+        // The picture has one channel; a first convolution makes as many as are wanted.
+        let spread = noise(11, inputs);
+        let weights = noise(12, outputs * inner * kernel.0 * kernel.1);
+        let bias = noise(13, outputs);
+        let picture = noise(14, size.0 * size.1);
+        let i64s = |values: &[usize]| Value::Ints(values.iter().map(|&value| i64::try_from(value).unwrap()).collect());
+        let dims = |values: &[usize]| -> Vec<i64> { values.iter().map(|&value| i64::try_from(value).unwrap()).collect() };
+        let mut model = Model::new(&dims(&[1, 1, size.0, size.1]));
+        let first = model.floats(&dims(&[inputs, 1, 1, 1]), &spread);
+        let channels = model.node("Conv", &["picture", &first], &[]);
+        let second = model.floats(&dims(&[outputs, inner, kernel.0, kernel.1]), &weights);
+        let third = model.floats(&dims(&[outputs]), &bias);
+        let attributes = [
+            ("strides", i64s(&[stride.0, stride.1])), ("dilations", i64s(&[dilation.0, dilation.1])),
+            ("pads", i64s(&pads)), ("group", Value::Int(i64::try_from(groups).unwrap())),
+        ];
+        let output = model.node("Conv", &[&channels, &second, &third], &attributes);
+        model.output(&output);
+        let room = |length: usize, pad: usize, kernel: usize, dilation: usize| (length + pad).checked_sub((kernel - 1) * dilation + 1);
+        let rooms = (room(size.0, pads[0] + pads[2], kernel.0, dilation.0), room(size.1, pads[1] + pads[3], kernel.1, dilation.1));
+        let (Some(room_y), Some(room_x)) = rooms else {
+            prop_assert!(model.read(size.1, size.0).is_err());
+            return Ok(());
+        };
+        let network = model.read(size.1, size.0).unwrap();
+        let mut executor = Executor::new(&network, Mode::Dense);
+        executor.step(&picture, &Mask::full(size.0, size.1));
+        let found = executor.value(2);
+        let (height, width) = (room_y / stride.0 + 1, room_x / stride.1 + 1);
+        prop_assert_eq!(found.form().shape(), &[1, outputs, height, width]);
+        for (at, &found) in found.values().iter().enumerate() {
+            let (channel, y, x) = (at / width / height, at / width % height, at % width);
+            let mut sum = f64::from(bias[channel]);
+            for input in 0..inner {
+                for ky in 0..kernel.0 {
+                    for kx in 0..kernel.1 {
+                        let (iy, ix) = (y * stride.0 + ky * dilation.0, x * stride.1 + kx * dilation.1);
+                        if iy < pads[0] || ix < pads[1] || iy - pads[0] >= size.0 || ix - pads[1] >= size.1 {
+                            continue;
+                        }
+                        let from = channel / outer * inner + input;
+                        let value = f64::from(spread[from]) * f64::from(picture[(iy - pads[0]) * size.1 + ix - pads[1]]);
+                        sum += value * f64::from(weights[((channel * inner + input) * kernel.0 + ky) * kernel.1 + kx]);
+                    }
+                }
+            }
+            prop_assert!((f64::from(found) - sum).abs() < 1e-4, "{found} for {sum} at {at}");
+        }
+    }
+}
+
+/// A value of every pooling, computed by hand.
+#[test]
+fn pooling_is_that_of_the_standard() {
+    let picture: Vec<f32> = (0..25u8).map(f32::from).collect();
+    let run = |kind: &str, attributes: &[(&str, Value)]| {
+        let mut model = Model::new(&[1, 1, 5, 5]);
+        let output = model.node(kind, &["picture"], attributes);
+        model.output(&output);
+        let network = model.read(5, 5).unwrap();
+        let mut executor = Executor::new(&network, Mode::Dense);
+        executor.step(&picture, &Mask::full(5, 5));
+        executor.value(1).values().to_vec()
+    };
+    let square = |side| ("kernel_shape", Value::Ints(vec![side; 2]));
+    let strides = ("strides", Value::Ints(vec![2; 2]));
+    let pads = ("pads", Value::Ints(vec![1; 4]));
+    assert_eq!(run("MaxPool", &[square(2), strides.clone()]), [6.0, 8.0, 16.0, 18.0]);
+    assert_eq!(
+        run("MaxPool", &[square(2), strides.clone(), ("ceil_mode", Value::Int(1))]),
+        [6.0, 8.0, 9.0, 16.0, 18.0, 19.0, 21.0, 23.0, 24.0]
+    );
+    assert_eq!(run("AveragePool", &[square(2), strides.clone()]), [3.0, 5.0, 13.0, 15.0]);
+    // The first window holds 0, 1, 5 and 6, and five values of padding.
+    assert_eq!(run("AveragePool", &[square(3), strides.clone(), pads.clone()])[0], 3.0);
+    assert_eq!(
+        run("AveragePool", &[square(3), strides, pads, ("count_include_pad", Value::Int(1))])[0],
+        12.0 / 9.0
+    );
+    assert_eq!(run("GlobalAveragePool", &[]), [12.0]);
+    assert_eq!(run("GlobalMaxPool", &[]), [24.0]);
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Models that are damaged, hostile, or of a kind that is not supported: each is a line that says what is wrong.
+
+use crate::model::{Model, Value};
+use foveate_network::{FrameSize, Network};
+use proptest::prelude::*;
+use std::path::Path;
+
+fn refusal(model: Model) -> String {
+    model.read(8, 8).unwrap_err().to_string()
+}
+
+fn one_node(kind: &str, attributes: &[(&str, Value)]) -> Model {
+    let mut model = Model::new(&[1, 1, 8, 8]);
+    let output = model.node(kind, &["picture"], attributes);
+    model.output(&output);
+    model
+}
+
+#[test]
+fn what_is_not_supported_names_node_and_operator() {
+    assert_eq!(
+        refusal(one_node("Einsum", &[])),
+        "node `Einsum1` has the operator `Einsum`, which is not supported; docs/guides/infer.md lists those that are"
+    );
+    let mut model = one_node("Relu", &[]);
+    model.graph.node[0].domain = Some("com.example".to_owned());
+    assert!(refusal(model).contains("`com.example.Relu`"));
+}
+
+#[test]
+fn pictures_of_another_size_are_refused_with_what_would_fit() {
+    let mut model = Model::new(&[1, 3, 224, 224]);
+    let output = model.node("Relu", &["picture"], &[]);
+    model.output(&output);
+    assert_eq!(
+        refusal(model),
+        "the network takes pictures of 224x224 pixels, but the frames have 8x8; give --resize 224x224"
+    );
+}
+
+#[test]
+fn impossible_models_are_refused() {
+    let mut of_weights = Model::new(&[1, 1, 8, 8]);
+    let weights = of_weights.floats(&[1, 1, 3, 3], &[0.5; 4]);
+    of_weights.node("Conv", &["picture", &weights], &[]);
+    let mut cycle = Model::new(&[1, 1, 8, 8]);
+    cycle.node("Add", &["picture", "value2"], &[]);
+    cycle.node("Relu", &["value1"], &[]);
+    let mut huge = Model::new(&[1, 1, 8, 8]);
+    let pads = huge.ints(&[0, 0, 65535, 65535, 0, 0, 65535, 65535]);
+    huge.node("Pad", &["picture", &pads], &[]);
+    let mut claims = Model::new(&[1, 1, 8, 8]);
+    let weights = claims.floats(&[1 << 40, 1 << 40, 3, 3], &[]);
+    claims.node("Conv", &["picture", &weights], &[]);
+    let mut kernel = Model::new(&[1, 1, 8, 8]);
+    let weights = kernel.floats(&[1, 1, 9, 9], &[0.5; 81]);
+    kernel.node("Conv", &["picture", &weights], &[]);
+    let two = {
+        let mut model = one_node("Relu", &[]);
+        let other = Model::new(&[1, 1, 8, 8]);
+        model.graph.input.push({
+            let mut input = other.graph.input[0].clone();
+            input.name = Some("second".to_owned());
+            input
+        });
+        model
+    };
+    let cases: [(Model, &str); 11] = [
+        (of_weights, "it has 4 values, but the shape [1, 1, 3, 3]"),
+        (cycle, "its input `value2` is made by no node before it"),
+        (huge, "values"),
+        (claims, "has 0 values, but the shape"),
+        (kernel, "its window of 9 is larger than its input, 8 with padding"),
+        (two, "it must have one input, the picture, but it has 2 (picture, second)"),
+        (Model::new(&[1, 1, 8, 8]), "it has no output"),
+        (Model::new(&[1, 1, 8]), "but it has 3 axes"),
+        (Model::new(&[4, 1, 8, 8]), "but it takes 4 pictures at once"),
+        (
+            one_node("MaxPool", &[("kernel_shape", Value::Ints(vec![0, 2]))]),
+            "its kernel_shape is 0; it must be 1 to 65535",
+        ),
+        (
+            one_node(
+                "MaxPool",
+                &[("kernel_shape", Value::Ints(vec![2, 2])), ("auto_pad", Value::Text("SAME"))],
+            ),
+            "its auto_pad is `SAME`",
+        ),
+    ];
+    for (model, says) in cases {
+        let refusal = refusal(model);
+        assert!(refusal.contains(says) && !refusal.contains('\n'), "{refusal} for {says}");
+    }
+}
+
+#[test]
+fn data_outside_of_the_folder_is_refused() {
+    use foveate_network::onnx::{StringStringEntryProto, TensorProto};
+    for location in ["../weights.bin", "/etc/hostname"] {
+        let mut model = one_node("Relu", &[]);
+        model.floats(&[1], &[]);
+        let tensor = &mut model.graph.initializer[0];
+        tensor.data_location = Some(TensorProto::EXTERNAL);
+        tensor.external_data = vec![StringStringEntryProto {
+            key: Some("location".to_owned()),
+            value: Some(location.to_owned()),
+        }];
+        let refusal = refusal(model);
+        assert!(refusal.contains("is outside the folder of the model"), "{refusal}");
+    }
+}
+
+/// A small network with a bit of everything.
+fn valid() -> Vec<u8> {
+    let mut model = Model::new(&[1, 1, 8, 8]);
+    let weights = model.floats(&[4, 1, 3, 3], &[0.5; 36]);
+    let one = model.node("Conv", &["picture", &weights], &[("pads", Value::Ints(vec![1; 4]))]);
+    let two = model.node("Relu", &[&one], &[]);
+    let shape = model.ints(&[1, -1]);
+    let three = model.node("Reshape", &[&two, &shape], &[]);
+    model.output(&three);
+    model.bytes()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    /// Truncated and changed bytes never panic, and never take more memory than the limits allow.
+    #[test]
+    fn damaged_bytes_do_not_panic(cut in 0..400usize, edits in prop::collection::vec((0..400usize, any::<u8>()), 0..4)) {
+        let mut bytes = valid();
+        for (at, byte) in edits {
+            if let Some(place) = bytes.get_mut(at) {
+                *place = byte;
+            }
+        }
+        bytes.truncate(bytes.len().saturating_sub(cut / 20));
+        let _ = Network::parse(&bytes, Path::new("test.onnx"), FrameSize { width: 8, height: 8 });
+    }
+}
+
+#[test]
+fn the_network_that_is_damaged_is_valid() {
+    let bytes = valid();
+    assert!(bytes.len() < 400);
+    assert!(
+        Network::parse(&bytes, Path::new("test.onnx"), FrameSize { width: 8, height: 8 }).is_ok()
+    );
+}
