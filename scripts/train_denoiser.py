@@ -74,7 +74,7 @@ def main():
     network = Denoiser()
     optimizer = torch.optim.Adam(network.parameters(), 2e-3)
     schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimizer, STEPS)
-    for step in range(STEPS):
+    for _ in range(STEPS):
         clean = patches(clips)
         loss = torch.mean((network(clean + NOISE * torch.randn_like(clean)) - clean) ** 2)
         optimizer.zero_grad()

@@ -282,9 +282,14 @@ mod tests {
         let half = Binary {
             kind: Arithmetic::Mul,
             constant: Some((Tensor::new(Form::whole(vec![]), vec![0.0]), false)),
+            finish: Activation::Identity,
         };
         let none = network.push("d", "Mul", Arc::new(half), vec![second]).unwrap();
-        let sum = Arc::new(Binary { kind: Arithmetic::Add, constant: None });
+        let sum = Arc::new(Binary {
+            kind: Arithmetic::Add,
+            constant: None,
+            finish: Activation::Identity,
+        });
         network.push("e", "Add", faulty(sum, in_sum), vec![none, third]).unwrap();
         network
     }

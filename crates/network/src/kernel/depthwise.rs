@@ -34,14 +34,20 @@ impl<F: Fn(f32) -> f32, const FUSED: bool> Task for Of<'_, F, FUSED> {
     fn run(self) {
         let Depthwise { picture, weights, bias, chunks, outputs, width, finish } = self.0;
         let offsets = picture.offsets();
-        let mut inputs = vec![[0.0; CHUNK]; weights.len()];
+        let mut gathered = vec![[0.0; CHUNK]; weights.len()];
         for &chunk in chunks {
-            // A product with padding is 0 here as in every other convolution.
-            picture.gather(&offsets, &(0..weights.len()), &[chunk], &mut inputs);
             let mut sums = [bias; CHUNK];
-            for (&weight, inputs) in weights.iter().zip(&inputs) {
-                for (sum, &input) in sums.iter_mut().zip(inputs) {
-                    *sum = if FUSED { weight.mul_add(input, *sum) } else { weight * input + *sum };
+            if let Some(start) = picture.inside(chunk) {
+                for (&weight, &offset) in weights.iter().zip(&offsets) {
+                    let mut inputs = [0.0; CHUNK];
+                    picture.take(&picture.values[start + offset..], &mut inputs);
+                    add::<FUSED>(weight, &inputs, &mut sums);
+                }
+            } else {
+                // A product with padding is 0 here as in every other convolution.
+                picture.gather_border(0, chunk, 0..CHUNK, &mut gathered);
+                for (&weight, inputs) in weights.iter().zip(&gathered) {
+                    add::<FUSED>(weight, inputs, &mut sums);
                 }
             }
             let row = &mut outputs[chunk.y * width + chunk.x..(chunk.y + 1) * width];
@@ -49,5 +55,13 @@ impl<F: Fn(f32) -> f32, const FUSED: bool> Task for Of<'_, F, FUSED> {
                 *output = finish(sum);
             }
         }
+    }
+}
+
+/// Adds the products of one weight.
+#[inline(always)]
+fn add<const FUSED: bool>(weight: f32, inputs: &[f32; CHUNK], sums: &mut [f32; CHUNK]) {
+    for (sum, &input) in sums.iter_mut().zip(inputs) {
+        *sum = if FUSED { weight.mul_add(input, *sum) } else { weight * input + *sum };
     }
 }

@@ -113,7 +113,7 @@ impl Picture<'_> {
     }
 
     /// Where the first input of a chunk is, if none of its inputs is padding.
-    fn inside(&self, chunk: Chunk) -> Option<usize> {
+    pub(super) fn inside(&self, chunk: Chunk) -> Option<usize> {
         let Self { rows, columns, .. } = self;
         let y = (chunk.y * rows.stride).checked_sub(rows.before)?;
         let x = (chunk.x * columns.stride).checked_sub(columns.before)?;
@@ -123,7 +123,7 @@ impl Picture<'_> {
 
     /// Every so many inputs, one for each position.
     #[inline(always)]
-    fn take(&self, inputs: &[f32], to: &mut [f32]) {
+    pub(super) fn take(&self, inputs: &[f32], to: &mut [f32]) {
         match self.columns.stride {
             1 => to.copy_from_slice(&inputs[..CHUNK]),
             2 => {
@@ -140,7 +140,7 @@ impl Picture<'_> {
 
     /// The same where some inputs are padding.
     #[inline(never)]
-    fn gather_border<const LANES: usize>(
+    pub(super) fn gather_border<const LANES: usize>(
         &self,
         from: usize,
         chunk: Chunk,

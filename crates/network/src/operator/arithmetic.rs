@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Two tensors, element by element, each repeated along the axes in which it has one element.
 
-use super::{Job, Operator, same_position};
+use super::{Activation, Job, Operator, same_position};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::{Tensor, for_each_run};
+use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arithmetic {
@@ -50,6 +51,8 @@ pub(crate) struct Binary {
     pub(crate) kind: Arithmetic,
     /// A constant operand, and whether it is the first.
     pub(crate) constant: Option<(Tensor, bool)>,
+    /// What is applied to every output.
+    pub(crate) finish: Activation,
 }
 
 impl Binary {
@@ -83,6 +86,11 @@ impl Operator for Binary {
         same_position(inputs, output)
     }
 
+    fn finished(&self, finish: Activation) -> Option<Arc<dyn Operator>> {
+        let is_free = self.finish == Activation::Identity;
+        is_free.then(|| Arc::new(Self { finish, ..self.clone() }) as Arc<dyn Operator>)
+    }
+
     fn compute(&self, job: Job<'_>) {
         let Job { inputs, output, at, .. } = job;
         let form = output.form().clone();
@@ -100,25 +108,31 @@ impl Operator for Binary {
             while start < run.end {
                 let end = run.end.min((start / last + 1) * last);
                 let (a, b) = (of_a.values(a, start, end), of_b.values(b, start, end));
-                self.line(a, b, &mut to[start..end]);
+                let to = &mut to[start..end];
+                // What is known here needs no choice in the loop.
+                match (self.kind, self.finish) {
+                    (Arithmetic::Add, Activation::Identity) => line(a, b, to, |a, b| a + b),
+                    (Arithmetic::Add, Activation::Relu) => {
+                        line(a, b, to, |a, b| Activation::Relu.of(a + b));
+                    }
+                    (kind, finish) => line(a, b, to, |a, b| finish.of(kind.of(a, b))),
+                }
                 start = end;
             }
         });
     }
 }
 
-impl Binary {
-    /// A line of values; an operand of one value is repeated.
-    fn line(&self, a: &[f32], b: &[f32], to: &mut [f32]) {
-        match (a.len() == to.len(), b.len() == to.len()) {
-            (true, true) => to
-                .iter_mut()
-                .zip(a.iter().zip(b))
-                .for_each(|(to, (&a, &b))| *to = self.kind.of(a, b)),
-            (true, false) => to.iter_mut().zip(a).for_each(|(to, &a)| *to = self.kind.of(a, b[0])),
-            (false, true) => to.iter_mut().zip(b).for_each(|(to, &b)| *to = self.kind.of(a[0], b)),
-            (false, false) => to.fill(self.kind.of(a[0], b[0])),
+/// A line of values; an operand of one value is repeated.
+#[inline(always)]
+fn line(a: &[f32], b: &[f32], to: &mut [f32], of: impl Fn(f32, f32) -> f32) {
+    match (a.len() == to.len(), b.len() == to.len()) {
+        (true, true) => {
+            to.iter_mut().zip(a.iter().zip(b)).for_each(|(to, (&a, &b))| *to = of(a, b));
         }
+        (true, false) => to.iter_mut().zip(a).for_each(|(to, &a)| *to = of(a, b[0])),
+        (false, true) => to.iter_mut().zip(b).for_each(|(to, &b)| *to = of(a[0], b)),
+        (false, false) => to.fill(of(a[0], b[0])),
     }
 }
 

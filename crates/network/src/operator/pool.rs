@@ -37,40 +37,49 @@ impl Pool {
         })
     }
 
-    /// One output from the values of its window that are not padding, row by row.
-    fn of(&self, plane: &[f32], [height, width]: [usize; 2], x: usize, y: usize) -> f32 {
-        let inside = (0..self.rows.kernel)
-            .filter_map(|tap| self.rows.input(y, tap, height))
-            .flat_map(|row| {
-                (0..self.columns.kernel)
-                    .filter_map(move |tap| self.columns.input(x, tap, width))
-                    .map(move |x| plane[row * width + x])
-            });
-        match self.kind {
-            // NaN is larger than anything.
-            PoolKind::Max => inside.fold(f32::NEG_INFINITY, |most, value| {
-                if value > most || value.is_nan() { value } else { most }
-            }),
-            PoolKind::Average { with_padding } => {
-                let (sum, count) =
-                    inside.fold((0.0, 0u16), |(sum, count), value| (sum + value, count + 1));
-                let count = if with_padding { self.counted(x, y, [height, width]) } else { count };
-                sum / f32::from(count)
+    /// The outputs `x..x + run.len()` of row `y`, tap by tap, row by row.
+    fn of(&self, plane: &[f32], [height, width]: [usize; 2], x: usize, y: usize, run: &mut [f32]) {
+        run.fill(if self.kind == PoolKind::Max { f32::NEG_INFINITY } else { 0.0 });
+        for row in (0..self.rows.kernel).filter_map(|tap| self.rows.input(y, tap, height)) {
+            let line = &plane[row * width..][..width];
+            for tap in 0..self.columns.kernel {
+                // The outputs whose input of this tap exists are neighbors.
+                let inside = |at: &usize| self.columns.input(x + at, tap, width).is_some();
+                let Some(first) = (0..run.len()).find(inside) else { continue };
+                let input = self.columns.input(x + first, tap, width).expect("it exists");
+                let inputs = line[input..].iter().step_by(self.columns.stride);
+                match self.kind {
+                    // NaN is larger than anything.
+                    PoolKind::Max => {
+                        for (most, &value) in run[first..].iter_mut().zip(inputs) {
+                            *most = if value > *most || value.is_nan() { value } else { *most };
+                        }
+                    }
+                    PoolKind::Average { .. } => {
+                        run[first..].iter_mut().zip(inputs).for_each(|(sum, &value)| *sum += value);
+                    }
+                }
+            }
+        }
+        if let PoolKind::Average { with_padding } = self.kind {
+            let rows = counted(self.rows, y, height, with_padding);
+            for (at, sum) in (x..).zip(run) {
+                *sum /= f32::from(rows * counted(self.columns, at, width, with_padding));
             }
         }
     }
+}
 
-    /// Values and padding of a window; what lies beyond the padding, which a last window may have, does not count.
-    fn counted(&self, x: usize, y: usize, [height, width]: [usize; 2]) -> u16 {
-        let along = |window: Window, at: usize, inputs: usize| {
-            let end = inputs + window.before + window.after;
-            (0..window.kernel)
-                .filter(|tap| at * window.stride + tap * window.dilation < end)
-                .count()
-        };
-        let counted = along(self.rows, y, height) * along(self.columns, x, width);
-        u16::try_from(counted).expect("a window has less than 2^16 values")
-    }
+/// The taps of a window that count: those inside the input and, if wanted, in its padding. What lies beyond the padding, where a last
+/// window may reach, does not count.
+fn counted(window: Window, at: usize, inputs: usize, with_padding: bool) -> u16 {
+    let end = inputs + window.before + window.after;
+    let counts = |tap: &usize| match with_padding {
+        true => at * window.stride + tap * window.dilation < end,
+        false => window.input(at, *tap, inputs).is_some(),
+    };
+    u16::try_from((0..window.kernel).filter(counts).count())
+        .expect("a window has less than 2^16 values")
 }
 
 impl Operator for Pool {
@@ -98,10 +107,8 @@ impl Operator for Pool {
         let planes = inputs[0].values().par_chunks(size[0] * size[1]);
         output.values_mut().par_chunks_mut(places).zip(planes).for_each(|(output, plane)| {
             for y in 0..at.height() {
-                for (start, length) in at.runs(y) {
-                    for x in start..start + length {
-                        output[y * width + x] = self.of(plane, size, x, y);
-                    }
+                for (x, length) in at.runs(y) {
+                    self.of(plane, size, x, y, &mut output[y * width + x..][..length]);
                 }
             }
         });

@@ -137,14 +137,16 @@ fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made>, String> 
     };
     match (node.input(0), node.input(1), node.input(2)) {
         (Some(&Known::Value(a)), Some(&Known::Value(b)), None) => {
-            one(Binary { kind, constant: None }, vec![a, b])
+            one(Binary { kind, constant: None, finish: Activation::Identity }, vec![a, b])
         }
-        (Some(Known::Constant(a)), Some(&Known::Value(b)), None) => {
-            one(Binary { kind, constant: Some((tensor(a)?, true)) }, vec![b])
-        }
-        (Some(&Known::Value(a)), Some(Known::Constant(b)), None) => {
-            one(Binary { kind, constant: Some((tensor(b)?, false)) }, vec![a])
-        }
+        (Some(Known::Constant(a)), Some(&Known::Value(b)), None) => one(
+            Binary { kind, constant: Some((tensor(a)?, true)), finish: Activation::Identity },
+            vec![b],
+        ),
+        (Some(&Known::Value(a)), Some(Known::Constant(b)), None) => one(
+            Binary { kind, constant: Some((tensor(b)?, false)), finish: Activation::Identity },
+            vec![a],
+        ),
         _ => Err("it takes two tensors, not both constant".to_owned()),
     }
 }
