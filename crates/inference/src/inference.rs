@@ -194,11 +194,11 @@ impl<'a> Run<'a> {
         let start = Instant::now();
         let work = self.executor.step(&self.picture.values, &self.picture.changed).to_vec();
         let seconds = start.elapsed().as_secs_f64();
-        let error = self
-            .reference
-            .as_mut()
-            .map(|reference| reference.judge(&self.picture.values, &self.full, &self.executor));
         let is_counted = self.kind == Kind::Set || self.frames > 0;
+        let judge = |reference: &mut Reference<'_>| {
+            reference.judge(&self.picture.values, &self.full, &self.executor, is_counted)
+        };
+        let error = self.reference.as_mut().map(judge);
         let active = self.engine.outcome().active.iter().filter(|&&active| active).count() as u64;
         let mut own = vec![Positions::default(); work.len()];
         for (node, work) in work.iter().enumerate() {

@@ -73,18 +73,27 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// Computes the picture whole and compares every tensor; returns the distance of the outputs.
-    pub(crate) fn judge(&mut self, picture: &[f32], full: &Mask, other: &Executor<'_>) -> Distance {
+    /// Computes the picture whole and compares every tensor; returns the distance of the outputs. Only a
+    /// counted frame is in the means.
+    pub(crate) fn judge(
+        &mut self,
+        picture: &[f32],
+        full: &Mask,
+        other: &Executor<'_>,
+        is_counted: bool,
+    ) -> Distance {
         let start = std::time::Instant::now();
         self.dense.step(picture, full);
-        self.seconds += start.elapsed().as_secs_f64();
+        let seconds = start.elapsed().as_secs_f64();
         let mut is_different = false;
         let mut of_outputs = Distance::default();
         for node in 0..self.layers.len() {
             let (right, found) =
                 (self.dense.value(node + 1).values(), other.value(node + 1).values());
             let (distance, differs) = distance(right, found);
-            self.layers[node].add(distance);
+            if is_counted {
+                self.layers[node].add(distance);
+            }
             is_different |= differs;
             if self.network.outputs().contains(&(node + 1)) {
                 of_outputs.add(distance);
@@ -96,9 +105,12 @@ impl<'a> Reference<'a> {
             .outputs()
             .iter()
             .all(|&value| place(&self.dense, value) == place(other, value));
-        self.frames += 1;
-        self.agreeing += u64::from(agrees);
         self.different += u64::from(is_different);
+        if is_counted {
+            self.frames += 1;
+            self.agreeing += u64::from(agrees);
+            self.seconds += seconds;
+        }
         of_outputs
     }
 }

@@ -23,7 +23,11 @@ pub enum NetworkError {
         problem: String,
     },
     /// An operator is unknown.
-    #[error("node `{node}` has the operator `{operator}`, which is not supported; {advice}")]
+    #[error(
+        "node `{}` has the operator `{}`, which is not supported; {advice}",
+        shown(node),
+        shown(operator)
+    )]
     Operator {
         /// Its name.
         node: String,
@@ -33,7 +37,7 @@ pub enum NetworkError {
         advice: &'static str,
     },
     /// A node is not valid, or uses its operator in a way that is not supported.
-    #[error("node `{node}` ({operator}): {problem}")]
+    #[error("node `{}` ({}): {}", shown(node), shown(operator), shown(problem))]
     Node {
         /// Its name.
         node: String,
@@ -43,7 +47,7 @@ pub enum NetworkError {
         problem: String,
     },
     /// The network as a whole is not valid or not supported.
-    #[error("the network: {0}")]
+    #[error("the network: {}", shown(.0))]
     Network(String),
     /// The frames have another size than the network's input.
     #[error(
@@ -61,4 +65,15 @@ impl NetworkError {
     pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
         move |source| Self::Io { path: path.to_owned(), source }
     }
+}
+
+/// Text from a file for a message: without control characters, and not longer than a line or two.
+fn shown(text: &str) -> String {
+    const LONGEST: usize = 300;
+    let mut shown: String =
+        text.chars().filter(|letter| !letter.is_control()).take(LONGEST).collect();
+    if text.chars().nth(LONGEST).is_some() {
+        shown.push_str("...");
+    }
+    shown
 }

@@ -3,7 +3,7 @@
 
 use crate::mask::Mask;
 use crate::network::Network;
-use crate::operator::{Job, everything};
+use crate::operator::Job;
 use crate::tensor::{Tensor, for_each_run};
 use foveate_lanes::Level;
 
@@ -129,8 +129,9 @@ impl<'a> Executor<'a> {
         let at = match self.mode {
             _ if !self.has_begun => Mask::full(form.height(), form.width()),
             Mode::Dense => Mask::full(form.height(), form.width()),
-            Mode::Fixed if form.has_positions() => under(camera, form.height(), form.width()),
-            Mode::Fixed => everything(&[(self.network.input(), camera)], form),
+            Mode::Fixed if form.axes().len() == 2 => under(camera, form.height(), form.width()),
+            // Rows that have become one, or none.
+            Mode::Fixed => place.operator.spread(&sources, form),
             Mode::Exact | Mode::Compare | Mode::Truncate(_) => {
                 place.operator.spread(&sources, form)
             }

@@ -10,6 +10,10 @@ use std::sync::Arc;
 const MAX_ELEMENTS: usize = 1 << 28;
 /// Values of all tensors together, which a run keeps.
 const MAX_KEPT: usize = 1 << 30;
+/// Bytes of the weights of all nodes.
+const MAX_WEIGHTS: u64 = 1 << 32;
+/// Axes of a tensor.
+pub(crate) const MAX_AXES: usize = 8;
 
 /// A network whose shapes are known. Value 0 is its input, value `i + 1` the output of node `i`.
 #[derive(Clone, Debug)]
@@ -17,6 +21,9 @@ pub struct Network {
     forms: Vec<Form>,
     nodes: Vec<Node>,
     outputs: Vec<usize>,
+    /// Values of all tensors.
+    kept: usize,
+    weight_bytes: u64,
 }
 
 /// An operator at its place.
@@ -58,7 +65,14 @@ impl Network {
     /// A network that has only an input so far.
     pub(crate) fn new(input: Form) -> Result<Self, NetworkError> {
         limit(&input).map_err(NetworkError::Network)?;
-        Ok(Self { forms: vec![input], nodes: Vec::new(), outputs: Vec::new() })
+        let kept = input.elements();
+        Ok(Self {
+            forms: vec![input],
+            nodes: Vec::new(),
+            outputs: Vec::new(),
+            kept,
+            weight_bytes: 0,
+        })
     }
 
     /// Adds a node, and returns its value.
@@ -77,11 +91,15 @@ impl Network {
             problem,
         };
         let form = form.map_err(problem)?;
-        let kept: usize = self.forms.iter().map(Form::elements).sum();
-        if kept + form.elements() > MAX_KEPT {
+        self.kept = self.kept.saturating_add(form.elements());
+        if self.kept > MAX_KEPT {
             return Err(problem(format!(
                 "all tensors up to here have more than {MAX_KEPT} values"
             )));
+        }
+        self.weight_bytes = self.weight_bytes.saturating_add(operator.weight_bytes());
+        if self.weight_bytes > MAX_WEIGHTS {
+            return Err(problem("all weights up to here have more than 4 GiB".to_owned()));
         }
         self.forms.push(form);
         self.nodes.push(Node { name: name.to_owned(), kind: kind.to_owned(), operator, inputs });
@@ -140,6 +158,9 @@ impl Network {
 
 /// Refuses a tensor that is too large.
 fn limit(form: &Form) -> Result<(), String> {
+    if form.shape().len() > MAX_AXES {
+        return Err(format!("a tensor has {} axes, more than {MAX_AXES}", form.shape().len()));
+    }
     let elements =
         form.shape().iter().try_fold(1usize, |product, &length| product.checked_mul(length));
     match elements {

@@ -54,13 +54,8 @@ impl Activation {
                 }
             }
             Self::Clip { min, max } => {
-                if x < min {
-                    min
-                } else if x > max {
-                    max
-                } else {
-                    x
-                }
+                let x = if x < min { min } else { x };
+                if x > max { max } else { x }
             }
             Self::Sigmoid => sigmoid(x),
             Self::HardSigmoid { alpha, beta } => (alpha * x + beta).clamp(0.0, 1.0),

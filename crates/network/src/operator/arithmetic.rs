@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Two tensors, element by element, each repeated along the axes in which it has one element.
 
-use super::{Activation, Job, Operator, same_position};
+use super::{Activation, Job, Operator};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::{Tensor, for_each_run};
@@ -83,12 +83,26 @@ impl Operator for Binary {
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        same_position(inputs, output)
+        let mut seen = Mask::empty(output.height(), output.width());
+        for &(form, mask) in inputs {
+            let new = output.shape().len() - form.shape().len();
+            let axes = form.axes().start + new..form.axes().end + new;
+            if form.has_positions() && axes == output.axes() && kept(form, output.shape()) {
+                seen.union(mask);
+            } else if !mask.is_empty() {
+                seen.fill();
+            }
+        }
+        seen
     }
 
     fn finished(&self, finish: Activation) -> Option<Arc<dyn Operator>> {
         let is_free = self.finish == Activation::Identity;
         is_free.then(|| Arc::new(Self { finish, ..self.clone() }) as Arc<dyn Operator>)
+    }
+
+    fn weight_bytes(&self) -> u64 {
+        self.constant.as_ref().map_or(0, |(constant, _)| 4 * constant.values().len() as u64)
     }
 
     fn compute(&self, job: Job<'_>) {

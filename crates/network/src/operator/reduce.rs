@@ -31,7 +31,8 @@ impl Operator for Reduce {
         if self.keep {
             left.resize(shape.len(), 1);
         }
-        Ok(Form::whole(left))
+        let is_features = self.keep && self.from == 2;
+        Ok(if is_features { Form::features(left) } else { Form::whole(left) })
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {

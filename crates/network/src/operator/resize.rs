@@ -146,11 +146,17 @@ impl Operator for Resize {
                 let line = |y: usize| {
                     let (left, right) =
                         (plane[y * width + column.first], plane[y * width + column.second]);
-                    left + (right - left) * column.share
+                    between(left, right, column.share)
                 };
                 let (above, below) = (line(row.first), line(row.second));
-                *to = above + (below - above) * row.share;
+                *to = between(above, below, row.share);
             }
         });
     }
+}
+
+/// A value between two, the first where the share of the second is 0, whatever the second is.
+#[inline(always)]
+fn between(first: f32, second: f32, share: f32) -> f32 {
+    if share == 0.0 { first } else { first + (second - first) * share }
 }

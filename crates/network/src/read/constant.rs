@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Constants of a model.
 
+use crate::network::MAX_AXES;
 use crate::onnx::{TensorProto, data_type};
+use std::cell::Cell;
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
@@ -19,11 +21,26 @@ pub(super) enum Values {
 }
 
 /// The folder of the model, in which data outside of the file must lie.
-pub(super) struct Folder(PathBuf);
+pub(super) struct Folder {
+    path: PathBuf,
+    /// Bytes of constants that may still be read.
+    left: Cell<u64>,
+}
+
+/// Bytes of all constants of a model.
+const MAX_BYTES: u64 = 1 << 32;
 
 impl Folder {
     pub(super) fn of(model: &Path) -> Self {
-        Self(model.parent().unwrap_or_else(|| Path::new("")).to_owned())
+        let path = model.parent().unwrap_or_else(|| Path::new("")).to_owned();
+        Self { path, left: Cell::new(MAX_BYTES) }
+    }
+
+    /// Counts bytes that are to be read.
+    fn charge(&self, bytes: u64) -> Result<(), String> {
+        let left = self.left.get().checked_sub(bytes);
+        self.left.set(left.ok_or("all constants together have more than 4 GiB")?);
+        Ok(())
     }
 }
 
@@ -37,6 +54,9 @@ impl Constant {
         let length = |&length: &i64| {
             usize::try_from(length).map_err(|_| format!("its shape has a length of {length}"))
         };
+        if tensor.dims.len() > MAX_AXES {
+            return Err(format!("it has {} axes, more than {MAX_AXES}", tensor.dims.len()));
+        }
         let shape: Vec<usize> = tensor.dims.iter().map(length).collect::<Result<_, _>>()?;
         let kind = tensor.data_type.unwrap_or(0);
         let values = if tensor.data_location == Some(TensorProto::EXTERNAL) {
@@ -60,6 +80,16 @@ impl Constant {
             Values::Floats(_) => {
                 Err("a constant must be of integers, but is of floating-point values".to_owned())
             }
+        }
+    }
+
+    /// Its values as weights, of which there are some.
+    pub(super) fn as_weights(&self) -> Result<&[f32], String> {
+        let values = self.as_floats()?;
+        if values.is_empty() {
+            Err(format!("a constant of weights is empty: {:?}", self.shape))
+        } else {
+            Ok(values)
         }
     }
 
@@ -169,14 +199,17 @@ fn external(tensor: &TensorProto, folder: &Folder) -> Result<Vec<u8>, String> {
             location.display()
         ));
     }
-    let path = folder.0.join(location);
+    let path = folder.path.join(location);
     let fails =
         |error: std::io::Error| format!("cannot read its data `{}`: {error}", path.display());
     let outside =
         |_| format!("its data `{}` is outside the folder of the model", location.display());
+    if !path.metadata().map_err(fails)?.is_file() {
+        return Err(format!("its data `{}` is not a file", location.display()));
+    }
     let (real, root) = (
         path.canonicalize().map_err(fails)?,
-        if folder.0.as_os_str().is_empty() { Path::new(".") } else { &folder.0 }
+        if folder.path.as_os_str().is_empty() { Path::new(".") } else { &folder.path }
             .canonicalize()
             .map_err(fails)?,
     );
@@ -191,6 +224,7 @@ fn external(tensor: &TensorProto, folder: &Folder) -> Result<Vec<u8>, String> {
             location.display()
         ));
     }
+    folder.charge(length)?;
     file.seek(SeekFrom::Start(offset)).map_err(fails)?;
     let mut bytes = Vec::new();
     file.take(length).read_to_end(&mut bytes).map_err(fails)?;

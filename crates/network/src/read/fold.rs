@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Nodes whose outputs are known when the network is read: shapes and what is computed of them.
 
-use super::Known;
 use super::constant::{Constant, Values};
+use super::graph::Known;
 use super::node::{NodeReader, from_start, signed};
 
-/// The outputs of a node that only computes with constants; `None` if it is not one of those that are known.
-pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Vec<Constant>>, String> {
-    let one = |constant| Ok(Some(vec![constant]));
+/// Values of the largest constant that is computed.
+const MAX_FOLDED: usize = 1 << 16;
+
+/// The output of a node that only computes with constants; `None` if it is not one of those that are known.
+pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
+    let one = |constant| Ok(Some(constant));
     match node.kind() {
         "Constant" => {
             let ints = node
@@ -51,7 +54,7 @@ pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Vec<Constant>>, Strin
 fn constants<'a>(node: &NodeReader<'a>) -> Option<Vec<&'a Constant>> {
     let inputs: Option<Vec<_>> = (0..node.node.input.len())
         .map(|at| match node.input(at) {
-            Some(Known::Constant(constant)) => Some(constant),
+            Some(Known::Constant(constant)) => Some(constant.as_ref()),
             _ => None,
         })
         .collect();
@@ -59,10 +62,9 @@ fn constants<'a>(node: &NodeReader<'a>) -> Option<Vec<&'a Constant>> {
 }
 
 /// What a node makes of constants.
-fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Vec<Constant>>, String> {
+fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Constant>, String> {
     let first = inputs[0];
     let made = match node.kind() {
-        "Identity" | "Dropout" => first.clone(),
         "Cast" => match (node.int("to", 1), &first.values) {
             #[allow(clippy::cast_precision_loss, reason = "a cast rounds")]
             (1, Values::Integers(values)) => Constant {
@@ -74,7 +76,10 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Vec<Co
                 first.shape.clone(),
                 values.iter().map(|&value| value as i64).collect(),
             ),
-            _ => first.clone(),
+            (1, Values::Floats(_)) | (6 | 7, Values::Integers(_)) => first.clone(),
+            (other, _) => {
+                return Err(format!("a cast of a constant to type {other} is not supported"));
+            }
         },
         "Gather" if first.shape.len() == 1 => {
             let index = inputs.get(1).ok_or("it has no indices")?;
@@ -123,6 +128,14 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Vec<Co
             Constant::integers(shape, values.ok_or("its result is no integer of 64 bits")?)
         }
         "Slice" if first.shape.len() == 1 => {
+            let is_plain = |at: usize, plain: &[i64]| {
+                inputs.get(at).is_none_or(|input| matches!(&input.values, Values::Integers(values) if plain.iter().any(|&value| *values == [value])))
+            };
+            if !is_plain(3, &[0, -1]) || !is_plain(4, &[1]) {
+                return Err(
+                    "a slice of a constant must be along its only axis, in steps of 1".to_owned()
+                );
+            }
             let bound = |at: usize, what| -> Result<i64, String> {
                 inputs
                     .get(at)
@@ -138,5 +151,8 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Vec<Co
         }
         _ => return Ok(None),
     };
-    Ok(Some(vec![made]))
+    if made.values.count() > MAX_FOLDED {
+        return Err(format!("it makes a constant of more than {MAX_FOLDED} values"));
+    }
+    Ok(Some(made))
 }

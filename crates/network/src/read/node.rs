@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A node as operators read it: attributes with their defaults, constants, and values.
 
-use super::Known;
 use super::constant::{Constant, Folder};
+use super::graph::Known;
 use crate::form::Form;
 use crate::mask::Window;
 use crate::onnx::{AttributeProto, NodeProto};
@@ -12,6 +12,8 @@ pub(super) struct NodeReader<'a> {
     pub(super) node: &'a NodeProto,
     pub(super) known: &'a HashMap<String, Known>,
     pub(super) folder: &'a Folder,
+    /// The version of the operators.
+    pub(super) opset: i64,
     pub(super) forms: &'a dyn Fn(usize) -> Form,
 }
 

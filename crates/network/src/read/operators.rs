@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The operators of ONNX, and which of ours each becomes.
 
-use super::Known;
 use super::constant::Constant;
+use super::graph::Known;
 use super::node::{NodeReader, from_start, positive, signed};
 use crate::form::Form;
+use crate::network::MAX_AXES;
 use crate::operator::{
     Activation, Arithmetic, Binary, Concat, Conv, Coordinates, Linear, MatMul, Nearest, Operator,
     Pad, Pointwise, Pool, PoolKind, Reduce, Reduction, Reshape, Resize, ResizeKind, Scale, Size,
@@ -40,7 +41,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Constant", |_| Err("its value is of a kind that is not supported".to_owned())),
     ("Conv", conv),
     ("Div", |node| binary(node, Arithmetic::Div)),
-    ("Dropout", same),
+    ("Dropout", dropout),
     ("Elu", |node| finish(node, Activation::Elu { alpha: node.float("alpha", 1.0) })),
     ("Erf", |node| finish(node, Activation::Erf)),
     ("Exp", |node| finish(node, Activation::Exp)),
@@ -122,6 +123,16 @@ fn same(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     Ok(vec![Made::Same(node.input(0).ok_or("it has no input")?.clone())])
 }
 
+fn dropout(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let training = node.constant(2, "training_mode")?;
+    if training
+        .is_some_and(|training| training.as_integers().is_ok_and(|values| values.contains(&1)))
+    {
+        return Err("it is in training mode".to_owned());
+    }
+    same(node)
+}
+
 fn cast(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     match node.int("to", 1) {
         1 => same(node),
@@ -133,7 +144,7 @@ fn cast(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 
 fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made>, String> {
     let tensor = |constant: &Constant| -> Result<Tensor, String> {
-        Ok(Tensor::new(Form::whole(constant.shape.clone()), constant.as_floats()?.to_vec()))
+        Ok(Tensor::new(Form::whole(constant.shape.clone()), constant.as_weights()?.to_vec()))
     };
     match (node.input(0), node.input(1), node.input(2)) {
         (Some(&Known::Value(a)), Some(&Known::Value(b)), None) => {
@@ -169,6 +180,7 @@ fn clip(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
     let weights = node.wanted(1, "weights")?;
+    let values = weights.as_weights()?;
     let &[_, _, height, width] = weights.shape.as_slice() else {
         return Err(format!(
             "its weights have {} axes; only two-dimensional convolution is supported",
@@ -185,15 +197,7 @@ fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let groups = positive("group", node.int("group", 1))?;
     let bias = node.constant(2, "bias")?.map(Constant::as_floats).transpose()?;
     one(
-        Conv::new(
-            &weights.shape,
-            weights.as_floats()?,
-            bias,
-            rows,
-            columns,
-            groups,
-            Level::detect(),
-        )?,
+        Conv::new(&weights.shape, values, bias, rows, columns, groups, Level::detect())?,
         vec![value],
     )
 }
@@ -215,7 +219,11 @@ fn reduce_mean(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
     let count = (node.forms)(value).shape().len();
     let keep = node.int("keepdims", 1) != 0;
-    let axes = node.ints_of("axes", 1)?.unwrap_or_else(|| (0..).take(count).collect());
+    let axes = node.ints_of("axes", 1)?.filter(|axes| !axes.is_empty());
+    if axes.is_none() && node.int("noop_with_empty_axes", 0) != 0 {
+        return same(node);
+    }
+    let axes = axes.unwrap_or_else(|| (0..).take(count).collect());
     let mut axes: Vec<i64> = axes.iter().map(|&axis| from_start(axis, count)).collect();
     axes.sort_unstable();
     let from = axes.first().copied().unwrap_or(0);
@@ -232,7 +240,7 @@ fn normalization(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     if node.int("training_mode", 0) != 0 {
         return Err("it is in training mode".to_owned());
     }
-    let of = |at, what| node.wanted(at, what).and_then(Constant::as_floats);
+    let of = |at, what| node.wanted(at, what).and_then(Constant::as_weights);
     let epsilon = node.float("epsilon", 1e-5);
     let scale = Scale::normalization(
         of(1, "scale")?,
@@ -258,14 +266,14 @@ fn gemm(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let transposed = node.int("transB", 0) != 0;
     let (alpha, beta) = (node.float("alpha", 1.0), node.float("beta", 1.0));
     one(
-        Linear::new(&weights.shape, weights.as_floats()?, bias, transposed, alpha, beta)?,
+        Linear::new(&weights.shape, weights.as_weights()?, bias, transposed, alpha, beta)?,
         vec![node.value(0)?],
     )
 }
 
 fn matmul(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let matrix = node.wanted(1, "second matrix")?;
-    one(MatMul::new(&matrix.shape, matrix.as_floats()?)?, vec![node.value(0)?])
+    one(MatMul::new(&matrix.shape, matrix.as_weights()?)?, vec![node.value(0)?])
 }
 
 fn flatten(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -289,6 +297,9 @@ fn reshape(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
         return Err("allowzero is not supported".to_owned());
     }
     let shape = node.ints_of("shape", 1)?.ok_or("it has no shape")?;
+    if shape.len() > MAX_AXES {
+        return Err(format!("its output has more than {MAX_AXES} axes"));
+    }
     one(Reshape { shape }, vec![node.value(0)?])
 }
 
@@ -307,6 +318,9 @@ fn unsqueeze(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
     let form = (node.forms)(value);
     let new = node.ints_of("axes", 1)?.ok_or("it has no axes")?.len();
+    if form.shape().len() + new > MAX_AXES {
+        return Err(format!("its output has more than {MAX_AXES} axes"));
+    }
     let axes = axes(node, form.shape().len() + new)?.ok_or("it has no axes")?;
     let mut old = form.shape().iter();
     let shape = (0..form.shape().len() + new).map(|axis| {
@@ -317,6 +331,11 @@ fn unsqueeze(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 
 /// The axes of `count` that a node names.
 fn axes(node: &NodeReader<'_>, count: usize) -> Result<Option<Vec<usize>>, String> {
+    let distinct = |axes: Vec<usize>| {
+        let are_distinct =
+            axes.iter().collect::<std::collections::HashSet<_>>().len() == axes.len();
+        if are_distinct { Ok(axes) } else { Err("it names an axis twice".to_owned()) }
+    };
     let own = |&axis: &i64| {
         let own = from_start(axis, count);
         usize::try_from(own)
@@ -324,7 +343,8 @@ fn axes(node: &NodeReader<'_>, count: usize) -> Result<Option<Vec<usize>>, Strin
             .filter(|&own| own < count)
             .ok_or_else(|| format!("its axis {axis} is outside"))
     };
-    node.ints_of("axes", 1)?.map(|axes| axes.iter().map(own).collect()).transpose()
+    let axes = node.ints_of("axes", 1)?.map(|axes| axes.iter().map(own).collect::<Result<_, _>>());
+    axes.transpose()?.map(distinct).transpose()
 }
 
 fn transpose(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -345,11 +365,16 @@ fn pad(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     if mode != "constant" {
         return Err(format!("the mode `{mode}` is not supported, only `constant`"));
     }
+    if let Some(axes) = node.constant(3, "axes")?
+        && axes.as_integers()? != [0, 1, 2, 3]
+    {
+        return Err("pads of some axes are not supported, only those of all four".to_owned());
+    }
     let pads = node.ints_of("pads", 1)?.ok_or("it has no pads")?;
     let around = match pads.as_slice() {
         &[0, 0, top, left, 0, 0, bottom, right] => [top, left, bottom, right],
         _ => {
-            return Err(format!("pads {pads:?} are not supported, only those of rows and columns"));
+            return Err("only pads of rows and columns are supported".to_owned());
         }
     };
     let size = |pad: i64| {
@@ -400,6 +425,10 @@ fn split(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
             .collect()
     });
     let mut start = 0i64;
+    let all = sizes.iter().try_fold(0i64, |sum, &size| sum.checked_add(size).filter(|_| size >= 0));
+    if all != Some(signed(length)) || sizes.len() != parts {
+        return Err(format!("{length} elements cannot be split into {parts} parts as it says"));
+    }
     let slices = sizes.iter().map(|&size| {
         let slice = Slice { axis, start, end: start.saturating_add(size), step: 1 };
         start = start.saturating_add(size);
@@ -409,7 +438,20 @@ fn split(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 }
 
 fn softmax(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
-    one(Softmax { axis: node.int("axis", -1) }, vec![node.value(0)?])
+    let value = node.value(0)?;
+    if node.opset >= 13 {
+        return one(Softmax { axis: node.int("axis", -1) }, vec![value]);
+    }
+    // Until version 13 it is over all axes from one on.
+    let form = (node.forms)(value);
+    let axis = from_start(node.int("axis", 1), form.shape().len());
+    let rest = usize::try_from(axis).ok().and_then(|axis| form.shape().get(axis + 1..));
+    match rest {
+        Some(rest) if rest.iter().all(|&length| length == 1) => one(Softmax { axis }, vec![value]),
+        _ => Err(format!(
+            "over all axes from {axis} on, as before version 13 of the operators, it is not supported"
+        )),
+    }
 }
 
 fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -449,6 +491,12 @@ fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     if node.int("antialias", 0) != 0 {
         return Err("antialias is not supported".to_owned());
     }
+    if node.text("keep_aspect_ratio_policy", "stretch") != "stretch" {
+        return Err("only the keep_aspect_ratio_policy `stretch` is supported".to_owned());
+    }
+    if node.ints("axes").is_some_and(|axes| axes != [0, 1, 2, 3]) {
+        return Err("scales of some axes are not supported, only those of all four".to_owned());
+    }
     let value = node.value(0)?;
     let scales_at = if node.kind() == "Upsample" { 1 } else { 2 };
     let scales = node.constant(scales_at, "scales")?.filter(|scales| scales.values.count() > 0);
@@ -466,7 +514,10 @@ fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
             }
         },
         (None, Some(sizes)) => match *sizes.as_integers()? {
-            [_, _, rows, columns] => {
+            [1, channels, rows, columns]
+                if (node.forms)(value).shape().get(1)
+                    == usize::try_from(channels).ok().as_ref() =>
+            {
                 Size::Sizes([positive("size", rows)?, positive("size", columns)?])
             }
             ref sizes => return Err(format!("sizes {sizes:?} are not supported")),

@@ -457,3 +457,54 @@ fn the_fixed_mode_is_wrong_at_borders_only() {
     };
     assert!(!wrong.is_empty() && wrong.is_subset(&Mask::from_fn(16, 16, is_ring)));
 }
+
+/// A value that has a second name is not changed by an activation of that name.
+#[test]
+fn an_activation_leaves_what_others_use() {
+    let mut model = Model::new(&[1, 1, 4, 4]);
+    let weights = model.floats(&[1, 1, 1, 1], &[-1.0]);
+    let conv = model.node("Conv", &["picture", &weights], &[]);
+    let alias = model.node("Identity", &[&conv], &[]);
+    let relu = model.node("Relu", &[&alias], &[]);
+    let sum = model.node("Add", &[&conv, &relu], &[]);
+    model.output(&sum);
+    let network = model.read(4, 4).unwrap();
+    let mut executor = Executor::new(&network, Mode::Dense);
+    executor.step(&[2.0; 16], &Mask::full(4, 4));
+    let &[output] = network.outputs() else { panic!("one output") };
+    assert_eq!(executor.value(output).values(), [-2.0; 16]);
+}
+
+/// Positions on other axes of equal lengths are other positions.
+#[test]
+fn a_sum_with_its_own_transpose_is_exact() {
+    let mut model = Model::new(&[1, 1, 8, 8]);
+    let weights = model.floats(&[8, 1, 1, 1], &noise(1, 8));
+    let features = model.node("Conv", &["picture", &weights], &[]);
+    let order = ("perm", Value::Ints(vec![0, 2, 3, 1]));
+    let turned = model.node("Transpose", &[&features], &[order]);
+    let sum = model.node("Add", &[&features, &turned], &[]);
+    model.output(&sum);
+    let network = model.read(8, 8).unwrap();
+    let frames = clip(1, [8, 8], &[vec![(5, 2, 1)]]);
+    assert_eq!(difference(&network, Mode::Exact, &frames), None);
+}
+
+/// Squeeze and excitation with convolutions, as in MobileNetV3.
+#[test]
+fn convolutions_of_a_pooled_tensor_are_exact() {
+    let mut model = Model::new(&[1, 1, 8, 8]);
+    let weights = model.floats(&[6, 1, 3, 3], &noise(1, 54));
+    let features = model.node("Conv", &["picture", &weights], &[("pads", Value::Ints(vec![1; 4]))]);
+    let mean = model.node("GlobalAveragePool", &[&features], &[]);
+    let weights = model.floats(&[6, 6, 1, 1], &noise(2, 36));
+    let gate = model.node("Conv", &[&mean, &weights], &[]);
+    let gate = model.node("Sigmoid", &[&gate], &[]);
+    let scaled = model.node("Mul", &[&features, &gate], &[]);
+    model.output(&scaled);
+    let network = model.read(8, 8).unwrap();
+    let frames = clip(1, [8, 8], &[vec![(5, 2, 1)], vec![]]);
+    for mode in [Mode::Exact, Mode::Compare] {
+        assert_eq!(difference(&network, mode, &frames), None);
+    }
+}

@@ -94,6 +94,94 @@ fn impossible_models_are_refused() {
     }
 }
 
+/// What would be computed in another way than the standard says, or would take the memory of the machine.
+#[test]
+fn what_is_not_as_it_seems_is_refused() {
+    let with = |kind: &str, constants: &[&[i64]], attributes: &[(&str, Value)]| {
+        let mut model = Model::new(&[1, 1, 8, 8]);
+        let names: Vec<String> = constants.iter().map(|values| model.ints(values)).collect();
+        let inputs = std::iter::once("picture").chain(names.iter().map(String::as_str));
+        let output = model.node(kind, &inputs.collect::<Vec<_>>(), attributes);
+        model.output(&output);
+        refusal(model)
+    };
+    let empty = {
+        let mut model = Model::new(&[1, 1, 8, 8]);
+        let weights = model.floats(&[0, 1 << 62], &[]);
+        let flat = model.node("Flatten", &["picture"], &[]);
+        model.node("Gemm", &[&flat, &weights], &[]);
+        refusal(model)
+    };
+    let doubled = {
+        let mut model = Model::new(&[1, 1, 8, 8]);
+        let mut name = model.ints(&[1]);
+        for _ in 0..40 {
+            name = model.node("Concat", &[&name, &name], &[("axis", Value::Int(0))]);
+        }
+        model.output("picture");
+        refusal(model)
+    };
+    let sliced = {
+        let mut model = Model::new(&[1, 1, 8, 8]);
+        let shape = model.node("Shape", &["picture"], &[]);
+        let bounds: Vec<String> = [0, 4, 0, 2].iter().map(|&value| model.ints(&[value])).collect();
+        let inputs: Vec<&str> =
+            std::iter::once(shape.as_str()).chain(bounds.iter().map(String::as_str)).collect();
+        model.node("Slice", &inputs, &[]);
+        refusal(model)
+    };
+    let bytes = {
+        let mut model = one_node("Relu", &[]);
+        let kind = model.graph.input[0].r#type.as_mut().unwrap().tensor_type.as_mut().unwrap();
+        kind.elem_type = Some(2);
+        refusal(model)
+    };
+    let long = {
+        let mut model = one_node("Einsum", &[]);
+        model.graph.node[0].name = Some("line\nline ".repeat(100));
+        refusal(model)
+    };
+    let cases = [
+        (empty, "a constant of weights is empty"),
+        (doubled, "it makes a constant of more than 65536 values"),
+        (sliced, "in steps of 1"),
+        (bytes, "but it is of type 2 of ONNX"),
+        (long, "lineline lineline"),
+        (with("Unsqueeze", &[&[0; 9]], &[]), "more than 8 axes"),
+        (with("Unsqueeze", &[&[0, 0]], &[]), "it names an axis twice"),
+        (with("Reshape", &[&[1, 1, 1, 1, 1, 1, 1, 1, -1]], &[]), "more than 8 axes"),
+        (with("Split", &[&[5, 4]], &[("axis", Value::Int(2))]), "8 elements cannot be split"),
+        (with("ReduceMean", &[&[1]], &[]), "only one over the last axes"),
+    ];
+    for (refusal, says) in cases {
+        assert!(
+            refusal.contains(says) && !refusal.contains('\n') && refusal.len() < 800,
+            "{refusal} for {says}"
+        );
+    }
+}
+
+/// The version of the operators says what a softmax is over.
+#[test]
+fn operators_have_versions() {
+    use foveate_network::onnx::{ModelProto, OperatorSetIdProto};
+    use prost::Message as _;
+    let parse = |version, axis: i64| {
+        let model = one_node("Softmax", &[("axis", Value::Int(axis))]);
+        let mut model = ModelProto::decode(model.bytes().as_slice()).unwrap();
+        model.opset_import = vec![OperatorSetIdProto { domain: None, version: Some(version) }];
+        let parsed = Network::parse(
+            &model.encode_to_vec(),
+            Path::new("test.onnx"),
+            FrameSize { width: 8, height: 8 },
+        );
+        parsed.map(|_| ()).map_err(|error| error.to_string())
+    };
+    assert_eq!((parse(13, 1), parse(11, 3)), (Ok(()), Ok(())));
+    assert!(parse(11, 1).unwrap_err().contains("as before version 13"));
+    assert!(parse(6, 3).unwrap_err().contains("version 7 or later"));
+}
+
 #[test]
 fn data_outside_of_the_folder_is_refused() {
     use foveate_network::onnx::{StringStringEntryProto, TensorProto};

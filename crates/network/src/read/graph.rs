@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The graph of a model, node by node.
+
+use super::constant::{Constant, Folder};
+use super::fold;
+use super::input::{FrameSize, input_form, name_of};
+use super::node::NodeReader;
+use super::operators::{self, Made};
+use crate::error::NetworkError;
+use crate::network::Network;
+use crate::onnx::{GraphProto, NodeProto};
+use crate::operator::Activation;
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// What a name stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Known {
+    /// A value of the network.
+    Value(usize),
+    Constant(Arc<Constant>),
+}
+
+/// Whether a domain is that of the standard.
+pub(super) fn is_standard(domain: Option<&str>) -> bool {
+    matches!(domain, None | Some("" | "ai.onnx"))
+}
+
+/// Reads a graph for frames of a size.
+pub(super) fn read(
+    graph: &GraphProto,
+    folder: &Folder,
+    frames: FrameSize,
+    opset: i64,
+) -> Result<Network, NetworkError> {
+    let mut known = HashMap::new();
+    for tensor in &graph.initializer {
+        let name = tensor.name.clone().unwrap_or_default();
+        let constant = Constant::read(tensor, folder).map_err(|problem| {
+            NetworkError::Network(format!("the constant `{name}`: {problem}"))
+        })?;
+        known.insert(name, Known::Constant(Arc::new(constant)));
+    }
+    let inputs: Vec<_> =
+        graph.input.iter().map(name_of).filter(|name| !known.contains_key(*name)).collect();
+    let &[name] = inputs.as_slice() else {
+        return Err(NetworkError::Network(format!(
+            "it must have one input, the picture, but it has {} ({})",
+            inputs.len(),
+            inputs.join(", ")
+        )));
+    };
+    let input = graph.input.iter().find(|input| name_of(input) == name).expect("it is one of them");
+    let network = Network::new(input_form(input, frames)?)?;
+    known.insert(name.to_owned(), Known::Value(0));
+    let mut reading =
+        Reading { network, known, folder, opset, uses: uses(graph), aliased: HashSet::new() };
+    for (index, node) in graph.node.iter().enumerate() {
+        reading.node(node, index)?;
+    }
+    let outputs = graph.output.iter().map(|output| reading.output(name_of(output)));
+    let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
+    if outputs.is_empty() {
+        return Err(NetworkError::Network("it has no output".to_owned()));
+    }
+    reading.network.finish(outputs);
+    Ok(reading.network)
+}
+
+/// A graph of which some nodes have been read.
+struct Reading<'a> {
+    network: Network,
+    known: HashMap<String, Known>,
+    folder: &'a Folder,
+    opset: i64,
+    /// How often each name is taken.
+    uses: HashMap<&'a str, usize>,
+    /// Values that have a second name.
+    aliased: HashSet<usize>,
+}
+
+impl Reading<'_> {
+    fn node(&mut self, node: &NodeProto, index: usize) -> Result<(), NetworkError> {
+        let kind = node.op_type.clone().unwrap_or_default();
+        let name = node.name.clone().filter(|name| !name.is_empty());
+        let name = name.unwrap_or_else(|| format!("{kind}_{index}"));
+        if !is_standard(node.domain.as_deref()) || !operators::is_known(&kind) {
+            let domain = node.domain.as_deref().filter(|domain| !domain.is_empty());
+            let operator = domain.map_or_else(|| kind.clone(), |domain| format!("{domain}.{kind}"));
+            return Err(NetworkError::Operator {
+                node: name,
+                operator,
+                advice: "docs/guides/infer.md lists those that are",
+            });
+        }
+        let made = self.made(node).map_err(|problem| NetworkError::Node {
+            node: name.clone(),
+            operator: kind.clone(),
+            problem,
+        })?;
+        for (made, output) in made.into_iter().zip(&node.output) {
+            let what = match made {
+                Made::Constant(constant) => Known::Constant(Arc::new(constant)),
+                Made::Same(what) => {
+                    if let Known::Value(value) = what {
+                        self.aliased.insert(value);
+                    }
+                    what
+                }
+                Made::Operator(operator, inputs) => {
+                    Known::Value(self.network.push(&name, &kind, operator, inputs)?)
+                }
+                Made::Finish(activation, value) => {
+                    let fused = self.fuse(&kind, activation, value, &node.input[0]);
+                    Known::Value(match fused {
+                        Some(value) => value,
+                        None => self.network.push(
+                            &name,
+                            &kind,
+                            operators::pointwise(activation),
+                            vec![value],
+                        )?,
+                    })
+                }
+            };
+            self.known.insert(output.clone(), what);
+        }
+        Ok(())
+    }
+
+    /// What the outputs of a node are.
+    fn made(&self, node: &NodeProto) -> Result<Vec<Made>, String> {
+        for input in node.input.iter().filter(|input| !input.is_empty()) {
+            if !self.known.contains_key(input) {
+                return Err(format!("its input `{input}` is made by no node before it"));
+            }
+        }
+        let forms = |value: usize| self.network.form(value).clone();
+        let reader = NodeReader {
+            node,
+            known: &self.known,
+            folder: self.folder,
+            opset: self.opset,
+            forms: &forms,
+        };
+        match fold::fold(&reader)? {
+            Some(constant) => Ok(vec![Made::Constant(constant)]),
+            None => operators::make(&reader),
+        }
+    }
+
+    /// Lets the operator just before apply an activation itself, if nobody else wants what it makes.
+    fn fuse(
+        &mut self,
+        kind: &str,
+        activation: Activation,
+        value: usize,
+        input: &str,
+    ) -> Option<usize> {
+        let is_alone = value == self.network.nodes().len()
+            && self.uses.get(input) == Some(&1)
+            && !self.aliased.contains(&value);
+        let last = self.network.nodes().last().filter(|_| is_alone)?;
+        let operator = last.operator.finished(activation)?;
+        let fused = format!("{}+{kind}", last.kind());
+        self.network.replace_last(&fused, operator);
+        Some(value)
+    }
+
+    fn output(&self, name: &str) -> Result<usize, NetworkError> {
+        match self.known.get(name) {
+            Some(&Known::Value(value)) => Ok(value),
+            Some(Known::Constant(_)) => {
+                Err(NetworkError::Network(format!("its output `{name}` is constant")))
+            }
+            None => Err(NetworkError::Network(format!("no node makes its output `{name}`"))),
+        }
+    }
+}
+
+/// How often each name is taken: by nodes, and as an output of the network.
+fn uses(graph: &GraphProto) -> HashMap<&str, usize> {
+    let mut uses = HashMap::new();
+    let of_nodes = graph.node.iter().flat_map(|node| node.input.iter().map(String::as_str));
+    for name in of_nodes.chain(graph.output.iter().map(name_of)) {
+        *uses.entry(name).or_default() += 1;
+    }
+    uses
+}
