@@ -43,6 +43,13 @@ pub(crate) struct Picture<'a> {
     pub(crate) columns: Window,
 }
 
+/// Some positions of a chunk, and the input of the first.
+#[derive(Clone, Debug)]
+struct Inside {
+    lanes: Range<usize>,
+    x: usize,
+}
+
 impl Picture<'_> {
     /// Inputs of an output.
     fn depth(&self) -> usize {
@@ -144,23 +151,35 @@ impl Picture<'_> {
         &self,
         from: usize,
         chunk: Chunk,
-        to: Range<usize>,
-        gathered: &mut [[f32; LANES]],
+        lanes: Range<usize>,
+        panel: &mut [[f32; LANES]],
     ) {
         let Self { rows, columns, height, width, .. } = *self;
-        for (at, panel) in (from..).zip(gathered) {
-            let (tap, column) = (at / columns.kernel, at % columns.kernel);
+        let inside: Vec<Inside> =
+            (0..columns.kernel).map(|tap| self.inside_row(chunk, tap)).collect();
+        let (mut tap, mut column) = (from / columns.kernel, from % columns.kernel);
+        for to in panel {
+            let to = &mut to[lanes.clone()];
+            to.fill(0.0);
             let (channel, row) = (tap / rows.kernel, tap % rows.kernel);
-            let to = &mut panel[to.clone()];
-            let Some(y) = rows.input(chunk.y, row, height) else {
-                to.fill(0.0);
-                continue;
-            };
-            let line = &self.values[(channel * height + y) * width..][..width];
-            for (lane, to) in to.iter_mut().enumerate() {
-                let x = columns.input(chunk.x + lane, column, width);
-                *to = x.map_or(0.0, |x| line[x]);
+            if let Some(y) = rows.input(chunk.y, row, height) {
+                let Inside { lanes, x } = inside[column].clone();
+                let inputs = self.values[(channel * height + y) * width + x..].iter();
+                let inputs = inputs.step_by(columns.stride);
+                to[lanes].iter_mut().zip(inputs).for_each(|(to, &input)| *to = input);
+            }
+            column += 1;
+            if column == columns.kernel {
+                (tap, column) = (tap + 1, 0);
             }
         }
+    }
+
+    /// The positions of a chunk whose input of a tap is no padding: they are neighbors.
+    fn inside_row(&self, chunk: Chunk, tap: usize) -> Inside {
+        let input = |lane: &usize| self.columns.input(chunk.x + lane, tap, self.width);
+        let first = (0..CHUNK).find(|lane| input(lane).is_some()).unwrap_or(CHUNK);
+        let end = (first..CHUNK).find(|lane| input(lane).is_none()).unwrap_or(CHUNK);
+        Inside { lanes: first..end, x: input(&first).filter(|_| first < end).unwrap_or(0) }
     }
 }

@@ -108,7 +108,10 @@ impl Operator for Conv {
         match self.finish {
             Activation::Identity => self.convolve(job, &chunks, |x| x),
             Activation::Relu => self.convolve(job, &chunks, |x| Activation::Relu.of(x)),
-            finish => self.convolve(job, &chunks, move |x| finish.of(x)),
+            Activation::Clip { min, max } => {
+                self.convolve(job, &chunks, |x| Activation::Clip { min, max }.of(x));
+            }
+            finish => self.convolve(job, &chunks, |x| finish.of(x)),
         }
     }
 
