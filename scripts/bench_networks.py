@@ -21,10 +21,12 @@ import onnxruntime
 
 def infer(path, size, mode, threads, options):
     """The summary of a run."""
+    width, height = size
+    is_scene = options.input.startswith("scene:")
+    fit = ["--set", f"frame={{width={width},height={height}}}"] if is_scene else ["--resize", f"{width}x{height}"]
     with tempfile.TemporaryDirectory() as folder:
-        command = [os.environ.get("FOVEATE", "foveate"), "infer", path, options.input, "-o", os.path.join(folder, "out"), "--mode", mode, "--json",
-                   "--max-frames", str(options.frames), *(["--set", f"frame={{width={size[0]},height={size[1]}}}"] if options.input.startswith("scene:")
-                                                          else ["--resize", f"{size[0]}x{size[1]}"])]
+        command = [os.environ.get("FOVEATE", "foveate"), "infer", path, options.input, "-o", os.path.join(folder, "out"),
+                   "--mode", mode, "--json", "--max-frames", str(options.frames), *fit]
         env = dict(os.environ, RAYON_NUM_THREADS=str(threads))
         return json.loads(subprocess.run(command, env=env, check=True, capture_output=True, text=True).stdout)
 
@@ -77,9 +79,10 @@ def main():
             found = exact[0]
             share = found["macs"]["scheduled"] / found["macs"]["dense"]
             name = os.path.splitext(os.path.basename(path))[0]
-            print(f"| {name} | {size[0]}x{size[1]} | {threads} | " + " | ".join(f"{value:.1f} ms" for value in milliseconds)
-                  + f" | {milliseconds[0] / milliseconds[1]:.2f}x | {milliseconds[0] / milliseconds[2]:.2f}x | {100 * found['changed_share']:.1f} % | {100 * share:.0f} % |",
-                  flush=True)
+            times = " | ".join(f"{value:.1f} ms" for value in milliseconds)
+            ratios = " | ".join(f"{milliseconds[0] / value:.2f}x" for value in milliseconds[1:])
+            shares = f"{100 * found['changed_share']:.1f} % | {100 * share:.0f} %"
+            print(f"| {name} | {size[0]}x{size[1]} | {threads} | {times} | {ratios} | {shares} |", flush=True)
 
 
 if __name__ == "__main__":
