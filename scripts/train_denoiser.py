@@ -40,11 +40,11 @@ class Denoiser(nn.Module):
         return picture - self.noise(picture)
 
 
-def frames(scene, seconds=40):
+def frames(scene, count=40):
     """Frames of a scene, from 0 to 1."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
-        command = [os.environ.get("FOVEATE", "foveate"), "simulate", f"scene:{scene}", "-o", out, "--max-frames", str(seconds), "--quiet", *OPEN]
+        command = [os.environ.get("FOVEATE", "foveate"), "simulate", f"scene:{scene}", "-o", out, "--max-frames", str(count), "--quiet", *OPEN]
         subprocess.run(command, check=True)
         pictures = [np.asarray(Image.open(path), np.float32) / 255 for path in sorted(glob.glob(os.path.join(out, "rendered", "*.png")))]
     return torch.from_numpy(np.stack(pictures))[:, None]

@@ -9,6 +9,7 @@
 mod advice;
 mod error;
 mod extension;
+mod hooks;
 mod input;
 mod limits;
 mod natural;
@@ -23,6 +24,7 @@ mod y4m;
 
 pub use advice::advice;
 pub use error::FootageError;
+pub use hooks::{Hooks, Progress, Silent};
 pub use input::{ImagesAs, InputOptions, is_read_once, open};
 pub use limits::{Crop, MAX_SIDE};
 pub use natural::natural_order;

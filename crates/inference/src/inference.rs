@@ -7,30 +7,12 @@ use crate::tally::{Distance, Positions, Reference};
 use crate::{InferenceError, Mapping};
 use foveate_design::{Config, Design};
 use foveate_engine::Engine;
-use foveate_footage::{FootageError, Kind, Source, SourceFrame, read_ahead};
+use foveate_footage::{FootageError, Hooks, Kind, Progress, Source, SourceFrame, read_ahead};
 use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 use foveate_tables::{Cell, Cells, Table};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-/// Frames that are done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// So many are done.
-    pub done: u64,
-    /// Of so many, if that is known.
-    pub total: Option<u64>,
-}
-
-/// Called once per frame.
-pub trait Hooks {
-    /// Another frame is done.
-    fn progress(&mut self, progress: Progress);
-
-    /// Whether to stop. The result is then what was done so far, marked as incomplete.
-    fn cancelled(&self) -> bool;
-}
 
 /// What is computed, and how.
 #[derive(Clone, Debug)]
@@ -77,17 +59,17 @@ impl Inference {
     /// # Errors
     /// When a frame cannot be read, the folder cannot be written, or there is no frame.
     pub fn run(
-        mut self,
+        self,
         output: &Path,
         options: &Options,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
-        options.mapping.check(self.network.input().shape()[1])?;
+        let Self { design, network, path, mut source } = self;
+        options.mapping.check(network.input().shape()[1])?;
         let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
-        let network = self.network.clone();
-        let mut run = Run::new(&self.design, &network, options, self.source.kind());
-        let total = self.source.frames();
-        let ended = read_ahead(self.source.as_mut(), |frames| {
+        let mut run = Run::new(&design, &network, options, source.kind());
+        let total = source.frames();
+        let ended = read_ahead(source.as_mut(), |frames| {
             while let Some(current) = frames.next()? {
                 if hooks.cancelled() {
                     return Ok::<_, InferenceError>(false);
@@ -101,15 +83,13 @@ impl Inference {
         let problem = match (ended, run.frames) {
             (false, 0) => return Err(InferenceError::Cancelled),
             (true, 0) => {
-                return Err(
-                    FootageError::NoFrames { inputs: self.source.inputs().join(", ") }.into()
-                );
+                return Err(FootageError::NoFrames { inputs: source.inputs().join(", ") }.into());
             }
             (false, _) => Some("it was interrupted".to_owned()),
-            (true, _) => self.source.problem(),
+            (true, _) => source.problem(),
         };
         let frames = Table::of(std::mem::take(&mut run.rows).into_iter());
-        let summary = run.summary(&self.path, self.source.inputs(), problem);
+        let summary = run.summary(&path, source.inputs(), problem);
         write(&staging, &summary, &frames)?;
         staging.commit()?;
         Ok(summary)
@@ -215,7 +195,7 @@ impl<'a> Run<'a> {
             self.seconds += seconds;
             self.outputs.add(error.unwrap_or_default());
         }
-        let macs = macs(&layers(self.network, &own, None));
+        let macs = macs(self.network, &own);
         let regions = u64::from(self.design.regions());
         let real = |value: f64| Cell::Real(Some(value));
         self.rows.push(
@@ -259,7 +239,7 @@ impl<'a> Run<'a> {
             counted_frames: self.counted,
             active_share: ratio(self.active, counted_regions),
             changed_share: ratio(self.changed, counted_regions),
-            macs: macs(&layers),
+            macs: macs(self.network, &self.sums),
             weight_bytes: layers.iter().map(|layer| layer.weight_bytes).sum(),
             kept_bytes: self.network.kept_bytes(),
             mask_bytes: forms().map(|form| form.places().div_ceil(8) as u64).sum(),

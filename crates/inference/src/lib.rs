@@ -12,6 +12,6 @@ mod summary;
 mod tally;
 
 pub use error::InferenceError;
-pub use inference::{Hooks, Inference, Options, Progress};
+pub use inference::{Inference, Options};
 pub use picture::Mapping;
 pub use summary::{Error, Layer, Macs, Summary};

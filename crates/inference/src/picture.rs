@@ -16,12 +16,6 @@ pub struct Mapping {
     pub scale: Vec<f32>,
 }
 
-impl Default for Mapping {
-    fn default() -> Self {
-        Self { mean: vec![0.0], scale: vec![1.0] }
-    }
-}
-
 impl Mapping {
     /// Refuses a mapping for other channels.
     pub(crate) fn check(&self, channels: usize) -> Result<(), InferenceError> {
@@ -37,7 +31,6 @@ impl Mapping {
 /// The picture that the network sees, and the frame that it was made of.
 #[derive(Clone, Debug)]
 pub(crate) struct Picture {
-    width: usize,
     side: usize,
     /// What each pixel becomes, channel by channel.
     tables: Vec<Vec<f32>>,
@@ -65,7 +58,6 @@ impl Picture {
         let tables: Vec<_> = (0..channels).map(table).collect();
         let places = input.places();
         Self {
-            width: design.width() as usize,
             side: design.region_size() as usize,
             values: tables.iter().flat_map(|table| vec![table[0]; places]).collect(),
             tables,
@@ -84,7 +76,7 @@ impl Picture {
     }
 
     fn update<T: Copy + Into<u16>>(&mut self, pixels: &[T]) {
-        let (height, width, side) = (self.changed.height(), self.width, self.side);
+        let (height, width, side) = (self.changed.height(), self.changed.width(), self.side);
         self.changed = Mask::empty(height, width);
         self.changed_regions = 0;
         let places = height * width;

@@ -141,16 +141,16 @@ pub(crate) fn layers(
     sums.iter().enumerate().map(layer).collect()
 }
 
-/// The sums of all layers.
-pub(crate) fn macs(layers: &[Layer]) -> Macs {
+/// The sums over all layers.
+pub(crate) fn macs(network: &Network, sums: &[Positions]) -> Macs {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
-    let sum = |share: fn(&Layer) -> f64| {
-        layers.iter().map(|layer| layer.macs as f64 * share(layer)).sum()
+    let of = |share: fn(&Positions) -> f64| {
+        sums.iter().enumerate().map(|(node, sums)| network.macs(node) as f64 * share(sums)).sum()
     };
     Macs {
-        dense: sum(|_| 1.0),
-        needed: sum(|layer| layer.needed_share),
-        scheduled: sum(|layer| layer.scheduled_share),
+        dense: of(|_| 1.0),
+        needed: of(|sums| ratio(sums.needed, sums.all)),
+        scheduled: of(|sums| ratio(sums.scheduled, sums.all)),
     }
 }
 

@@ -2,7 +2,6 @@
 //! Sums over the frames of a run.
 
 use foveate_network::{Executor, Mask, Network, Work};
-use serde::Serialize;
 
 /// Positions of a node over all counted frames.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,14 +16,13 @@ impl Positions {
     pub(crate) fn add(&mut self, work: &Work, places: usize) {
         self.all += places as u64;
         self.needed += work.needed as u64;
-        // Whole chunks may cover more than there is, but more than everything is never needed.
         self.scheduled += work.scheduled as u64;
         self.changed += work.changed as u64;
     }
 }
 
 /// How far values are from those of a whole computation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Distance {
     pub(crate) largest: f64,
     /// Sum of the squared differences.
@@ -49,7 +47,7 @@ impl Distance {
 /// A whole computation beside the one that is judged.
 pub(crate) struct Reference<'a> {
     network: &'a Network,
-    pub(crate) dense: Executor<'a>,
+    dense: Executor<'a>,
     /// By node.
     pub(crate) layers: Vec<Distance>,
     /// Frames in which every output has its largest value at the same place.

@@ -15,8 +15,9 @@ mod simulation;
 pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
 pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
+pub use foveate_footage::{Hooks, Progress, Silent};
 pub use output::{
     Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent,
     PixelEvents, Range, RunOptions, Summary, Traffic,
 };
-pub use simulation::{Hooks, Progress, Silent, Simulation};
+pub use simulation::Simulation;

@@ -9,38 +9,7 @@ use foveate_staging::{Kind as FolderKind, StagedFolder};
 
 use crate::output::{DISK_FULL, INTERRUPTED, Recorder};
 use crate::{RunOptions, SimulatorError, Summary};
-use foveate_footage::{FootageError, read_ahead};
-use foveate_footage::{Kind, Source};
-
-/// Progress of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Frames that are done.
-    pub done: u64,
-    /// Frames in all, if that is known.
-    pub total: Option<u64>,
-}
-
-/// Callbacks of a run, called once per frame.
-pub trait Hooks {
-    /// Reports that another frame is done.
-    fn progress(&mut self, progress: Progress);
-
-    /// Returns whether to stop. The result is then what was done so far, marked as incomplete.
-    fn cancelled(&self) -> bool;
-}
-
-/// Hooks that report nothing and never stop.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
-
-impl Hooks for Silent {
-    fn progress(&mut self, _progress: Progress) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
+use foveate_footage::{FootageError, Hooks, Kind, Progress, Source, read_ahead};
 
 /// A design and the frames to show it.
 pub struct Simulation {

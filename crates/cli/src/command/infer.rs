@@ -3,16 +3,14 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_footage::{ImagesAs, open};
-use foveate_inference::{Hooks, Inference, Options, Progress, Summary};
+use foveate_inference::{Inference, Options, Summary};
 
+use super::simulate::Terminal;
 use crate::args::{InferArgs, warn_of};
 use crate::error::CliError;
-use crate::progress::Progress as Shown;
-use crate::{interrupt, output};
+use crate::output;
 
 pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
     let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
@@ -25,7 +23,7 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
         reference: args.has_reference(),
         overwrite: args.force,
     };
-    let mut hooks = Terminal { shown: Shown::new(args.quiet), interrupted: interrupt::flag()? };
+    let mut hooks = Terminal::new(args.quiet)?;
     let summary = inference.run(&args.output, &options, &mut hooks);
     hooks.shown.finish();
     let summary = summary?;
@@ -34,27 +32,7 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
         (false, false) => output::text(&text(&args.output, &summary))?,
         (false, true) => {}
     }
-    let Some(problem) = summary.problem else { return Ok(()) };
-    if hooks.interrupted.load(Ordering::Relaxed) {
-        return Err(CliError::Interrupted { path: args.output.clone() });
-    }
-    Err(CliError::Failed(format!("`{}` is not complete: {problem}", args.output.display())))
-}
-
-/// Draws progress and listens for Ctrl-C.
-struct Terminal {
-    shown: Shown,
-    interrupted: Arc<AtomicBool>,
-}
-
-impl Hooks for Terminal {
-    fn progress(&mut self, progress: Progress) {
-        self.shown.frames(progress.done, progress.total, "");
-    }
-
-    fn cancelled(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
-    }
+    hooks.verdict(&args.output, summary.problem)
 }
 
 fn text(folder: &Path, summary: &Summary) -> String {

@@ -91,7 +91,7 @@ impl Terminal {
     }
 
     /// What a result that is there, but not complete, means for the exit code.
-    fn verdict(&self, folder: &Path, problem: Option<String>) -> Result<(), CliError> {
+    pub(super) fn verdict(&self, folder: &Path, problem: Option<String>) -> Result<(), CliError> {
         let Some(problem) = problem else { return Ok(()) };
         if self.interrupted.load(Ordering::Relaxed) {
             return Err(CliError::Interrupted { path: folder.to_owned() });
