@@ -185,7 +185,7 @@ module serial_array #(
     wire from_memory, subtract, by_sign, by_run, carry, enable, clear;
     wire run, run_corner, run_clear, count, count_corner;
     wire double, divide, deviate, masked, from_aux;
-    wire shift, keep, fetch, chain_clear;
+    wire shift, keep, fetch;
     wire write_active, write_border;
     wire [1:0] side;
 
@@ -208,7 +208,7 @@ module serial_array #(
         .run_corner_o(run_corner), .run_clear_o(run_clear), .count_o(count),
         .count_corner_o(count_corner), .double_o(double), .divide_o(divide), .deviate_o(deviate),
         .masked_o(masked), .from_aux_o(from_aux), .shift_o(shift), .keep_o(keep), .fetch_o(fetch),
-        .chain_clear_o(chain_clear), .rotate_o(rotate), .unload_o(unload), .index_o(index),
+        .rotate_o(rotate), .unload_o(unload), .index_o(index),
         .region_o(region), .position_o(position)
     );
 
@@ -242,7 +242,7 @@ module serial_array #(
     wire [GROUPS-1:0] all_write_active, all_write_border, all_from_memory, all_subtract,
         all_by_sign, all_by_run, all_carry, all_enable, all_clear, all_run, all_run_corner,
         all_run_clear, all_count, all_count_corner, all_double, all_divide, all_deviate, all_masked,
-        all_from_aux, all_shift, all_keep, all_fetch, all_chain_clear, all_unload;
+        all_from_aux, all_shift, all_keep, all_fetch, all_unload;
 
     genvar i;
     generate
@@ -261,7 +261,7 @@ module serial_array #(
                 .clear_i(clear), .run_i(run), .run_corner_i(run_corner), .run_clear_i(run_clear),
                 .count_i(count), .count_corner_i(count_corner), .double_i(double), .divide_i(divide),
                 .deviate_i(deviate), .masked_i(masked), .from_aux_i(from_aux), .shift_i(shift),
-                .keep_i(keep), .fetch_i(fetch), .chain_clear_i(chain_clear), .unload_i(unload),
+                .keep_i(keep), .fetch_i(fetch), .unload_i(unload),
                 .loading_o(loading[i]), .pixel_o(pixels[i*WIDTH+:WIDTH]), .rows_o(rows[i*8+:8]),
                 .columns_o(columns[i*8+:8]), .address_o(addresses[i*ADDRESS_BITS+:ADDRESS_BITS]),
                 .write_o(writes[i]), .write_active_o(all_write_active[i]),
@@ -273,7 +273,7 @@ module serial_array #(
                 .count_o(all_count[i]), .count_corner_o(all_count_corner[i]), .double_o(all_double[i]),
                 .divide_o(all_divide[i]), .deviate_o(all_deviate[i]), .masked_o(all_masked[i]),
                 .from_aux_o(all_from_aux[i]), .shift_o(all_shift[i]), .keep_o(all_keep[i]),
-                .fetch_o(all_fetch[i]), .chain_clear_o(all_chain_clear[i]), .unload_o(all_unload[i])
+                .fetch_o(all_fetch[i]), .unload_o(all_unload[i])
             );
         end
     endgenerate
@@ -327,7 +327,7 @@ module serial_array #(
                 .divide_i(all_divide[GROUP]), .deviate_i(all_deviate[GROUP]),
                 .masked_i(all_masked[GROUP]), .from_aux_i(all_from_aux[GROUP]),
                 .shift_i(all_shift[GROUP]), .keep_i(all_keep[GROUP]), .fetch_i(all_fetch[GROUP]),
-                .chain_clear_i(all_chain_clear[GROUP]), .unload_i(all_unload[GROUP]),
+                .unload_i(all_unload[GROUP]),
                 .word_i(ring[(i+1)*CHAIN_BITS+:CHAIN_BITS]), .flags_i(flags[(i+1)*FLAGS+:FLAGS]),
                 .word_o(ring[i*CHAIN_BITS+:CHAIN_BITS]), .flags_o(flags[i*FLAGS+:FLAGS]),
                 .leaves_o(lane_leaves), .pixel_o(words[i*WIDTH+:WIDTH])

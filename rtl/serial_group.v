@@ -60,7 +60,6 @@ module serial_group #(
     input  wire                    shift_i,         // scores move on by one lane
     input  wire                    keep_i,          // the score becomes the accumulator
     input  wire                    fetch_i,         // the score becomes the word read
-    input  wire                    chain_clear_i,   // the score becomes 0
     input  wire                    unload_i,        // the word read leaves if its region is active
     // To the lanes: loading, the rest as above.
     output wire                    loading_o,       // pixels come from outside
@@ -93,7 +92,6 @@ module serial_group #(
     output wire                    shift_o,         // shift_i, registered
     output wire                    keep_o,          // keep_i, registered
     output wire                    fetch_o,         // fetch_i, registered
-    output wire                    chain_clear_o,   // chain_clear_i, registered
     output wire                    unload_o         // unload_i, registered
 );
 
@@ -232,9 +230,6 @@ module serial_group #(
     );
     serial_control #(.USED(RASTER), .LATE(BLOCK)) u_fetch (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(fetch_i), .bits_o(fetch_o)
-    );
-    serial_control #(.LATE(BLOCK)) u_chain_clear (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(chain_clear_i), .bits_o(chain_clear_o)
     );
     serial_control #(.USED(RASTER == 0), .LATE(BLOCK)) u_unload (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(unload_i), .bits_o(unload_o)

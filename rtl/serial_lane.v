@@ -64,11 +64,11 @@ module serial_lane #(
     input  wire                    deviate_i,        // the operand is |2^FRACTION * word - aux|
     input  wire                    masked_i,         // ... is 0 unless its bit under the constant is 1
     input  wire                    from_aux_i,       // ... is aux
-    // Chain of scores.
+    // Chain of scores. Nothing clears it: scores that move on leave zeros behind. What is in it after a reset
+    // moves on with the temporal counts of the first frame, which are not shown.
     input  wire                    shift_i,          // take score and flags of the lane behind
     input  wire                    keep_i,           // the score becomes the accumulator
     input  wire                    fetch_i,          // the score becomes the word read
-    input  wire                    chain_clear_i,    // the score becomes 0
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane behind
     input  wire [       FLAGS-1:0] flags_i,          // flags of the lane behind: active or TRS; SRS so far
     output wire [  CHAIN_BITS-1:0] word_o,           // the score
@@ -246,7 +246,8 @@ module serial_lane #(
         end
     endgenerate
 
-    // Chain of scores.
+    // Chain of scores. Nothing clears it: scores that move on leave zeros behind. What is in it after a reset
+    // moves on with the temporal counts of the first frame, which are not shown.
     wire [CHAIN_BITS-1:0] summed;
     wire [CHAIN_BITS-1:0] fetched;
     wire [CHAIN_BITS-1:0] moved = shift_i ? word_i : fetch_i ? fetched : keep_i ? summed : chain_q;
@@ -268,8 +269,7 @@ module serial_lane #(
     endgenerate
 
     always @(posedge clk_i) begin
-        if (chain_clear_i) chain_q <= {CHAIN_BITS{1'b0}};
-        else chain_q <= moved + {{(CHAIN_BITS - 1) {1'b0}}, scored};
+        chain_q <= moved + {{(CHAIN_BITS - 1) {1'b0}}, scored};
         if (shift_i) flags_q <= flags_i;
     end
 

@@ -77,7 +77,6 @@ module serial_sequencer #(
     output wire                     shift_o,           // scores move on by one lane
     output wire                     keep_o,            // the score becomes the accumulator
     output wire                     fetch_o,           // the score becomes the word read
-    output wire                     chain_clear_o,     // the score becomes 0
     // What the decision takes.
     output wire                     rotate_o,          // scores pass
     output wire                     unload_o,          // the word read leaves if its region is active
@@ -596,7 +595,6 @@ module serial_sequencer #(
     assign shift_o = rotating || shifting;
     assign keep_o = keeping;
     assign fetch_o = RASTER != 0 && unloading;
-    assign chain_clear_o = idle;
     assign rotate_o = rotating;
     assign unload_o = RASTER != 0 ? shifting : unloading;
     assign index_o = index_q;
