@@ -5,7 +5,6 @@ use crate::mask::Mask;
 use crate::network::Network;
 use crate::operator::Job;
 use crate::tensor::{Tensor, for_each_run};
-use foveate_lanes::Level;
 
 /// What is computed for a frame after the first. The first is always computed whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +37,8 @@ pub struct Work {
 pub struct Executor<'a> {
     network: &'a Network,
     mode: Mode,
-    level: Level,
+    /// By value: by how much it must differ to have changed. Without a limit everything that was computed has.
+    limits: Vec<Option<f32>>,
     /// All values, as they were passed on.
     kept: Vec<Tensor>,
     /// What has changed of each.
@@ -54,16 +54,38 @@ impl<'a> Executor<'a> {
     #[must_use]
     pub fn new(network: &'a Network, mode: Mode) -> Self {
         let forms = || (0..=network.nodes().len()).map(|value| network.form(value));
+        let limit = match mode {
+            Mode::Dense | Mode::Exact | Mode::Fixed => None,
+            Mode::Compare => Some(0.0),
+            Mode::Truncate(limit) => Some(limit),
+        };
+        let mut limits: Vec<_> = forms().map(|_| limit).collect();
+        // The picture is never cut.
+        limits[0] = limit.map(|_| 0.0);
         Self {
             network,
             mode,
-            level: Level::detect(),
+            limits,
             kept: forms().map(|form| Tensor::zeros(form.clone())).collect(),
             masks: forms().map(|form| Mask::empty(form.height(), form.width())).collect(),
             work: vec![Work::default(); network.nodes().len()],
             fresh: Vec::new(),
             has_begun: false,
         }
+    }
+
+    /// An executor in [`Mode::Truncate`] with a limit of its own for every node.
+    ///
+    /// # Panics
+    /// If there is not a limit per node.
+    #[must_use]
+    pub fn truncating(network: &'a Network, limits: &[f32]) -> Self {
+        assert_eq!(limits.len(), network.nodes().len(), "a limit per node");
+        let mut executor = Self::new(network, Mode::Truncate(0.0));
+        for (own, &limit) in executor.limits[1..].iter_mut().zip(limits) {
+            *own = Some(limit);
+        }
+        executor
     }
 
     /// Runs the network on the next picture, which differs from the one before at most at the positions `changed`. Returns what every node
@@ -79,12 +101,7 @@ impl<'a> Executor<'a> {
             (input.height(), input.width()),
             "a bit per position"
         );
-        if self.has_begun && self.mode != Mode::Dense {
-            self.masks[0].clone_from(changed);
-        } else {
-            self.masks[0].fill();
-        }
-        self.accept(picture);
+        self.accept(picture, changed);
         for node in 0..self.work.len() {
             self.run(node, changed);
         }
@@ -104,71 +121,72 @@ impl<'a> Executor<'a> {
         &self.masks[value]
     }
 
+    /// Whether this frame is computed whole.
+    fn is_whole(&self) -> bool {
+        !self.has_begun || self.mode == Mode::Dense
+    }
+
+    /// By how much a value must differ in this frame to have changed, if it is compared.
+    fn limit(&self, value: usize) -> Option<f32> {
+        self.limits[value].filter(|_| self.has_begun)
+    }
+
     /// Takes over the picture.
-    fn accept(&mut self, picture: &[f32]) {
-        let form = self.network.input().clone();
-        let mut fresh = std::mem::take(&mut self.fresh);
-        fresh.clear();
-        fresh.extend_from_slice(picture);
-        let fresh = Tensor::new(form, fresh);
-        if matches!(self.mode, Mode::Compare | Mode::Truncate(_)) && self.has_begun {
-            self.masks[0] = moved(&self.kept[0], &fresh, &self.masks[0], 0.0);
+    fn accept(&mut self, picture: &[f32], changed: &Mask) {
+        let kept = &self.kept[0];
+        self.masks[0] = match self.limit(0) {
+            _ if self.is_whole() => Mask::full(changed.height(), changed.width()),
+            Some(limit) => moved(kept, picture, changed, limit),
+            None => changed.clone(),
+        };
+        copy(picture, &mut self.kept[0], &self.masks[0]);
+    }
+
+    /// The positions of a node's output that are to be computed.
+    fn wanted(&self, node: usize, camera: &Mask) -> Mask {
+        let (node, form) = (&self.network.nodes()[node], self.network.form(node + 1));
+        if self.is_whole() {
+            return Mask::full(form.height(), form.width());
         }
-        copy(&fresh, &mut self.kept[0], &self.masks[0]);
-        self.fresh = fresh.into_values();
+        // Rows that have become one, or none, lie under no part of the picture.
+        if self.mode == Mode::Fixed && form.axes().len() == 2 {
+            return under(camera, form.height(), form.width());
+        }
+        let source = |&value: &usize| (self.network.form(value), &self.masks[value]);
+        node.operator.spread(&node.inputs().iter().map(source).collect::<Vec<_>>(), form)
     }
 
     fn run(&mut self, node: usize, camera: &Mask) {
+        let (at, limit) = (self.wanted(node, camera), self.limit(node + 1));
         let place = &self.network.nodes()[node];
-        let form = self.network.form(node + 1);
-        let sources: Vec<_> = place
-            .inputs()
-            .iter()
-            .map(|&value| (self.network.form(value), &self.masks[value]))
-            .collect();
-        let at = match self.mode {
-            _ if !self.has_begun => Mask::full(form.height(), form.width()),
-            Mode::Dense => Mask::full(form.height(), form.width()),
-            Mode::Fixed if form.axes().len() == 2 => under(camera, form.height(), form.width()),
-            // Rows that have become one, or none.
-            Mode::Fixed => place.operator.spread(&sources, form),
-            Mode::Exact | Mode::Compare | Mode::Truncate(_) => {
-                place.operator.spread(&sources, form)
-            }
-        };
+        let (needed, scheduled) = (at.count(), place.operator.scheduled(&at));
         let (before, rest) = self.kept.split_at_mut(node + 1);
         let inputs: Vec<&Tensor> = place.inputs().iter().map(|&value| &before[value]).collect();
         let kept = &mut rest[0];
-        let (needed, scheduled) = (at.count(), place.operator.scheduled(&at));
         let compute = |output: &mut Tensor| {
             if !at.is_empty() {
-                place.operator.compute(Job { inputs: &inputs, output, at: &at, level: self.level });
+                place.operator.compute(Job { inputs: &inputs, output, at: &at });
             }
         };
-        let changed = match self.mode {
-            // What is computed beside the positions that are wanted is what stands there.
-            Mode::Dense | Mode::Exact => {
-                compute(kept);
-                at
-            }
-            _ if !self.has_begun => {
-                compute(kept);
-                at
-            }
-            mode => {
-                let mut values = std::mem::take(&mut self.fresh);
-                values.resize(form.elements(), 0.0);
-                let mut fresh = Tensor::new(form.clone(), values);
-                compute(&mut fresh);
-                let changed = match mode {
-                    Mode::Truncate(limit) => moved(kept, &fresh, &at, limit),
-                    Mode::Compare => moved(kept, &fresh, &at, 0.0),
-                    _ => at,
-                };
-                copy(&fresh, kept, &changed);
-                self.fresh = fresh.into_values();
-                changed
-            }
+        // Beside the positions that are wanted an operator writes what a whole computation would. In place that is what stands there,
+        // unless an input is not what it was.
+        let in_place = limit.is_none() && (self.mode != Mode::Fixed || !self.has_begun);
+        let changed = if in_place {
+            compute(kept);
+            at
+        } else {
+            let mut values = std::mem::take(&mut self.fresh);
+            values.resize(kept.form().elements(), 0.0);
+            let mut fresh = Tensor::new(kept.form().clone(), values);
+            compute(&mut fresh);
+            let values = fresh.into_values();
+            let changed = match limit {
+                Some(limit) => moved(kept, &values, &at, limit),
+                None => at,
+            };
+            copy(&values, kept, &changed);
+            self.fresh = values;
+            changed
         };
         self.work[node] = Work { needed, scheduled, changed: changed.count() };
         self.masks[node + 1] = changed;
@@ -176,13 +194,13 @@ impl<'a> Executor<'a> {
 }
 
 /// The positions of `at` of which a value differs by more than `limit`; with a limit of 0, in any bit.
-fn moved(kept: &Tensor, fresh: &Tensor, at: &Mask, limit: f32) -> Mask {
+fn moved(kept: &Tensor, fresh: &[f32], at: &Mask, limit: f32) -> Mask {
     let form = kept.form();
     let (inner, places, width) = (form.inner(), form.places(), form.width());
     let mut moved = Mask::empty(form.height(), width);
     for_each_run(form, at, |run| {
         let start = run.start;
-        let pairs = kept.values()[run.clone()].iter().zip(&fresh.values()[run]);
+        let pairs = kept.values()[run.clone()].iter().zip(&fresh[run]);
         for (index, (kept, fresh)) in (start..).zip(pairs) {
             // What is no number is neither more nor less.
             let is_near =
@@ -197,9 +215,9 @@ fn moved(kept: &Tensor, fresh: &Tensor, at: &Mask, limit: f32) -> Mask {
 }
 
 /// Copies the values of some positions.
-fn copy(from: &Tensor, to: &mut Tensor, at: &Mask) {
-    let form = from.form();
-    for_each_run(form, at, |run| to.values_mut()[run.clone()].copy_from_slice(&from.values()[run]));
+fn copy(from: &[f32], to: &mut Tensor, at: &Mask) {
+    let form = to.form().clone();
+    for_each_run(&form, at, |run| to.values_mut()[run.clone()].copy_from_slice(&from[run]));
 }
 
 /// The positions of a smaller or larger tensor that lie under the positions of a mask.
@@ -219,6 +237,7 @@ mod tests {
     use crate::form::Form;
     use crate::mask::Window;
     use crate::operator::{Activation, Arithmetic, Binary, Conv, Operator, Pointwise};
+    use foveate_lanes::Level;
     use std::sync::Arc;
 
     /// What may be wrong with how a change spreads.

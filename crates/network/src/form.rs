@@ -84,6 +84,45 @@ impl Form {
         self.shape[from..].iter().product()
     }
 
+    /// An axis, counted from the end where it is negative.
+    ///
+    /// # Errors
+    /// In words, when there is no such axis.
+    pub(crate) fn axis(&self, axis: i64) -> Result<usize, String> {
+        let count = self.shape.len();
+        // At most eight axes: see `network`.
+        let from_end = axis.checked_add(i64::try_from(count).expect("a few axes"));
+        let own = if axis < 0 { from_end.unwrap_or(-1) } else { axis };
+        usize::try_from(own)
+            .ok()
+            .filter(|&own| own < count)
+            .ok_or_else(|| format!("{} has no axis {axis}", self.describe()))
+    }
+
+    /// The channel, row and column of a value of features.
+    pub(crate) fn coordinates(&self, place: usize) -> (usize, usize, usize) {
+        (place / self.places(), place / self.width() % self.height(), place % self.width())
+    }
+
+    /// Where a value is in a tensor that has, for each axis of this form, so many values from one index to the next.
+    pub(crate) fn offset(&self, place: usize, steps: &[usize]) -> usize {
+        let (mut rest, mut at) = (place, 0);
+        for (&size, &step) in self.shape.iter().zip(steps).rev() {
+            at += rest % size * step;
+            rest /= size;
+        }
+        at
+    }
+
+    /// Values from one index of every axis to the next.
+    pub(crate) fn steps(&self) -> Vec<usize> {
+        let mut steps = vec![1; self.shape.len()];
+        for axis in (1..steps.len()).rev() {
+            steps[axis - 1] = steps[axis] * self.shape[axis];
+        }
+        steps
+    }
+
     /// The shape as messages show it.
     pub(crate) fn describe(&self) -> String {
         let sizes: Vec<String> = self.shape.iter().map(ToString::to_string).collect();

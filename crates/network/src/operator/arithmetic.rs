@@ -5,6 +5,7 @@ use super::{Activation, Job, Operator};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::{Tensor, for_each_run};
+use std::ops::Range;
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,11 +57,16 @@ pub(crate) struct Binary {
 }
 
 impl Binary {
-    fn operands<'a>(&'a self, inputs: &[&'a Form]) -> Result<[&'a Form; 2], String> {
+    /// Both operands in order, of which one may be the constant.
+    fn operands<'a, T>(
+        &'a self,
+        inputs: &[&'a T],
+        of: fn(&'a Tensor) -> &'a T,
+    ) -> Result<[&'a T; 2], String> {
         match (inputs, &self.constant) {
             (&[a, b], None) => Ok([a, b]),
-            (&[a], Some((constant, true))) => Ok([constant.form(), a]),
-            (&[a], Some((constant, false))) => Ok([a, constant.form()]),
+            (&[a], Some((constant, true))) => Ok([of(constant), a]),
+            (&[a], Some((constant, false))) => Ok([a, of(constant)]),
             _ => Err("it takes two tensors".to_owned()),
         }
     }
@@ -68,15 +74,15 @@ impl Binary {
 
 impl Operator for Binary {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        let [a, b] = self.operands(inputs)?;
+        let [a, b] = self.operands(inputs, Tensor::form)?;
         let shape = broadcast(a.shape(), b.shape())
             .ok_or_else(|| format!("{} and {} do not fit together", a.describe(), b.describe()))?;
         // Positions are those of an operand of the frame that has all of them.
         let whole = inputs.iter().find(|form| form.has_positions() && kept(form, &shape));
         Ok(match whole {
             Some(form) => {
-                let new = shape.len() - form.shape().len();
-                Form::at(shape, form.axes().start + new..form.axes().end + new)
+                let axes = axes(form, shape.len());
+                Form::at(shape, axes)
             }
             None => Form::whole(shape),
         })
@@ -85,9 +91,8 @@ impl Operator for Binary {
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         let mut seen = Mask::empty(output.height(), output.width());
         for &(form, mask) in inputs {
-            let new = output.shape().len() - form.shape().len();
-            let axes = form.axes().start + new..form.axes().end + new;
-            if form.has_positions() && axes == output.axes() && kept(form, output.shape()) {
+            let is_same = axes(form, output.shape().len()) == output.axes();
+            if form.has_positions() && is_same && kept(form, output.shape()) {
                 seen.union(mask);
             } else if !mask.is_empty() {
                 seen.fill();
@@ -108,20 +113,19 @@ impl Operator for Binary {
     fn compute(&self, job: Job<'_>) {
         let Job { inputs, output, at, .. } = job;
         let form = output.form().clone();
-        let (a, b) = match (inputs, &self.constant) {
-            (&[a, b], _) => (a, b),
-            (&[a], Some((constant, true))) => (constant, a),
-            (&[a], Some((constant, false))) => (a, constant),
-            _ => unreachable!("the form says how many there are"),
-        };
-        let (of_a, of_b) = (Steps::of(a.form(), &form), Steps::of(b.form(), &form));
+        let [a, b] =
+            self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
+        let (of_a, of_b) = (steps(a.form(), &form), steps(b.form(), &form));
         let last = form.shape().last().copied().unwrap_or(1);
         let to = output.values_mut();
         for_each_run(&form, at, |run| {
             let mut start = run.start;
             while start < run.end {
                 let end = run.end.min((start / last + 1) * last);
-                let (a, b) = (of_a.values(a, start, end), of_b.values(b, start, end));
+                let (a, b) = (
+                    values_of(a, &of_a, &form, start..end),
+                    values_of(b, &of_b, &form, start..end),
+                );
                 let to = &mut to[start..end];
                 // What is known here needs no choice in the loop.
                 match (self.kind, self.finish) {
@@ -150,6 +154,12 @@ fn line(a: &[f32], b: &[f32], to: &mut [f32], of: impl Fn(f32, f32) -> f32) {
     }
 }
 
+/// The positions of a form as axes of a tensor with more axes in front.
+fn axes(form: &Form, count: usize) -> Range<usize> {
+    let new = count - form.shape().len();
+    form.axes().start + new..form.axes().end + new
+}
+
 /// Whether a form has its positions in a shape, none repeated.
 fn kept(form: &Form, shape: &[usize]) -> bool {
     let new = shape.len() - form.shape().len();
@@ -170,33 +180,21 @@ fn broadcast(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
     (0..axes).map(together).collect()
 }
 
-/// Where the values of an operand are, by the axes of the output.
-struct Steps {
-    shape: Vec<usize>,
-    /// Values from one index of an axis to the next; 0 where the operand is repeated.
-    steps: Vec<usize>,
+/// Values of an operand from one index of each axis of the output to the next; 0 where the operand is repeated.
+fn steps(operand: &Form, output: &Form) -> Vec<usize> {
+    let sizes = operand.shape().iter().zip(operand.steps());
+    let own = sizes.map(|(&size, step)| if size == 1 { 0 } else { step });
+    std::iter::repeat_n(0, output.shape().len() - operand.shape().len()).chain(own).collect()
 }
 
-impl Steps {
-    fn of(operand: &Form, output: &Form) -> Self {
-        let new = output.shape().len() - operand.shape().len();
-        let mut steps = vec![0; output.shape().len()];
-        let mut step = 1;
-        for (axis, &size) in operand.shape().iter().enumerate().rev() {
-            steps[axis + new] = if size == 1 { 0 } else { step };
-            step *= size;
-        }
-        Self { shape: output.shape().to_vec(), steps }
-    }
-
-    /// The values of a line of the output, or the one value that is repeated there.
-    fn values<'a>(&self, operand: &'a Tensor, start: usize, end: usize) -> &'a [f32] {
-        let (mut rest, mut at) = (start, 0);
-        for (&size, &step) in self.shape.iter().zip(&self.steps).rev() {
-            at += rest % size * step;
-            rest /= size;
-        }
-        let repeated = self.steps.last().is_none_or(|&step| step == 0);
-        &operand.values()[at..if repeated { at + 1 } else { at + end - start }]
-    }
+/// The values of an operand for a line of the output, or the one value that is repeated there.
+fn values_of<'a>(
+    operand: &'a Tensor,
+    steps: &[usize],
+    output: &Form,
+    line: Range<usize>,
+) -> &'a [f32] {
+    let at = output.offset(line.start, steps);
+    let is_repeated = steps.last().is_none_or(|&step| step == 0);
+    &operand.values()[at..if is_repeated { at + 1 } else { at + line.len() }]
 }

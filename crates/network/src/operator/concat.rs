@@ -11,27 +11,10 @@ pub(crate) struct Concat {
     pub(crate) axis: i64,
 }
 
-impl Concat {
-    fn axis(&self, form: &Form) -> Result<usize, String> {
-        axis(self.axis, form)
-    }
-}
-
-/// An axis of a form, counted from the end where it is negative.
-pub(super) fn axis(axis: i64, form: &Form) -> Result<usize, String> {
-    let count = form.shape().len();
-    let from_end = axis.checked_add(i64::try_from(count).unwrap_or(i64::MAX));
-    let own = if axis < 0 { from_end.unwrap_or(-1) } else { axis };
-    usize::try_from(own)
-        .ok()
-        .filter(|&own| own < count)
-        .ok_or_else(|| format!("{} has no axis {axis}", form.describe()))
-}
-
 impl Operator for Concat {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
         let first = *inputs.first().ok_or("it has no inputs")?;
-        let axis = self.axis(first)?;
+        let axis = first.axis(self.axis)?;
         let mut shape = first.shape().to_vec();
         for form in &inputs[1..] {
             let fits = form.shape().len() == shape.len()
@@ -64,7 +47,7 @@ impl Operator for Concat {
     fn compute(&self, job: Job<'_>) {
         let Job { inputs, output, at, .. } = job;
         let form = output.form().clone();
-        let axis = self.axis(&form).expect("the form has it");
+        let axis = form.axis(self.axis).expect("the form has it");
         let behind = |form: &Form| form.shape()[axis..].iter().product::<usize>();
         let whole = behind(&form);
         let mut offset = 0;

@@ -18,6 +18,7 @@ pub(crate) struct Conv {
     groups: usize,
     channels: usize,
     inputs: usize,
+    level: Level,
     kernels: Kernels,
     weights: u64,
     finish: Activation,
@@ -78,6 +79,7 @@ impl Conv {
             groups,
             channels,
             inputs: inputs * groups,
+            level,
             kernels,
             weights,
             finish: Activation::Identity,
@@ -139,7 +141,7 @@ impl Operator for Conv {
 
 impl Conv {
     fn convolve(&self, job: Job<'_>, chunks: &[Chunk], finish: impl Fn(f32) -> f32 + Copy + Sync) {
-        let Job { inputs, output, level, .. } = job;
+        let Job { inputs, output, .. } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
         let (out_width, places) = (output.form().width(), output.form().places());
         let of_group = self.inputs / self.groups * height * width;
@@ -157,7 +159,7 @@ impl Conv {
                     let (weights, bias) = (&weights[channel * taps..][..taps], bias[channel]);
                     let picture = picture(channel);
                     Depthwise { picture, weights, bias, chunks, outputs, width: out_width, finish }
-                        .convolve(level);
+                        .convolve(self.level);
                 };
                 output.values_mut().par_chunks_mut(places).enumerate().for_each(channel);
             }
@@ -168,7 +170,7 @@ impl Conv {
                     let picture = picture(group);
                     let part = |(blocks, values)| {
                         let outputs = Outputs { values, blocks, places, width: out_width };
-                        kernel::convolve(level, &picture, weights, chunks, outputs, finish);
+                        kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
                     };
                     shared(weights, values, places).into_par_iter().for_each(part);
                 }

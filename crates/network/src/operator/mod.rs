@@ -34,7 +34,6 @@ pub(crate) use transpose::Transpose;
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::Tensor;
-use foveate_lanes::Level;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -80,7 +79,6 @@ pub(crate) struct Job<'a> {
     pub(crate) inputs: &'a [&'a Tensor],
     pub(crate) output: &'a mut Tensor,
     pub(crate) at: &'a Mask,
-    pub(crate) level: Level,
 }
 
 /// The union of all masks. Where an input has other positions than the output, everything depends on it.

@@ -39,11 +39,7 @@ impl Operator for Pad {
         let [rows, columns] = self.windows();
         crate::tensor::for_each_run(&form, at, |run| {
             for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
-                let (channel, y, x) = (
-                    place / form.places(),
-                    place / form.width() % form.height(),
-                    place % form.width(),
-                );
+                let (channel, y, x) = form.coordinates(place);
                 *to = match (rows.input(y, 0, height), columns.input(x, 0, width)) {
                     (Some(y), Some(x)) => inputs[0].values()[(channel * height + y) * width + x],
                     _ => self.value,

@@ -136,11 +136,7 @@ impl Operator for Resize {
         let columns = self.taps(1, width, form.width());
         crate::tensor::for_each_run(&form, at, |run| {
             for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
-                let (channel, y, x) = (
-                    place / form.places(),
-                    place / form.width() % form.height(),
-                    place % form.width(),
-                );
+                let (channel, y, x) = form.coordinates(place);
                 let plane = &inputs[0].values()[channel * height * width..][..height * width];
                 let (row, column) = (rows[y], columns[x]);
                 let line = |y: usize| {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A part of a tensor.
 
-use super::concat::axis;
 use super::{Job, Operator, only};
 use crate::form::Form;
-use crate::mask::{Mask, Window};
+use crate::mask::Mask;
 
 /// Every so many elements of an axis, from a first one to before a last one.
 #[derive(Clone, Debug)]
@@ -19,7 +18,7 @@ pub(crate) struct Slice {
 impl Slice {
     /// The axis, the first element, and how many there are.
     fn range(&self, form: &Form) -> Result<(usize, usize, usize), String> {
-        let axis = axis(self.axis, form)?;
+        let axis = form.axis(self.axis)?;
         let length = i64::try_from(form.shape()[axis]).map_err(|_| "an axis is too long")?;
         let place =
             |at: i64| if at < 0 { at.saturating_add(length).max(0) } else { at.min(length) };
@@ -48,7 +47,7 @@ impl Operator for Slice {
         let columns = form.has_positions().then(|| along(form.axes().end - 1)).flatten();
         let rows = (form.axes().len() == 2).then(|| along(form.axes().start)).flatten();
         if rows.is_none() && columns.is_none() {
-            return mask.through(Window::SAME, Window::SAME, output.height(), output.width());
+            return mask.clone();
         }
         let sees = |range: Option<(usize, usize)>, count: usize| -> Vec<(usize, usize)> {
             let (start, step) = range.unwrap_or((0, 1));

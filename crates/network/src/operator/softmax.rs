@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Exponentials as shares of their sum.
 
-use super::concat::axis;
 use super::{Job, Operator, everything, only, same_position};
 use crate::form::Form;
 use crate::mask::Mask;
@@ -15,12 +14,12 @@ pub(crate) struct Softmax {
 impl Operator for Softmax {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
         let form = only(inputs)?;
-        axis(self.axis, form)?;
+        form.axis(self.axis)?;
         Ok(form.clone())
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        let along = axis(self.axis, output).expect("the form has it");
+        let along = output.axis(self.axis).expect("the form has it");
         if output.axes().contains(&along) {
             everything(inputs, output)
         } else {
@@ -34,7 +33,7 @@ impl Operator for Softmax {
             return;
         }
         let form = output.form().clone();
-        let along = axis(self.axis, &form).expect("the form has it");
+        let along = form.axis(self.axis).expect("the form has it");
         let length = form.shape()[along];
         let step: usize = form.shape()[along + 1..].iter().product();
         let from = inputs[0].values();

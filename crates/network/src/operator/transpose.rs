@@ -41,21 +41,12 @@ impl Operator for Transpose {
         if at.is_empty() {
             return;
         }
-        let shape = inputs[0].form().shape();
-        let mut steps = vec![1; shape.len()];
-        for axis in (1..shape.len()).rev() {
-            steps[axis - 1] = steps[axis] * shape[axis];
-        }
-        let form = output.form().clone();
+        let steps = inputs[0].form().steps();
         let steps: Vec<usize> = self.order.iter().map(|&axis| steps[axis]).collect();
+        let form = output.form().clone();
         crate::tensor::for_each_run(&form, at, |run| {
             for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
-                let (mut rest, mut from) = (place, 0);
-                for (&size, &step) in form.shape().iter().zip(&steps).rev() {
-                    from += rest % size * step;
-                    rest /= size;
-                }
-                *to = inputs[0].values()[from];
+                *to = inputs[0].values()[form.offset(place, &steps)];
             }
         });
     }

@@ -55,6 +55,11 @@ enum Layer {
     Squeeze,
 }
 
+/// A convolution that keeps the size, or halves it.
+fn three_by_three(channels: usize, stride: i64) -> Layer {
+    Layer::Conv { channels, kernel: [3, 3], strides: [stride; 2], dilations: [1, 1], pads: [1; 4] }
+}
+
 fn layer() -> impl Strategy<Value = Layer> {
     let pads = || prop::array::uniform4(0..3i64);
     prop_oneof![
@@ -347,24 +352,7 @@ proptest! {
 #[test]
 fn rows_of_every_length_have_the_bits_of_the_whole() {
     for width in 6..30 {
-        let layers = [
-            Layer::Conv {
-                channels: 13,
-                kernel: [3, 3],
-                strides: [1, 1],
-                dilations: [1, 1],
-                pads: [1; 4],
-            },
-            Layer::Relu,
-            Layer::Conv {
-                channels: 37,
-                kernel: [3, 3],
-                strides: [2, 2],
-                dilations: [1, 1],
-                pads: [1; 4],
-            },
-            Layer::Residual,
-        ];
+        let layers = [three_by_three(13, 1), Layer::Relu, three_by_three(37, 2), Layer::Residual];
         let network = network(1, [9, width], &layers);
         let frames = clip(
             1,
@@ -378,13 +366,7 @@ fn rows_of_every_length_have_the_bits_of_the_whole() {
 /// The negative control: a mask that misses a changed pixel is found.
 #[test]
 fn a_change_outside_of_the_mask_is_found() {
-    let layers = [Layer::Conv {
-        channels: 4,
-        kernel: [3, 3],
-        strides: [1, 1],
-        dilations: [1, 1],
-        pads: [1; 4],
-    }];
+    let layers = [three_by_three(4, 1)];
     let network = network(1, [12, 12], &layers);
     let mut frames = clip(1, [12, 12], &[vec![(3, 3, 4)]]);
     frames[1].1.remove(6, 6);
@@ -394,23 +376,7 @@ fn a_change_outside_of_the_mask_is_found() {
 /// Little is passed on, so that little is computed; and the output stays near.
 #[test]
 fn truncation_computes_less_and_stays_near() {
-    let layers = [
-        Layer::Conv {
-            channels: 6,
-            kernel: [3, 3],
-            strides: [1, 1],
-            dilations: [1, 1],
-            pads: [1; 4],
-        },
-        Layer::Relu,
-        Layer::Conv {
-            channels: 6,
-            kernel: [3, 3],
-            strides: [1, 1],
-            dilations: [1, 1],
-            pads: [1; 4],
-        },
-    ];
+    let layers = [three_by_three(6, 1), Layer::Relu, three_by_three(6, 1)];
     let network = network(1, [20, 20], &layers);
     let full = Mask::full(20, 20);
     let picture = noise(3, 400);
@@ -431,16 +397,33 @@ fn truncation_computes_less_and_stays_near() {
     assert!(worst > 0.0 && worst < 0.1 * 54.0, "{worst}");
 }
 
+/// Limits of 0 are those of a comparison, equal ones those of a truncation, and a limit cuts at its own node alone.
+#[test]
+fn every_node_has_a_limit_of_its_own() {
+    let layers = [three_by_three(6, 1), Layer::Sigmoid, three_by_three(6, 1)];
+    let network = network(1, [20, 20], &layers);
+    let frames = clip(1, [20, 20], &[vec![(3, 3, 4)], vec![(9, 5, 6)], vec![(3, 3, 4)]]);
+    let work = |mut executor: Executor<'_>| -> Vec<Vec<_>> {
+        frames.iter().map(|(picture, mask)| executor.step(picture, mask).to_vec()).collect()
+    };
+    let nodes = network.nodes().len();
+    let of = |limits: Vec<f32>| work(Executor::truncating(&network, &limits));
+    assert_eq!(of(vec![0.0; nodes]), work(Executor::new(&network, Mode::Compare)));
+    assert_eq!(of(vec![0.2; nodes]), work(Executor::new(&network, Mode::Truncate(0.2))));
+    let cut_at =
+        |at: usize| of((0..nodes).map(|node| if node == at { 1e9 } else { 0.0 }).collect());
+    let all = of(vec![0.0; nodes]);
+    for at in 0..nodes {
+        let (whole, cut) = (&all[1], &cut_at(at)[1]);
+        assert_eq!(whole[..at], cut[..at], "{at}");
+        assert_eq!((whole[at].needed, 0), (cut[at].needed, cut[at].changed), "{at}");
+    }
+}
+
 /// The fixed mode copies what lies outside of the camera's mask.
 #[test]
 fn the_fixed_mode_is_wrong_at_borders_only() {
-    let layers = [Layer::Conv {
-        channels: 2,
-        kernel: [3, 3],
-        strides: [1, 1],
-        dilations: [1, 1],
-        pads: [1; 4],
-    }];
+    let layers = [three_by_three(2, 1)];
     let network = network(1, [16, 16], &layers);
     let frames = clip(1, [16, 16], &[vec![(4, 4, 6)]]);
     let (mut dense, mut fixed) =
