@@ -47,6 +47,24 @@ pub enum InferenceError {
         /// Channels of the input.
         channels: usize,
     },
+    /// The frames do not fit into memory together.
+    #[error(
+        "the pictures of the first {frames} frames take more than 4 GiB, and tuning keeps all in memory; cut the clip with --max-frames"
+    )]
+    TooLong {
+        /// Frames that fit.
+        frames: usize,
+    },
+    /// There are too few frames for two halves.
+    #[error(
+        "tuning takes one half of the frames and reports the other, for which it needs {least} frames; there are {frames}"
+    )]
+    TooShort {
+        /// Frames that there are.
+        frames: usize,
+        /// Frames that would do.
+        least: usize,
+    },
     /// The user stopped it before there was a result.
     #[error("interrupted; nothing was written")]
     Cancelled,

@@ -5,13 +5,20 @@
 //! everything that depends on such regions alone need not be computed again. An [`Inference`] runs a camera and a network over a clip or a set,
 //! and writes how much was needed, layer by layer and frame by frame.
 
+mod album;
+mod camera;
+mod closeness;
 mod error;
 mod inference;
 mod picture;
+mod player;
+mod run;
 mod summary;
 mod tally;
+mod tune;
 
+pub use closeness::Goal;
 pub use error::InferenceError;
-pub use inference::{Inference, Options};
+pub use inference::{Computed, Inference, Options};
 pub use picture::Mapping;
-pub use summary::{Error, Layer, Macs, Summary};
+pub use summary::{Error, Layer, Macs, Outputs, Summary, Tried, Tuning};

@@ -2,8 +2,9 @@
 //! What a run says at its end, and its tables.
 
 use crate::Mapping;
-use crate::tally::{Distance, Positions, Reference};
-use foveate_network::{Mode, Network};
+use crate::closeness::Closeness;
+use crate::tally::{Positions, Reference};
+use foveate_network::{Executor, Mode, Network};
 use foveate_tables::{Cell, Cells, Table};
 use serde::Serialize;
 
@@ -48,8 +49,12 @@ pub struct Summary {
     pub mask_bytes: u64,
     /// Mean time of a frame in this run in seconds.
     pub seconds_per_frame: f64,
+    /// Of it the time beside operators: for masks, comparisons and copies.
+    pub overhead_seconds_per_frame: f64,
     /// How far the outputs are from those of a whole computation, if one ran beside.
     pub error: Option<Error>,
+    /// How the limits of the layers were chosen, if they were.
+    pub tuning: Option<Tuning>,
     /// Every layer.
     pub layers: Vec<Layer>,
 }
@@ -61,8 +66,18 @@ pub struct Macs {
     pub dense: f64,
     /// Of the positions whose windows hold a change.
     pub needed: f64,
-    /// Of the positions that were computed.
+    /// Of the positions that were computed: whole blocks.
     pub scheduled: f64,
+    /// Of the positions that a whole computation computes, in the same blocks.
+    pub whole: f64,
+}
+
+impl Macs {
+    /// Some of them as a share of a whole computation; 0 where there is nothing to compute.
+    #[must_use]
+    pub fn share(&self, some: f64) -> f64 {
+        if self.dense == 0.0 { 0.0 } else { some / self.dense }
+    }
 }
 
 /// A comparison with a whole computation.
@@ -70,14 +85,77 @@ pub struct Macs {
 pub struct Error {
     /// Frames with a tensor in which a value has other bits.
     pub different_frames: u64,
+    /// How close the outputs are.
+    #[serde(flatten)]
+    pub outputs: Outputs,
+    /// Mean time of a whole computation in this run in seconds.
+    pub dense_seconds_per_frame: f64,
+}
+
+/// How close the outputs of all counted frames are to those of a whole computation.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Outputs {
     /// Share of frames in which every output has its largest value at the same place.
     pub agreement: f64,
+    /// Cosine of the angle between all outputs as vectors.
+    pub cosine: f64,
+    /// Peak signal-to-noise ratio in decibels, with the range of the right outputs as the peak; nothing where they are equal.
+    pub psnr: Option<f64>,
     /// The largest difference of an output.
     pub largest: f64,
     /// Root of the mean squared difference of the outputs, as a share of that of their values.
     pub relative_rms: f64,
-    /// Mean time of a whole computation in this run in seconds.
-    pub dense_seconds_per_frame: f64,
+    /// The same as a share of the standard deviation of the outputs over the frames: about 1 for outputs that never change.
+    pub rms_of_variation: f64,
+}
+
+impl From<&Closeness> for Outputs {
+    fn from(found: &Closeness) -> Self {
+        let distance = &found.distance;
+        Self {
+            agreement: found.agreement(),
+            cosine: distance.cosine(),
+            psnr: distance.psnr(),
+            largest: distance.largest,
+            relative_rms: distance.relative(),
+            rms_of_variation: found.of_variation(),
+        }
+    }
+}
+
+/// How the limits of the layers were chosen.
+#[derive(Clone, Debug, Serialize)]
+pub struct Tuning {
+    /// What has to hold, as on the command line.
+    pub goal: String,
+    /// Counted frames of the first half, which it was tuned on. All else in the summary is of the second half.
+    pub frames: u64,
+    /// How often these frames were run.
+    pub runs: u64,
+    /// Nothing cut but what came out equal.
+    pub exact: Tried,
+    /// The same relative limit at every layer.
+    pub uniform: Vec<Tried>,
+    /// The limits that were chosen: those of the layers.
+    pub chosen: Tried,
+    /// The first frame alone, whose outputs stay. A goal that it reaches says nothing.
+    pub frozen: Tried,
+    /// Whether the second half reaches the goal, too.
+    pub holds: bool,
+}
+
+/// What some limits gave on the first half.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Tried {
+    /// As a share of the root mean square of each layer's values in the first frame, if it is the same at all layers and finite.
+    pub relative_limit: Option<f64>,
+    /// Share of the MACs whose windows hold a change.
+    pub needed_share: f64,
+    /// How close the outputs are.
+    #[serde(flatten)]
+    pub outputs: Outputs,
+    /// Whether the goal is reached.
+    pub holds: bool,
 }
 
 /// What one node did.
@@ -101,6 +179,8 @@ pub struct Layer {
     pub weight_bytes: u64,
     /// Bytes of its output.
     pub output_bytes: u64,
+    /// By how much a value must have changed to be passed on, in the modes that cut.
+    pub limit: Option<f32>,
     /// Root of the mean squared difference from a whole computation, as a share of that of its values.
     pub relative_rms: Option<f64>,
 }
@@ -120,6 +200,7 @@ pub(crate) fn mode_name(mode: Mode) -> String {
 pub(crate) fn layers(
     network: &Network,
     sums: &[Positions],
+    executor: &Executor<'_>,
     reference: Option<&Reference<'_>>,
 ) -> Vec<Layer> {
     let layer = |(node, sums): (usize, &Positions)| {
@@ -135,6 +216,7 @@ pub(crate) fn layers(
             changed_share: share(sums.changed),
             weight_bytes: place.weight_bytes(),
             output_bytes: 4 * form.elements() as u64,
+            limit: executor.limit(node + 1),
             relative_rms: reference.map(|reference| reference.layers[node].relative()),
         }
     };
@@ -144,25 +226,26 @@ pub(crate) fn layers(
 /// The sums over all layers.
 pub(crate) fn macs(network: &Network, sums: &[Positions]) -> Macs {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
-    let of = |share: fn(&Positions) -> f64| {
-        sums.iter().enumerate().map(|(node, sums)| network.macs(node) as f64 * share(sums)).sum()
+    let of = |share: &dyn Fn(usize, &Positions) -> f64| {
+        let layer = |(node, sums)| network.macs(node) as f64 * share(node, sums);
+        sums.iter().enumerate().map(layer).sum()
     };
+    let places = |node: usize| network.form(node + 1).places() as u64;
     Macs {
-        dense: of(|_| 1.0),
-        needed: of(|sums| ratio(sums.needed, sums.all)),
-        scheduled: of(|sums| ratio(sums.scheduled, sums.all)),
+        dense: of(&|_, _| 1.0),
+        needed: of(&|_, sums| ratio(sums.needed, sums.all)),
+        scheduled: of(&|_, sums| ratio(sums.scheduled, sums.all)),
+        whole: of(&|node, _| ratio(network.scheduled(node) as u64, places(node))),
     }
 }
 
 /// The comparison of the outputs.
-pub(crate) fn error(reference: &Reference<'_>, outputs: &Distance) -> Error {
+pub(crate) fn error(reference: &Reference<'_>) -> Error {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
-    let frames = reference.frames.max(1) as f64;
+    let frames = reference.outputs.frames.max(1) as f64;
     Error {
         different_frames: reference.different,
-        agreement: ratio(reference.agreeing, reference.frames),
-        largest: outputs.largest,
-        relative_rms: outputs.relative(),
+        outputs: (&reference.outputs).into(),
         dense_seconds_per_frame: reference.seconds / frames,
     }
 }
@@ -174,6 +257,17 @@ pub(crate) fn ratio(part: u64, all: u64) -> f64 {
 }
 
 impl Summary {
+    /// The share of the MACs of a whole computation, both in blocks, at which this run would have been as slow as the whole computation beside it: below it, parts are
+    /// faster. Nothing without a whole computation, where nothing was computed, or where everything was.
+    #[must_use]
+    pub fn break_even_share(&self) -> Option<f64> {
+        let dense = self.error?.dense_seconds_per_frame;
+        let computing = self.seconds_per_frame - self.overhead_seconds_per_frame;
+        let per_share = computing * self.macs.whole / self.macs.scheduled;
+        let share = (dense - self.overhead_seconds_per_frame) / per_share;
+        (share.is_finite() && self.macs.scheduled < self.macs.whole).then_some(share)
+    }
+
     /// A row per layer.
     pub(crate) fn layer_table(&self) -> Table {
         let row = |(number, layer): (usize, &Layer)| -> Cells {
@@ -191,11 +285,38 @@ impl Summary {
                 ("changed_share", real(layer.changed_share)),
                 ("weight_bytes", count(layer.weight_bytes)),
                 ("output_bytes", count(layer.output_bytes)),
+                ("limit", Cell::Real(layer.limit.map(f64::from))),
                 ("relative_rms", Cell::Real(layer.relative_rms)),
             ]
             .map(|(name, cell)| (name.to_owned(), cell))
             .into()
         };
         Table::of(self.layers.iter().enumerate().map(row))
+    }
+
+    /// A row for each limit that all layers had together, and one for what was chosen.
+    pub(crate) fn tuning_table(&self) -> Option<Table> {
+        let tuning = self.tuning.as_ref()?;
+        let row = |(limits, tried): (&str, &Tried)| -> Cells {
+            let real = |value: f64| Cell::Real(Some(value));
+            [
+                ("limits", Cell::Text(limits.to_owned())),
+                ("relative_limit", Cell::Real(tried.relative_limit)),
+                ("needed_share", real(tried.needed_share)),
+                ("agreement", real(tried.outputs.agreement)),
+                ("cosine", real(tried.outputs.cosine)),
+                ("psnr", Cell::Real(tried.outputs.psnr)),
+                ("largest", real(tried.outputs.largest)),
+                ("relative_rms", real(tried.outputs.relative_rms)),
+                ("rms_of_variation", real(tried.outputs.rms_of_variation)),
+                ("holds", Cell::Flag(tried.holds)),
+            ]
+            .map(|(name, cell)| (name.to_owned(), cell))
+            .into()
+        };
+        let uniform = tuning.uniform.iter().map(|tried| ("uniform", tried));
+        let others = [("frozen", &tuning.frozen), ("chosen", &tuning.chosen)];
+        let rows = [("exact", &tuning.exact)].into_iter().chain(uniform).chain(others);
+        Some(Table::of(rows.map(row)))
     }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sums over the frames of a run.
 
-use foveate_network::{Executor, Mask, Network, Work};
+use crate::closeness::{Closeness, Distance};
+use foveate_network::{Executor, Mask, Mode, Network, Work};
+use std::time::Instant;
 
 /// Positions of a node over all counted frames.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,120 +23,58 @@ impl Positions {
     }
 }
 
-/// How far values are from those of a whole computation.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Distance {
-    pub(crate) largest: f64,
-    /// Sum of the squared differences.
-    pub(crate) difference: f64,
-    /// Sum of the squared values.
-    pub(crate) energy: f64,
-}
-
-impl Distance {
-    pub(crate) fn add(&mut self, other: Self) {
-        self.largest = self.largest.max(other.largest);
-        self.difference += other.difference;
-        self.energy += other.energy;
-    }
-
-    /// Root of the mean squared difference, as a share of that of the values; 0 if there is no difference.
-    pub(crate) fn relative(&self) -> f64 {
-        if self.difference == 0.0 { 0.0 } else { (self.difference / self.energy).sqrt() }
-    }
-}
-
 /// A whole computation beside the one that is judged.
 pub(crate) struct Reference<'a> {
     network: &'a Network,
     dense: Executor<'a>,
+    full: Mask,
     /// By node.
     pub(crate) layers: Vec<Distance>,
-    /// Frames in which every output has its largest value at the same place.
-    pub(crate) agreeing: u64,
-    pub(crate) frames: u64,
+    pub(crate) outputs: Closeness,
     /// Frames in which some value of some tensor has other bits.
     pub(crate) different: u64,
     pub(crate) seconds: f64,
 }
 
 impl<'a> Reference<'a> {
-    pub(crate) fn new(network: &'a Network, dense: Executor<'a>) -> Self {
+    pub(crate) fn new(network: &'a Network) -> Self {
         Self {
             network,
-            dense,
+            dense: Executor::new(network, Mode::Dense),
+            full: Mask::full(network.input().height(), network.input().width()),
             layers: vec![Distance::default(); network.nodes().len()],
-            agreeing: 0,
-            frames: 0,
+            outputs: Closeness::default(),
             different: 0,
             seconds: 0.0,
         }
     }
 
-    /// Computes the picture whole and compares every tensor; returns the distance of the outputs. Only a
+    /// Computes the picture whole and compares every tensor; returns how close the outputs are. Only a
     /// counted frame is in the means.
     pub(crate) fn judge(
         &mut self,
         picture: &[f32],
-        full: &Mask,
         other: &Executor<'_>,
         is_counted: bool,
-    ) -> Distance {
-        let start = std::time::Instant::now();
-        self.dense.step(picture, full);
+    ) -> Closeness {
+        let start = Instant::now();
+        self.dense.step(picture, &self.full);
         let seconds = start.elapsed().as_secs_f64();
         let mut is_different = false;
-        let mut of_outputs = Distance::default();
-        for node in 0..self.layers.len() {
-            let (right, found) =
-                (self.dense.value(node + 1).values(), other.value(node + 1).values());
-            let (distance, differs) = distance(right, found);
+        for (node, layer) in self.layers.iter_mut().enumerate() {
+            let (distance, differs) =
+                Distance::of(self.dense.value(node + 1).values(), other.value(node + 1).values());
             if is_counted {
-                self.layers[node].add(distance);
+                layer.add(distance);
             }
             is_different |= differs;
-            if self.network.outputs().contains(&(node + 1)) {
-                of_outputs.add(distance);
-            }
         }
-        let place = |executor: &Executor<'_>, value: usize| largest(executor.value(value).values());
-        let agrees = self
-            .network
-            .outputs()
-            .iter()
-            .all(|&value| place(&self.dense, value) == place(other, value));
+        let outputs = Closeness::of(self.network, |value| self.dense.value(value).values(), other);
         self.different += u64::from(is_different);
         if is_counted {
-            self.frames += 1;
-            self.agreeing += u64::from(agrees);
+            self.outputs.add(&outputs);
             self.seconds += seconds;
         }
-        of_outputs
+        outputs
     }
-}
-
-/// How far values are from the right ones, and whether any has other bits.
-fn distance(right: &[f32], found: &[f32]) -> (Distance, bool) {
-    let (mut sum, mut differs) = (Distance::default(), false);
-    for (&right, &found) in right.iter().zip(found) {
-        sum.energy += f64::from(right) * f64::from(right);
-        if right.to_bits() != found.to_bits() {
-            differs = true;
-            let difference = (f64::from(right) - f64::from(found)).abs();
-            sum.largest = sum.largest.max(difference);
-            sum.difference += difference * difference;
-        }
-    }
-    (sum, differs)
-}
-
-/// The place of the largest value, the first of equal ones.
-fn largest(values: &[f32]) -> usize {
-    let mut best = 0;
-    for (at, value) in values.iter().enumerate() {
-        if *value > values[best] {
-            best = at;
-        }
-    }
-    best
 }

@@ -5,6 +5,7 @@ use crate::mask::Mask;
 use crate::network::Network;
 use crate::operator::Job;
 use crate::tensor::{Tensor, for_each_run};
+use std::time::{Duration, Instant};
 
 /// What is computed for a frame after the first. The first is always computed whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +48,9 @@ pub struct Executor<'a> {
     /// Where a node computes whose output is compared.
     fresh: Vec<f32>,
     has_begun: bool,
+    /// Of the last step: time in operators, and in all else.
+    computing: Duration,
+    overhead: Duration,
 }
 
 impl<'a> Executor<'a> {
@@ -71,6 +75,8 @@ impl<'a> Executor<'a> {
             work: vec![Work::default(); network.nodes().len()],
             fresh: Vec::new(),
             has_begun: false,
+            computing: Duration::ZERO,
+            overhead: Duration::ZERO,
         }
     }
 
@@ -101,12 +107,21 @@ impl<'a> Executor<'a> {
             (input.height(), input.width()),
             "a bit per position"
         );
+        let start = Instant::now();
+        self.computing = Duration::ZERO;
         self.accept(picture, changed);
         for node in 0..self.work.len() {
             self.run(node, changed);
         }
         self.has_begun = true;
+        self.overhead = start.elapsed().saturating_sub(self.computing);
         &self.work
+    }
+
+    /// Time that the last step took beside operators: for masks, comparisons and copies.
+    #[must_use]
+    pub fn overhead(&self) -> Duration {
+        self.overhead
     }
 
     /// A value as it was passed on.
@@ -121,20 +136,26 @@ impl<'a> Executor<'a> {
         &self.masks[value]
     }
 
+    /// By how much a value must differ from what was passed on last to have changed, in the modes that compare.
+    #[must_use]
+    pub fn limit(&self, value: usize) -> Option<f32> {
+        self.limits[value]
+    }
+
     /// Whether this frame is computed whole.
     fn is_whole(&self) -> bool {
         !self.has_begun || self.mode == Mode::Dense
     }
 
-    /// By how much a value must differ in this frame to have changed, if it is compared.
-    fn limit(&self, value: usize) -> Option<f32> {
-        self.limits[value].filter(|_| self.has_begun)
+    /// The same for this frame: what is computed whole is not compared.
+    fn compared(&self, value: usize) -> Option<f32> {
+        self.limit(value).filter(|_| self.has_begun)
     }
 
     /// Takes over the picture.
     fn accept(&mut self, picture: &[f32], changed: &Mask) {
         let kept = &self.kept[0];
-        self.masks[0] = match self.limit(0) {
+        self.masks[0] = match self.compared(0) {
             _ if self.is_whole() => Mask::full(changed.height(), changed.width()),
             Some(limit) => moved(kept, picture, changed, limit),
             None => changed.clone(),
@@ -157,16 +178,19 @@ impl<'a> Executor<'a> {
     }
 
     fn run(&mut self, node: usize, camera: &Mask) {
-        let (at, limit) = (self.wanted(node, camera), self.limit(node + 1));
+        let (at, limit) = (self.wanted(node, camera), self.compared(node + 1));
         let place = &self.network.nodes()[node];
         let (needed, scheduled) = (at.count(), place.operator.scheduled(&at));
         let (before, rest) = self.kept.split_at_mut(node + 1);
         let inputs: Vec<&Tensor> = place.inputs().iter().map(|&value| &before[value]).collect();
         let kept = &mut rest[0];
-        let compute = |output: &mut Tensor| {
+        let computing = &mut self.computing;
+        let mut compute = |output: &mut Tensor| {
+            let start = Instant::now();
             if !at.is_empty() {
                 place.operator.compute(Job { inputs: &inputs, output, at: &at });
             }
+            *computing += start.elapsed();
         };
         // Beside the positions that are wanted an operator writes what a whole computation would. In place that is what stands there,
         // unless an input is not what it was.

@@ -3,6 +3,7 @@
 
 use crate::error::NetworkError;
 use crate::form::Form;
+use crate::mask::Mask;
 use crate::operator::Operator;
 use std::sync::Arc;
 
@@ -33,6 +34,8 @@ pub struct Node {
     kind: String,
     pub(crate) operator: Arc<dyn Operator>,
     inputs: Vec<usize>,
+    /// Positions that are computed for a whole output.
+    scheduled: usize,
 }
 
 impl Node {
@@ -101,8 +104,10 @@ impl Network {
         if self.weight_bytes > MAX_WEIGHTS {
             return Err(problem("all weights up to here have more than 4 GiB".to_owned()));
         }
+        let scheduled = operator.scheduled(&Mask::full(form.height(), form.width()));
         self.forms.push(form);
-        self.nodes.push(Node { name: name.to_owned(), kind: kind.to_owned(), operator, inputs });
+        let (name, kind) = (name.to_owned(), kind.to_owned());
+        self.nodes.push(Node { name, kind, operator, inputs, scheduled });
         Ok(self.nodes.len())
     }
 
@@ -147,6 +152,12 @@ impl Network {
     pub fn macs(&self, node: usize) -> u64 {
         let form = &self.forms[node + 1];
         self.nodes[node].operator.macs_per_position(form) * form.places() as u64
+    }
+
+    /// Positions that are computed for a whole output of a node: whole blocks, so that there may be more than it has.
+    #[must_use]
+    pub fn scheduled(&self, node: usize) -> usize {
+        self.nodes[node].scheduled
     }
 
     /// Bytes of all tensors of a frame, which are kept from frame to frame.

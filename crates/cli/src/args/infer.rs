@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use foveate_inference::Mapping;
+use foveate_inference::{Computed, Goal, Mapping};
 use foveate_network::Mode;
 
 use super::DesignArgs;
@@ -32,8 +32,14 @@ pub(crate) struct InferArgs {
     /// lies under changed regions
     #[arg(long, value_name = "MODE", default_value = "exact", value_parser = parse_mode)]
     pub(crate) mode: Mode,
-    /// Compute every frame whole, too, and print how far the outputs are from it. Always on with truncate and
-    /// fixed
+    /// Choose a limit for every layer on the first half of the frames, so that the outputs stay close to those
+    /// of a whole computation, and report the second half: agreement=P%, in P % of frames the largest output is
+    /// the same; cosine=C, between all outputs; psnr=D, in decibels; variation=P%, the error is at most P % of
+    /// how the outputs vary over the frames
+    #[arg(long, value_name = "GOAL", conflicts_with = "mode", value_parser = parse_goal)]
+    pub(crate) tune: Option<Goal>,
+    /// Compute every frame whole, too, and print how far the outputs are from it. Always on with truncate, fixed
+    /// and --tune
     #[arg(long)]
     pub(crate) reference: bool,
     /// Subtract this from pixels of 0 to 1: one value, or one per channel
@@ -62,6 +68,11 @@ impl InferArgs {
         Mapping { mean: self.mean.clone(), scale: self.scale.clone() }
     }
 
+    /// What is computed for a frame.
+    pub(crate) fn computed(&self) -> Computed {
+        self.tune.map_or(Computed::Mode(self.mode), Computed::Tuned)
+    }
+
     /// Whether a whole computation runs beside.
     pub(crate) fn has_reference(&self) -> bool {
         self.reference || matches!(self.mode, Mode::Truncate(_) | Mode::Fixed)
@@ -87,6 +98,30 @@ fn parse_mode(text: &str) -> Result<Mode, String> {
     })
 }
 
+fn parse_goal(text: &str) -> Result<Goal, String> {
+    let number = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite());
+    let goal = match text.split_once('=') {
+        Some(("agreement", share)) => share
+            .strip_suffix('%')
+            .and_then(number)
+            .filter(|percent| (0.0..=100.0).contains(percent))
+            .map(|percent| Goal::Agreement(percent / 100.0)),
+        Some(("cosine", cosine)) => {
+            number(cosine).filter(|cosine| (-1.0..=1.0).contains(cosine)).map(Goal::Cosine)
+        }
+        Some(("psnr", decibels)) => number(decibels).map(Goal::Psnr),
+        Some(("variation", share)) => share
+            .strip_suffix('%')
+            .and_then(number)
+            .filter(|&percent| percent >= 0.0)
+            .map(|percent| Goal::Variation(percent / 100.0)),
+        _ => None,
+    };
+    goal.ok_or_else(|| {
+        "expected agreement=P% with P from 0 to 100, cosine=C with C from -1 to 1, psnr=D in decibels, or variation=P%".to_owned()
+    })
+}
+
 fn finite(text: &str) -> Result<f32, String> {
     text.parse()
         .ok()
@@ -104,6 +139,25 @@ fn positive(text: &str) -> Result<f32, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn goals_are_those_of_the_summary() {
+        for text in ["agreement=99%", "cosine=0.999", "psnr=40", "variation=10%"] {
+            assert_eq!(parse_goal(text).unwrap().to_string(), text);
+        }
+        for wrong in [
+            "",
+            "agreement",
+            "agreement=99",
+            "agreement=101%",
+            "cosine=2",
+            "psnr=high",
+            "psnr=nan",
+            "ssim=1",
+        ] {
+            assert!(parse_goal(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn modes_are_those_of_the_summary() {

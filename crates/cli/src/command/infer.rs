@@ -18,7 +18,7 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
     let source = open(&args.inputs, &config, &input)?;
     let inference = Inference::new(&config, &args.network, source)?;
     let options = Options {
-        mode: args.mode,
+        computed: args.computed(),
         mapping: args.mapping(),
         reference: args.has_reference(),
         overwrite: args.force,
@@ -49,8 +49,25 @@ fn text(folder: &Path, summary: &Summary) -> String {
         return text;
     }
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-    let of_dense =
-        |macs: f64| if summary.macs.dense == 0.0 { 0.0 } else { macs / summary.macs.dense };
+    if let Some(tuning) = &summary.tuning {
+        let _ = writeln!(
+            text,
+            "tuned      on {} counted frames before these, in {} runs; there {} of the MACs were needed, {} without a limit",
+            tuning.frames,
+            tuning.runs,
+            percent(tuning.chosen.needed_share),
+            percent(tuning.exact.needed_share)
+        );
+        let held = if tuning.holds {
+            "is reached on these frames, too"
+        } else {
+            "is missed on these frames"
+        };
+        let _ = writeln!(text, "goal       {} {held}", tuning.goal);
+        if tuning.frozen.holds {
+            text.push_str("           outputs that never change after the first frame reach it as well, so it says little; try variation=10%\n");
+        }
+    }
     let _ = writeln!(
         text,
         "regions    active {}, changed {}",
@@ -59,10 +76,11 @@ fn text(folder: &Path, summary: &Summary) -> String {
     );
     let _ = writeln!(
         text,
-        "MACs       {:.1} M per frame; needed {}, computed {}",
+        "MACs       {:.1} M per frame; needed {}, computed {} (of a whole frame {})",
         summary.macs.dense / 1e6,
-        percent(of_dense(summary.macs.needed)),
-        percent(of_dense(summary.macs.scheduled))
+        percent(summary.macs.share(summary.macs.needed)),
+        percent(summary.macs.share(summary.macs.scheduled)),
+        percent(summary.macs.share(summary.macs.whole))
     );
     let megabytes = |bytes: u64| {
         #[allow(clippy::cast_precision_loss, reason = "shown with one decimal")]
@@ -76,15 +94,26 @@ fn text(folder: &Path, summary: &Summary) -> String {
         megabytes(summary.kept_bytes),
         megabytes(summary.mask_bytes)
     );
-    let _ = write!(text, "time       {:.2} ms per frame", 1e3 * summary.seconds_per_frame);
+    let _ = write!(
+        text,
+        "time       {:.2} ms per frame, {:.2} ms of it for masks",
+        1e3 * summary.seconds_per_frame,
+        1e3 * summary.overhead_seconds_per_frame
+    );
     if let Some(error) = &summary.error {
-        let _ = writeln!(text, ", whole {:.2} ms", 1e3 * error.dense_seconds_per_frame);
+        let _ = write!(text, "; whole {:.2} ms", 1e3 * error.dense_seconds_per_frame);
+        if let Some(share) = summary.break_even_share() {
+            let _ = write!(text, "; as slow at {} of the blocks", percent(share));
+        }
+        text.push('\n');
         let _ = writeln!(
             text,
-            "outputs    relative RMS error {:.2e}, largest error {:.2e}, same largest value in {} of frames",
-            error.relative_rms,
-            error.largest,
-            percent(error.agreement)
+            "outputs    relative RMS error {:.2e}, largest error {:.2e}, cosine {:.6}, PSNR {}, same largest value in {} of frames",
+            error.outputs.relative_rms,
+            error.outputs.largest,
+            error.outputs.cosine,
+            error.outputs.psnr.map_or("infinite".to_owned(), |psnr| format!("{psnr:.1} dB")),
+            percent(error.outputs.agreement)
         );
         let _ = writeln!(
             text,

@@ -10,8 +10,21 @@ use serde_json::Value;
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
 
 fn summary(folder: &Path, more: &[&str]) -> Value {
-    let args =
-        ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "5", "--json", "--force"];
+    summary_of(folder, "5", more)
+}
+
+fn summary_of(folder: &Path, frames: &str, more: &[&str]) -> Value {
+    let args = [
+        "infer",
+        DENOISER,
+        "scene:street",
+        "-o",
+        "out",
+        "--max-frames",
+        frames,
+        "--json",
+        "--force",
+    ];
     serde_json::from_str(&succeed_in(folder, &[&args[..], more].concat())).unwrap()
 }
 
@@ -62,6 +75,48 @@ fn approximate_modes_say_how_wrong_they_are() {
     assert_eq!(dense["macs"]["needed"], dense["macs"]["dense"]);
 }
 
+/// Limits are chosen on the first half of the frames, and the second half is reported.
+#[test]
+fn tuned_limits_keep_the_goal_where_they_were_chosen_and_save_more() {
+    let dir = tempfile::tempdir().unwrap();
+    let found = summary_of(dir.path(), "12", &["--tune", "variation=20%"]);
+    assert_eq!((&found["frames"], &found["counted_frames"]), (&6.into(), &5.into()));
+    let tuning = &found["tuning"];
+    let real = |value: &Value| value.as_f64().unwrap();
+    assert_eq!((&tuning["goal"], &tuning["frames"]), (&"variation=20%".into(), &5.into()));
+    assert_eq!(
+        (&tuning["exact"]["holds"], &tuning["frozen"]["holds"]),
+        (&true.into(), &false.into())
+    );
+    assert!(real(&tuning["chosen"]["rms_of_variation"]) <= 0.2);
+    assert!(real(&tuning["chosen"]["needed_share"]) < 0.9 * real(&tuning["exact"]["needed_share"]));
+    // The verdict on the second half is that of its own error.
+    let error = real(&found["error"]["rms_of_variation"]);
+    assert!(error > 0.0);
+    assert_eq!(tuning["holds"], error <= 0.2);
+    assert!(found["layers"].as_array().unwrap().iter().any(|layer| real(&layer["limit"]) > 0.0));
+    let frames = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
+    assert!(frames.lines().nth(1).unwrap().starts_with("6,"), "{frames}");
+    let rows = fs::read_to_string(dir.path().join("out/tuning.csv")).unwrap();
+    for limits in ["exact,0,", "uniform,0.5,", "frozen,,", "chosen,,"] {
+        assert!(rows.lines().any(|row| row.starts_with(limits)), "{limits} in {rows}");
+    }
+}
+
+/// A goal that a frozen network reaches is told as such, and too few frames are refused.
+#[test]
+fn goals_that_say_nothing_are_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let args = ["infer", DENOISER, "scene:zero", "-o", "out", "--tune"];
+    let text = succeed_in(dir.path(), &[&args[..], &["cosine=0.9", "--max-frames", "4"]].concat());
+    assert!(
+        text.contains("outputs that never change after the first frame reach it as well"),
+        "{text}"
+    );
+    let few = [&args[..], &["psnr=40", "--max-frames", "3", "--force"]].concat();
+    fail_in(dir.path(), 2, &few, &["it needs 4 frames; there are 3"]);
+}
+
 #[test]
 fn images_of_a_set_begin_with_black() {
     let dir = tempfile::tempdir().unwrap();
@@ -73,7 +128,9 @@ fn images_of_a_set_begin_with_black() {
         header.into_iter().chain(pixels).collect::<Vec<u8>>(),
     )
     .unwrap();
-    let args = ["infer", DENOISER, "train-images", "-o", "out", "--reference"];
+    let args = ["infer", DENOISER, "train-images", "-o", "out", "--force", "--reference"];
+    let tuned = succeed_in(dir.path(), &[&args[..6], &["--tune", "psnr=40"]].concat());
+    assert!(tuned.contains("tuned      on 1 counted frames"), "{tuned}");
     let text = succeed_in(dir.path(), &args);
     assert!(text.contains("0 of 2 differ"), "{text}");
     let frames = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();

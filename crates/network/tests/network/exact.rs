@@ -420,6 +420,29 @@ fn every_node_has_a_limit_of_its_own() {
     }
 }
 
+/// Blocks do not overlap, so a part never costs more than the whole, however scattered it is.
+#[test]
+fn a_part_is_never_more_than_the_whole() {
+    let network = network(
+        1,
+        [31, 70],
+        &[three_by_three(5, 1), Layer::Depthwise { kernel: 3, stride: 1, pads: [1; 4] }],
+    );
+    let (mut dense, mut exact) =
+        (Executor::new(&network, Mode::Dense), Executor::new(&network, Mode::Exact));
+    let picture = noise(5, 31 * 70);
+    let scattered = Mask::from_fn(31, 70, |x, y| x % 9 == 0 && y % 2 == 0);
+    for mask in [Mask::full(31, 70), scattered] {
+        let (all, part) = (dense.step(&picture, &mask).to_vec(), exact.step(&picture, &mask));
+        for (all, part) in all.iter().zip(part) {
+            assert!(
+                part.needed <= part.scheduled && part.scheduled <= all.scheduled,
+                "{part:?} of {all:?}"
+            );
+        }
+    }
+}
+
 /// The fixed mode copies what lies outside of the camera's mask.
 #[test]
 fn the_fixed_mode_is_wrong_at_borders_only() {

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How close values are to those of a whole computation, and how close they have to be.
+
+use foveate_network::{Executor, Network};
+
+/// Sums over values and over those of a whole computation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Distance {
+    pub(crate) largest: f64,
+    /// Sum of the squared differences.
+    difference: f64,
+    /// Sum of the squares of the right values, of those that were found, and of the products of both.
+    right: f64,
+    found: f64,
+    product: f64,
+    /// Range of the right values.
+    lowest: f64,
+    highest: f64,
+    values: u64,
+}
+
+impl Default for Distance {
+    fn default() -> Self {
+        let [largest, difference, right, found, product] = [0.0; 5];
+        let (lowest, highest) = (f64::INFINITY, f64::NEG_INFINITY);
+        Self { largest, difference, right, found, product, lowest, highest, values: 0 }
+    }
+}
+
+impl Distance {
+    /// Of some values, and whether any has other bits.
+    pub(crate) fn of(right: &[f32], found: &[f32]) -> (Self, bool) {
+        let (mut sum, mut differs) = (Self::default(), false);
+        sum.values = right.len() as u64;
+        for (right, found) in right.iter().zip(found) {
+            differs |= right.to_bits() != found.to_bits();
+            let (right, found) = (f64::from(*right), f64::from(*found));
+            let difference = (right - found).abs();
+            sum.largest = sum.largest.max(difference);
+            sum.difference += difference * difference;
+            sum.right += right * right;
+            sum.found += found * found;
+            sum.product += right * found;
+            sum.lowest = sum.lowest.min(right);
+            sum.highest = sum.highest.max(right);
+        }
+        (sum, differs)
+    }
+
+    pub(crate) fn add(&mut self, other: Self) {
+        self.largest = self.largest.max(other.largest);
+        self.difference += other.difference;
+        self.right += other.right;
+        self.found += other.found;
+        self.product += other.product;
+        self.lowest = self.lowest.min(other.lowest);
+        self.highest = self.highest.max(other.highest);
+        self.values += other.values;
+    }
+
+    /// Root of the mean squared difference, as a share of that of the values; 0 if there is no difference.
+    pub(crate) fn relative(&self) -> f64 {
+        if self.difference == 0.0 { 0.0 } else { (self.difference / self.right).sqrt() }
+    }
+
+    /// Cosine of the angle between all values as vectors; 1 if there is no difference.
+    pub(crate) fn cosine(&self) -> f64 {
+        if self.difference == 0.0 { 1.0 } else { self.product / (self.right * self.found).sqrt() }
+    }
+
+    /// Peak signal-to-noise ratio in decibels, with the range of the right values as the peak; nothing if there is no difference.
+    pub(crate) fn psnr(&self) -> Option<f64> {
+        #[allow(clippy::cast_precision_loss, reason = "a mean")]
+        let mean = self.difference / self.values as f64;
+        (self.difference != 0.0)
+            .then(|| 10.0 * ((self.highest - self.lowest).powi(2) / mean).log10())
+    }
+}
+
+/// How much the outputs of a whole computation vary from frame to frame.
+#[derive(Clone, Debug, Default)]
+struct Variation {
+    /// Sums of every output over the frames.
+    sums: Vec<f64>,
+    /// Sum of all squares.
+    squares: f64,
+}
+
+impl Variation {
+    fn add(&mut self, other: &Self) {
+        if self.sums.is_empty() {
+            self.sums.resize(other.sums.len(), 0.0);
+        }
+        self.sums.iter_mut().zip(&other.sums).for_each(|(sum, other)| *sum += other);
+        self.squares += other.squares;
+    }
+
+    /// Sum of the squared distances of every output from its mean over so many frames.
+    #[allow(clippy::cast_precision_loss, reason = "a mean")]
+    fn around_mean(&self, frames: u64) -> f64 {
+        let of_means: f64 = self.sums.iter().map(|sum| sum * sum).sum();
+        (self.squares - of_means / frames as f64).max(0.0)
+    }
+}
+
+/// The outputs of frames beside those of a whole computation.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Closeness {
+    pub(crate) distance: Distance,
+    variation: Variation,
+    /// Frames in which every output has its largest value at the same place.
+    agreeing: u64,
+    pub(crate) frames: u64,
+}
+
+impl Closeness {
+    /// Of a frame. `right` gives a value of the network as a whole computation has it.
+    pub(crate) fn of<'r>(
+        network: &Network,
+        right: impl Fn(usize) -> &'r [f32],
+        found: &Executor<'_>,
+    ) -> Self {
+        let (mut distance, mut agrees) = (Distance::default(), true);
+        let mut sums = Vec::new();
+        for &value in network.outputs() {
+            let (right, found) = (right(value), found.value(value).values());
+            distance.add(Distance::of(right, found).0);
+            agrees &= largest(right) == largest(found);
+            sums.extend(right.iter().map(|&value| f64::from(value)));
+        }
+        let variation = Variation { sums, squares: distance.right };
+        Self { distance, variation, agreeing: agrees.into(), frames: 1 }
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.distance.add(other.distance);
+        self.variation.add(&other.variation);
+        self.agreeing += other.agreeing;
+        self.frames += other.frames;
+    }
+
+    /// Root of the mean squared difference, as a share of the standard deviation of the outputs over the frames; 0 if there is no
+    /// difference. A network that is never run again has about 1.
+    pub(crate) fn of_variation(&self) -> f64 {
+        let varies = self.variation.around_mean(self.frames);
+        if self.distance.difference == 0.0 {
+            0.0
+        } else {
+            (self.distance.difference / varies).sqrt()
+        }
+    }
+
+    /// Share of frames in which every output has its largest value at the same place.
+    #[allow(clippy::cast_precision_loss, reason = "a share")]
+    pub(crate) fn agreement(&self) -> f64 {
+        if self.frames == 0 { 0.0 } else { self.agreeing as f64 / self.frames as f64 }
+    }
+}
+
+/// How close outputs have to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// In at least this share of frames every output has its largest value where a whole computation has it.
+    Agreement(f64),
+    /// The cosine of the angle between all outputs and those of a whole computation is at least this.
+    Cosine(f64),
+    /// The peak signal-to-noise ratio of all outputs is at least this many decibels, with the range of the outputs as the peak.
+    Psnr(f64),
+    /// The error of all outputs is at most this share of their standard deviation over the frames.
+    Variation(f64),
+}
+
+impl Goal {
+    /// Whether it is reached. What is no number reaches nothing.
+    pub(crate) fn holds(self, found: &Closeness) -> bool {
+        match self {
+            Self::Agreement(least) => found.agreement() >= least,
+            Self::Cosine(least) => found.distance.cosine() >= least,
+            Self::Psnr(least) => found.distance.psnr().is_none_or(|psnr| psnr >= least),
+            Self::Variation(most) => found.of_variation() <= most,
+        }
+    }
+}
+
+impl std::fmt::Display for Goal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Agreement(least) => write!(f, "agreement={}%", 100.0 * least),
+            Self::Cosine(least) => write!(f, "cosine={least}"),
+            Self::Psnr(least) => write!(f, "psnr={least}"),
+            Self::Variation(most) => write!(f, "variation={}%", 100.0 * most),
+        }
+    }
+}
+
+/// The place of the largest value, the first of equal ones.
+fn largest(values: &[f32]) -> usize {
+    let mut best = 0;
+    for (at, value) in values.iter().enumerate() {
+        if *value > values[best] {
+            best = at;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measures_are_those_of_the_books() {
+        let (mut sum, differs) = Distance::of(&[3.0, 0.0], &[3.0, 4.0]);
+        assert!(differs);
+        assert_eq!((sum.largest, sum.relative()), (4.0, 4.0 / 3.0));
+        assert_eq!(sum.cosine(), 9.0 / 15.0);
+        assert!((sum.psnr().unwrap() - 10.0 * (9.0f64 / 8.0).log10()).abs() < 1e-12);
+        // More values as one vector, and a wider range.
+        sum.add(Distance::of(&[-1.0], &[-1.0]).0);
+        assert_eq!(sum.cosine(), 10.0 / (10.0f64 * 26.0).sqrt());
+        assert!((sum.psnr().unwrap() - 10.0 * (16.0f64 * 3.0 / 16.0).log10()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn equal_values_are_as_close_as_can_be_and_what_is_no_number_is_not() {
+        for values in [&[0.0, 0.0][..], &[1.0, -2.0]] {
+            let (same, differs) = Distance::of(values, values);
+            assert!(!differs);
+            assert_eq!((same.relative(), same.cosine(), same.psnr()), (0.0, 1.0, None));
+        }
+        let (odd, _) = Distance::of(&[1.0, 2.0], &[1.0, f32::NAN]);
+        let closeness = Closeness { distance: odd, frames: 1, ..Closeness::default() };
+        let goals =
+            [Goal::Agreement(0.1), Goal::Cosine(-1.0), Goal::Psnr(0.0), Goal::Variation(1e9)];
+        for goal in goals {
+            assert!(!goal.holds(&closeness), "{goal}");
+        }
+    }
+
+    /// Two frames with two outputs, of which the second varies from 1 to 5.
+    #[test]
+    fn the_error_of_an_output_that_stays_is_its_variation() {
+        let frame = |right: [f32; 2], found: [f32; 2]| {
+            let (distance, _) = Distance::of(&right, &found);
+            let sums = right.map(f64::from).to_vec();
+            Closeness {
+                variation: Variation { sums, squares: distance.right },
+                distance,
+                agreeing: 1,
+                frames: 1,
+            }
+        };
+        let mut all = frame([7.0, 1.0], [7.0, 3.0]);
+        all.add(&frame([7.0, 5.0], [7.0, 3.0]));
+        assert_eq!((all.of_variation(), all.agreement()), (1.0, 1.0));
+        assert!(Goal::Variation(1.0).holds(&all) && !Goal::Variation(0.99).holds(&all));
+        let mut exact = frame([7.0, 1.0], [7.0, 1.0]);
+        exact.add(&frame([7.0, 5.0], [7.0, 5.0]));
+        assert_eq!(exact.of_variation(), 0.0);
+    }
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A run under way: what every frame did, and the sums.
+
+use crate::camera::Seen;
+use crate::player::Player;
+use crate::summary::{Summary, Tuning, error, layers, macs, ratio};
+use crate::tally::{Positions, Reference};
+use crate::{Goal, Mapping};
+use foveate_design::Design;
+use foveate_network::Network;
+use foveate_tables::{Cell, Cells, Table};
+use std::time::Instant;
+
+/// What a summary says that no frame says.
+pub(crate) struct Told {
+    pub(crate) mode: String,
+    /// With its goal.
+    pub(crate) tuning: Option<(Tuning, Goal)>,
+    pub(crate) problem: Option<String>,
+    pub(crate) network: String,
+    pub(crate) inputs: Vec<String>,
+    pub(crate) mapping: Mapping,
+}
+
+/// A run under way.
+pub(crate) struct Run<'a> {
+    design: &'a Design,
+    network: &'a Network,
+    player: Player<'a>,
+    reference: Option<Reference<'a>>,
+    sums: Vec<Positions>,
+    rows: Vec<Cells>,
+    counted: u64,
+    active: u64,
+    changed: u64,
+    seconds: f64,
+    overhead: f64,
+}
+
+impl<'a> Run<'a> {
+    pub(crate) fn new(
+        design: &'a Design,
+        network: &'a Network,
+        player: Player<'a>,
+        reference: bool,
+    ) -> Self {
+        Self {
+            design,
+            network,
+            player,
+            reference: reference.then(|| Reference::new(network)),
+            sums: vec![Positions::default(); network.nodes().len()],
+            rows: Vec::new(),
+            counted: 0,
+            active: 0,
+            changed: 0,
+            seconds: 0.0,
+            overhead: 0.0,
+        }
+    }
+
+    pub(crate) fn step(&mut self, seen: Seen<'_>) {
+        let start = Instant::now();
+        let work = self.player.step(seen).to_vec();
+        let seconds = start.elapsed().as_secs_f64();
+        let is_counted = self.player.is_counted();
+        let judge = |reference: &mut Reference<'_>| {
+            reference.judge(seen.values, self.player.executor(), is_counted)
+        };
+        let close = self.reference.as_mut().map(judge);
+        let mut own = vec![Positions::default(); work.len()];
+        for (node, work) in work.iter().enumerate() {
+            let places = self.network.form(node + 1).places();
+            own[node].add(work, places);
+            if is_counted {
+                self.sums[node].add(work, places);
+            }
+        }
+        if is_counted {
+            self.counted += 1;
+            self.active += seen.active_regions;
+            self.changed += seen.changed_regions;
+            self.seconds += seconds;
+            self.overhead += self.player.executor().overhead().as_secs_f64();
+        }
+        let macs = macs(self.network, &own);
+        let share = |count| ratio(count, u64::from(self.design.regions()));
+        let real = |value: f64| Cell::Real(Some(value));
+        self.rows.push(
+            [
+                ("frame", Cell::Count(Some(seen.number))),
+                ("name", Cell::Text(seen.name.to_owned())),
+                ("t_us", Cell::Count(Some(seen.time_us))),
+                ("active_share", real(share(seen.active_regions))),
+                ("changed_share", real(share(seen.changed_regions))),
+                ("macs_dense", real(macs.dense)),
+                ("macs_needed", real(macs.needed)),
+                ("macs_scheduled", real(macs.scheduled)),
+                ("seconds", real(seconds)),
+                ("relative_rms", Cell::Real(close.map(|close| close.distance.relative()))),
+            ]
+            .map(|(name, cell)| (name.to_owned(), cell))
+            .into(),
+        );
+    }
+
+    /// The summary, and a row per frame.
+    pub(crate) fn summary(self, told: Told) -> (Summary, Table) {
+        let executor = self.player.executor();
+        let layers = layers(self.network, &self.sums, executor, self.reference.as_ref());
+        let counted_regions = self.counted * u64::from(self.design.regions());
+        let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
+        #[allow(clippy::cast_precision_loss, reason = "a mean")]
+        let counted = self.counted.max(1) as f64;
+        let summary = Summary {
+            format_version: 1,
+            foveate_version: env!("CARGO_PKG_VERSION"),
+            complete: told.problem.is_none(),
+            problem: told.problem,
+            inputs: told.inputs,
+            network: told.network,
+            mode: told.mode,
+            mapping: told.mapping,
+            width: self.design.width(),
+            height: self.design.height(),
+            frames: self.rows.len() as u64,
+            counted_frames: self.counted,
+            active_share: ratio(self.active, counted_regions),
+            changed_share: ratio(self.changed, counted_regions),
+            macs: macs(self.network, &self.sums),
+            weight_bytes: layers.iter().map(|layer| layer.weight_bytes).sum(),
+            kept_bytes: self.network.kept_bytes(),
+            mask_bytes: forms().map(|form| form.places().div_ceil(8) as u64).sum(),
+            seconds_per_frame: self.seconds / counted,
+            overhead_seconds_per_frame: self.overhead / counted,
+            error: self.reference.as_ref().map(error),
+            tuning: told.tuning.map(|(tuning, goal)| {
+                let reference = self.reference.as_ref().expect("what is tuned is compared");
+                Tuning { holds: goal.holds(&reference.outputs), ..tuning }
+            }),
+            layers,
+        };
+        (summary, Table::of(self.rows.into_iter()))
+    }
+}

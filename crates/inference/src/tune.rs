@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Chooses for every node by how much a value must change to be passed on, so that the outputs stay as close to those of a whole
+//! computation as is wanted.
+//!
+//! Limits are multiples of the root mean square of a node's values in the first frame, by powers of 2. First all nodes get the same
+//! multiple; the largest with which the goal holds is halved, to leave room. Then, from front to back, each node's limit is doubled for
+//! as long as the goal holds and fewer MACs are needed.
+
+use crate::InferenceError;
+use crate::camera::Kept;
+use crate::closeness::{Closeness, Goal};
+use crate::player::Player;
+use crate::summary::{Macs, Tried, Tuning, macs};
+use crate::tally::Positions;
+use foveate_footage::{Hooks, Progress};
+use foveate_network::{Executor, Mode, Network};
+
+/// Multiples that all nodes get together: 2 to these powers.
+const POWERS: std::ops::RangeInclusive<i32> = -10..=1;
+/// How often a node's limit is doubled at most.
+const DOUBLINGS: usize = 4;
+/// A doubling must save this share of the needed MACs.
+const WORTH: f64 = 0.001;
+
+/// What was chosen, by node.
+pub(crate) struct Tuned {
+    pub(crate) limits: Vec<f32>,
+    pub(crate) tuning: Tuning,
+}
+
+/// Limits that were tried.
+#[derive(Clone, Debug)]
+struct Trial {
+    limits: Vec<f32>,
+    closeness: Closeness,
+    macs: Macs,
+}
+
+struct Tuner<'a> {
+    network: &'a Network,
+    goal: Goal,
+    frames: &'a [Kept],
+    black: Option<&'a [f32]>,
+    /// Outputs of a whole computation, by frame and value.
+    right: Vec<Vec<Vec<f32>>>,
+    runs: u64,
+    /// Frames before the first run.
+    before: u64,
+    hooks: &'a mut dyn Hooks,
+}
+
+/// Tunes on some frames, of which the first does not count where there is no black picture to begin from.
+pub(crate) fn tune(
+    network: &Network,
+    goal: Goal,
+    frames: &[Kept],
+    black: Option<&[f32]>,
+    before: u64,
+    hooks: &mut dyn Hooks,
+) -> Result<Tuned, InferenceError> {
+    let (right, scales) = whole(network, frames);
+    let mut tuner = Tuner { network, goal, frames, black, right, runs: 0, before, hooks };
+    let exact = tuner.run(vec![0.0; scales.len()])?;
+    let together = |power: i32| scales.iter().map(|scale| scale * 2f32.powi(power)).collect();
+    let mut uniform = Vec::new();
+    for power in POWERS {
+        uniform.push((power, tuner.run(together(power))?));
+    }
+    // What holds with larger limits by chance does not count.
+    let holding = uniform.iter().take_while(|(_, trial)| goal.holds(&trial.closeness)).last();
+    let best = holding.map_or(&exact, |(_, trial)| trial).clone();
+    let start = match holding {
+        Some((power, _)) => tuner.run(together(power - 1))?,
+        None => exact.clone(),
+    };
+    let least = 2f32.powi(*POWERS.start());
+    let own = tuner
+        .front_to_back(start, &scales.iter().map(|scale| scale * least).collect::<Vec<_>>())?;
+    let frozen = tuner.run(vec![f32::INFINITY; scales.len()])?;
+    let chosen = if own.macs.needed < best.macs.needed { own } else { best };
+    let tried = |trial: &Trial, relative_limit| Tried {
+        relative_limit,
+        needed_share: trial.macs.share(trial.macs.needed),
+        outputs: (&trial.closeness).into(),
+        holds: goal.holds(&trial.closeness),
+    };
+    let tuning = Tuning {
+        goal: goal.to_string(),
+        frames: chosen.closeness.frames,
+        runs: tuner.runs,
+        exact: tried(&exact, Some(0.0)),
+        uniform: uniform
+            .iter()
+            .map(|(power, trial)| tried(trial, Some(2f64.powi(*power))))
+            .collect(),
+        chosen: tried(&chosen, None),
+        frozen: tried(&frozen, None),
+        holds: false,
+    };
+    Ok(Tuned { limits: chosen.limits, tuning })
+}
+
+/// The outputs of all frames, and the root mean square of every node's values in the first.
+fn whole(network: &Network, frames: &[Kept]) -> (Vec<Vec<Vec<f32>>>, Vec<f32>) {
+    let mut dense = Executor::new(network, Mode::Dense);
+    let (mut right, mut scales) = (Vec::new(), Vec::new());
+    for kept in frames {
+        let seen = kept.seen();
+        dense.step(seen.values, seen.changed);
+        let nodes = 1..=network.nodes().len();
+        if scales.is_empty() {
+            scales =
+                nodes.clone().map(|value| root_mean_square(dense.value(value).values())).collect();
+        }
+        // By value, so that it is found as in an executor; what is no output is not needed.
+        let outputs = network.outputs();
+        let of = |value| {
+            if outputs.contains(&value) { dense.value(value).values().to_vec() } else { Vec::new() }
+        };
+        right.push((0..=network.nodes().len()).map(of).collect());
+    }
+    (right, scales)
+}
+
+#[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "a scale")]
+fn root_mean_square(values: &[f32]) -> f32 {
+    let sum: f64 = values.iter().map(|&value| f64::from(value) * f64::from(value)).sum();
+    let root = (sum / values.len() as f64).sqrt() as f32;
+    // Of values that are no numbers nothing is cut.
+    if root.is_finite() { root } else { 0.0 }
+}
+
+impl Tuner<'_> {
+    /// Runs over all frames.
+    fn run(&mut self, limits: Vec<f32>) -> Result<Trial, InferenceError> {
+        let mut player = Player::new(Executor::truncating(self.network, &limits), self.black);
+        let mut sums = vec![Positions::default(); limits.len()];
+        let mut closeness = Closeness::default();
+        for (number, (kept, right)) in (1..).zip(self.frames.iter().zip(&self.right)) {
+            if self.hooks.cancelled() {
+                return Err(InferenceError::Cancelled);
+            }
+            let work = player.step(kept.seen()).to_vec();
+            if player.is_counted() {
+                for (node, (sums, work)) in sums.iter_mut().zip(&work).enumerate() {
+                    sums.add(work, self.network.form(node + 1).places());
+                }
+                closeness.add(&Closeness::of(
+                    self.network,
+                    |value| &right[value],
+                    player.executor(),
+                ));
+            }
+            let done = self.before + self.runs * self.frames.len() as u64 + number;
+            self.hooks.progress(Progress { done, total: None });
+        }
+        self.runs += 1;
+        Ok(Trial { limits, closeness, macs: macs(self.network, &sums) })
+    }
+
+    /// Doubles the limits of one node after the other; those that are 0 begin at `least`.
+    fn front_to_back(&mut self, start: Trial, least: &[f32]) -> Result<Trial, InferenceError> {
+        let mut best = start;
+        for (node, &least) in least.iter().enumerate() {
+            for _ in 0..DOUBLINGS {
+                let mut limits = best.limits.clone();
+                limits[node] = (2.0 * limits[node]).max(least);
+                let trial = self.run(limits)?;
+                if !self.goal.holds(&trial.closeness)
+                    || trial.macs.needed > (1.0 - WORTH) * best.macs.needed
+                {
+                    break;
+                }
+                best = trial;
+            }
+        }
+        Ok(best)
+    }
+}
