@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs a network frame by frame, and computes again only what may have changed.
 
+use crate::form::Form;
 use crate::mask::Mask;
 use crate::network::Network;
 use crate::operator::Job;
@@ -63,6 +64,8 @@ impl<'a> Executor<'a> {
             Mode::Compare => Some(0.0),
             Mode::Truncate(limit) => Some(limit),
         };
+        let is_compared = limit.is_some() || mode == Mode::Fixed;
+        let largest = forms().map(Form::elements).max().expect("there is an input");
         let mut limits: Vec<_> = forms().map(|_| limit).collect();
         // The picture is never cut.
         limits[0] = limit.map(|_| 0.0);
@@ -73,7 +76,7 @@ impl<'a> Executor<'a> {
             kept: forms().map(|form| Tensor::zeros(form.clone())).collect(),
             masks: forms().map(|form| Mask::empty(form.height(), form.width())).collect(),
             work: vec![Work::default(); network.nodes().len()],
-            fresh: Vec::new(),
+            fresh: vec![0.0; if is_compared { largest } else { 0 }],
             has_begun: false,
             computing: Duration::ZERO,
             overhead: Duration::ZERO,
@@ -180,15 +183,16 @@ impl<'a> Executor<'a> {
     fn run(&mut self, node: usize, camera: &Mask) {
         let (at, limit) = (self.wanted(node, camera), self.compared(node + 1));
         let place = &self.network.nodes()[node];
+        let form = self.network.form(node + 1);
         let (needed, scheduled) = (at.count(), place.operator.scheduled(&at));
         let (before, rest) = self.kept.split_at_mut(node + 1);
         let inputs: Vec<&Tensor> = place.inputs().iter().map(|&value| &before[value]).collect();
         let kept = &mut rest[0];
         let computing = &mut self.computing;
-        let mut compute = |output: &mut Tensor| {
+        let mut compute = |output: &mut [f32]| {
             let start = Instant::now();
             if !at.is_empty() {
-                place.operator.compute(Job { inputs: &inputs, output, at: &at });
+                place.operator.compute(Job { inputs: &inputs, form, output, at: &at });
             }
             *computing += start.elapsed();
         };
@@ -196,20 +200,16 @@ impl<'a> Executor<'a> {
         // unless an input is not what it was.
         let in_place = limit.is_none() && (self.mode != Mode::Fixed || !self.has_begun);
         let changed = if in_place {
-            compute(kept);
+            compute(kept.values_mut());
             at
         } else {
-            let mut values = std::mem::take(&mut self.fresh);
-            values.resize(kept.form().elements(), 0.0);
-            let mut fresh = Tensor::new(kept.form().clone(), values);
-            compute(&mut fresh);
-            let values = fresh.into_values();
+            let fresh = &mut self.fresh[..form.elements()];
+            compute(fresh);
             let changed = match limit {
-                Some(limit) => moved(kept, &values, &at, limit),
+                Some(limit) => moved(kept, fresh, &at, limit),
                 None => at,
             };
-            copy(&values, kept, &changed);
-            self.fresh = values;
+            copy(fresh, kept, &changed);
             changed
         };
         self.work[node] = Work { needed, scheduled, changed: changed.count() };
@@ -222,19 +222,29 @@ fn moved(kept: &Tensor, fresh: &[f32], at: &Mask, limit: f32) -> Mask {
     let form = kept.form();
     let (inner, places, width) = (form.inner(), form.places(), form.width());
     let mut moved = Mask::empty(form.height(), width);
-    for_each_run(form, at, |run| {
-        let start = run.start;
-        let pairs = kept.values()[run.clone()].iter().zip(&fresh[run]);
-        for (index, (kept, fresh)) in (start..).zip(pairs) {
-            // What is no number is neither more nor less.
-            let is_near =
-                kept.to_bits() == fresh.to_bits() || (limit > 0.0 && (kept - fresh).abs() <= limit);
-            if !is_near {
-                let place = index / inner % places;
-                moved.insert(place % width, place / width);
+    // What is no number is neither more nor less.
+    let is_near = |kept: f32, fresh: f32| {
+        kept.to_bits() == fresh.to_bits() || (limit > 0.0 && (kept - fresh).abs() <= limit)
+    };
+    let mut differs = Vec::new();
+    for y in 0..form.height() {
+        for (x, length) in at.runs(y) {
+            differs.clear();
+            differs.resize(length, false);
+            for outer in 0..form.outer() {
+                let run = (outer * places + y * width + x) * inner..;
+                let own = kept.values()[run.clone()].chunks_exact(inner);
+                for (differs, (kept, fresh)) in
+                    differs.iter_mut().zip(own.zip(fresh[run].chunks_exact(inner)))
+                {
+                    *differs |= !kept.iter().zip(fresh).all(|(&kept, &fresh)| is_near(kept, fresh));
+                }
+            }
+            for (x, _) in (x..).zip(&differs).filter(|(_, differs)| **differs) {
+                moved.insert(x, y);
             }
         }
-    });
+    }
     moved
 }
 
@@ -258,7 +268,6 @@ fn under(mask: &Mask, height: usize, width: usize) -> Mask {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::form::Form;
     use crate::mask::Window;
     use crate::operator::{Activation, Arithmetic, Binary, Conv, Operator, Pointwise};
     use foveate_lanes::Level;

@@ -45,11 +45,6 @@ impl Tensor {
         &mut self.values
     }
 
-    /// The values alone.
-    pub(crate) fn into_values(self) -> Vec<f32> {
-        self.values
-    }
-
     /// The positions at which a value differs from that of another tensor of the same form, bit by bit.
     #[must_use]
     pub fn differences(&self, other: &Self) -> Mask {

@@ -103,10 +103,9 @@ impl Operator for Pointwise {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
-        let form = output.form().clone();
-        let (from, to) = (inputs[0].values(), output.values_mut());
-        for_each_run(&form, at, |run| {
+        let Job { inputs, form, output, at, .. } = job;
+        let (from, to) = (inputs[0].values(), output);
+        for_each_run(form, at, |run| {
             for (to, &from) in to[run.clone()].iter_mut().zip(&from[run]) {
                 *to = self.0.of(from);
             }

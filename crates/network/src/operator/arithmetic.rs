@@ -111,21 +111,18 @@ impl Operator for Binary {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
-        let form = output.form().clone();
+        let Job { inputs, form, output, at, .. } = job;
         let [a, b] =
             self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
-        let (of_a, of_b) = (steps(a.form(), &form), steps(b.form(), &form));
+        let (of_a, of_b) = (steps(a.form(), form), steps(b.form(), form));
         let last = form.shape().last().copied().unwrap_or(1);
-        let to = output.values_mut();
-        for_each_run(&form, at, |run| {
+        let to = output;
+        for_each_run(form, at, |run| {
             let mut start = run.start;
             while start < run.end {
                 let end = run.end.min((start / last + 1) * last);
-                let (a, b) = (
-                    values_of(a, &of_a, &form, start..end),
-                    values_of(b, &of_b, &form, start..end),
-                );
+                let (a, b) =
+                    (values_of(a, &of_a, form, start..end), values_of(b, &of_b, form, start..end));
                 let to = &mut to[start..end];
                 // What is known here needs no choice in the loop.
                 match (self.kind, self.finish) {

@@ -45,11 +45,10 @@ impl Operator for Concat {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
-        let form = output.form().clone();
+        let Job { inputs, form, output, at, .. } = job;
         let axis = form.axis(self.axis).expect("the form has it");
         let behind = |form: &Form| form.shape()[axis..].iter().product::<usize>();
-        let whole = behind(&form);
+        let whole = behind(form);
         let mut offset = 0;
         for input in inputs {
             let own = behind(input.form());
@@ -58,12 +57,11 @@ impl Operator for Concat {
                 crate::tensor::for_each_run(input.form(), at, |run| {
                     for from in Lines::of(run, own) {
                         let to = from.start / own * whole + offset + from.start % own;
-                        output.values_mut()[to..to + from.len()]
-                            .copy_from_slice(&input.values()[from]);
+                        output[to..to + from.len()].copy_from_slice(&input.values()[from]);
                     }
                 });
             } else if !at.is_empty() {
-                let lines = output.values_mut().chunks_mut(whole).zip(input.values().chunks(own));
+                let lines = output.chunks_mut(whole).zip(input.values().chunks(own));
                 lines.for_each(|(to, from)| to[offset..offset + own].copy_from_slice(from));
             }
             offset += own;

@@ -141,9 +141,9 @@ impl Operator for Conv {
 
 impl Conv {
     fn convolve(&self, job: Job<'_>, chunks: &[Chunk], finish: impl Fn(f32) -> f32 + Copy + Sync) {
-        let Job { inputs, output, .. } = job;
+        let Job { inputs, form, output, .. } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
-        let (out_width, places) = (output.form().width(), output.form().places());
+        let (out_width, places) = (form.width(), form.places());
         let of_group = self.inputs / self.groups * height * width;
         let picture = |group: usize| Picture {
             values: &inputs[0].values()[group * of_group..][..of_group],
@@ -161,11 +161,11 @@ impl Conv {
                     Depthwise { picture, weights, bias, chunks, outputs, width: out_width, finish }
                         .convolve(self.level);
                 };
-                output.values_mut().par_chunks_mut(places).enumerate().for_each(channel);
+                output.par_chunks_mut(places).enumerate().for_each(channel);
             }
             Kernels::Groups(groups) => {
                 let of_group = self.channels / self.groups;
-                let planes = output.values_mut().chunks_mut(of_group * places);
+                let planes = output.chunks_mut(of_group * places);
                 for (group, (weights, values)) in groups.iter().zip(planes).enumerate() {
                     let picture = picture(group);
                     let part = |(blocks, values)| {

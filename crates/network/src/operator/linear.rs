@@ -66,7 +66,7 @@ impl Operator for Linear {
             return;
         }
         let input = job.inputs[0].values();
-        let outputs = job.output.values_mut().par_iter_mut().zip(&self.bias);
+        let outputs = job.output.par_iter_mut().zip(&self.bias);
         let rows = self.weights.par_chunks(self.inputs);
         outputs.zip(rows).for_each(|((output, bias), row)| *output = bias + dot(row, input));
     }
@@ -146,7 +146,7 @@ impl Operator for MatMul {
         }
         let outputs = self.outputs();
         let rows = inputs[0].values().par_chunks(self.inputs);
-        output.values_mut().par_chunks_mut(outputs).zip(rows).for_each(|(outputs, input)| {
+        output.par_chunks_mut(outputs).zip(rows).for_each(|(outputs, input)| {
             let weights = self.weights.chunks(self.inputs);
             outputs.iter_mut().zip(weights).for_each(|(output, row)| *output = dot(row, input));
         });

@@ -77,7 +77,9 @@ pub(crate) trait Operator: Debug + Send + Sync {
 /// What an operator has to do for one frame.
 pub(crate) struct Job<'a> {
     pub(crate) inputs: &'a [&'a Tensor],
-    pub(crate) output: &'a mut Tensor,
+    /// Of the output.
+    pub(crate) form: &'a Form,
+    pub(crate) output: &'a mut [f32],
     pub(crate) at: &'a Mask,
 }
 

@@ -101,11 +101,11 @@ impl Operator for Pool {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
+        let Job { inputs, form, output, at, .. } = job;
         let size = [inputs[0].form().height(), inputs[0].form().width()];
-        let (places, width) = (output.form().places(), output.form().width());
+        let (places, width) = (form.places(), form.width());
         let planes = inputs[0].values().par_chunks(size[0] * size[1]);
-        output.values_mut().par_chunks_mut(places).zip(planes).for_each(|(output, plane)| {
+        output.par_chunks_mut(places).zip(planes).for_each(|(output, plane)| {
             for y in 0..at.height() {
                 for (x, length) in at.runs(y) {
                     self.of(plane, size, x, y, &mut output[y * width + x..][..length]);

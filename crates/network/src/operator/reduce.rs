@@ -44,10 +44,8 @@ impl Operator for Reduce {
         if at.is_empty() {
             return;
         }
-        let length = inputs[0].values().len() / output.values().len();
-        for (output, values) in
-            output.values_mut().iter_mut().zip(inputs[0].values().chunks(length))
-        {
+        let length = inputs[0].values().len() / output.len();
+        for (output, values) in output.iter_mut().zip(inputs[0].values().chunks(length)) {
             *output = match self.kind {
                 // In double precision, so that a mean over a large picture is as good as over a small one.
                 #[allow(

@@ -46,10 +46,9 @@ impl Operator for Reshape {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
-        let form = output.form().clone();
-        for_each_run(&form, at, |run| {
-            output.values_mut()[run.clone()].copy_from_slice(&inputs[0].values()[run]);
+        let Job { inputs, form, output, at, .. } = job;
+        for_each_run(form, at, |run| {
+            output[run.clone()].copy_from_slice(&inputs[0].values()[run]);
         });
     }
 }

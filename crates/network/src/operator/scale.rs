@@ -50,11 +50,10 @@ impl Operator for Scale {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
-        let form = output.form().clone();
+        let Job { inputs, form, output, at, .. } = job;
         let plane = form.elements() / self.factors.len();
-        let (from, to) = (inputs[0].values(), output.values_mut());
-        crate::tensor::for_each_run(&form, at, |run| {
+        let (from, to) = (inputs[0].values(), output);
+        crate::tensor::for_each_run(form, at, |run| {
             let start = run.start;
             for (place, (to, &from)) in (start..).zip(to[run.clone()].iter_mut().zip(&from[run])) {
                 let channel = place / plane;

@@ -57,13 +57,12 @@ impl Operator for Slice {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
-        let form = output.form().clone();
+        let Job { inputs, form, output, at, .. } = job;
         let (axis, start, count) = self.range(inputs[0].form()).expect("the form has it");
         let behind: usize = form.shape()[axis + 1..].iter().product();
         let all = inputs[0].form().shape()[axis];
-        crate::tensor::for_each_run(&form, at, |run| {
-            for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
+        crate::tensor::for_each_run(form, at, |run| {
+            for (place, to) in run.clone().zip(&mut output[run]) {
                 let (before, index, after) =
                     (place / behind / count, place / behind % count, place % behind);
                 *to =

@@ -37,15 +37,14 @@ impl Operator for Transpose {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
+        let Job { inputs, form, output, at, .. } = job;
         if at.is_empty() {
             return;
         }
         let steps = inputs[0].form().steps();
         let steps: Vec<usize> = self.order.iter().map(|&axis| steps[axis]).collect();
-        let form = output.form().clone();
-        crate::tensor::for_each_run(&form, at, |run| {
-            for (place, to) in run.clone().zip(&mut output.values_mut()[run]) {
+        crate::tensor::for_each_run(form, at, |run| {
+            for (place, to) in run.clone().zip(&mut output[run]) {
                 *to = inputs[0].values()[form.offset(place, &steps)];
             }
         });
