@@ -4,7 +4,7 @@
 use crate::camera::Seen;
 use crate::player::Player;
 use crate::summary::{Summary, Tuning, error, layers, macs, ratio};
-use crate::tally::{Positions, Reference};
+use crate::tally::{NotFinite, Positions, Reference};
 use crate::{Goal, Mapping};
 use foveate_design::Design;
 use foveate_network::Network;
@@ -35,6 +35,7 @@ pub(crate) struct Run<'a> {
     changed: u64,
     seconds: f64,
     overhead: f64,
+    not_finite: NotFinite,
 }
 
 impl<'a> Run<'a> {
@@ -56,6 +57,7 @@ impl<'a> Run<'a> {
             changed: 0,
             seconds: 0.0,
             overhead: 0.0,
+            not_finite: NotFinite::default(),
         }
     }
 
@@ -63,6 +65,7 @@ impl<'a> Run<'a> {
         let start = Instant::now();
         let work = self.player.step(seen).to_vec();
         let seconds = start.elapsed().as_secs_f64();
+        self.not_finite.look(seen.number, self.network, self.player.executor());
         let is_counted = self.player.is_counted();
         let judge = |reference: &mut Reference<'_>| {
             reference.judge(seen.values, self.player.executor(), is_counted)
@@ -112,11 +115,18 @@ impl<'a> Run<'a> {
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
         let counted = self.counted.max(1) as f64;
+        let of_weights = self.network.not_finite().iter().map(|(name, count)| {
+            format!(
+                "the weights `{name}` hold {count} infinite values, or such that are no numbers"
+            )
+        });
+        let warnings = of_weights.chain(self.not_finite.warning(self.network)).collect();
         let summary = Summary {
             format_version: 1,
             foveate_version: env!("CARGO_PKG_VERSION"),
             complete: told.problem.is_none(),
             problem: told.problem,
+            warnings,
             inputs: told.inputs,
             network: told.network,
             mode: told.mode,

@@ -19,6 +19,8 @@ pub struct Summary {
     pub complete: bool,
     /// Why not.
     pub problem: Option<String>,
+    /// What is odd: weights and outputs that are infinite or no numbers.
+    pub warnings: Vec<String>,
     /// The inputs as they were named.
     pub inputs: Vec<String>,
     /// The network's file.

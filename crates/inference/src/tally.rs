@@ -23,6 +23,42 @@ impl Positions {
     }
 }
 
+/// Frames with outputs that are infinite or no numbers.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NotFinite {
+    frames: u64,
+    /// Number of the first such frame, and the first node of it that made such a value.
+    first: Option<(u64, usize)>,
+}
+
+impl NotFinite {
+    /// Looks at the outputs of a frame.
+    pub(crate) fn look(&mut self, frame: u64, network: &Network, executor: &Executor<'_>) {
+        let is_odd =
+            |value: usize| !executor.value(value).values().iter().all(|value| value.is_finite());
+        if !network.outputs().iter().any(|&value| is_odd(value)) {
+            return;
+        }
+        self.frames += 1;
+        if self.first.is_none() {
+            let node = (0..network.nodes().len()).find(|node| is_odd(node + 1));
+            self.first = node.map(|node| (frame, node));
+        }
+    }
+
+    /// In words, if there was one.
+    pub(crate) fn warning(&self, network: &Network) -> Option<String> {
+        let (frame, node) = self.first?;
+        let node = &network.nodes()[node];
+        Some(format!(
+            "outputs hold infinite values, or such that are no numbers, in {} frames; in the first, frame {frame}, they begin at node `{}` ({})",
+            self.frames,
+            node.name(),
+            node.kind()
+        ))
+    }
+}
+
 /// A whole computation beside the one that is judged.
 pub(crate) struct Reference<'a> {
     network: &'a Network,

@@ -22,6 +22,8 @@ pub struct Network {
     forms: Vec<Form>,
     nodes: Vec<Node>,
     outputs: Vec<usize>,
+    /// Names of weights that hold infinite values or such that are no numbers, and how many.
+    not_finite: Vec<(String, usize)>,
     /// Values of all tensors.
     kept: usize,
     weight_bytes: u64,
@@ -73,6 +75,7 @@ impl Network {
             forms: vec![input],
             nodes: Vec::new(),
             outputs: Vec::new(),
+            not_finite: Vec::new(),
             kept,
             weight_bytes: 0,
         })
@@ -111,9 +114,10 @@ impl Network {
         Ok(self.nodes.len())
     }
 
-    /// Says which values are the outputs.
-    pub(crate) fn finish(&mut self, outputs: Vec<usize>) {
+    /// Says which values are the outputs, and which weights are not finite.
+    pub(crate) fn finish(&mut self, outputs: Vec<usize>, not_finite: Vec<(String, usize)>) {
         self.outputs = outputs;
+        self.not_finite = not_finite;
     }
 
     /// Lets the last node do something else with the same inputs and the same form.
@@ -145,6 +149,12 @@ impl Network {
     #[must_use]
     pub fn outputs(&self) -> &[usize] {
         &self.outputs
+    }
+
+    /// The weights that hold infinite values or such that are no numbers, by their names in the model, with how many.
+    #[must_use]
+    pub fn not_finite(&self) -> &[(String, usize)] {
+        &self.not_finite
     }
 
     /// Multiplications and additions of a node for a whole frame.

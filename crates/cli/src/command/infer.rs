@@ -27,6 +27,7 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
     let summary = inference.run(&args.output, &options, &mut hooks);
     hooks.shown.finish();
     let summary = summary?;
+    summary.warnings.iter().for_each(|warning| output::warn(warning));
     match (args.json, args.quiet) {
         (true, _) => output::json(&summary)?,
         (false, false) => output::text(&text(&args.output, &summary))?,

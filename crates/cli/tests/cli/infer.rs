@@ -159,6 +159,35 @@ fn what_does_not_fit_is_refused_with_what_would() {
     assert_eq!(fs::read_to_string(dir.path().join("out/mine")).unwrap(), "mine");
 }
 
+/// A bias that is no number is named, and so is the first node whose outputs are no numbers.
+#[test]
+fn what_is_no_number_is_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut model = fs::read(DENOISER).unwrap();
+    // The field `raw_data`, 48 bytes: the bias of twelve channels.
+    let bias = model.windows(2).position(|bytes| bytes == [0x4a, 48]).unwrap() + 2;
+    model[bias..bias + 4].copy_from_slice(&f32::NAN.to_le_bytes());
+    fs::write(dir.path().join("odd.onnx"), model).unwrap();
+    let args = ["infer", "odd.onnx", "scene:street", "-o", "out", "--max-frames", "3", "--json"];
+    let found: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    let warnings: Vec<_> = found["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|warning| warning.as_str().unwrap())
+        .collect();
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    assert!(
+        warnings[0].contains("bias` hold 1 infinite values, or such that are no numbers"),
+        "{warnings:?}"
+    );
+    assert!(
+        warnings[1].contains("in 3 frames; in the first, frame 0, they begin at node"),
+        "{warnings:?}"
+    );
+    assert_eq!(summary(dir.path(), &[])["warnings"], Value::Array(Vec::new()));
+}
+
 #[test]
 fn quiet_is_quiet() {
     let dir = tempfile::tempdir().unwrap();

@@ -73,6 +73,14 @@ impl Constant {
         Ok(Self { shape, values })
     }
 
+    /// How many values are infinite or no numbers.
+    pub(super) fn not_finite(&self) -> usize {
+        match &self.values {
+            Values::Floats(values) => values.iter().filter(|value| !value.is_finite()).count(),
+            Values::Integers(_) => 0,
+        }
+    }
+
     /// Its values as integers.
     pub(super) fn as_integers(&self) -> Result<&[i64], String> {
         match &self.values {

@@ -33,12 +33,15 @@ pub(super) fn read(
     frames: FrameSize,
     opset: i64,
 ) -> Result<Network, NetworkError> {
-    let mut known = HashMap::new();
+    let (mut known, mut odd) = (HashMap::new(), Vec::new());
     for tensor in &graph.initializer {
         let name = tensor.name.clone().unwrap_or_default();
         let constant = Constant::read(tensor, folder).map_err(|problem| {
             NetworkError::Network(format!("the constant `{name}`: {problem}"))
         })?;
+        if constant.not_finite() > 0 {
+            odd.push((name.clone(), constant.not_finite()));
+        }
         known.insert(name, Known::Constant(Arc::new(constant)));
     }
     let inputs: Vec<_> =
@@ -63,7 +66,7 @@ pub(super) fn read(
     if outputs.is_empty() {
         return Err(NetworkError::Network("it has no output".to_owned()));
     }
-    reading.network.finish(outputs);
+    reading.network.finish(outputs, odd);
     Ok(reading.network)
 }
 
