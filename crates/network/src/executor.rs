@@ -45,6 +45,8 @@ pub struct Executor<'a> {
     kept: Vec<Tensor>,
     /// What has changed of each.
     masks: Vec<Mask>,
+    /// By node: where it was computed.
+    wanted: Vec<Mask>,
     work: Vec<Work>,
     /// Where a node computes whose output is compared.
     fresh: Vec<f32>,
@@ -75,6 +77,7 @@ impl<'a> Executor<'a> {
             limits,
             kept: forms().map(|form| Tensor::zeros(form.clone())).collect(),
             masks: forms().map(|form| Mask::empty(form.height(), form.width())).collect(),
+            wanted: forms().skip(1).map(|form| Mask::empty(form.height(), form.width())).collect(),
             work: vec![Work::default(); network.nodes().len()],
             fresh: vec![0.0; if is_compared { largest } else { 0 }],
             has_begun: false,
@@ -139,6 +142,12 @@ impl<'a> Executor<'a> {
         &self.masks[value]
     }
 
+    /// Where the output of a node was needed for the last picture.
+    #[must_use]
+    pub fn wanted(&self, node: usize) -> &Mask {
+        &self.wanted[node]
+    }
+
     /// By how much a value must differ from what was passed on last to have changed, in the modes that compare.
     #[must_use]
     pub fn limit(&self, value: usize) -> Option<f32> {
@@ -167,7 +176,7 @@ impl<'a> Executor<'a> {
     }
 
     /// The positions of a node's output that are to be computed.
-    fn wanted(&self, node: usize, camera: &Mask) -> Mask {
+    fn wanting(&self, node: usize, camera: &Mask) -> Mask {
         let (node, form) = (&self.network.nodes()[node], self.network.form(node + 1));
         if self.is_whole() {
             return Mask::full(form.height(), form.width());
@@ -181,7 +190,8 @@ impl<'a> Executor<'a> {
     }
 
     fn run(&mut self, node: usize, camera: &Mask) {
-        let (at, limit) = (self.wanted(node, camera), self.compared(node + 1));
+        let (at, limit) = (self.wanting(node, camera), self.compared(node + 1));
+        self.wanted[node].clone_from(&at);
         let place = &self.network.nodes()[node];
         let form = self.network.form(node + 1);
         let (needed, scheduled) = (at.count(), place.operator.scheduled(&at));

@@ -21,5 +21,6 @@ pub use executor::{Executor, Mode, Work};
 pub use form::Form;
 pub use mask::{Mask, Window};
 pub use network::{Network, Node};
+pub use operator::Products;
 pub use read::{FrameSize, operators};
 pub use tensor::Tensor;

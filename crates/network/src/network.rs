@@ -4,7 +4,7 @@
 use crate::error::NetworkError;
 use crate::form::Form;
 use crate::mask::Mask;
-use crate::operator::Operator;
+use crate::operator::{Operator, Products};
 use std::sync::Arc;
 
 /// Values of the largest tensor.
@@ -57,6 +57,12 @@ impl Node {
     #[must_use]
     pub fn inputs(&self) -> &[usize] {
         &self.inputs
+    }
+
+    /// The sums of products that it computes.
+    #[must_use]
+    pub fn products(&self) -> Products {
+        self.operator.products()
     }
 
     /// Bytes of its weights.
@@ -160,8 +166,15 @@ impl Network {
     /// Multiplications and additions of a node for a whole frame.
     #[must_use]
     pub fn macs(&self, node: usize) -> u64 {
-        let form = &self.forms[node + 1];
-        self.nodes[node].operator.macs_per_position(form) * form.places() as u64
+        let (node, form) = (&self.nodes[node], &self.forms[node + 1]);
+        let of_each = match node.products() {
+            Products::None => 0,
+            Products::Matrix { inputs } => inputs,
+            Products::Convolution { rows, columns, groups } => {
+                self.forms[node.inputs[0]].shape()[1] / groups * rows.kernel * columns.kernel
+            }
+        };
+        (form.elements() * of_each) as u64
     }
 
     /// Positions that are computed for a whole output of a node: whole blocks, so that there may be more than it has.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution, with groups, strides, dilation and any padding.
 
-use super::{Activation, Job, Operator, features, only};
+use super::{Activation, Job, Operator, Products, features, only};
 use crate::form::Form;
 use crate::kernel::{self, Blocking, CHUNK, Chunk, Depthwise, Outputs, Picture, Weights, chunks};
 use crate::mask::{Mask, Window};
@@ -117,8 +117,8 @@ impl Operator for Conv {
         }
     }
 
-    fn macs_per_position(&self, _output: &Form) -> u64 {
-        (self.channels * self.inputs / self.groups * self.rows.kernel * self.columns.kernel) as u64
+    fn products(&self) -> Products {
+        Products::Convolution { rows: self.rows, columns: self.columns, groups: self.groups }
     }
 
     fn scheduled(&self, at: &Mask) -> usize {

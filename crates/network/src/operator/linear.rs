@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Products with a matrix: fully connected layers.
 
-use super::{Job, Operator, everything, only};
+use super::{Job, Operator, Products, everything, only};
 use crate::form::Form;
 use crate::mask::Mask;
 use rayon::prelude::*;
@@ -71,8 +71,8 @@ impl Operator for Linear {
         outputs.zip(rows).for_each(|((output, bias), row)| *output = bias + dot(row, input));
     }
 
-    fn macs_per_position(&self, _output: &Form) -> u64 {
-        self.weights.len() as u64
+    fn products(&self) -> Products {
+        Products::Matrix { inputs: self.inputs }
     }
 
     fn weight_bytes(&self) -> u64 {
@@ -152,8 +152,8 @@ impl Operator for MatMul {
         });
     }
 
-    fn macs_per_position(&self, output: &Form) -> u64 {
-        (output.elements() / output.places() * self.inputs) as u64
+    fn products(&self) -> Products {
+        Products::Matrix { inputs: self.inputs }
     }
 
     fn scheduled(&self, at: &Mask) -> usize {

@@ -32,10 +32,31 @@ pub(crate) use softmax::Softmax;
 pub(crate) use transpose::Transpose;
 
 use crate::form::Form;
-use crate::mask::Mask;
+use crate::mask::{Mask, Window};
 use crate::tensor::Tensor;
 use std::fmt::Debug;
 use std::sync::Arc;
+
+/// The sums of products of an operator, as accelerators map them onto their arrays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Products {
+    /// None: pooling, activation, addition and the like.
+    None,
+    /// A convolution over rows and columns.
+    Convolution {
+        /// Along the rows.
+        rows: Window,
+        /// Along the columns.
+        columns: Window,
+        /// Groups of channels.
+        groups: usize,
+    },
+    /// Every output is a sum over so many inputs.
+    Matrix {
+        /// Inputs of each sum.
+        inputs: usize,
+    },
+}
 
 /// One operator with its attributes and weights.
 pub(crate) trait Operator: Debug + Send + Sync {
@@ -53,9 +74,9 @@ pub(crate) trait Operator: Debug + Send + Sync {
     /// Computes the output, at least at the positions of the job. What it writes elsewhere is what a whole computation would write there.
     fn compute(&self, job: Job<'_>);
 
-    /// Multiplications and additions of one position of the output.
-    fn macs_per_position(&self, _output: &Form) -> u64 {
-        0
+    /// What kind of sums of products it computes.
+    fn products(&self) -> Products {
+        Products::None
     }
 
     /// Positions that are computed where those of a mask are wanted.
