@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cycles of layers on a systolic array, for `scripts/compare_scalesim.py`.
+//!
+//! `cycles ws|os ROWS COLUMNS TOPOLOGY.csv` reads a topology as SCALE-Sim takes it (name, input height and width with padding, kernel height
+//! and width, channels, filters, stride; a name with `DP` is a depthwise layer) and prints a line `name,cycles` for each layer, cycles
+//! counted as SCALE-Sim does. The buffers hold everything, so no layer is cut.
+
+use foveate_accelerator::{Accelerator, Dataflow, Layer, Shape, Systolic, Window};
+
+type Failure = Box<dyn std::error::Error>;
+
+#[allow(clippy::print_stdout, reason = "a program")]
+fn main() -> Result<(), Failure> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [dataflow, rows, columns, path] = arguments.as_slice() else {
+        return Err("usage: cycles ws|os ROWS COLUMNS TOPOLOGY.csv".into());
+    };
+    let accelerator = accelerator(dataflow, rows.parse()?, columns.parse()?)?;
+    let mut reader =
+        csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_path(path)?;
+    for record in reader.records() {
+        let record = record?;
+        let name = record.get(0).ok_or("a line without a name")?;
+        let plan = accelerator.plan(layer(name, &record)?)?;
+        println!("{name},{}", plan.whole().array_cycles - runs(name, &record)?);
+    }
+    Ok(())
+}
+
+fn accelerator(dataflow: &str, rows: u64, columns: u64) -> Result<Accelerator, Failure> {
+    const EVERYTHING: u64 = 1 << 40;
+    let array = Systolic {
+        rows,
+        columns,
+        input_bytes: EVERYTHING,
+        weight_bytes: EVERYTHING,
+        output_bytes: EVERYTHING,
+    };
+    let (name, array) = match dataflow {
+        "ws" => ("systolic-ws", Dataflow::WeightStationary(array)),
+        "os" => ("systolic-os", Dataflow::OutputStationary(array)),
+        other => return Err(format!("`{other}` is no dataflow; there are ws and os").into()),
+    };
+    Ok(Accelerator { array, ..Accelerator::preset(name)? })
+}
+
+/// How many layers SCALE-Sim makes of one: it runs the channels of a depthwise layer alone. It says the number of the last cycle of each, counted
+/// from 0, which is one less than there are.
+fn runs(name: &str, record: &csv::StringRecord) -> Result<u64, Failure> {
+    if is_depthwise(name) { number(name, record, 5) } else { Ok(1) }
+}
+
+fn is_depthwise(name: &str) -> bool {
+    name.contains("DP")
+}
+
+fn number(name: &str, record: &csv::StringRecord, at: usize) -> Result<u64, Failure> {
+    let text = record.get(at).ok_or_else(|| format!("{name}: column {at} is missing"))?;
+    Ok(text.parse().map_err(|error| format!("{name}: `{text}`: {error}"))?)
+}
+
+/// A layer of the topology. SCALE-Sim's rows without padding: the output holds the places where the kernel fits.
+fn layer(name: &str, record: &csv::StringRecord) -> Result<Layer, Failure> {
+    let number = |at: usize| number(name, record, at);
+    let (inputs, kernel) = ([number(1)?, number(2)?], [number(3)?, number(4)?]);
+    let (channels, filters, stride) = (number(5)?, number(6)?, number(7)?);
+    let places = |at: usize| -> Result<u64, Failure> {
+        let room = inputs[at].checked_sub(kernel[at]);
+        Ok(room.ok_or_else(|| format!("{name}: the kernel is larger than the input"))? / stride + 1)
+    };
+    let groups = if is_depthwise(name) { channels } else { 1 };
+    let inputs_shape = Shape { channels, height: inputs[0], width: inputs[1] };
+    let outputs = Shape { channels: filters * groups, height: places(0)?, width: places(1)? };
+    let windows = kernel.map(|kernel| Window::of(kernel, stride, 0));
+    Ok(Layer::convolution(inputs_shape, outputs, windows, groups)?)
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The tables of the page `docs/accelerators.md` on Eyeriss, in Markdown.
+
+use super::networks::{Published, alexnet, vgg16};
+use foveate_accelerator::{Accelerator, Cost, Dataflow, Objective};
+use std::fmt::Write;
+
+type Failure = Box<dyn std::error::Error>;
+
+/// A figure of a whole network: its name, its digits, what was measured, what the model says.
+struct Figure {
+    name: &'static str,
+    digits: usize,
+    chip: f64,
+    model: [f64; 2],
+}
+
+/// Each figure of the chip, and of the model with either way to choose a mapping.
+pub(crate) fn totals() -> Result<String, Failure> {
+    let mut table =
+        "| network | figure | chip | least DRAM | ratio | least energy x delay | ratio |\n\
+                     | --- | --- | ---: | ---: | ---: | ---: | ---: |\n"
+            .to_owned();
+    for network in [alexnet()?, vgg16()?] {
+        for figure in figures(&network)? {
+            let Figure { name, digits, chip, model: [dram, delay] } = figure;
+            let (first, second) = (dram / chip, delay / chip);
+            writeln!(
+                table,
+                "| {} | {name} | {chip} | {dram:.digits$} | {first:.2} | {delay:.digits$} | {second:.2} |",
+                network.name
+            )?;
+        }
+    }
+    Ok(table)
+}
+
+/// Each layer of the model with the mapping of the preset.
+pub(crate) fn layers() -> Result<String, Failure> {
+    let accelerator = Accelerator::preset("eyeriss")?;
+    let mut table = "| layer | ms per image | utilization | DRAM accesses per MAC |\n| --- | ---: | ---: | ---: |\n".to_owned();
+    for network in [alexnet()?, vgg16()?] {
+        for ((name, _), cost) in network.layers.iter().zip(costs(&accelerator, &network)?) {
+            let milliseconds = 1e3 / rate(&accelerator, &network, &cost);
+            let (share, accesses) = (cost.utilization(&accelerator), per_mac(&cost));
+            let network = network.name;
+            writeln!(
+                table,
+                "| {network} {name} | {milliseconds:.2} | {share:.2} | {accesses:.4} |"
+            )?;
+        }
+    }
+    Ok(table)
+}
+
+fn figures(network: &Published) -> Result<[Figure; 3], Failure> {
+    let mut models = Vec::new();
+    for mapping in [Objective::LeastDram, Objective::LeastEnergyDelay] {
+        let accelerator = with_mapping(mapping)?;
+        let cost: Cost = costs(&accelerator, network)?.into_iter().sum();
+        let milliwatts = 1e-9 * cost.energy.chip() / accelerator.seconds(cost.cycles);
+        models.push([rate(&accelerator, network, &cost), per_mac(&cost), milliwatts]);
+    }
+    let model = |figure: usize| [models[0][figure], models[1][figure]];
+    Ok([
+        Figure { name: "frames/s", digits: 2, chip: network.frames_per_second, model: model(0) },
+        Figure {
+            name: "DRAM accesses per MAC",
+            digits: 4,
+            chip: network.accesses_per_mac,
+            model: model(1),
+        },
+        Figure {
+            name: "power of the chip, mW",
+            digits: 0,
+            chip: network.milliwatts,
+            model: model(2),
+        },
+    ])
+}
+
+fn with_mapping(mapping: Objective) -> Result<Accelerator, Failure> {
+    let mut accelerator = Accelerator::preset("eyeriss")?;
+    let Dataflow::RowStationary(array) = &mut accelerator.array else {
+        return Err("the preset `eyeriss` is not row-stationary".into());
+    };
+    array.mapping = mapping;
+    Ok(accelerator)
+}
+
+fn costs(accelerator: &Accelerator, network: &Published) -> Result<Vec<Cost>, Failure> {
+    let layers = network.layers.iter();
+    layers.map(|(_, layer)| Ok(accelerator.plan(layer.clone())?.whole())).collect()
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a mean")]
+fn rate(accelerator: &Accelerator, network: &Published, cost: &Cost) -> f64 {
+    network.images as f64 / accelerator.seconds(cost.cycles)
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a mean")]
+fn per_mac(cost: &Cost) -> f64 {
+    cost.dram.accesses() as f64 / cost.macs as f64
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The table of the page `docs/accelerators.md` on masks, in Markdown.
+
+use foveate_accelerator::{Accelerator, Cost, Layer, PRESETS, Shape, Window};
+use std::fmt::Write;
+
+/// Three layers of ResNet-18 for 224 x 224 pixels: name, channels in and out, side.
+const LAYERS: [(&str, u64, u64); 3] =
+    [("conv2_x", 64, 56), ("conv4_x", 256, 14), ("conv5_x", 512, 7)];
+
+/// Sides of the squares, as shares of the side of the layer in sevenths.
+const SQUARES: [u64; 2] = [1, 3];
+
+/// For each preset, layer and square, what is left of each cost.
+pub(crate) fn shares() -> Result<String, Box<dyn std::error::Error>> {
+    let mut table =
+        "| accelerator | layer | needed, % | MACs, % | cycles, % | DRAM accesses, % | energy, % |\n\
+                     | --- | --- | ---: | ---: | ---: | ---: | ---: |\n"
+            .to_owned();
+    for preset in PRESETS {
+        let accelerator = Accelerator::preset(preset.name)?;
+        for (name, channels, side) in LAYERS {
+            let shape = Shape { channels, height: side, width: side };
+            let layer = Layer::convolution(shape, shape, [Window::of(3, 1, 1); 2], 1)?;
+            let plan = accelerator.plan(layer)?;
+            let whole = plan.whole();
+            for sevenths in SQUARES {
+                // In the middle of the layer.
+                let (from, to) = ((7 - sevenths) / 2 * side / 7, (7 + sevenths) / 2 * side / 7);
+                let square = from..to;
+                let part = plan
+                    .masked(|x, y| square.contains(&(x as u64)) && square.contains(&(y as u64)));
+                let shares =
+                    percentages(&part, &whole).map(|share| format!("{share:.1}")).join(" | ");
+                let needed = 100 * sevenths * sevenths / 49;
+                writeln!(table, "| {} | {name} | {needed} | {shares} |", preset.name)?;
+            }
+        }
+    }
+    Ok(table)
+}
+
+/// Multiplications, cycles, accesses to the DRAM, and energy.
+#[allow(clippy::cast_precision_loss, reason = "shares")]
+fn percentages(part: &Cost, whole: &Cost) -> [f64; 4] {
+    let of = |cost: &Cost| {
+        [cost.macs as f64, cost.cycles as f64, cost.dram.accesses() as f64, cost.energy.total()]
+    };
+    let (part, whole) = (of(part), of(whole));
+    std::array::from_fn(|figure| 100.0 * part[figure] / whole[figure])
+}

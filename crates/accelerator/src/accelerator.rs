@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An accelerator as a TOML file describes it.
+
+use crate::{AcceleratorError, Preset};
+use serde::Deserialize;
+
+/// An accelerator: an array of multipliers, its buffers, and what an access costs.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Accelerator {
+    /// Clock in MHz.
+    pub clock_mhz: f64,
+    /// Bits of an input, a weight, or an output.
+    pub value_bits: u32,
+    /// Bits of an unfinished sum.
+    pub sum_bits: u32,
+    /// Rows and columns of a tile: positions of an output that are computed together.
+    pub tile: [u32; 2],
+    /// What the DRAM delivers or takes per cycle; without it the DRAM is never waited for.
+    pub dram_bytes_per_cycle: Option<f64>,
+    /// The array and its buffers.
+    pub array: Dataflow,
+    /// What an access costs.
+    pub energy: Energy,
+}
+
+/// What stays in the array while the rest streams through.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(tag = "dataflow", rename_all = "kebab-case")]
+pub enum Dataflow {
+    /// Weights.
+    WeightStationary(Systolic),
+    /// Sums.
+    OutputStationary(Systolic),
+    /// Rows of weights, inputs and sums, as on Eyeriss.
+    RowStationary(RowStationary),
+}
+
+/// A systolic array with three buffers.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Systolic {
+    /// Rows of the array.
+    pub rows: u64,
+    /// Columns of the array.
+    pub columns: u64,
+    /// Bytes of the buffer of inputs.
+    pub input_bytes: u64,
+    /// Bytes of the buffer of weights.
+    pub weight_bytes: u64,
+    /// Bytes of the buffer of sums and outputs.
+    pub output_bytes: u64,
+}
+
+/// An array of elements that each convolve rows, with one buffer for inputs and sums.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RowStationary {
+    /// Rows of the array.
+    pub rows: u64,
+    /// Columns of the array.
+    pub columns: u64,
+    /// Bytes of the buffer of inputs and sums.
+    pub buffer_bytes: u64,
+    /// Inputs that an element holds.
+    pub element_inputs: u64,
+    /// Weights that an element holds.
+    pub element_weights: u64,
+    /// Sums that an element holds.
+    pub element_sums: u64,
+    /// Inputs that enter the array per cycle.
+    pub inputs_per_cycle: u64,
+    /// Weights that enter the array per cycle.
+    pub weights_per_cycle: u64,
+    /// Sums that enter the array per cycle, and that leave it.
+    pub sums_per_cycle: u64,
+    /// Which mapping of a layer is taken.
+    pub mapping: Objective,
+}
+
+/// What a mapping is chosen for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Objective {
+    /// The fewest accesses to the DRAM; of several such mappings the one with the fewest cycles.
+    LeastDram,
+    /// The least product of energy and cycles.
+    LeastEnergyDelay,
+}
+
+/// Picojoules of a multiplication with addition, and of an access to a value of `value_bits`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Energy {
+    /// A multiplication with its addition.
+    pub mac_pj: f64,
+    /// A register of an element of the array.
+    pub register_pj: f64,
+    /// From one element of the array to the next.
+    pub array_pj: f64,
+    /// The buffer on the chip.
+    pub buffer_pj: f64,
+    /// The memory off the chip.
+    pub dram_pj: f64,
+}
+
+impl Accelerator {
+    /// Reads an accelerator.
+    ///
+    /// # Errors
+    /// When the text is no TOML, or a key is unknown, missing, of the wrong type, or out of range.
+    pub fn from_toml(text: &str) -> Result<Self, AcceleratorError> {
+        let table: toml::Table = text.parse().map_err(|error: toml::de::Error| {
+            AcceleratorError::Syntax(error.message().to_owned())
+        })?;
+        let accelerator: Self = serde_path_to_error::deserialize(toml::Value::Table(table))
+            .map_err(|error| {
+                let problem = error.inner().message().to_owned();
+                AcceleratorError::Key { key: error.path().to_string(), problem }
+            })?;
+        accelerator.validate()?;
+        Ok(accelerator)
+    }
+
+    /// A preset by its name.
+    ///
+    /// # Errors
+    /// When there is none of that name; the message lists those that exist.
+    pub fn preset(name: &str) -> Result<Self, AcceleratorError> {
+        Self::from_toml(Preset::find(name)?.toml)
+    }
+
+    /// Seconds of so many cycles.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "a time")]
+    pub fn seconds(&self, cycles: u64) -> f64 {
+        cycles as f64 / (1e6 * self.clock_mhz)
+    }
+
+    /// Elements of the array: multiplications in a cycle at best.
+    #[must_use]
+    pub fn elements(&self) -> u64 {
+        match &self.array {
+            Dataflow::WeightStationary(array) | Dataflow::OutputStationary(array) => {
+                array.rows * array.columns
+            }
+            Dataflow::RowStationary(array) => array.rows * array.columns,
+        }
+    }
+
+    /// Bytes of so many values, rounded up.
+    pub(crate) fn value_bytes(&self, values: u64) -> u64 {
+        (values * u64::from(self.value_bits)).div_ceil(8)
+    }
+
+    /// Bytes of so many sums, rounded up.
+    pub(crate) fn sum_bytes(&self, sums: u64) -> u64 {
+        (sums * u64::from(self.sum_bits)).div_ceil(8)
+    }
+
+    fn validate(&self) -> Result<(), AcceleratorError> {
+        within("value_bits", self.value_bits.into(), 1..=64, "1 to 64")?;
+        within("sum_bits", self.sum_bits.into(), 1..=64, "1 to 64")?;
+        for side in self.tile {
+            within("tile", side.into(), 1..=65_536, "1 to 65536 for each side")?;
+        }
+        positive("clock_mhz", self.clock_mhz)?;
+        if let Some(rate) = self.dram_bytes_per_cycle {
+            positive("dram_bytes_per_cycle", rate)?;
+        }
+        self.energy.validate()?;
+        match &self.array {
+            Dataflow::WeightStationary(array) | Dataflow::OutputStationary(array) => {
+                array.validate()
+            }
+            Dataflow::RowStationary(array) => array.validate(),
+        }
+    }
+}
+
+impl Systolic {
+    fn validate(&self) -> Result<(), AcceleratorError> {
+        side("array.rows", self.rows)?;
+        side("array.columns", self.columns)?;
+        bytes("array.input_bytes", self.input_bytes)?;
+        bytes("array.weight_bytes", self.weight_bytes)?;
+        bytes("array.output_bytes", self.output_bytes)
+    }
+}
+
+impl RowStationary {
+    fn validate(&self) -> Result<(), AcceleratorError> {
+        // A larger array has so many mappings that the search takes too long.
+        within("array.rows", self.rows, 1..=128, "1 to 128 if row-stationary")?;
+        within("array.columns", self.columns, 1..=128, "1 to 128 if row-stationary")?;
+        bytes("array.buffer_bytes", self.buffer_bytes)?;
+        side("array.element_inputs", self.element_inputs)?;
+        side("array.element_weights", self.element_weights)?;
+        side("array.element_sums", self.element_sums)?;
+        if self.element_weights < self.element_inputs {
+            return Err(AcceleratorError::Range {
+                key: "array.element_weights",
+                value: self.element_weights.to_string(),
+                valid: "at least `array.element_inputs`, because every input in an element meets a weight",
+            });
+        }
+        side("array.inputs_per_cycle", self.inputs_per_cycle)?;
+        side("array.weights_per_cycle", self.weights_per_cycle)?;
+        side("array.sums_per_cycle", self.sums_per_cycle)
+    }
+}
+
+impl Energy {
+    fn validate(&self) -> Result<(), AcceleratorError> {
+        let all = [
+            ("energy.mac_pj", self.mac_pj),
+            ("energy.register_pj", self.register_pj),
+            ("energy.array_pj", self.array_pj),
+            ("energy.buffer_pj", self.buffer_pj),
+            ("energy.dram_pj", self.dram_pj),
+        ];
+        let valid = |value: f64| (0.0..=1e9).contains(&value);
+        match all.into_iter().find(|&(_, value)| !valid(value)) {
+            None => Ok(()),
+            Some((key, value)) => {
+                let valid = "0 to 1e9 picojoules";
+                Err(AcceleratorError::Range { key, value: value.to_string(), valid })
+            }
+        }
+    }
+}
+
+fn within(
+    key: &'static str,
+    value: u64,
+    range: std::ops::RangeInclusive<u64>,
+    valid: &'static str,
+) -> Result<(), AcceleratorError> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    Err(AcceleratorError::Range { key, value: value.to_string(), valid })
+}
+
+fn side(key: &'static str, value: u64) -> Result<(), AcceleratorError> {
+    within(key, value, 1..=1024, "1 to 1024")
+}
+
+fn bytes(key: &'static str, value: u64) -> Result<(), AcceleratorError> {
+    within(key, value, 1..=1 << 40, "1 to 2^40 bytes")
+}
+
+fn positive(key: &'static str, value: f64) -> Result<(), AcceleratorError> {
+    if (1e-6..=1e9).contains(&value) {
+        return Ok(());
+    }
+    Err(AcceleratorError::Range { key, value: value.to_string(), valid: "1e-6 to 1e9" })
+}

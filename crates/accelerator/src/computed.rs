@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which positions of an output are computed, and which inputs they see.
+
+use crate::layer::{Layer, Window};
+use std::ops::Range;
+
+/// The positions of one image's output that are computed.
+#[derive(Clone, Debug)]
+pub(crate) struct Computed<'a> {
+    layer: &'a Layer,
+    /// Row by row.
+    is_computed: Vec<bool>,
+}
+
+impl<'a> Computed<'a> {
+    /// All positions.
+    pub(crate) fn all(layer: &'a Layer) -> Self {
+        Self { layer, is_computed: vec![true; index(layer.outputs.positions())] }
+    }
+
+    /// The positions of all tiles in which one is needed. A tile has rows and columns; `is_needed` takes column and row.
+    pub(crate) fn tiles(
+        layer: &'a Layer,
+        tile: [u32; 2],
+        is_needed: impl Fn(usize, usize) -> bool,
+    ) -> Self {
+        let (height, width) = (index(layer.outputs.height), index(layer.outputs.width));
+        let [rows, columns] = tile.map(|side| index(side.into()));
+        let mut is_computed = vec![false; height * width];
+        for top in (0..height).step_by(rows) {
+            let rows = top..(top + rows).min(height);
+            for left in (0..width).step_by(columns) {
+                let columns = left..(left + columns).min(width);
+                if rows.clone().any(|y| columns.clone().any(|x| is_needed(x, y))) {
+                    for y in rows.clone() {
+                        is_computed[y * width..][columns.clone()].fill(true);
+                    }
+                }
+            }
+        }
+        Self { layer, is_computed }
+    }
+
+    /// How many they are in these rows.
+    pub(crate) fn positions(&self, rows: Range<u64>) -> u64 {
+        rows.map(|row| self.in_row(row)).sum()
+    }
+
+    /// How many they are in that of these rows which has most.
+    pub(crate) fn longest_row(&self, rows: Range<u64>) -> u64 {
+        rows.map(|row| self.in_row(row)).max().unwrap_or_default()
+    }
+
+    /// How many positions of the input the computed outputs of these rows see, each counted once.
+    pub(crate) fn inputs(&self, rows: Range<u64>) -> u64 {
+        let [down, across] = self.layer.windows;
+        let (height, width) = (self.layer.inputs.height, self.layer.inputs.width);
+        let mut is_seen = vec![Vec::new(); index(height)];
+        for row in rows {
+            let Some(seen) = self.columns_seen(row, across, width) else { continue };
+            for input in down.taps(row, height) {
+                let place: &mut Vec<bool> = &mut is_seen[index(input)];
+                place.resize(seen.len(), false);
+                place.iter_mut().zip(&seen).for_each(|(place, &seen)| *place |= seen);
+            }
+        }
+        is_seen.iter().flatten().map(|&seen| u64::from(seen)).sum()
+    }
+
+    /// Which columns of the input the computed outputs of a row see; none if there are no such outputs.
+    fn columns_seen(&self, row: u64, across: Window, width: u64) -> Option<Vec<bool>> {
+        let outputs = self.row(row);
+        outputs.contains(&true).then(|| {
+            let mut seen = vec![false; index(width)];
+            for (column, _) in (0..).zip(outputs).filter(|&(_, &is)| is) {
+                across.taps(column, width).for_each(|input| seen[index(input)] = true);
+            }
+            seen
+        })
+    }
+
+    fn in_row(&self, row: u64) -> u64 {
+        self.row(row).iter().map(|&is| u64::from(is)).sum()
+    }
+
+    fn row(&self, row: u64) -> &[bool] {
+        let width = index(self.layer.outputs.width);
+        &self.is_computed[index(row) * width..][..width]
+    }
+}
+
+/// A place in memory. Layers are checked to have fewer positions than a `usize` counts.
+fn index(value: u64) -> usize {
+    usize::try_from(value).expect("a layer has fewer positions than memory has bytes")
+}

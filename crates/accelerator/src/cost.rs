@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a layer costs: cycles, accesses, energy. Costs of layers and frames can be added.
+
+use crate::Accelerator;
+use serde::Serialize;
+use std::iter::Sum;
+use std::ops::{Add, AddAssign};
+
+/// Accesses of one level of the memory, each to one value. A read counts one, a write counts one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Traffic {
+    /// Of the layer's inputs.
+    pub inputs: u64,
+    /// Of its weights.
+    pub weights: u64,
+    /// Of sums that are not finished; they have `sum_bits`.
+    pub sums: u64,
+    /// Of its outputs.
+    pub outputs: u64,
+}
+
+impl Traffic {
+    /// All accesses.
+    #[must_use]
+    pub fn accesses(&self) -> u64 {
+        self.inputs + self.weights + self.sums + self.outputs
+    }
+}
+
+/// What one or more layers cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Cost {
+    /// Cycles until layer after layer is done: in each, the longer of `array_cycles` and `dram_cycles`, because both go on at once.
+    pub cycles: u64,
+    /// Cycles in which the array is busy, with filling and draining it.
+    pub array_cycles: u64,
+    /// Cycles in which the DRAM is busy; 0 if it is never waited for.
+    pub dram_cycles: u64,
+    /// Multiplications of the computed positions.
+    pub macs: u64,
+    /// Accesses to registers in the array.
+    pub register: Traffic,
+    /// Transfers into an element of the array from the one beside it, or, in a row-stationary array, from the network.
+    pub array: Traffic,
+    /// Accesses to the buffer on the chip.
+    pub buffer: Traffic,
+    /// Accesses to the memory off the chip.
+    pub dram: Traffic,
+    /// Energy.
+    pub energy: Picojoules,
+}
+
+/// Energy in picojoules, without clock, control and leakage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Picojoules {
+    /// Of the multiplications and additions.
+    pub mac: f64,
+    /// Of the registers in the array.
+    pub register: f64,
+    /// Of transfers in the array.
+    pub array: f64,
+    /// Of the buffer.
+    pub buffer: f64,
+    /// Of the DRAM.
+    pub dram: f64,
+}
+
+impl Picojoules {
+    /// Of the chip.
+    #[must_use]
+    pub fn chip(&self) -> f64 {
+        self.mac + self.register + self.array + self.buffer
+    }
+
+    /// Of chip and DRAM.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.chip() + self.dram
+    }
+}
+
+/// What is counted of a layer.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub(crate) array_cycles: u64,
+    pub(crate) macs: u64,
+    pub(crate) register: Traffic,
+    pub(crate) array: Traffic,
+    pub(crate) buffer: Traffic,
+    pub(crate) dram: Traffic,
+}
+
+impl Cost {
+    /// Share of the array's multiplications that are used while it is busy; 0 if it is not.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "a share")]
+    pub fn utilization(&self, accelerator: &Accelerator) -> f64 {
+        if self.array_cycles == 0 {
+            return 0.0;
+        }
+        self.macs as f64 / (self.array_cycles as f64 * accelerator.elements() as f64)
+    }
+
+    pub(crate) fn of(counts: &Counts, accelerator: &Accelerator) -> Self {
+        let dram_cycles = dram_cycles(&counts.dram, accelerator);
+        Self {
+            cycles: counts.array_cycles.max(dram_cycles),
+            array_cycles: counts.array_cycles,
+            dram_cycles,
+            macs: counts.macs,
+            register: counts.register,
+            array: counts.array,
+            buffer: counts.buffer,
+            dram: counts.dram,
+            energy: energy(counts, accelerator),
+        }
+    }
+}
+
+/// Cycles in which the DRAM moves so much.
+#[allow(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a time, rounded up to a cycle"
+)]
+fn dram_cycles(dram: &Traffic, accelerator: &Accelerator) -> u64 {
+    let values = dram.inputs + dram.weights + dram.outputs;
+    let bytes = accelerator.value_bytes(values) + accelerator.sum_bytes(dram.sums);
+    accelerator.dram_bytes_per_cycle.map_or(0, |rate| (bytes as f64 / rate).ceil() as u64)
+}
+
+#[allow(clippy::cast_precision_loss, reason = "an energy")]
+fn energy(counts: &Counts, accelerator: &Accelerator) -> Picojoules {
+    let table = &accelerator.energy;
+    // A wider value costs as many times more as it has more bits.
+    let wider = f64::from(accelerator.sum_bits) / f64::from(accelerator.value_bits);
+    let of = |traffic: &Traffic, access: f64| {
+        let values = (traffic.inputs + traffic.weights + traffic.outputs) as f64;
+        access * (values + wider * traffic.sums as f64)
+    };
+    Picojoules {
+        mac: table.mac_pj * counts.macs as f64,
+        register: of(&counts.register, table.register_pj),
+        array: of(&counts.array, table.array_pj),
+        buffer: of(&counts.buffer, table.buffer_pj),
+        dram: of(&counts.dram, table.dram_pj),
+    }
+}
+
+impl AddAssign for Traffic {
+    fn add_assign(&mut self, other: Self) {
+        self.inputs += other.inputs;
+        self.weights += other.weights;
+        self.sums += other.sums;
+        self.outputs += other.outputs;
+    }
+}
+
+impl AddAssign for Picojoules {
+    fn add_assign(&mut self, other: Self) {
+        self.mac += other.mac;
+        self.register += other.register;
+        self.array += other.array;
+        self.buffer += other.buffer;
+        self.dram += other.dram;
+    }
+}
+
+impl AddAssign for Cost {
+    fn add_assign(&mut self, other: Self) {
+        self.cycles += other.cycles;
+        self.array_cycles += other.array_cycles;
+        self.dram_cycles += other.dram_cycles;
+        self.macs += other.macs;
+        self.register += other.register;
+        self.array += other.array;
+        self.buffer += other.buffer;
+        self.dram += other.dram;
+        self.energy += other.energy;
+    }
+}
+
+impl Add for Cost {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
+impl Sum for Cost {
+    fn sum<I: Iterator<Item = Self>>(costs: I) -> Self {
+        costs.fold(Self::default(), Add::add)
+    }
+}

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The shapes of a layer, as far as its cost depends on them.
+
+use crate::AcceleratorError;
+use std::ops::RangeInclusive;
+
+/// The most multiplications of a layer: with this limit no count can overflow.
+const MOST_MACS: u128 = 1_000_000_000_000_000;
+/// The most values along an axis.
+const LONGEST: u64 = 1 << 20;
+/// The most images that run together.
+const MOST_IMAGES: u64 = 1024;
+/// The most positions of a tensor: masks of them stay in memory.
+const MOST_POSITIONS: u64 = 1 << 28;
+
+/// Channels, rows and columns of a tensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Values of a position.
+    pub channels: u64,
+    /// Rows.
+    pub height: u64,
+    /// Columns.
+    pub width: u64,
+}
+
+impl Shape {
+    /// Rows times columns.
+    #[must_use]
+    pub fn positions(&self) -> u64 {
+        self.height * self.width
+    }
+
+    /// Values.
+    #[must_use]
+    pub fn values(&self) -> u64 {
+        self.channels * self.positions()
+    }
+}
+
+/// Which inputs an output sees along one axis: output `o` sees the inputs `o * stride - before + k * dilation`, for `k` below `kernel`, as far
+/// as they exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Inputs that an output sees.
+    pub kernel: u64,
+    /// Inputs from one output to the next.
+    pub stride: u64,
+    /// Inputs from one tap to the next.
+    pub dilation: u64,
+    /// Padding before the first input.
+    pub before: u64,
+}
+
+impl Window {
+    /// The window in which an output sees the input of its own position alone.
+    pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, before: 0 };
+
+    /// A window of neighboring inputs.
+    #[must_use]
+    pub const fn of(kernel: u64, stride: u64, before: u64) -> Self {
+        Self { kernel, stride, dilation: 1, before }
+    }
+
+    /// The inputs that an output sees of so many.
+    pub(crate) fn taps(self, output: u64, inputs: u64) -> impl Iterator<Item = u64> {
+        let first = output * self.stride;
+        (0..self.kernel)
+            .filter_map(move |tap| (first + tap * self.dilation).checked_sub(self.before))
+            .filter(move |&input| input < inputs)
+    }
+}
+
+/// A layer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layer {
+    pub(crate) inputs: Shape,
+    pub(crate) outputs: Shape,
+    /// Of the rows, and of the columns.
+    pub(crate) windows: [Window; 2],
+    pub(crate) products: Option<Products>,
+    pub(crate) images: u64,
+}
+
+/// What is special about a layer whose outputs are sums of products.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Products {
+    /// Parts of the channels that do not see each other.
+    pub(crate) groups: u64,
+    /// Input channels of a group.
+    pub(crate) inputs: u64,
+    /// Output channels of a group.
+    pub(crate) outputs: u64,
+}
+
+impl Layer {
+    /// A convolution. A depthwise one has as many groups as input channels.
+    ///
+    /// # Errors
+    /// When a number is 0 or beyond what the model counts, or the groups do not divide the channels.
+    pub fn convolution(
+        inputs: Shape,
+        outputs: Shape,
+        windows: [Window; 2],
+        groups: u64,
+    ) -> Result<Self, AcceleratorError> {
+        check_shapes(inputs, outputs, windows)?;
+        check("number of groups", groups, 1..=LONGEST)?;
+        for (what, channels) in [
+            ("number of input channels", inputs.channels),
+            ("number of output channels", outputs.channels),
+        ] {
+            if channels % groups != 0 {
+                let valid = format!("a multiple of its {groups} groups");
+                return Err(AcceleratorError::Layer { what, value: channels.into(), valid });
+            }
+        }
+        let products = Products {
+            groups,
+            inputs: inputs.channels / groups,
+            outputs: outputs.channels / groups,
+        };
+        Self { inputs, outputs, windows, products: Some(products), images: 1 }.within_limits()
+    }
+
+    /// A product of `rows` vectors of `inner` values with a matrix of `inner` x `columns` weights. A fully connected layer has one row.
+    ///
+    /// # Errors
+    /// When a number is 0 or beyond what the model counts.
+    pub fn product(rows: u64, inner: u64, columns: u64) -> Result<Self, AcceleratorError> {
+        let inputs = Shape { channels: inner, height: rows, width: 1 };
+        let outputs = Shape { channels: columns, height: rows, width: 1 };
+        Self::convolution(inputs, outputs, [Window::SAME; 2], 1)
+    }
+
+    /// A layer without sums of products, such as pooling, activation or addition. The channels of several inputs are counted together.
+    ///
+    /// # Errors
+    /// When a number is 0 or beyond what the model counts.
+    pub fn transfer(
+        inputs: Shape,
+        outputs: Shape,
+        windows: [Window; 2],
+    ) -> Result<Self, AcceleratorError> {
+        check_shapes(inputs, outputs, windows)?;
+        Self { inputs, outputs, windows, products: None, images: 1 }.within_limits()
+    }
+
+    /// The same layer for so many images, which share what is fetched of the weights where the array can. Its cost is that of all of them.
+    ///
+    /// # Errors
+    /// When there is no image, or more than the model counts.
+    pub fn with_images(mut self, images: u64) -> Result<Self, AcceleratorError> {
+        check("number of images", images, 1..=MOST_IMAGES)?;
+        self.images = images;
+        self.within_limits()
+    }
+
+    /// The output of one image.
+    #[must_use]
+    pub fn outputs(&self) -> Shape {
+        self.outputs
+    }
+
+    /// Multiplications of all images.
+    #[must_use]
+    pub fn macs(&self) -> u64 {
+        self.images * self.outputs.positions() * self.macs_per_position()
+    }
+
+    /// Weights, without biases.
+    #[must_use]
+    pub fn weights(&self) -> u64 {
+        self.macs_per_position()
+    }
+
+    /// Multiplications of a position: each weight is used once.
+    pub(crate) fn macs_per_position(&self) -> u64 {
+        self.products.map_or(0, |products| {
+            products.groups * products.outputs * self.inputs_per_sum(&products)
+        })
+    }
+
+    /// Inputs of one sum.
+    pub(crate) fn inputs_per_sum(&self, products: &Products) -> u64 {
+        products.inputs * self.windows[0].kernel * self.windows[1].kernel
+    }
+
+    fn within_limits(self) -> Result<Self, AcceleratorError> {
+        let per_position = u128::from(self.outputs.channels)
+            * u128::from(self.inputs.channels)
+            * u128::from(self.windows[0].kernel * self.windows[1].kernel);
+        let positions = u128::from(self.outputs.positions().max(self.inputs.positions()));
+        let macs = per_position.saturating_mul(positions).saturating_mul(self.images.into());
+        if macs <= MOST_MACS {
+            return Ok(self);
+        }
+        Err(AcceleratorError::Layer {
+            what: "number of multiplications",
+            value: macs,
+            valid: format!("at most {MOST_MACS}, were it dense"),
+        })
+    }
+}
+
+fn check_shapes(
+    inputs: Shape,
+    outputs: Shape,
+    windows: [Window; 2],
+) -> Result<(), AcceleratorError> {
+    check("number of input channels", inputs.channels, 1..=LONGEST)?;
+    check("input height", inputs.height, 1..=LONGEST)?;
+    check("input width", inputs.width, 1..=LONGEST)?;
+    check("number of output channels", outputs.channels, 1..=LONGEST)?;
+    check("output height", outputs.height, 1..=LONGEST)?;
+    check("output width", outputs.width, 1..=LONGEST)?;
+    check("number of input positions", inputs.positions(), 1..=MOST_POSITIONS)?;
+    check("number of output positions", outputs.positions(), 1..=MOST_POSITIONS)?;
+    for window in windows {
+        check("kernel", window.kernel, 1..=LONGEST)?;
+        check("stride", window.stride, 1..=LONGEST)?;
+        check("dilation", window.dilation, 1..=LONGEST)?;
+        check("padding", window.before, 0..=LONGEST)?;
+    }
+    Ok(())
+}
+
+fn check(
+    what: &'static str,
+    value: u64,
+    range: RangeInclusive<u64>,
+) -> Result<(), AcceleratorError> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    let valid = format!("{} to {}", range.start(), range.end());
+    Err(AcceleratorError::Layer { what, value: value.into(), valid })
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the layers of a neural network cost on an accelerator: cycles, accesses to registers, array, buffer and DRAM, and energy.
+//!
+//! An [`Accelerator`] is read from TOML, or is one of the [`PRESETS`]. A [`Layer`] has the shapes of a convolution or of a matrix product.
+//! [`Accelerator::plan`] maps the layer onto the array, once. The [`Plan`] then says the [`Cost`] of the whole layer ([`Plan::whole`]), or of
+//! the output positions that a mask needs ([`Plan::masked`]).
+//!
+//! What is counted, with T computed positions of the output, K inputs of each sum, M channels of the output, and an array of R x C:
+//!
+//! * **Weight-stationary**: an array holds R x C weights, T positions stream through. A fold takes `2R + C + T - 2` cycles, and there are
+//!   `ceil(K / R) * ceil(M / C)` folds.
+//! * **Output-stationary**: an array holds the sums of R positions and C channels. A fold takes `K + R + C - 2` cycles, and there are
+//!   `ceil(T / R) * ceil(M / C)` folds.
+//!   Both are as in SCALE-Sim 3.0, which says the number of the last cycle, counted from 0: one less.
+//! * **Row-stationary**, as on Eyeriss (Chen et al., JSSC 2017): see the module `row_stationary`.
+//!
+//! Positions that a mask needs are rounded up to tiles of the accelerator. Weights are fetched whole as soon as one position is computed, and
+//! not at all if none is. Inputs are fetched where a computed position sees them, so the halo is counted; row-stationary, once for each strip.
+//!
+//! A layer that has no sums of products (pooling, activation, addition) costs accesses to DRAM and buffer, and no cycles of the array.
+//!
+//! ```
+//! use foveate_accelerator::{Accelerator, Layer, Shape, Window};
+//!
+//! let accelerator = Accelerator::preset("systolic-ws")?;
+//! let inputs = Shape { channels: 3, height: 224, width: 224 };
+//! let outputs = Shape { channels: 64, ..inputs };
+//! let layer = Layer::convolution(inputs, outputs, [Window::of(3, 1, 1); 2], 1)?;
+//! let plan = accelerator.plan(layer)?;
+//!
+//! let (whole, corner) = (plan.whole(), plan.masked(|x, y| x < 32 && y < 32));
+//! assert_eq!(corner.macs * 49, whole.macs);
+//! assert_eq!(corner.dram.inputs, 3 * 33 * 33);
+//! assert!(corner.energy.total() * 49.0 > whole.energy.total());
+//! # Ok::<(), foveate_accelerator::AcceleratorError>(())
+//! ```
+
+mod accelerator;
+mod computed;
+mod cost;
+mod error;
+mod layer;
+mod plan;
+mod preset;
+mod row_stationary;
+mod systolic;
+
+pub use accelerator::{Accelerator, Dataflow, Energy, Objective, RowStationary, Systolic};
+pub use cost::{Cost, Picojoules, Traffic};
+pub use error::AcceleratorError;
+pub use layer::{Layer, Shape, Window};
+pub use plan::Plan;
+pub use preset::{PRESETS, Preset};

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Accelerators by name. Their files hold the source of every figure.
+
+use crate::AcceleratorError;
+
+/// A named accelerator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub summary: &'static str,
+    /// Its file, to start an own one from.
+    pub toml: &'static str,
+}
+
+/// Every preset.
+pub const PRESETS: &[Preset] = &[
+    Preset {
+        name: "systolic-ws",
+        summary: "16 x 16 weight-stationary systolic array, 8 bits",
+        toml: include_str!("../presets/systolic-ws.toml"),
+    },
+    Preset {
+        name: "systolic-os",
+        summary: "16 x 16 output-stationary systolic array, 8 bits",
+        toml: include_str!("../presets/systolic-os.toml"),
+    },
+    Preset {
+        name: "eyeriss",
+        summary: "12 x 14 row-stationary array like Eyeriss, 16 bits",
+        toml: include_str!("../presets/eyeriss.toml"),
+    },
+];
+
+impl Preset {
+    /// The preset of that name.
+    ///
+    /// # Errors
+    /// When there is none; the message lists those that exist.
+    pub fn find(name: &str) -> Result<&'static Self, AcceleratorError> {
+        PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
+            AcceleratorError::UnknownPreset {
+                name: name.to_owned(),
+                known: PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", "),
+            }
+        })
+    }
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A row-stationary array, as Eyeriss has it (Chen et al., ISCA 2016 and JSSC 2017).
+//!
+//! An element convolves one row of inputs with one row of weights. A *set* of elements, as high as the kernel, computes a *strip* of `strip`
+//! rows of the output, one per column of elements: inputs go through it along diagonals, sums upwards. What runs at once is a *pass*: `filters`
+//! filters and `channels` channels in each element, `filter_sets` times as many filters and `channel_sets` times as many channels in several
+//! sets. The buffer keeps the inputs of a pass, and the unfinished sums of `kept` filters of a strip, for `images` images.
+//!
+//! For each `kept` filters, each strip, each part of the channels, each `filters * filter_sets` filters, a pass takes, with L the computed
+//! positions of the strip's longest row:
+//!
+//! * to load its weights, once for `images` images, at `weights_per_cycle`; the array waits for them;
+//! * for each image the longest of: `L * columns of the kernel * filters * channels` multiplications in an element, its inputs at
+//!   `inputs_per_cycle`, its sums at `sums_per_cycle` (they come in and go out at once).
+//!
+//! A strip without a computed position is left out. Strips lie where they lie in a whole layer.
+//!
+//! The mapping is chosen for the whole layer, and for every mask the same: a mask never costs more than a larger one.
+
+mod mapping;
+
+pub(crate) use mapping::{Mapping, search};
+
+use crate::accelerator::RowStationary;
+use crate::computed::Computed;
+use crate::cost::{Counts, Traffic};
+use crate::layer::{Layer, Products};
+use std::ops::Range;
+
+/// What is computed of a strip in one image.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strip {
+    /// Positions of the output.
+    positions: u64,
+    /// Positions of the row that has most.
+    longest: u64,
+    /// Positions of the input that they see.
+    inputs: u64,
+}
+
+impl Strip {
+    /// The strips in which something is computed.
+    fn all(layer: &Layer, height: u64, computed: &Computed<'_>) -> Vec<Self> {
+        let rows = layer.outputs.height;
+        (0..rows.div_ceil(height))
+            .map(|at| Self::of(computed, at * height..((at + 1) * height).min(rows)))
+            .filter(|strip| strip.positions > 0)
+            .collect()
+    }
+
+    fn of(computed: &Computed<'_>, rows: Range<u64>) -> Self {
+        Self {
+            positions: computed.positions(rows.clone()),
+            longest: computed.longest_row(rows.clone()),
+            inputs: computed.inputs(rows),
+        }
+    }
+}
+
+/// What the array does for a layer.
+pub(crate) fn count(
+    array: &RowStationary,
+    layer: &Layer,
+    products: &Products,
+    mapping: &Mapping,
+    computed: &Computed<'_>,
+) -> Counts {
+    count_strips(array, layer, products, mapping, &Strip::all(layer, mapping.strip, computed))
+}
+
+fn count_strips(
+    array: &RowStationary,
+    layer: &Layer,
+    products: &Products,
+    mapping: &Mapping,
+    strips: &[Strip],
+) -> Counts {
+    let cuts = mapping.cuts(array, layer, products);
+    let dram = dram(layer, products, strips, &cuts);
+    let positions: u64 = strips.iter().map(|strip| strip.positions).sum();
+    let inputs: u64 = strips.iter().map(|strip| strip.inputs).sum();
+    let (images, groups) = (layer.images, products.groups);
+    let macs = images * positions * layer.macs_per_position();
+    let sums = images * positions * groups * products.outputs;
+    let kernel_rows = layer.windows[0].kernel;
+    Counts {
+        array_cycles: strips.iter().map(|strip| cycles(layer, products, strip, &cuts)).sum(),
+        macs,
+        // In each multiplication an element reads an input, a weight and a sum, and writes the sum.
+        register: Traffic { inputs: macs, weights: macs, sums: 2 * macs, outputs: 0 },
+        array: Traffic {
+            // An element uses an input for every filter and every column of the kernel, or for fewer of these if it strides.
+            inputs: images
+                * positions
+                * groups
+                * products.inputs
+                * kernel_rows
+                * layer.windows[1].stride.min(layer.windows[1].kernel)
+                * products.outputs.div_ceil(mapping.filters),
+            weights: dram.weights * mapping.strip,
+            sums: sums * kernel_rows * products.inputs.div_ceil(mapping.channels),
+            outputs: 0,
+        },
+        buffer: Traffic {
+            inputs: dram.inputs + images * groups * products.inputs * inputs * cuts.filters,
+            // They go past the buffer of inputs and sums, through one that only holds the next of them.
+            weights: 2 * dram.weights,
+            sums: sums * 2 * (cuts.channels - 1),
+            outputs: 2 * sums,
+        },
+        dram,
+    }
+}
+
+/// How often a group is cut, and the most that a pass holds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cuts {
+    /// Parts of the filters of which the sums are kept.
+    kept: u64,
+    /// Parts of the filters that run at once.
+    filters: u64,
+    /// Parts of the channels, and of a kernel that is larger than the array.
+    channels: u64,
+    /// Parts of the images.
+    images: u64,
+    /// Cycles in which a pass loads its weights.
+    loading: u64,
+    /// Cycles of a position in an element.
+    busy: u64,
+    /// Sums of a position.
+    sums: u64,
+    /// Channels of a pass.
+    inputs: u64,
+    inputs_per_cycle: u64,
+    sums_per_cycle: u64,
+}
+
+/// Cycles of all passes of a strip.
+fn cycles(layer: &Layer, products: &Products, strip: &Strip, cuts: &Cuts) -> u64 {
+    let busy = strip.longest * cuts.busy;
+    let inputs = (strip.inputs * cuts.inputs).div_ceil(cuts.inputs_per_cycle);
+    let sums = (strip.positions * cuts.sums).div_ceil(cuts.sums_per_cycle);
+    let pass = layer.images * busy.max(inputs).max(sums) + cuts.images * cuts.loading;
+    products.groups * cuts.filters * cuts.channels * pass
+}
+
+/// Inputs come once for each `kept` filters, weights once for each strip, outputs go once.
+fn dram(layer: &Layer, products: &Products, strips: &[Strip], cuts: &Cuts) -> Traffic {
+    let inputs: u64 = strips.iter().map(|strip| strip.inputs).sum();
+    let positions: u64 = strips.iter().map(|strip| strip.positions).sum();
+    Traffic {
+        inputs: layer.images * products.groups * products.inputs * inputs * cuts.kept,
+        weights: layer.weights() * strips.len() as u64 * cuts.images,
+        sums: 0,
+        outputs: layer.images * layer.outputs.channels * positions,
+    }
+}

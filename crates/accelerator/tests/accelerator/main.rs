@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Costs by hand, against a naive array, SCALE-Sim and Eyeriss, and over random layers and masks.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod eyeriss;
+mod files;
+mod hand;
+mod masked;
+mod oracle;
+mod properties;
+mod random;
+mod scale_sim;

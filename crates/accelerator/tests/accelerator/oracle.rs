@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A systolic array, element by element and clock by clock, and masks position by position. Written from the drawing of such arrays, without the
+//! formulas of the model.
+
+use std::collections::BTreeSet;
+
+/// What an array did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Seen {
+    /// Clocks, from 1.
+    pub(crate) clocks: u64,
+    pub(crate) macs: u64,
+    /// Inputs that entered the first column.
+    pub(crate) inputs: u64,
+    /// Weights that entered the array.
+    pub(crate) weights: u64,
+}
+
+/// The product of `positions` x `inner` and `inner` x `channels`, weights held.
+pub(crate) fn weight_stationary(
+    [rows, columns]: [u64; 2],
+    positions: u64,
+    inner: u64,
+    channels: u64,
+) -> Seen {
+    let mut seen = Seen::default();
+    for first_channel in (0..channels).step_by(size(columns)) {
+        for first_inner in (0..inner).step_by(size(rows)) {
+            let mut last = 0;
+            // A row of weights enters per clock, until the array is full.
+            let begin = seen.clocks + rows;
+            for row in 0..rows {
+                for column in 0..columns {
+                    let has_weight = first_inner + row < inner && first_channel + column < channels;
+                    seen.weights += u64::from(has_weight);
+                    for position in 0..positions {
+                        // An input enters each row one clock later than the row above, and moves on by a column per clock.
+                        let clock = begin + position + row + column;
+                        last = last.max(clock);
+                        seen.macs += u64::from(has_weight);
+                        let enters = column == 0 && first_inner + row < inner;
+                        seen.inputs += u64::from(enters);
+                    }
+                }
+            }
+            seen.clocks = last + 1;
+        }
+    }
+    seen
+}
+
+/// The same product, sums held.
+pub(crate) fn output_stationary(
+    [rows, columns]: [u64; 2],
+    positions: u64,
+    inner: u64,
+    channels: u64,
+) -> Seen {
+    let mut seen = Seen::default();
+    for first_channel in (0..channels).step_by(size(columns)) {
+        for first_position in (0..positions).step_by(size(rows)) {
+            let (begin, mut last) = (seen.clocks, 0);
+            for row in 0..rows {
+                for column in 0..columns {
+                    let has_position = first_position + row < positions;
+                    let has_channel = first_channel + column < channels;
+                    for tap in 0..inner {
+                        // An input and a weight meet after they have passed the rows and columns before.
+                        last = last.max(begin + tap + row + column);
+                        seen.macs += u64::from(has_position && has_channel);
+                        seen.inputs += u64::from(column == 0 && has_position);
+                        seen.weights += u64::from(row == 0 && has_channel);
+                    }
+                }
+            }
+            seen.clocks = last + 1;
+        }
+    }
+    seen
+}
+
+fn size(value: u64) -> usize {
+    usize::try_from(value).unwrap()
+}
+
+/// One axis: kernel, stride, dilation, padding.
+pub(crate) type Axis = [u64; 4];
+
+/// The inputs that computed outputs see, each once. A position is row and column.
+pub(crate) fn inputs_seen(
+    computed: &BTreeSet<[u64; 2]>,
+    axes: [Axis; 2],
+    inputs: [u64; 2],
+) -> BTreeSet<[u64; 2]> {
+    let reach = |axis: usize, output: u64| -> Vec<u64> {
+        let [kernel, stride, dilation, before] = axes[axis].map(|n| i64::try_from(n).unwrap());
+        let output = i64::try_from(output).unwrap();
+        let all = (0..kernel).map(|tap| output * stride - before + tap * dilation);
+        let inside = all.filter_map(|input| u64::try_from(input).ok());
+        inside.filter(|&input| input < inputs[axis]).collect()
+    };
+    let mut seen = BTreeSet::new();
+    for &[row, column] in computed {
+        for y in reach(0, row) {
+            seen.extend(reach(1, column).into_iter().map(|x| [y, x]));
+        }
+    }
+    seen
+}
+
+/// The positions whose tile holds a needed one.
+pub(crate) fn tiled(
+    needed: &BTreeSet<[u64; 2]>,
+    [height, width]: [u64; 2],
+    tile: [u64; 2],
+) -> BTreeSet<[u64; 2]> {
+    let tile_of = |[row, column]: [u64; 2]| [row / tile[0], column / tile[1]];
+    let active: BTreeSet<[u64; 2]> = needed.iter().copied().map(tile_of).collect();
+    let all = (0..height).flat_map(|row| (0..width).map(move |column| [row, column]));
+    all.filter(|&position| active.contains(&tile_of(position))).collect()
+}

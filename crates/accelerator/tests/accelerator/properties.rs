@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What holds for every layer, accelerator and mask.
+
+use crate::hand;
+use crate::oracle::{Seen, inputs_seen, output_stationary, tiled, weight_stationary};
+use crate::random::{Case, accelerator, case, masks};
+use foveate_accelerator::{Accelerator, Cost, Dataflow, Traffic};
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+type Positions = BTreeSet<[u64; 2]>;
+
+fn masked(accelerator: &Accelerator, case: &Case, mask: &Positions) -> Cost {
+    let plan = accelerator.plan(case.layer()).unwrap();
+    plan.masked(|x, y| mask.contains(&[y as u64, x as u64]))
+}
+
+/// The positions of the mask that the output has, rounded up to tiles.
+fn computed(accelerator: &Accelerator, case: &Case, mask: &Positions) -> Positions {
+    let [height, width] = case.outputs;
+    let inside = mask.iter().copied().filter(|&[y, x]| y < height && x < width).collect();
+    tiled(&inside, case.outputs, accelerator.tile.map(u64::from))
+}
+
+/// All totals of a cost.
+fn totals(cost: &Cost) -> Vec<f64> {
+    #[allow(clippy::cast_precision_loss, reason = "small numbers")]
+    let counts = [
+        cost.cycles,
+        cost.array_cycles,
+        cost.dram_cycles,
+        cost.macs,
+        cost.register.accesses(),
+        cost.array.accesses(),
+        cost.buffer.accesses(),
+        cost.dram.accesses(),
+    ]
+    .map(|count| count as f64);
+    let energy = &cost.energy;
+    let energies = [energy.mac, energy.register, energy.array, energy.buffer, energy.dram];
+    [&counts[..], &energies].concat()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_full_mask_costs_the_whole_and_an_empty_one_nothing(case in case(), accelerator in accelerator()) {
+        let plan = accelerator.plan(case.layer()).unwrap();
+        prop_assert_eq!(plan.masked(|_, _| true), plan.whole());
+        prop_assert_eq!(plan.masked(|_, _| false), Cost::default());
+    }
+
+    #[test]
+    fn fewer_positions_never_cost_more(case in case(), accelerator in accelerator(), masks in masks()) {
+        let [small, large] = masks.map(|mask| totals(&masked(&accelerator, &case, &mask)));
+        for (small, large) in small.iter().zip(&large) {
+            prop_assert!(small <= large, "{small} and {large}");
+        }
+    }
+
+    #[test]
+    fn counts_are_those_of_the_computed_positions(case in case(), accelerator in accelerator(), masks in masks()) {
+        let [mask, _] = masks;
+        let cost = masked(&accelerator, &case, &mask);
+        let computed = computed(&accelerator, &case, &mask);
+        let positions = case.images * computed.len() as u64;
+        let per_position = case.groups * case.channels[1] * case.inner();
+        prop_assert_eq!(cost.macs, positions * per_position);
+        prop_assert_eq!(cost.dram.outputs, positions * case.groups * case.channels[1]);
+        // Weights come whole, a whole number of times; inputs at least once.
+        prop_assert_eq!(cost.dram.weights % per_position, 0);
+        prop_assert_eq!(cost.dram.weights > 0, positions > 0);
+        let seen = inputs_seen(&computed, case.axes, case.inputs).len() as u64;
+        prop_assert!(cost.dram.inputs >= case.images * case.groups * case.channels[0] * seen);
+        prop_assert_eq!(cost.cycles, cost.array_cycles.max(cost.dram_cycles));
+        let share = cost.utilization(&accelerator);
+        prop_assert!((0.0..=1.0).contains(&share), "{share}");
+    }
+
+    #[test]
+    fn systolic_arrays_do_what_one_does_clock_by_clock(case in case(), masks in masks(), sides in [1..6_u64, 1..6_u64]) {
+        type Array = fn([u64; 2], u64, u64, u64) -> Seen;
+        let array = hand::systolic(sides[0], sides[1]);
+        let both: [(Dataflow, Array); 2] = [
+            (Dataflow::WeightStationary(array.clone()), weight_stationary),
+            (Dataflow::OutputStationary(array), output_stationary),
+        ];
+        for (dataflow, run) in both {
+            let accelerator = hand::accelerator(dataflow);
+            let computed = computed(&accelerator, &case, &masks[0]);
+            let cost = masked(&accelerator, &case, &masks[0]);
+            let positions = case.images * computed.len() as u64;
+            if positions == 0 {
+                continue;
+            }
+            let seen = run(sides, positions, case.inner(), case.channels[1]);
+            prop_assert_eq!(cost.array_cycles, case.groups * seen.clocks);
+            prop_assert_eq!(cost.macs, case.groups * seen.macs);
+            // The buffer holds everything, so it is filled once.
+            let inputs = case.images * case.groups * case.channels[0] * inputs_seen(&computed, case.axes, case.inputs).len() as u64;
+            let weights = case.groups * case.channels[1] * case.inner();
+            prop_assert_eq!(cost.dram, Traffic { inputs, weights, sums: 0, outputs: positions * case.groups * case.channels[1] });
+            prop_assert_eq!(cost.buffer.inputs, inputs + case.groups * seen.inputs);
+            prop_assert_eq!(cost.buffer.weights, weights + case.groups * seen.weights);
+        }
+    }
+}

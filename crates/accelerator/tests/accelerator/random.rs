@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Random layers, accelerators and masks.
+
+use crate::hand;
+use crate::oracle::Axis;
+use foveate_accelerator::{
+    Accelerator, Dataflow, Layer, Objective, RowStationary, Shape, Systolic, Window,
+};
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+/// A layer with the numbers that made it.
+#[derive(Clone, Debug)]
+pub(crate) struct Case {
+    pub(crate) inputs: [u64; 2],
+    pub(crate) outputs: [u64; 2],
+    pub(crate) axes: [Axis; 2],
+    pub(crate) groups: u64,
+    /// Of a group.
+    pub(crate) channels: [u64; 2],
+    pub(crate) images: u64,
+}
+
+impl Case {
+    pub(crate) fn layer(&self) -> Layer {
+        let shape = |channels: u64, [height, width]: [u64; 2]| Shape {
+            channels: channels * self.groups,
+            height,
+            width,
+        };
+        let windows = self.axes.map(|[kernel, stride, dilation, before]| Window {
+            kernel,
+            stride,
+            dilation,
+            before,
+        });
+        let (inputs, outputs) =
+            (shape(self.channels[0], self.inputs), shape(self.channels[1], self.outputs));
+        let layer = Layer::convolution(inputs, outputs, windows, self.groups).unwrap();
+        layer.with_images(self.images).unwrap()
+    }
+
+    /// Inputs of a sum.
+    pub(crate) fn inner(&self) -> u64 {
+        self.channels[0] * self.axes[0][0] * self.axes[1][0]
+    }
+}
+
+fn axis() -> impl Strategy<Value = (u64, Axis)> {
+    (1..10_u64, 1..4_u64, 1..3_u64, 1..3_u64, 0..3_u64).prop_map(
+        |(outputs, kernel, stride, dilation, before)| (outputs, [kernel, stride, dilation, before]),
+    )
+}
+
+pub(crate) fn case() -> impl Strategy<Value = Case> {
+    ([axis(), axis()], [1..12_u64, 1..12_u64], 1..4_u64, [1..6_u64, 1..6_u64], 1..4_u64).prop_map(
+        |([down, across], inputs, groups, channels, images)| Case {
+            inputs,
+            outputs: [down.0, across.0],
+            axes: [down.1, across.1],
+            groups,
+            channels,
+            images,
+        },
+    )
+}
+
+/// A mask and one that holds it, both as sets of row and column.
+pub(crate) fn masks() -> impl Strategy<Value = [BTreeSet<[u64; 2]>; 2]> {
+    let places = || proptest::collection::btree_set([0..10_u64, 0..10_u64], 0..30);
+    (places(), places()).prop_map(|(small, more)| {
+        let large = small.union(&more).copied().collect();
+        [small, large]
+    })
+}
+
+fn systolic() -> impl Strategy<Value = Systolic> {
+    (1..6_u64, 1..6_u64, 1..400_u64, 1..200_u64, 1..200_u64).prop_map(
+        |(rows, columns, input_bytes, weight_bytes, output_bytes)| Systolic {
+            rows,
+            columns,
+            input_bytes,
+            weight_bytes,
+            output_bytes,
+        },
+    )
+}
+
+fn row_stationary() -> impl Strategy<Value = RowStationary> {
+    let sides = [1..6_u64, 1..6_u64];
+    let element = [1..7_u64, 7..20_u64, 1..5_u64];
+    let rates = [1..4_u64, 1..4_u64, 1..4_u64];
+    let objective = prop_oneof![Just(Objective::LeastDram), Just(Objective::LeastEnergyDelay)];
+    (sides, 1000..3000_u64, element, rates, objective).prop_map(
+        |([rows, columns], buffer_bytes, element, rates, mapping)| RowStationary {
+            rows,
+            columns,
+            buffer_bytes,
+            element_inputs: element[0],
+            element_weights: element[1],
+            element_sums: element[2],
+            inputs_per_cycle: rates[0],
+            weights_per_cycle: rates[1],
+            sums_per_cycle: rates[2],
+            mapping,
+        },
+    )
+}
+
+pub(crate) fn accelerator() -> impl Strategy<Value = Accelerator> {
+    let array = prop_oneof![
+        systolic().prop_map(Dataflow::WeightStationary),
+        systolic().prop_map(Dataflow::OutputStationary),
+        row_stationary().prop_map(Dataflow::RowStationary),
+    ];
+    let rate = proptest::option::of(0.5..4.0_f64);
+    (array, [1..4_u32, 1..4_u32], rate).prop_map(|(array, tile, rate)| Accelerator {
+        tile,
+        dram_bytes_per_cycle: rate,
+        ..hand::accelerator(array)
+    })
+}
