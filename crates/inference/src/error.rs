@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What can go wrong. Every message names the thing and says what to do.
 
+use foveate_accelerator::AcceleratorError;
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
@@ -46,6 +47,14 @@ pub enum InferenceError {
         found: usize,
         /// Channels of the input.
         channels: usize,
+    },
+    /// A layer cannot be mapped onto the accelerator.
+    #[error("node `{node}` on the accelerator: {source}")]
+    Accelerator {
+        /// The node.
+        node: String,
+        /// Why.
+        source: AcceleratorError,
     },
     /// The frames do not fit into memory together.
     #[error(

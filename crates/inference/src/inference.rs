@@ -3,11 +3,13 @@
 
 use crate::album::Album;
 use crate::camera::{Camera, Seen};
+use crate::cost::Costs;
 use crate::player::Player;
 use crate::run::{Run, Told};
 use crate::summary::{Summary, mode_name};
 use crate::tune::{Tuned, tune};
 use crate::{Goal, InferenceError, Mapping};
+use foveate_accelerator::Accelerator;
 use foveate_design::{Config, Design};
 use foveate_footage::{FootageError, Hooks, Progress, Source, read_ahead};
 use foveate_network::{Executor, FrameSize, Mode, Network};
@@ -22,6 +24,8 @@ pub struct Options {
     pub computed: Computed,
     /// How pixels become inputs.
     pub mapping: Mapping,
+    /// The accelerator whose cost is counted, with its name.
+    pub accelerator: Option<(String, Accelerator)>,
     /// Whether a whole computation runs beside, to be compared with.
     pub reference: bool,
     /// Whether a folder of an earlier run is replaced.
@@ -78,8 +82,12 @@ impl Inference {
         options.mapping.check(network.input().shape()[1])?;
         let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
         let mut camera = Camera::new(&design, network.input(), &options.mapping, source.kind());
+        let accelerator = options.accelerator.as_ref();
+        let costs =
+            accelerator.map(|(_, accelerator)| Costs::new(accelerator, &network)).transpose();
+        let costs = costs.map_err(|(node, source)| InferenceError::Accelerator { node, source })?;
         let run = |executor, camera: &Camera, reference| {
-            Run::new(&design, &network, Player::new(executor, camera.black()), reference)
+            Run::new(&design, &network, Player::new(executor, camera.black()), reference, costs)
         };
         let (run, problem, mode, tuning) = match options.computed {
             Computed::Mode(mode) => {
@@ -103,6 +111,7 @@ impl Inference {
         };
         let (summary, frames) = run.summary(Told {
             mode,
+            accelerator: accelerator.map(|(name, _)| name.clone()),
             tuning,
             problem,
             network: path.display().to_string(),

@@ -8,6 +8,7 @@
 mod album;
 mod camera;
 mod closeness;
+mod cost;
 mod error;
 mod inference;
 mod picture;
@@ -18,6 +19,7 @@ mod tally;
 mod tune;
 
 pub use closeness::Goal;
+pub use cost::{Accelerated, FrameCost};
 pub use error::InferenceError;
 pub use inference::{Computed, Inference, Options};
 pub use picture::Mapping;

@@ -2,6 +2,7 @@
 //! A run under way: what every frame did, and the sums.
 
 use crate::camera::Seen;
+use crate::cost::Costs;
 use crate::player::Player;
 use crate::summary::{Summary, Tuning, error, layers, macs, ratio};
 use crate::tally::{NotFinite, Positions, Reference};
@@ -14,6 +15,8 @@ use std::time::Instant;
 /// What a summary says that no frame says.
 pub(crate) struct Told {
     pub(crate) mode: String,
+    /// What the accelerator is called.
+    pub(crate) accelerator: Option<String>,
     /// With its goal.
     pub(crate) tuning: Option<(Tuning, Goal)>,
     pub(crate) problem: Option<String>,
@@ -28,6 +31,7 @@ pub(crate) struct Run<'a> {
     network: &'a Network,
     player: Player<'a>,
     reference: Option<Reference<'a>>,
+    costs: Option<Costs<'a>>,
     sums: Vec<Positions>,
     rows: Vec<Cells>,
     counted: u64,
@@ -44,12 +48,14 @@ impl<'a> Run<'a> {
         network: &'a Network,
         player: Player<'a>,
         reference: bool,
+        costs: Option<Costs<'a>>,
     ) -> Self {
         Self {
             design,
             network,
             player,
             reference: reference.then(|| Reference::new(network)),
+            costs,
             sums: vec![Positions::default(); network.nodes().len()],
             rows: Vec::new(),
             counted: 0,
@@ -84,6 +90,9 @@ impl<'a> Run<'a> {
             self.active += seen.active_regions;
             self.changed += seen.changed_regions;
             self.seconds += seconds;
+            if let Some(costs) = &mut self.costs {
+                costs.add(self.player.executor());
+            }
             self.overhead += self.player.executor().overhead().as_secs_f64();
         }
         let macs = macs(self.network, &own);
@@ -110,7 +119,13 @@ impl<'a> Run<'a> {
     /// The summary, and a row per frame.
     pub(crate) fn summary(self, told: Told) -> (Summary, Table) {
         let executor = self.player.executor();
-        let layers = layers(self.network, &self.sums, executor, self.reference.as_ref());
+        let layers = layers(
+            self.network,
+            &self.sums,
+            executor,
+            self.reference.as_ref(),
+            self.costs.as_ref(),
+        );
         let counted_regions = self.counted * u64::from(self.design.regions());
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
@@ -143,6 +158,11 @@ impl<'a> Run<'a> {
             mask_bytes: forms().map(|form| form.places().div_ceil(8) as u64).sum(),
             seconds_per_frame: self.seconds / counted,
             overhead_seconds_per_frame: self.overhead / counted,
+            accelerator: self
+                .costs
+                .as_ref()
+                .zip(told.accelerator)
+                .map(|(costs, name)| costs.summary(&name)),
             error: self.reference.as_ref().map(error),
             tuning: told.tuning.map(|(tuning, goal)| {
                 let reference = self.reference.as_ref().expect("what is tuned is compared");

@@ -3,6 +3,7 @@
 
 use crate::Mapping;
 use crate::closeness::Closeness;
+use crate::cost::{Accelerated, Costs, FrameCost};
 use crate::tally::{Positions, Reference};
 use foveate_network::{Executor, Mode, Network};
 use foveate_tables::{Cell, Cells, Table};
@@ -53,6 +54,8 @@ pub struct Summary {
     pub seconds_per_frame: f64,
     /// Of it the time beside operators: for masks, comparisons and copies.
     pub overhead_seconds_per_frame: f64,
+    /// What a frame would cost on an accelerator, if one is named.
+    pub accelerator: Option<Accelerated>,
     /// How far the outputs are from those of a whole computation, if one ran beside.
     pub error: Option<Error>,
     /// How the limits of the layers were chosen, if they were.
@@ -181,6 +184,10 @@ pub struct Layer {
     pub weight_bytes: u64,
     /// Bytes of its output.
     pub output_bytes: u64,
+    /// What it would cost on the accelerator, if one is named: computed whole.
+    pub whole_cost: Option<FrameCost>,
+    /// The same where the masks say.
+    pub masked_cost: Option<FrameCost>,
     /// By how much a value must have changed to be passed on, in the modes that cut.
     pub limit: Option<f32>,
     /// Root of the mean squared difference from a whole computation, as a share of that of its values.
@@ -204,10 +211,12 @@ pub(crate) fn layers(
     sums: &[Positions],
     executor: &Executor<'_>,
     reference: Option<&Reference<'_>>,
+    costs: Option<&Costs<'_>>,
 ) -> Vec<Layer> {
     let layer = |(node, sums): (usize, &Positions)| {
         let (place, form) = (&network.nodes()[node], network.form(node + 1));
         let share = |count: u64| ratio(count, sums.all);
+        let cost = costs.map(|costs| costs.of_node(node));
         Layer {
             name: place.name().to_owned(),
             operator: place.kind().to_owned(),
@@ -219,6 +228,8 @@ pub(crate) fn layers(
             weight_bytes: place.weight_bytes(),
             output_bytes: 4 * form.elements() as u64,
             limit: executor.limit(node + 1),
+            whole_cost: cost.map(|(whole, _)| whole),
+            masked_cost: cost.map(|(_, masked)| masked),
             relative_rms: reference.map(|reference| reference.layers[node].relative()),
         }
     };
@@ -276,6 +287,9 @@ impl Summary {
             let shape = layer.shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
             let real = |value: f64| Cell::Real(Some(value));
             let count = |value: u64| Cell::Count(Some(value));
+            let of = |cost: Option<FrameCost>, of: fn(&FrameCost) -> f64| {
+                Cell::Real(cost.as_ref().map(of))
+            };
             [
                 ("layer", count(number as u64)),
                 ("name", Cell::Text(layer.name.clone())),
@@ -287,6 +301,10 @@ impl Summary {
                 ("changed_share", real(layer.changed_share)),
                 ("weight_bytes", count(layer.weight_bytes)),
                 ("output_bytes", count(layer.output_bytes)),
+                ("whole_cycles", of(layer.whole_cost, |cost| cost.cycles)),
+                ("cycles", of(layer.masked_cost, |cost| cost.cycles)),
+                ("whole_energy_mj", of(layer.whole_cost, |cost| cost.energy_mj)),
+                ("energy_mj", of(layer.masked_cost, |cost| cost.energy_mj)),
                 ("limit", Cell::Real(layer.limit.map(f64::from))),
                 ("relative_rms", Cell::Real(layer.relative_rms)),
             ]

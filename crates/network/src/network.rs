@@ -168,7 +168,7 @@ impl Network {
     pub fn macs(&self, node: usize) -> u64 {
         let (node, form) = (&self.nodes[node], &self.forms[node + 1]);
         let of_each = match node.products() {
-            Products::None => 0,
+            Products::None | Products::Renamed => 0,
             Products::Matrix { inputs } => inputs,
             Products::Convolution { rows, columns, groups } => {
                 self.forms[node.inputs[0]].shape()[1] / groups * rows.kernel * columns.kernel

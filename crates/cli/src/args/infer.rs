@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The options of `infer`.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use foveate_accelerator::Accelerator;
 use foveate_inference::{Computed, Goal, Mapping};
 use foveate_network::Mode;
 
 use super::DesignArgs;
 use super::input::InputArgs;
+use crate::error::CliError;
 
 /// Run a network on what a camera sends, and count what its masks save, layer by layer
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate infer denoiser.onnx scene:street -o out --max-frames 8
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --mode truncate=0.01
+          foveate infer denoiser.onnx scene:street -o out --max-frames 8 --accelerator eyeriss
           foveate infer resnet50.onnx street.mp4 -o out --resize 224x224 --mean 0.485,0.456,0.406 --scale 0.229,0.224,0.225")]
 pub(crate) struct InferArgs {
     /// The network: an ONNX file whose input is [1, channels, height, width], with 1 or 3 channels
@@ -42,6 +46,9 @@ pub(crate) struct InferArgs {
     /// and --tune
     #[arg(long)]
     pub(crate) reference: bool,
+    /// Count what the frames would cost on an accelerator: systolic-ws, systolic-os, eyeriss, or a TOML file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) accelerator: Option<String>,
     /// Subtract this from pixels of 0 to 1: one value, or one per channel
     #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = finite)]
     pub(crate) mean: Vec<f32>,
@@ -71,6 +78,20 @@ impl InferArgs {
     /// What is computed for a frame.
     pub(crate) fn computed(&self) -> Computed {
         self.tune.map_or(Computed::Mode(self.mode), Computed::Tuned)
+    }
+
+    /// The accelerator with its name: what ends in .toml is a file.
+    pub(crate) fn accelerator(&self) -> Result<Option<(String, Accelerator)>, CliError> {
+        let Some(name) = &self.accelerator else { return Ok(None) };
+        let path = Path::new(name);
+        let accelerator = if path.extension().is_some_and(|extension| extension == "toml") {
+            let text = fs::read_to_string(path).map_err(CliError::io("read", path))?;
+            Accelerator::from_toml(&text)
+                .map_err(|error| CliError::Usage(format!("`{name}`: {error}")))?
+        } else {
+            Accelerator::preset(name).map_err(|error| CliError::Usage(error.to_string()))?
+        };
+        Ok(Some((name.clone(), accelerator)))
     }
 
     /// Whether a whole computation runs beside.

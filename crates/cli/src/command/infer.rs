@@ -19,6 +19,7 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
     let inference = Inference::new(&config, &args.network, source)?;
     let options = Options {
         computed: args.computed(),
+        accelerator: args.accelerator()?,
         mapping: args.mapping(),
         reference: args.has_reference(),
         overwrite: args.force,
@@ -95,6 +96,20 @@ fn text(folder: &Path, summary: &Summary) -> String {
         megabytes(summary.kept_bytes),
         megabytes(summary.mask_bytes)
     );
+    if let Some(accelerator) = &summary.accelerator {
+        let (whole, masked) = (&accelerator.whole, &accelerator.masked);
+        let _ = writeln!(
+            text,
+            "on {}: {:.2} ms and {:.3} mJ per frame, whole {:.2} ms and {:.3} mJ; DRAM accesses {:.2} M, whole {:.2} M",
+            accelerator.name,
+            1e3 * masked.seconds,
+            masked.energy_mj,
+            1e3 * whole.seconds,
+            whole.energy_mj,
+            masked.dram_accesses / 1e6,
+            whole.dram_accesses / 1e6
+        );
+    }
     let _ = write!(
         text,
         "time       {:.2} ms per frame, {:.2} ms of it for masks",

@@ -159,6 +159,41 @@ fn what_does_not_fit_is_refused_with_what_would() {
     assert_eq!(fs::read_to_string(dir.path().join("out/mine")).unwrap(), "mine");
 }
 
+/// An accelerator does less where the masks say so, and reads its weights whole.
+#[test]
+fn accelerators_count_what_the_masks_save() {
+    let dir = tempfile::tempdir().unwrap();
+    let real = |value: &Value| value.as_f64().unwrap();
+    for name in ["systolic-ws", "systolic-os", "eyeriss"] {
+        let found = summary(dir.path(), &["--accelerator", name]);
+        let (whole, masked) = (&found["accelerator"]["whole"], &found["accelerator"]["masked"]);
+        let saved = |key: &str| real(&masked[key]) / real(&whole[key]);
+        assert_eq!(found["accelerator"]["name"], name);
+        assert!(saved("cycles") < 0.5 && saved("energy_mj") < 0.6, "{name}: {found}");
+        assert!(
+            saved("cycles") >= real(&found["macs"]["needed"]) / real(&found["macs"]["dense"]),
+            "{name}"
+        );
+        let of_layers: f64 = found["layers"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|layer| real(&layer["masked_cost"]["cycles"]))
+            .sum();
+        assert!((of_layers - real(&masked["cycles"])).abs() < 1e-6 * of_layers, "{name}");
+        let dense = summary(dir.path(), &["--accelerator", name, "--mode", "dense"]);
+        assert_eq!(dense["accelerator"]["whole"], dense["accelerator"]["masked"], "{name}");
+        assert_eq!(&dense["accelerator"]["whole"], whole, "{name}");
+    }
+    let args = ["infer", DENOISER, "scene:street", "-o", "out", "--force", "--accelerator"];
+    let infer =
+        |name: &str, parts: &[&str]| fail_in(dir.path(), 2, &[&args[..], &[name]].concat(), parts);
+    infer("tpu", &["unknown accelerator `tpu`", "eyeriss"]);
+    infer("none.toml", &["cannot read `none.toml`"]);
+    fs::write(dir.path().join("odd.toml"), "clock_mhz = 0").unwrap();
+    infer("odd.toml", &["`odd.toml`: accelerator"]);
+}
+
 /// A bias that is no number is named, and so is the first node whose outputs are no numbers.
 #[test]
 fn what_is_no_number_is_told() {

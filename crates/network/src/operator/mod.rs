@@ -42,6 +42,8 @@ use std::sync::Arc;
 pub enum Products {
     /// None: pooling, activation, addition and the like.
     None,
+    /// None, and nothing is computed: the same values with another shape.
+    Renamed,
     /// A convolution over rows and columns.
     Convolution {
         /// Along the rows.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The same values in another shape.
 
-use super::{Job, Operator, only, same_position};
+use super::{Job, Operator, Products, only, same_position};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::for_each_run;
@@ -43,6 +43,10 @@ impl Operator for Reshape {
             return Mask::from_fn(1, output.width(), |x, _| mask.contains(x % width, x / width));
         }
         same_position(inputs, output)
+    }
+
+    fn products(&self) -> Products {
+        Products::Renamed
     }
 
     fn compute(&self, job: Job<'_>) {

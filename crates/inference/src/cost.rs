@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the frames of a run would cost on an accelerator, whole and where the masks say.
+
+use foveate_accelerator::{Accelerator, AcceleratorError, Cost, Layer, Plan, Shape, Window};
+use foveate_network::{Executor, Form, Network, Products, Window as Taps};
+use serde::Serialize;
+
+/// The nodes of a network, mapped onto an accelerator.
+pub(crate) struct Costs<'a> {
+    accelerator: &'a Accelerator,
+    /// By node; nothing for one that only renames values.
+    plans: Vec<Option<Plan<'a>>>,
+    /// By node: of all frames so far, where they were needed.
+    masked: Vec<Cost>,
+    frames: u64,
+}
+
+/// What a frame, or a layer of it, costs, as a mean over the counted frames.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct FrameCost {
+    /// Cycles, layer after layer.
+    pub cycles: f64,
+    /// The same in seconds.
+    pub seconds: f64,
+    /// Accesses to the memory off the chip, each to one value.
+    pub dram_accesses: f64,
+    /// Of them those to weights.
+    pub dram_weights: f64,
+    /// Energy of chip and memory in millijoules.
+    pub energy_mj: f64,
+}
+
+/// What a run would cost on an accelerator.
+#[derive(Clone, Debug, Serialize)]
+pub struct Accelerated {
+    /// The accelerator as it was named.
+    pub name: String,
+    /// Frames computed whole.
+    pub whole: FrameCost,
+    /// Frames computed where the masks say.
+    pub masked: FrameCost,
+}
+
+impl<'a> Costs<'a> {
+    /// # Errors
+    /// When a layer cannot be mapped onto the accelerator; with the name of the node.
+    pub(crate) fn new(
+        accelerator: &'a Accelerator,
+        network: &Network,
+    ) -> Result<Self, (String, AcceleratorError)> {
+        let plan = |node: usize| {
+            let layer = layer(network, node);
+            let plan =
+                layer.and_then(|layer| layer.map(|layer| accelerator.plan(layer)).transpose());
+            plan.map_err(|error| (network.nodes()[node].name().to_owned(), error))
+        };
+        let plans = (0..network.nodes().len()).map(plan).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { accelerator, masked: vec![Cost::default(); plans.len()], plans, frames: 0 })
+    }
+
+    /// Counts a frame.
+    pub(crate) fn add(&mut self, executor: &Executor<'_>) {
+        self.frames += 1;
+        for (node, (plan, sum)) in self.plans.iter().zip(&mut self.masked).enumerate() {
+            let Some(plan) = plan else { continue };
+            let wanted = executor.wanted(node);
+            let shape = plan.layer().outputs();
+            let fits =
+                (shape.height, shape.width) == (wanted.height() as u64, wanted.width() as u64);
+            // Rows of a product that are no positions are all needed, or none.
+            *sum += if fits {
+                plan.masked(|x, y| wanted.contains(x, y))
+            } else {
+                plan.masked(|_, _| !wanted.is_empty())
+            };
+        }
+    }
+
+    /// Whole and masked cost of a node.
+    pub(crate) fn of_node(&self, node: usize) -> (FrameCost, FrameCost) {
+        let whole = self.plans[node].as_ref().map(Plan::whole).unwrap_or_default();
+        (self.mean(whole, 1), self.mean(self.masked[node], self.frames))
+    }
+
+    /// The sums over all nodes.
+    pub(crate) fn summary(&self, name: &str) -> Accelerated {
+        let whole = self.plans.iter().flatten().map(Plan::whole).sum();
+        let masked = self.masked.iter().copied().sum();
+        Accelerated {
+            name: name.to_owned(),
+            whole: self.mean(whole, 1),
+            masked: self.mean(masked, self.frames),
+        }
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "means")]
+    fn mean(&self, sum: Cost, frames: u64) -> FrameCost {
+        let frames = frames.max(1) as f64;
+        FrameCost {
+            cycles: sum.cycles as f64 / frames,
+            seconds: self.accelerator.seconds(sum.cycles) / frames,
+            dram_accesses: sum.dram.accesses() as f64 / frames,
+            dram_weights: sum.dram.weights as f64 / frames,
+            energy_mj: sum.energy.total() / 1e9 / frames,
+        }
+    }
+}
+
+/// A node as accelerators see it; nothing if it only renames values.
+fn layer(network: &Network, node: usize) -> Result<Option<Layer>, AcceleratorError> {
+    let place = &network.nodes()[node];
+    let (output, inputs) = (network.form(node + 1), place.inputs());
+    Ok(Some(match place.products() {
+        Products::Renamed => return Ok(None),
+        Products::Convolution { rows, columns, groups } => Layer::convolution(
+            shape(network.form(inputs[0])),
+            shape(output),
+            [window(rows), window(columns)],
+            groups as u64,
+        )?,
+        Products::Matrix { inputs } => {
+            let columns = output.shape().last().map_or(1, |&columns| columns as u64);
+            let rows = output.elements() as u64 / columns;
+            if rows == output.places() as u64 {
+                let of = |channels| Shape { channels, ..shape(output) };
+                Layer::convolution(of(inputs as u64), of(columns), [Window::SAME; 2], 1)?
+            } else {
+                Layer::product(rows, inputs as u64, columns)?
+            }
+        }
+        // Every output takes its share of all inputs, wherever it is.
+        Products::None => {
+            let values: usize = inputs.iter().map(|&input| network.form(input).elements()).sum();
+            let channels = values.div_ceil(output.places()) as u64;
+            Layer::transfer(Shape { channels, ..shape(output) }, shape(output), [Window::SAME; 2])?
+        }
+    }))
+}
+
+fn shape(form: &Form) -> Shape {
+    Shape {
+        channels: (form.elements() / form.places()) as u64,
+        height: form.height() as u64,
+        width: form.width() as u64,
+    }
+}
+
+fn window(taps: Taps) -> Window {
+    Window {
+        kernel: taps.kernel as u64,
+        stride: taps.stride as u64,
+        dilation: taps.dilation as u64,
+        before: taps.before as u64,
+    }
+}
