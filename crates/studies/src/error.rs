@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use foveate_chart::ChartError;
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
@@ -74,13 +75,8 @@ pub enum StudyError {
         to: u64,
     },
     /// Charts cannot be drawn.
-    #[error("cannot draw the chart `{name}`: {problem}")]
-    Chart {
-        /// The chart.
-        name: String,
-        /// What is wrong.
-        problem: String,
-    },
+    #[error(transparent)]
+    Chart(#[from] ChartError),
     /// The user stopped it.
     #[error("interrupted; nothing was written")]
     Cancelled,

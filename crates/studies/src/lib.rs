@@ -6,7 +6,6 @@
 //! Every file names the design by its fingerprint and the inputs. Clips are decoded once and frame by
 //! frame for all points of a study, and the same inputs give the same bytes on any number of cores.
 
-mod chart;
 mod error;
 mod findings;
 mod number;

@@ -4,8 +4,9 @@
 use std::slice::from_ref;
 
 use super::{Study, clips_only};
+use foveate_chart::{Chart, Line, Shape};
+
 use crate::StudyError;
-use crate::chart::{Chart, Line, Shape};
 use crate::findings::Findings;
 use crate::number::{percent, share};
 use crate::table::Table;

@@ -2,11 +2,11 @@
 //! How the mean absolute deviation of regions is distributed, in 128 bins from 0 to half of full scale,
 //! which is its largest value; at 8 bits a bin is one grey level.
 
+use foveate_chart::{Chart, Line, Shape};
 use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
 
 use super::Study;
 use crate::StudyError;
-use crate::chart::{Chart, Line, Shape};
 use crate::findings::Findings;
 use crate::number::{coordinate, percent, share};
 use crate::table::Table;

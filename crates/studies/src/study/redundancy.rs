@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spatial redundancy: the share of regions that a feature by itself calls irrelevant.
 
+use foveate_chart::{Bars, Chart, Shape};
 use foveate_design::{Config, FeatureKind, SpatialConfig};
 use foveate_palette::SERIES;
 
 use super::Study;
 use crate::StudyError;
-use crate::chart::{Bars, Chart, Shape};
 use crate::findings::Findings;
 use crate::number::{percent, share};
 use crate::table::Table;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Active share against one number of the design: region size, and each threshold by itself.
 
+use foveate_chart::{Chart, Line, Shape};
 use foveate_design::{Config, Decimal, FeatureKind, Measure};
 use foveate_footage::Kind;
 
 use super::Study;
 use crate::StudyError;
-use crate::chart::{Chart, Line, Shape};
 use crate::findings::Findings;
 use crate::number::{coordinate, percent, share};
 use crate::table::Table;

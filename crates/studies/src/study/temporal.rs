@@ -3,11 +3,11 @@
 
 use std::slice::from_ref;
 
+use foveate_chart::{Bars, Chart, Shape};
 use foveate_palette::{ACTIVE, CHANGED, RELEVANT};
 
 use super::{Study, clips_only};
 use crate::StudyError;
-use crate::chart::{Bars, Chart, Shape};
 use crate::findings::Findings;
 use crate::number::{percent, share};
 use crate::table::Table;

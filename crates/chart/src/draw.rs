@@ -6,7 +6,8 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Bars, Chart, Line, SIZE, Shape};
+use crate::chart::SIZE;
+use crate::{Bars, Chart, Line, Shape};
 
 /// Columns of pixels for the legend, and letters of a name in it.
 const LEGEND: u32 = 210;
@@ -21,7 +22,7 @@ const DOTS: usize = 40;
 
 type Result<DB> = std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
-pub(super) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shift>) -> Result<DB> {
+pub(crate) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shift>) -> Result<DB> {
     root.fill(&GROUND)?;
     let (above, caption) = root.split_vertically(SIZE.1 - CAPTION);
     let (plot, legend) = above.split_horizontally(SIZE.0 - LEGEND);

@@ -17,10 +17,10 @@ use plotters_backend::{
 const SIZE_OF_EM: f32 = 1.24;
 
 /// A picture in the making: red, green and blue, row by row from the top.
-pub(super) struct Page<'a> {
-    pub(super) pixels: &'a mut [u8],
-    pub(super) size: (u32, u32),
-    pub(super) font: FontRef<'static>,
+pub(crate) struct Page<'a> {
+    pub(crate) pixels: &'a mut [u8],
+    pub(crate) size: (u32, u32),
+    pub(crate) font: FontRef<'static>,
 }
 
 type Result = std::result::Result<(), DrawingErrorKind<Infallible>>;

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Charts as SVG and PNG, from the same drawing. The font is part of the program, so charts look the
-//! same on a machine without fonts. Colours are those of the palette; from the eighth series on, lines
-//! are dashed.
-
-mod draw;
-mod page;
+//! What a chart shows, and its two files.
 
 use std::sync::OnceLock;
 
@@ -15,52 +10,71 @@ use image::{ExtendedColorType, ImageEncoder};
 use plotters::prelude::*;
 use plotters::style::register_font;
 
-use crate::StudyError;
-use page::Page;
+use crate::page::Page;
+use crate::{ChartError, draw};
 
 /// Width and height of a chart in pixels.
-const SIZE: (u32, u32) = (1000, 560);
+pub(crate) const SIZE: (u32, u32) = (1000, 560);
+
+/// A chart.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// The name of its files, without extension.
+    pub file: String,
+    /// Above the chart.
+    pub title: String,
+    /// With its unit, as for the other axis.
+    pub x: String,
+    /// With its unit.
+    pub y: String,
+    /// Small, at the bottom: program, design and inputs.
+    pub caption: String,
+    /// What is drawn.
+    pub shape: Shape,
+}
 
 /// What is drawn.
 #[derive(Clone, Debug)]
-pub(crate) struct Chart {
-    /// The name of its files, without extension.
-    pub(crate) file: String,
-    pub(crate) title: String,
-    /// With its unit, as for the other axis.
-    pub(crate) x: String,
-    pub(crate) y: String,
-    /// Small, at the bottom: program, design and inputs.
-    pub(crate) caption: String,
-    pub(crate) shape: Shape,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) enum Shape {
+pub enum Shape {
     /// Lines over numbers.
     Lines(Vec<Line>),
     /// Groups of bars, one group per name, one bar per series.
-    Bars { groups: Vec<String>, series: Vec<Bars> },
+    Bars {
+        /// Names of the groups.
+        groups: Vec<String>,
+        /// A bar in every group each.
+        series: Vec<Bars>,
+    },
 }
 
+/// A line.
 #[derive(Clone, Debug)]
-pub(crate) struct Line {
-    pub(crate) name: String,
-    pub(crate) points: Vec<(f64, f64)>,
+pub struct Line {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its points, from one to the next.
+    pub points: Vec<(f64, f64)>,
 }
 
+/// One bar per group.
 #[derive(Clone, Debug)]
-pub(crate) struct Bars {
-    pub(crate) name: String,
-    pub(crate) colour: Colour,
-    pub(crate) values: Vec<f64>,
+pub struct Bars {
+    /// Their name in the legend.
+    pub name: String,
+    /// Their colour.
+    pub colour: Colour,
+    /// Their heights.
+    pub values: Vec<f64>,
     /// From and to, a whisker on every bar; or none.
-    pub(crate) ranges: Vec<(f64, f64)>,
+    pub ranges: Vec<(f64, f64)>,
 }
 
 impl Chart {
     /// The chart as SVG, with `notes` as a comment.
-    pub(crate) fn svg(&self, notes: &[String]) -> Result<String, StudyError> {
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn svg(&self, notes: &[String]) -> Result<String, ChartError> {
         self.load_font()?;
         let mut text = String::new();
         draw::draw(self, &SVGBackend::with_string(&mut text, SIZE).into_drawing_area())
@@ -71,7 +85,10 @@ impl Chart {
     }
 
     /// The chart as PNG.
-    pub(crate) fn png(&self) -> Result<Vec<u8>, StudyError> {
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn png(&self) -> Result<Vec<u8>, ChartError> {
         self.load_font()?;
         let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
         let font = FontRef::try_from_slice(dejavu::sans::regular())
@@ -85,14 +102,14 @@ impl Chart {
         Ok(file)
     }
 
-    fn load_font(&self) -> Result<(), StudyError> {
+    fn load_font(&self) -> Result<(), ChartError> {
         static LOADED: OnceLock<bool> = OnceLock::new();
         let load =
             || register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular()).is_ok();
         if *LOADED.get_or_init(load) { Ok(()) } else { Err(self.failed(&"the font is damaged")) }
     }
 
-    fn failed(&self, problem: &dyn std::fmt::Display) -> StudyError {
-        StudyError::Chart { name: self.file.clone(), problem: problem.to_string() }
+    fn failed(&self, problem: &dyn std::fmt::Display) -> ChartError {
+        ChartError { name: self.file.clone(), problem: problem.to_string() }
     }
 }

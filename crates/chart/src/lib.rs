@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Charts as SVG and PNG, from the same drawing. The font is part of the program, so charts look the
+//! same on a machine without fonts. Colours are those of the palette; from the eighth series on, lines
+//! are dashed. Knows nothing of what is drawn.
+
+mod chart;
+mod draw;
+mod error;
+mod page;
+
+pub use chart::{Bars, Chart, Line, Shape};
+pub use error::ChartError;
