@@ -50,5 +50,5 @@ pub use preset::{PRESETS, Preset};
 pub use reciprocal::Reciprocal;
 pub use rules::Unit;
 pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, SerialTiming};
-pub use timing::Timing;
+pub use timing::{Departure, Timing};
 pub use width::{bits_for, index_bits, mad_score_max};

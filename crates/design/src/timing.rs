@@ -10,6 +10,27 @@ pub struct Timing {
     pub(crate) figures: Vec<(&'static str, u64)>,
     pub(crate) phases: Vec<(String, u64)>,
     pub(crate) text: Vec<(&'static str, String)>,
+    pub(crate) departure: Departure,
+}
+
+/// When what a frame leads to leaves the array. Clocks are counted from the edge that takes the last pixel
+/// of a frame. Regions that share a unit leave slot by slot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Departure {
+    /// Clocks that the array needs to take a frame whose pixels are all there.
+    pub take_clocks: u64,
+    /// Frames that must be taken after a frame before its decisions are known.
+    pub decision_frames: u32,
+    /// Clocks to the last decision of slot 0.
+    pub decision_clocks: u64,
+    /// Frames that must be taken after a frame before its pixels leave.
+    pub forward_frames: u32,
+    /// Clocks to the last pixel of slot 0.
+    pub forward_clocks: u64,
+    /// Clocks from one slot to the next.
+    pub slot_clocks: u64,
+    /// Whether a unit alone can work on its region while the others wait for theirs.
+    pub alone: bool,
 }
 
 impl Timing {
@@ -35,6 +56,12 @@ impl Timing {
     #[must_use]
     pub fn phases(&self) -> &[(String, u64)] {
         &self.phases
+    }
+
+    /// When decisions and pixels leave.
+    #[must_use]
+    pub fn departure(&self) -> Departure {
+        self.departure
     }
 
     /// The same for people: headings of at most 17 characters, and what stands there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! When a pipelined design says what: the numbers behind `docs/timing.md`.
 
+use crate::timing::Departure;
 use crate::{Design, Filter, Neighborhood, Timing};
 
 /// Registers between a median window and the stream that follows it: window, result.
@@ -72,6 +73,16 @@ impl PipelinedTiming {
                 ),
                 ("pixels leave", format!("while the {which} enters")),
             ],
+            departure: Departure {
+                take_clocks: self.cycles_per_frame.into(),
+                decision_frames: self.decision_frames,
+                decision_clocks: self.decision_latency.into(),
+                forward_frames: self.forward_frames,
+                // The last pixel leaves at the tail step that ends the later frame, as a decision does.
+                forward_clocks: self.decision_latency.into(),
+                slot_clocks: 0,
+                alone: true,
+            },
         }
     }
 }

@@ -36,6 +36,11 @@ fn the_papers_frame_takes_7905_clocks() {
     assert_eq!((timing.edges_to_step(0), timing.edges_to_ready()), (1, 7_841));
     assert_eq!(timing.clocks_per_frame(), 7_905);
     assert_eq!(design.timing().clocks_per_frame(), 7_905);
+    // Decisions come with the last rotation: 5,312 + 784 + 896 + 784 steps.
+    let departure = design.timing().departure();
+    assert_eq!((departure.decision_clocks, departure.forward_clocks), (7_776, 7_840));
+    assert_eq!((departure.take_clocks, departure.slot_clocks), (64, 7_840));
+    assert_eq!((departure.decision_frames, departure.forward_frames), (0, 0));
 }
 
 /// 24x16 pixels: 3x2 regions of 8x8, two lanes of three slots; the halo is 2, the stream 12x12, the

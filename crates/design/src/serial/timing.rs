@@ -4,6 +4,7 @@
 use std::fmt;
 
 use super::feature;
+use crate::timing::Departure;
 use crate::{Design, FeatureKind, Feed, Filter, Reference, Timing};
 
 /// What the lanes do for one slot, in this order.
@@ -163,7 +164,23 @@ impl SerialTiming {
                     format!("{clocks}: {load} to take the frame, {steps} steps, 1 between"),
                 ),
             ],
+            departure: Departure {
+                take_clocks: load,
+                decision_frames: 0,
+                decision_clocks: self.edges_to_step(self.steps_to_decisions() - 1),
+                forward_frames: 0,
+                forward_clocks: self.edges_to_step(slot - 1),
+                slot_clocks: slot,
+                alone: false,
+            },
         }
+    }
+
+    /// Steps of a slot up to its last decision, which comes with the last score.
+    fn steps_to_decisions(&self) -> u64 {
+        let is_score = |(phase, _): &(Phase, u64)| matches!(phase, Phase::RotateScore(_));
+        let last = self.phases.iter().rposition(is_score).expect("a design has a feature");
+        self.phases[..=last].iter().map(|(_, steps)| steps).sum()
     }
 }
 
