@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::Tally;
 use crate::exact::{ratio, real};
-use crate::picture::PictureTally;
 use crate::scores::ScoreTally;
 
 /// How far a candidate is from the ideal. Shares are of area (pixels times frames), 0..=1: for two
@@ -103,10 +102,10 @@ impl Tally {
             active_iou: ratio(areas.both, union, 1.0),
             active: share(areas.candidate),
             ideal_active: share(areas.ideal),
-            psnr_ideal: self.psnr(&self.to_ideal),
-            psnr_input: self.psnr(&self.to_input),
-            ssim_ideal: self.ssim(&self.to_ideal),
-            ssim_input: self.ssim(&self.to_input),
+            psnr_ideal: self.to_ideal.psnr(*pixels, self.peak),
+            psnr_input: self.to_input.psnr(*pixels, self.peak),
+            ssim_ideal: self.to_ideal.ssim(*frames),
+            ssim_input: self.to_input.ssim(*frames),
             staleness: Staleness {
                 max: f64::from(stale.max),
                 mean: ratio(stale.sum, stale.pixels, 0.0),
@@ -114,16 +113,6 @@ impl Tally {
                 share: ratio(stale.stale, stale.relevant, 0.0),
             },
         }
-    }
-
-    fn psnr(&self, picture: &PictureTally) -> Option<f64> {
-        let squares = picture.squares.value();
-        let peak = f64::from(self.peak);
-        (squares > 0.0).then(|| 10.0 * (peak * peak * real(self.pixels) / squares).log10())
-    }
-
-    fn ssim(&self, picture: &PictureTally) -> f64 {
-        if self.frames == 0 { 1.0 } else { picture.ssim.value() / real(self.frames) }
     }
 }
 

@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::exact::Exact;
+use crate::exact::{Exact, real};
 use crate::planes::Pictures;
 use crate::sample::Sample;
 use crate::ssim::{Ssim, Window};
@@ -25,6 +25,18 @@ impl PictureTally {
     pub(crate) fn add(&mut self, other: &Self) {
         self.squares.add(other.squares);
         self.ssim.add(other.ssim);
+    }
+
+    /// PSNR in dB with the mean squared error of all pixels; `None` where they are identical.
+    pub(crate) fn psnr(&self, pixels: u64, peak: u32) -> Option<f64> {
+        let squares = self.squares.value();
+        let peak = f64::from(peak);
+        (squares > 0.0).then(|| 10.0 * (peak * peak * real(pixels) / squares).log10())
+    }
+
+    /// Mean over frames; 1 of none.
+    pub(crate) fn ssim(&self, frames: u64) -> f64 {
+        if frames == 0 { 1.0 } else { self.ssim.value() / real(frames) }
     }
 }
 
@@ -57,7 +69,7 @@ impl<T: Sample> Comparison<T> {
     /// For frames of `width` x `height` pixels up to `peak`.
     pub(crate) fn new(width: usize, height: usize, peak: u32) -> Self {
         let whole = width < 2 * BLOCK || height < 2 * BLOCK;
-        let pixels = if whole { crate::exact::real((width * height) as u64) } else { 64.0 };
+        let pixels = if whole { real((width * height) as u64) } else { 64.0 };
         let list = || std::array::from_fn(|_| vec![0.0; width / BLOCK]);
         Self {
             width,
@@ -87,7 +99,7 @@ impl<T: Sample> Comparison<T> {
             1.0
         } else {
             let (across, down) = (self.width / BLOCK - 1, self.height / BLOCK - 1);
-            crate::exact::real((across * down) as u64)
+            real((across * down) as u64)
         };
         std::array::from_fn(|which| PictureTally {
             squares: Exact::whole(squares[which]),

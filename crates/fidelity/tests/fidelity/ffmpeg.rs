@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use foveate_design::Design;
-use foveate_fidelity::{Fidelity, Figures};
+use foveate_fidelity::{Fidelity, FidelityError, Figures, Likeness};
 use foveate_frame::{Plane, Raster};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_toolchain::Tool;
@@ -76,6 +76,21 @@ fn assert_ssim(own: f64, theirs: &str, context: &str) {
     assert_eq!(format!("{own:.6}"), theirs, "{own}, {context}");
 }
 
+/// PSNR and SSIM without designs.
+fn likeness(design: &Design, input: &[Raster], shown: &[Raster]) -> (Option<f64>, f64) {
+    let mut likeness = Likeness::new(design.width(), design.height());
+    for (input, shown) in input.iter().zip(shown) {
+        let (Plane::Bytes(input), Plane::Bytes(shown)) = (input.plane(), shown.plane()) else {
+            unreachable!("8 bits are bytes");
+        };
+        likeness.add(shown, input).unwrap();
+        let short = likeness.add(&shown[1..], input);
+        assert!(matches!(short, Err(FidelityError::Length { .. })));
+    }
+    assert_eq!(likeness.frames(), input.len() as u64);
+    (likeness.psnr(), likeness.ssim())
+}
+
 fn compare(design: &Design, input: &[Raster], ideal: &[Raster], shown: &[Raster]) {
     let mut whole = Fidelity::new(design, design).unwrap();
     let mut single: Vec<Figures> = Vec::new();
@@ -89,6 +104,9 @@ fn compare(design: &Design, input: &[Raster], ideal: &[Raster], shown: &[Raster]
         single.push(alone.tally().figures());
     }
     let all = whole.tally().figures();
+    if design.pixel_bits() == 8 {
+        assert_eq!(likeness(design, input, shown), (all.psnr_input, all.ssim_input));
+    }
     let folder = tempfile::tempdir().unwrap();
     write(&folder.path().join("screen"), shown);
     for (name, other) in [("ideal", ideal), ("input", input)] {

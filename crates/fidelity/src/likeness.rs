@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! PSNR and SSIM of what a receiver sees against the original, where there is no design to compare.
+
+use crate::FidelityError;
+use crate::picture::{Comparison, PictureTally};
+use crate::planes::Pictures;
+
+/// Compares frames of one size with 8 bits per pixel.
+#[derive(Clone, Debug)]
+pub struct Likeness {
+    pixels: usize,
+    comparison: Comparison<u8>,
+    frames: u64,
+    tally: PictureTally,
+}
+
+impl Likeness {
+    /// For frames of `width` x `height` pixels; nothing compared yet.
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Self {
+        let (width, height) = (width as usize, height as usize);
+        let comparison = Comparison::new(width, height, u8::MAX.into());
+        Self { pixels: width * height, comparison, frames: 0, tally: PictureTally::default() }
+    }
+
+    /// One frame.
+    ///
+    /// # Errors
+    /// When one of the two has another number of pixels; nothing has been added then.
+    pub fn add(&mut self, seen: &[u8], original: &[u8]) -> Result<(), FidelityError> {
+        for (what, given) in [("frame of the receiver", seen.len()), ("original", original.len())] {
+            if given != self.pixels {
+                return Err(FidelityError::Length { what, given, expected: self.pixels });
+            }
+        }
+        let pictures =
+            Pictures { input: original, denoised: original, rendered: original, screen: seen };
+        let [_, to_input] = self.comparison.compare(pictures);
+        self.tally.add(&to_input);
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// Frames that were compared.
+    #[must_use]
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// As [`Figures::psnr_input`](crate::Figures::psnr_input).
+    #[must_use]
+    pub fn psnr(&self) -> Option<f64> {
+        self.tally.psnr(self.frames * self.pixels as u64, u8::MAX.into())
+    }
+
+    /// As [`Figures::ssim_input`](crate::Figures::ssim_input).
+    #[must_use]
+    pub fn ssim(&self) -> f64 {
+        self.tally.ssim(self.frames)
+    }
+}
