@@ -38,6 +38,8 @@ pub struct Chart {
 pub enum Shape {
     /// Lines over numbers.
     Lines(Vec<Line>),
+    /// Lines over numbers above 0, on a logarithmic axis.
+    LogLines(Vec<Line>),
     /// Groups of bars, one group per name, one bar per series.
     Bars {
         /// Names of the groups.

@@ -3,6 +3,8 @@
 
 use foveate_palette::{Colour, LIGHT};
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -33,6 +35,10 @@ pub(crate) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shi
             draw_lines::<DB>(chart, lines, &plot)?;
             draw_names_of_lines::<DB>(lines, &legend)?;
         }
+        Shape::LogLines(lines) => {
+            draw_log_lines::<DB>(chart, lines, &plot)?;
+            draw_names_of_lines::<DB>(lines, &legend)?;
+        }
         Shape::Bars { groups, series } => {
             draw_bars::<DB>(chart, groups, series, &plot)?;
             draw_names_of_bars::<DB>(series, &legend)?;
@@ -60,6 +66,20 @@ fn top(values: impl Iterator<Item = f64>) -> f64 {
     if largest > 0.0 { 1.05 * largest } else { 1.0 }
 }
 
+/// A drawing of lines up to its axes.
+fn lines_on<'a, DB: DrawingBackend>(
+    chart: &Chart,
+    area: &'a DrawingArea<DB, Shift>,
+) -> ChartBuilder<'a, 'a, DB> {
+    let mut builder = ChartBuilder::on(area);
+    builder
+        .caption(&chart.title, ("sans-serif", 20))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(64);
+    builder
+}
+
 fn draw_lines<DB: DrawingBackend>(
     chart: &Chart,
     lines: &[Line],
@@ -68,21 +88,59 @@ fn draw_lines<DB: DrawingBackend>(
     let points = || lines.iter().flat_map(|line| line.points.iter().copied());
     let last = points().map(|point| point.0).fold(0.0, f64::max);
     let last = if last > 0.0 { last } else { 1.0 };
-    let mut context = ChartBuilder::on(area)
-        .caption(&chart.title, ("sans-serif", 20))
-        .margin(12)
-        .x_label_area_size(44)
-        .y_label_area_size(64)
-        .build_cartesian_2d(0.0..last, 0.0..top(points().map(|point| point.1)))?;
-    context
-        .configure_mesh()
-        .x_desc(&chart.x)
+    let height = top(points().map(|point| point.1));
+    let mut context = lines_on(chart, area).build_cartesian_2d(0.0..last, 0.0..height)?;
+    draw_mesh(chart, &mut context, None)?;
+    draw_series(lines, &mut context)
+}
+
+fn draw_log_lines<DB: DrawingBackend>(
+    chart: &Chart,
+    lines: &[Line],
+    area: &DrawingArea<DB, Shift>,
+) -> Result<DB> {
+    let points = || lines.iter().flat_map(|line| line.points.iter().copied());
+    let first = points().map(|point| point.0).fold(f64::INFINITY, f64::min);
+    let last = points().map(|point| point.0).fold(0.0, f64::max);
+    let (first, last) = if first < last { (first, last) } else { (1.0, 10.0) };
+    let height = top(points().map(|point| point.1));
+    let across = (0.8 * first..1.25 * last).log_scale();
+    let mut context = lines_on(chart, area).build_cartesian_2d(across, 0.0..height)?;
+    draw_mesh(chart, &mut context, Some(&|&x| thousands(x)))?;
+    draw_series(lines, &mut context)
+}
+
+/// A label of a logarithmic axis, such as `20 k`.
+fn thousands(value: f64) -> String {
+    let units = [(1e9, " G"), (1e6, " M"), (1e3, " k")];
+    let unit = units.into_iter().find(|&(size, _)| value >= size).unwrap_or((1.0, ""));
+    format!("{}{}", (value / unit.0 * 10.0).round() / 10.0, unit.1)
+}
+
+type Plot<'a, DB, X> = ChartContext<'a, DB, Cartesian2d<X, RangedCoordf64>>;
+
+fn draw_mesh<DB: DrawingBackend, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
+    chart: &Chart,
+    context: &mut Plot<'_, DB, X>,
+    label: Option<&dyn Fn(&f64) -> String>,
+) -> Result<DB> {
+    let mut mesh = context.configure_mesh();
+    if let Some(label) = &label {
+        mesh.x_label_formatter(label);
+    }
+    mesh.x_desc(&chart.x)
         .y_desc(&chart.y)
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 15))
         .light_line_style(GROUND)
         .bold_line_style(GRID)
-        .draw()?;
+        .draw()
+}
+
+fn draw_series<DB: DrawingBackend, X: Ranged<ValueType = f64>>(
+    lines: &[Line],
+    context: &mut Plot<'_, DB, X>,
+) -> Result<DB> {
     for (number, line) in lines.iter().enumerate() {
         let points = line.points.iter().copied();
         if dashed(number) {
