@@ -13,6 +13,7 @@ mod fit;
 mod frames;
 mod infer;
 mod input;
+mod link;
 mod outputs;
 #[cfg(test)]
 mod page;
@@ -37,6 +38,7 @@ pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
 pub(crate) use infer::InferArgs;
 pub(crate) use input::warn_of;
+pub(crate) use link::LinkArgs;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use stress::StressArgs;
 
@@ -65,6 +67,7 @@ pub(crate) enum Command {
     Explore(ExploreArgs),
     Fit(FitArgs),
     Infer(InferArgs),
+    Link(LinkArgs),
     Stress(StressArgs),
     Bench(BenchArgs),
     Presets(PresetsArgs),

@@ -11,6 +11,7 @@ use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
 use foveate_inference::InferenceError;
+use foveate_link::LinkError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_studies::StudyError;
@@ -39,6 +40,8 @@ pub(crate) enum CliError {
     Explore(Box<ExploreError>),
     #[error(transparent)]
     Inference(Box<InferenceError>),
+    #[error(transparent)]
+    Link(Box<LinkError>),
     #[error(transparent)]
     Output(#[from] StagingError),
     #[error(transparent)]
@@ -82,6 +85,13 @@ impl CliError {
             Self::Inference(error) => match error.as_ref() {
                 InferenceError::Cancelled => interrupt::exit_code(),
                 InferenceError::Footage(error) => footage_code(error),
+                _ => INPUT,
+            },
+            Self::Link(error) => match error.as_ref() {
+                LinkError::Cancelled => interrupt::exit_code(),
+                LinkError::Footage(error) => footage_code(error),
+                LinkError::Tool(error) => tool_code(error),
+                LinkError::NoEncoder { .. } | LinkError::Frames { .. } => TOOL,
                 _ => INPUT,
             },
             Self::Failed(_) => 1,
@@ -158,6 +168,12 @@ impl From<StudyError> for CliError {
 impl From<ExploreError> for CliError {
     fn from(error: ExploreError) -> Self {
         Self::Explore(Box::new(error))
+    }
+}
+
+impl From<LinkError> for CliError {
+    fn from(error: LinkError) -> Self {
+        Self::Link(Box::new(error))
     }
 }
 

@@ -41,6 +41,7 @@ fn run(cli: &Cli) -> Result<(), error::CliError> {
         Command::Explore(args) => command::explore::run(args),
         Command::Fit(args) => command::fit::run(args),
         Command::Infer(args) => command::infer::run(args),
+        Command::Link(args) => command::link::run(args),
         Command::Stress(args) => command::stress::run(args),
         Command::Bench(args) => command::bench::run(args),
         Command::Presets(args) => command::presets::run(args),

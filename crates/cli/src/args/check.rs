@@ -97,7 +97,7 @@ impl Rate {
     }
 }
 
-fn decimal(text: &str) -> Option<Decimal> {
+pub(super) fn decimal(text: &str) -> Option<Decimal> {
     text.trim().parse().ok().and_then(Decimal::from_f64)
 }
 

@@ -13,6 +13,7 @@ pub(crate) mod explore;
 pub(crate) mod fit;
 pub(crate) mod generate;
 pub(crate) mod infer;
+pub(crate) mod link;
 pub(crate) mod presets;
 pub(crate) mod simulate;
 pub(crate) mod stress;

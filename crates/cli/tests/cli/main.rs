@@ -16,6 +16,7 @@ mod hardware;
 mod help;
 mod infer;
 mod inputs;
+mod link;
 mod outputs;
 mod progress;
 mod serial;

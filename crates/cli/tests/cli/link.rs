@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! link, end to end, on small scenes.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{fail_in, files_below, succeed_in};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+use serde_json::Value;
+
+const FRAME: &str = "frame={width=160,height=120}";
+/// Every region is relevant, so that what was not sent is as old as it may be, but never blank.
+const ALL: [&str; 2] = ["--set", "spatial.0.min_score=0"];
+
+fn report(folder: &Path, more: &[&str]) -> Value {
+    let args = ["link", "scene:street", "-o", "out", "--max-frames", "6", "--json", "--force"];
+    let args = [&args[..], &["--set", FRAME], &ALL, more].concat();
+    serde_json::from_str(&succeed_in(folder, &args)).unwrap()
+}
+
+fn senders<'a>(report: &'a Value, name: &str) -> Vec<&'a Value> {
+    let senders = report["clips"][0]["senders"].as_array().unwrap();
+    senders.iter().filter(|sender| sender["sender"] == name).collect()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+#[test]
+fn a_codec_is_the_coarsest_that_is_as_good() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let found = report(dir.path(), &["--codecs", "mjpeg,h264"]);
+    let own = senders(&found, "region by rows")[0];
+    let points = found["clips"][0]["curves"].as_array().unwrap();
+    for codec in ["mjpeg", "h264"] {
+        for sender in senders(&found, codec) {
+            let part = sender["equal"].as_str().unwrap();
+            assert_eq!(sender["found"], "equal", "{sender}");
+            assert!(number(&sender["quality"][part]) >= number(&own["quality"][part]), "{sender}");
+            // The next quantizer is not as good; a search has looked at it.
+            let next = |point: &&Value| {
+                point["sender"] == codec
+                    && point["value"].as_u64() == sender["quantizer"].as_u64().map(|q| q + 1)
+            };
+            let next = points.iter().find(next).unwrap();
+            assert!(number(&next["quality"][part]) < number(&own["quality"][part]), "{next}");
+        }
+    }
+    // What the camera sends is what `simulate` counts.
+    let args = ["simulate", "scene:street", "-o", "sim", "--max-frames", "6", "--json"];
+    let more = ["--pixel-events=csv", "--set", FRAME];
+    let simulated = succeed_in(dir.path(), &[&args[..], &more, &ALL].concat());
+    let simulated: Value = serde_json::from_str(&simulated).unwrap();
+    for (sender, camera) in [
+        ("region by rows", "region"),
+        ("region array", "region"),
+        ("pixel events", "pixel"),
+        ("raw", "raw"),
+    ] {
+        let bytes = &senders(&found, sender)[0]["figures"]["bytes"];
+        assert_eq!(bytes, &simulated["bandwidth"][camera]["bytes"], "{sender}");
+    }
+    // The design is a point of its own curves.
+    let own_rate = &own["figures"]["bytes_per_second"];
+    let is_own = |point: &&Value| point["knob"] == "temporal.level" && point["value"] == 8;
+    assert_eq!(&points.iter().find(is_own).unwrap()["bytes_per_second"], own_rate);
+}
+
+#[test]
+fn the_folder_is_whole_and_the_same_every_time() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    report(dir.path(), &["--codecs", "mjpeg"]);
+    let first = files_below(dir.path());
+    // A codec that is named twice is compared once.
+    report(dir.path(), &["--codecs", "mjpeg,mjpeg"]);
+    assert_eq!(files_below(dir.path()), first);
+    let names: Vec<_> = first.iter().map(|(name, _)| name.display().to_string()).collect();
+    for name in [
+        "link.csv",
+        "link.json",
+        "link.parquet",
+        "rate-distortion.csv",
+        "rate-distortion.parquet",
+        "rate-distortion.png",
+        "rate-distortion.svg",
+        "rate-distortion-ssim.png",
+        "rate-distortion-ssim.svg",
+    ] {
+        assert!(names.iter().any(|found| found.ends_with(name)), "{name} in {names:?}");
+    }
+    let table = fs::read_to_string(dir.path().join("out/link.csv")).unwrap();
+    // Four cameras and one codec at two qualities.
+    assert_eq!(table.lines().count(), 1 + 4 + 2, "{table}");
+}
+
+#[test]
+fn a_slow_link_needs_a_buffer_and_adds_latency() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let raw = |rate: &str| {
+        let found = report(dir.path(), &["--codecs", "mjpeg", "--link", rate]);
+        senders(&found, "raw")[0]["figures"].clone()
+    };
+    // 160 bytes a row every 277 us are 4.6 Mbit/s.
+    let (fast, slow) = (raw("100Mbit"), raw("1Mbit"));
+    assert_eq!((&fast["overloaded"], &slow["overloaded"]), (&false.into(), &true.into()));
+    assert_eq!(fast["buffer_bytes"], 160);
+    assert_eq!(fast["delivery_ns"]["longest"], 12_800);
+    let sent = 160 * 120 * 6;
+    assert!(number(&slow["buffer_bytes"]) > 0.7 * f64::from(sent), "{slow}");
+    // Bytes and windows are what is given to the link, whatever it carries.
+    assert_eq!(fast["windows"], slow["windows"]);
+}
+
+#[test]
+fn tables_are_markdown_and_quiet_is_quiet() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let args = ["link", "scene:street", "scene:fade", "-o", "out", "--max-frames", "3"];
+    let args = [&args[..], &["--codecs", "mjpeg", "--set", FRAME]].concat();
+    let text = succeed_in(dir.path(), &args);
+    assert!(text.starts_with("street: 3 frames of 160 x 120 pixels in 100 ms, "), "{text}");
+    assert_eq!(text.matches("| region array | - |").count(), 2, "{text}");
+    assert_eq!(text.matches("| mjpeg | PSNR |").count(), 2, "{text}");
+    assert!(dir.path().join("out/rate-distortion-1.svg").is_file());
+    assert_eq!(succeed_in(dir.path(), &[&args[..], &["--force", "--quiet"]].concat()), "");
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let link = |inputs: &[&str], more: &[&str], parts: &[&str]| {
+        let args = [&["link"], inputs, &["-o", "out"], more].concat();
+        fail_in(dir.path(), 2, &args, parts);
+        assert!(!dir.path().join("out").exists());
+    };
+    link(&["scene:street"], &["--max-frames", "1"], &["`street` has 1 frame", "at least 2"]);
+    link(
+        &["scene:street"],
+        &["--max-frames", "3", "--set", "frame.pixel_bits=10"],
+        &["10 bits", "frame.pixel_bits = 8"],
+    );
+    link(&["scene:street"], &["--max-frames", "3", "--clock", "10Hz"], &["a faster --clock"]);
+    link(&["scene:street"], &["--link", "100MB"], &["--link", "100Mbit"]);
+    link(&["none.mp4"], &[], &["none.mp4"]);
+    // Two images of 16x16 pixels.
+    let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
+    let bytes: Vec<u8> = header.into_iter().chain([7; 512]).collect();
+    fs::write(dir.path().join("train-images"), bytes).unwrap();
+    link(&["train-images"], &[], &["`train-images` is a set of unrelated images"]);
+    fs::create_dir(dir.path().join("mine")).unwrap();
+    fs::write(dir.path().join("mine/file"), "mine").unwrap();
+    let args = ["link", "scene:street", "-o", "mine", "--force"];
+    fail_in(dir.path(), 2, &args, &["mine"]);
+    assert_eq!(fs::read_to_string(dir.path().join("mine/file")).unwrap(), "mine");
+}

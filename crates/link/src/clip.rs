@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One clip, read once: what every camera makes of it, and its frames in a file for the codecs.
+
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::Path;
+
+use foveate_design::{Config, Design};
+use foveate_engine::Engine;
+use foveate_fidelity::Likeness;
+use foveate_footage::{FootageError, InputOptions, Kind, Subject, open};
+use foveate_frame::Plane;
+use foveate_simulator::{PixelCamera, PixelEvents};
+
+use crate::encoder::scratch;
+use crate::sweep::{Swept, swept};
+use crate::{Footage, LinkError, Quality, Sent};
+
+/// What was seen of a clip.
+pub(crate) struct Seen {
+    pub(crate) inputs: Vec<String>,
+    /// Why it ended before its end, if it did.
+    pub(crate) problem: Option<String>,
+    pub(crate) design: Design,
+    pub(crate) times_us: Vec<u64>,
+    pub(crate) sent: Vec<Sent>,
+    pub(crate) quality: Quality,
+    pub(crate) swept: Vec<Measured>,
+    pub(crate) footage: Footage,
+}
+
+/// A design of a curve with what came of it.
+pub(crate) struct Measured {
+    pub(crate) swept: Swept,
+    pub(crate) pixels: u64,
+    pub(crate) quality: Quality,
+}
+
+/// A camera, and how its screen compares.
+struct Watch {
+    engine: Engine,
+    likeness: Likeness,
+}
+
+impl Watch {
+    fn new(design: &Design) -> Self {
+        let likeness = Likeness::new(design.width(), design.height());
+        Self { engine: Engine::new(design), likeness }
+    }
+
+    fn step(&mut self, frame: &[u8], width: u32) -> Result<&[bool], LinkError> {
+        self.engine.step_u8(frame, width as usize)?;
+        if let Plane::Bytes(screen) = self.engine.rendered() {
+            self.likeness.add(screen, frame)?;
+        }
+        Ok(&self.engine.outcome().active)
+    }
+}
+
+/// Reads a clip. Its frames go into a file of `folder`; `tick` is called for each, and says whether to stop.
+pub(crate) fn watch(
+    subject: &Subject,
+    config: &Config,
+    input: &InputOptions,
+    folder: &Path,
+    tick: &dyn Fn() -> bool,
+) -> Result<Seen, LinkError> {
+    let mut source = open(&subject.inputs, config, input)?;
+    if source.kind() == Kind::Set {
+        return Err(LinkError::Set { name: subject.name.clone() });
+    }
+    let (width, height) = source.size();
+    let mut config = config.clone();
+    config.fit_frame(width, height)?;
+    let design = config.validate()?;
+    if design.pixel_bits() != 8 {
+        return Err(LinkError::Depth { bits: design.pixel_bits() });
+    }
+    let path = folder.join("clip.gray");
+    let file = File::create(&path).map_err(scratch("write", &path))?;
+    let mut file = BufWriter::new(file);
+    let mut camera = Watch::new(&design);
+    let mut pixels = PixelCamera::new(&design, PixelEvents::default())?;
+    let mut others = Vec::new();
+    for swept in swept(&config) {
+        others.push((Watch::new(&swept.config.validate()?), 0, swept));
+    }
+    let (mut times_us, mut sent) = (Vec::new(), Vec::new());
+    while let Some(current) = source.next_frame()? {
+        if tick() {
+            return Err(LinkError::Cancelled);
+        }
+        let Plane::Bytes(frame) = current.frame.plane() else {
+            return Err(LinkError::Depth { bits: current.frame.bits() });
+        };
+        file.write_all(frame).map_err(scratch("write", &path))?;
+        let mut events = vec![0; height as usize];
+        pixels.step(&current.frame.to_frame()?, |event| events[event.y as usize] += 1);
+        sent.push(Sent::of(&design, camera.step(frame, width)?, events));
+        for (other, pixels, _) in &mut others {
+            let design = other.engine.design().clone();
+            *pixels += forwarded(&design, other.step(frame, width)?);
+        }
+        times_us.push(current.time_us);
+        source.give_back(current);
+    }
+    file.flush().map_err(scratch("write", &path))?;
+    let inputs = source.inputs().to_vec();
+    if times_us.is_empty() {
+        return Err(FootageError::NoFrames { inputs: inputs.join(", ") }.into());
+    }
+    let measured = |(watch, pixels, swept): (Watch, u64, Swept)| {
+        let quality = Quality::of(&watch.likeness);
+        Measured { swept, pixels, quality }
+    };
+    let (clip, frames) = (subject.name.clone(), times_us.len() as u64);
+    Ok(Seen {
+        inputs,
+        problem: source.problem(),
+        times_us,
+        sent,
+        quality: Quality::of(&camera.likeness),
+        swept: others.into_iter().map(measured).collect(),
+        footage: Footage { clip, path, width, height, frames },
+        design,
+    })
+}
+
+/// Pixels of active regions.
+fn forwarded(design: &Design, active: &[bool]) -> u64 {
+    Sent::of(design, active, Vec::new()).rows.iter().sum()
+}

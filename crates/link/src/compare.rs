@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From a request to a report: every clip through the cameras, then through the codecs at equal quality.
+
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+
+use foveate_design::Config;
+use foveate_footage::{InputOptions, Subject, subjects};
+use foveate_simulator::{BatchHooks, BatchProgress};
+use foveate_staging::{Kind, StagedFolder};
+use foveate_toolchain::{Tool, Toolchain};
+
+use crate::clip::{Measured, Seen, watch};
+use crate::encoder::{check_encoders, scratch};
+use crate::figures::per_second;
+use crate::report::FORMAT_VERSION;
+use crate::search::coarsest;
+use crate::sender::DECISION_BITS;
+use crate::{
+    Cameras, ClipReport, Codec, Effort, Encoded, Encoder, Figures, LinkError, Point, Quality,
+    Report, SenderReport, Timeline, Unit, files,
+};
+
+/// What is compared.
+#[derive(Clone, Debug)]
+pub struct Request<'a> {
+    /// Clips, one each; image files together are one clip.
+    pub inputs: &'a [PathBuf],
+    /// How they are read.
+    pub input: &'a InputOptions,
+    /// The design.
+    pub config: &'a Config,
+    /// Codecs, in the order of the table.
+    pub codecs: &'a [Codec],
+    /// How much work they do.
+    pub effort: Effort,
+    /// Bits per second of the link.
+    pub link: u64,
+    /// Clock of the array in Hz.
+    pub clock_hz: u64,
+}
+
+/// Compares and writes `output`, which appears at the end.
+///
+/// # Errors
+/// When an input cannot be read or is no clip, ffmpeg is missing or fails, the folder cannot be written, or
+/// `hooks` cancels; nothing is written then.
+pub fn compare(
+    request: &Request<'_>,
+    tools: &Toolchain,
+    output: &Path,
+    overwrite: bool,
+    hooks: &dyn BatchHooks,
+) -> Result<Report, LinkError> {
+    let staging = StagedFolder::new(output, LINK, overwrite)?;
+    let subjects = subjects(request.inputs, request.input)?;
+    let ffmpeg = tools.find(Tool::Ffmpeg)?.banner;
+    check_encoders(tools, request.codecs)?;
+    let (frames, all) = (Cell::new(0), subjects.len());
+    let mut clips = Vec::new();
+    for subject in &subjects {
+        let done = clips.len();
+        let tick = || {
+            frames.set(frames.get() + 1);
+            hooks.progress(BatchProgress { clips: done, all, frames: frames.get() });
+            hooks.cancelled()
+        };
+        clips.push(one(request, tools, subject, &tick)?);
+    }
+    let report = Report {
+        format_version: FORMAT_VERSION,
+        foveate_version: env!("CARGO_PKG_VERSION"),
+        ffmpeg,
+        effort: request.effort.name(),
+        link_bits_per_second: request.link,
+        clock_hz: request.clock_hz,
+        clips,
+    };
+    files::write(&staging, &report)?;
+    staging.commit()?;
+    Ok(report)
+}
+
+fn one(
+    request: &Request<'_>,
+    tools: &Toolchain,
+    subject: &Subject,
+    tick: &dyn Fn() -> bool,
+) -> Result<ClipReport, LinkError> {
+    let place = std::env::temp_dir();
+    let folder = tempfile::tempdir().map_err(scratch("make a folder in", &place))?;
+    let seen = watch(subject, request.config, request.input, folder.path(), tick)?;
+    let timeline = Timeline::new(&subject.name, &seen.times_us, seen.design.height())?;
+    let cameras = Cameras::new(&subject.name, &seen.design, &timeline, request.clock_hz)?;
+    let figures = |units: Vec<Unit>| Figures::of(units, &timeline, request.link);
+    let mut senders = of_cameras(&cameras, &seen, &figures);
+    let mut curves: Vec<Point> =
+        seen.swept.iter().map(|measured| own_point(&seen, measured, &timeline)).collect();
+    for &codec in request.codecs {
+        let mut encoder = Encoder::new(tools, &seen.footage, (codec, request.effort), tick);
+        for equal in Equal::ALL {
+            let (quantizer, found) = equal.search(&mut encoder, codec, seen.quality)?;
+            let encoded = encoder.at(quantizer)?;
+            senders.push(SenderReport {
+                sender: codec.name(),
+                equal: Some(equal.name()),
+                quantizer: Some(quantizer),
+                found: Some(found),
+                quality: Some(encoded.quality),
+                figures: figures(cameras.codec(&encoded.packets)),
+            });
+        }
+        for &quantizer in codec.steps() {
+            encoder.at(quantizer)?;
+        }
+        curves.extend(encoder.known().iter().map(|known| codec_point(codec, known, &timeline)));
+    }
+    Ok(ClipReport {
+        name: subject.name.clone(),
+        inputs: seen.inputs,
+        problem: seen.problem,
+        design: seen.design.fingerprint(),
+        width: seen.design.width(),
+        height: seen.design.height(),
+        frames: timeline.frames(),
+        duration_ns: timeline.end(),
+        senders,
+        curves,
+    })
+}
+
+fn of_cameras(
+    cameras: &Cameras<'_>,
+    seen: &Seen,
+    figures: &dyn Fn(Vec<Unit>) -> Figures,
+) -> Vec<SenderReport> {
+    let row = |sender, quality, units| SenderReport {
+        sender,
+        equal: None,
+        quantizer: None,
+        found: None,
+        quality,
+        figures: figures(units),
+    };
+    let own = Some(seen.quality);
+    let by_rows = cameras.region_by_rows(&seen.sent);
+    by_rows
+        .map(|units| row("region by rows", own, units))
+        .into_iter()
+        .chain([
+            row("region array", own, cameras.region_array(&seen.sent)),
+            row("pixel events", None, cameras.pixel(&seen.sent)),
+            row("raw", Some(Quality::IDENTICAL), cameras.raw()),
+        ])
+        .collect()
+}
+
+/// In what a codec is to equal the region camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Equal {
+    Psnr,
+    Ssim,
+}
+
+impl Equal {
+    const ALL: [Self; 2] = [Self::Psnr, Self::Ssim];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Psnr => "psnr",
+            Self::Ssim => "ssim",
+        }
+    }
+
+    /// The coarsest quantizer that is as good, or the finest where none is; and which of the two.
+    fn search(
+        self,
+        encoder: &mut Encoder<'_>,
+        codec: Codec,
+        own: Quality,
+    ) -> Result<(u32, &'static str), LinkError> {
+        let range = codec.quantizers();
+        let found = coarsest(range.clone(), |quantizer| {
+            let quality = encoder.at(quantizer)?.quality;
+            Ok::<_, LinkError>(match self {
+                Self::Psnr => quality.has_psnr_of(own),
+                Self::Ssim => quality.has_ssim_of(own),
+            })
+        })?;
+        Ok(match found {
+            None => (*range.start(), "finest"),
+            Some(quantizer) if quantizer == *range.end() => (quantizer, "coarsest"),
+            Some(quantizer) => (quantizer, "equal"),
+        })
+    }
+}
+
+fn own_point(seen: &Seen, measured: &Measured, timeline: &Timeline) -> Point {
+    let map = DECISION_BITS * u64::from(seen.design.regions()) * timeline.frames();
+    let bits = map + measured.pixels * u64::from(seen.design.pixel_bits());
+    Point {
+        sender: "region",
+        knob: measured.swept.key,
+        value: measured.swept.value,
+        bytes_per_second: per_second(bits, timeline.end()),
+        quality: measured.quality,
+    }
+}
+
+fn codec_point(
+    codec: Codec,
+    (&quantizer, encoded): (&u32, &Encoded),
+    timeline: &Timeline,
+) -> Point {
+    Point {
+        sender: codec.name(),
+        knob: "quantizer",
+        value: quantizer.into(),
+        bytes_per_second: per_second(8 * encoded.packets.iter().sum::<u64>(), timeline.end()),
+        quality: encoded.quality,
+    }
+}
+
+const LINK: Kind =
+    Kind { what: "a comparison of links (its link.json)", is: is_link, listed: true };
+
+fn is_link(folder: &Path) -> bool {
+    folder.join("link.json").is_file()
+}

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A clip through a codec and back: bytes of every frame, as ffprobe finds them in the stream, and what
+//! the receiver sees.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use foveate_fidelity::Likeness;
+use foveate_toolchain::{Invocation, Stream, Tool, Toolchain};
+
+use crate::{Codec, Effort, LinkError, Quality};
+
+/// The rate that encoders are told. With a constant quantizer it changes no picture.
+const RATE: &str = "30";
+
+/// Frames as grey bytes in a file, one after the other.
+#[derive(Clone, Debug)]
+pub struct Footage {
+    /// The name of the clip.
+    pub clip: String,
+    /// The file.
+    pub path: PathBuf,
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// How many frames there are.
+    pub frames: u64,
+}
+
+/// What came of a clip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Encoded {
+    /// Bytes of every frame.
+    pub packets: Vec<u64>,
+    /// What the receiver sees.
+    pub quality: Quality,
+}
+
+/// Encodes one clip with one codec, each quantizer once.
+pub struct Encoder<'a> {
+    tools: &'a Toolchain,
+    footage: &'a Footage,
+    codec: Codec,
+    effort: Effort,
+    /// The stream, beside the footage.
+    stream: PathBuf,
+    known: BTreeMap<u32, Encoded>,
+    /// Called for every frame that came back; whether to stop.
+    tick: &'a dyn Fn() -> bool,
+}
+
+impl<'a> Encoder<'a> {
+    /// An encoder that has seen nothing. `tick` is called for every frame that comes back, and says
+    /// whether to stop.
+    #[must_use]
+    pub fn new(
+        tools: &'a Toolchain,
+        footage: &'a Footage,
+        (codec, effort): (Codec, Effort),
+        tick: &'a dyn Fn() -> bool,
+    ) -> Self {
+        let stream = footage.path.with_extension(codec.format());
+        Self { tools, footage, codec, effort, stream, known: BTreeMap::new(), tick }
+    }
+
+    /// The clip with this quantizer.
+    ///
+    /// # Errors
+    /// When ffmpeg fails or loses frames.
+    pub fn at(&mut self, quantizer: u32) -> Result<&Encoded, LinkError> {
+        if !self.known.contains_key(&quantizer) {
+            let encoded = self.encode(quantizer)?;
+            self.known.insert(quantizer, encoded);
+        }
+        Ok(&self.known[&quantizer])
+    }
+
+    /// Everything so far, by quantizer.
+    #[must_use]
+    pub fn known(&self) -> &BTreeMap<u32, Encoded> {
+        &self.known
+    }
+
+    /// Where the stream of the last quantizer lies.
+    #[must_use]
+    pub fn stream(&self) -> &Path {
+        &self.stream
+    }
+
+    fn encode(&self, quantizer: u32) -> Result<Encoded, LinkError> {
+        if (self.tick)() {
+            return Err(LinkError::Cancelled);
+        }
+        let size = format!("{}x{}", self.footage.width, self.footage.height);
+        let encode = self
+            .tools
+            .invocation(Tool::Ffmpeg)?
+            .args(["-hide_banner", "-nostdin", "-loglevel", "error", "-y"])
+            .args(["-f", "rawvideo", "-pixel_format", "gray", "-video_size", &size])
+            .args(["-framerate", RATE, "-i"])
+            .arg(&self.footage.path)
+            .args(self.codec.options(quantizer, self.effort))
+            .args(["-f", self.codec.format()])
+            .arg(&self.stream);
+        self.tools.run_checked(&encode)?;
+        Ok(Encoded { packets: self.packets(quantizer)?, quality: self.quality(quantizer)? })
+    }
+
+    /// Bytes of every frame.
+    fn packets(&self, quantizer: u32) -> Result<Vec<u64>, LinkError> {
+        let ask = self
+            .tools
+            .invocation(Tool::Ffprobe)?
+            .args(["-v", "error", "-show_entries", "packet=size", "-of", "csv=p=0"])
+            .args(["-f", self.codec.format()])
+            .arg(&self.stream);
+        let text = self.tools.run_checked(&ask)?.stdout;
+        let text = String::from_utf8_lossy(&text);
+        let sizes = text.lines().map(|line| line.trim_end_matches(',').parse());
+        let sizes: Result<Vec<u64>, _> = sizes.collect();
+        let sizes = sizes.map_err(|error| self.lost(quantizer, 0, error.to_string()))?;
+        self.all(quantizer, sizes.len() as u64, "of ffprobe's packets")?;
+        Ok(sizes)
+    }
+
+    /// What the receiver sees of it.
+    fn quality(&self, quantizer: u32) -> Result<Quality, LinkError> {
+        let mut decoder = Stream::start(&self.decoding()?)?;
+        let path = &self.footage.path;
+        let original = File::open(path).map_err(scratch("read", path))?;
+        let mut original = BufReader::new(original);
+        let (width, height) = (self.footage.width, self.footage.height);
+        let mut likeness = Likeness::new(width, height);
+        let mut pixels = [0, 1].map(|_| vec![0; width as usize * height as usize]);
+        let [seen, expected] = &mut pixels;
+        while decoder.read_exact(seen).is_ok() && likeness.frames() < self.footage.frames {
+            if (self.tick)() {
+                return Err(LinkError::Cancelled);
+            }
+            original.read_exact(expected).map_err(scratch("read", path))?;
+            likeness.add(seen, expected)?;
+        }
+        let said = decoder.next_line().unwrap_or_else(|| "ffmpeg said nothing".to_owned());
+        self.all(quantizer, likeness.frames(), &said)?;
+        Ok(Quality::of(&likeness))
+    }
+
+    fn decoding(&self) -> Result<Invocation, LinkError> {
+        let ffmpeg = self.tools.find(Tool::Ffmpeg)?;
+        // The option had another name before ffmpeg 5.1; builds between releases have no version.
+        let renamed = ffmpeg.version.as_ref().is_none_or(|version| version.reaches(5, 1));
+        Ok(Invocation::new(ffmpeg.path)
+            .args(["-hide_banner", "-nostdin", "-loglevel", "error"])
+            .args(["-f", self.codec.format(), "-i"])
+            .arg(&self.stream)
+            .args(["-vf", "extractplanes=y"])
+            .args([if renamed { "-fps_mode" } else { "-vsync" }, "passthrough"])
+            .args(["-f", "rawvideo", "pipe:1"]))
+    }
+
+    fn all(&self, quantizer: u32, found: u64, said: &str) -> Result<(), LinkError> {
+        match found == self.footage.frames {
+            true => Ok(()),
+            false => Err(self.lost(quantizer, found, said.to_owned())),
+        }
+    }
+
+    fn lost(&self, quantizer: u32, found: u64, said: String) -> LinkError {
+        let (clip, expected) = (self.footage.clip.clone(), self.footage.frames);
+        LinkError::Frames { codec: self.codec.name(), quantizer, clip, found, expected, said }
+    }
+}
+
+/// Refuses codecs whose encoder ffmpeg lacks.
+///
+/// # Errors
+/// When ffmpeg is missing or lacks one.
+pub fn check_encoders(tools: &Toolchain, codecs: &[Codec]) -> Result<(), LinkError> {
+    let ask = tools.invocation(Tool::Ffmpeg)?.args(["-hide_banner", "-encoders"]);
+    let listed = tools.run_checked(&ask)?.stdout;
+    let listed = String::from_utf8_lossy(&listed);
+    let names: Vec<_> = listed.lines().map(|line| line.split_whitespace().nth(1)).collect();
+    match codecs.iter().find(|codec| !names.contains(&Some(codec.encoder()))) {
+        None => Ok(()),
+        Some(codec) => Err(LinkError::NoEncoder { encoder: codec.encoder(), codec: codec.name() }),
+    }
+}
+
+/// Names a temporary file in an error of the operating system.
+pub(crate) fn scratch(
+    action: &'static str,
+    path: &Path,
+) -> impl Fn(std::io::Error) -> LinkError + use<> {
+    let path = path.to_owned();
+    move |source| LinkError::Scratch { action, path: path.clone(), source }
+}

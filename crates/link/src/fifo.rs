@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A link of one rate behind a buffer that loses nothing, in integers: bits leave in the order in which
+//! they came, one after the other, at the rate of the link. Nothing is added for framing, and nothing for
+//! the way.
+
+use crate::Unit;
+
+/// Nanoseconds of a second.
+const NANO: u128 = 1_000_000_000;
+
+/// What the link makes of some units.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Served {
+    /// When the last bit of every unit has left, in ns, rounded up; in the order of the units.
+    pub finished: Vec<u64>,
+    /// The most bits that wait or are under way at a time, rounded up.
+    pub backlog: u64,
+}
+
+/// Sends units over a link of `rate` bits per second.
+///
+/// # Panics
+/// When the units are not sorted by the time at which they are sent, or the rate is 0.
+#[must_use]
+pub fn serve(units: &[Unit], rate: u64) -> Served {
+    assert!(units.is_sorted_by_key(|unit| unit.sent), "a queue is served in the order of time");
+    assert!(rate > 0, "a link has a rate");
+    // In steps of a nanosecond divided by the rate, a bit takes a whole number of steps.
+    let (mut free, mut backlog) = (0, 0);
+    let finished = units.iter().map(|unit| {
+        let sent = u128::from(unit.sent) * u128::from(rate);
+        free = free.max(sent) + u128::from(unit.bits) * NANO;
+        backlog = backlog.max(free - sent);
+        narrow(free.div_ceil(u128::from(rate)))
+    });
+    let finished = finished.collect();
+    Served { finished, backlog: narrow(backlog.div_ceil(NANO)) }
+}
+
+fn narrow(value: u128) -> u64 {
+    u64::try_from(value).unwrap_or(u64::MAX)
+}

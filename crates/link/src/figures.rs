@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The figures of what one sender gives to a link.
+
+use serde::Serialize;
+
+use crate::windows::nearest_rank;
+use crate::{Rates, Timeline, Unit, serve};
+
+/// Lengths of the windows in ms.
+pub(crate) const WINDOWS_MS: [u64; 3] = [1, 10, 100];
+
+/// What a sender asks of a link. Times are in ns.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Figures {
+    /// Bytes of the clip; bits are rounded up once.
+    pub bytes: u64,
+    /// Bytes per second over the clip, rounded to the nearest.
+    pub bytes_per_second: u64,
+    /// In windows of 1, 10 and 100 ms.
+    pub windows: [Rates; 3],
+    /// Bytes of the largest frame.
+    pub largest_frame_bytes: u64,
+    /// From reading the oldest pixel of a unit to the decision; the longest.
+    pub decision_ns: u64,
+    /// From reading the oldest pixel of a unit to its last bit at the other end of the link.
+    pub delivery_ns: Delivery,
+    /// Bytes of the buffer in front of the link that loses nothing of this clip.
+    pub buffer_bytes: u64,
+    /// Whether the clip needs more than the link carries: then the buffer grows with the clip.
+    pub overloaded: bool,
+}
+
+/// Over the units of a sender.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Delivery {
+    /// The median (nearest rank).
+    pub median: u64,
+    /// 99 of 100 take this long or less (nearest rank).
+    pub p99: u64,
+    /// The longest.
+    pub longest: u64,
+}
+
+impl Figures {
+    /// Of units in any order over a link of `rate` bits per second.
+    #[must_use]
+    pub fn of(mut units: Vec<Unit>, timeline: &Timeline, rate: u64) -> Self {
+        units.sort_by_key(|unit| (unit.sent, unit.frame, unit.read));
+        let served = serve(&units, rate);
+        let bits: u64 = units.iter().map(|unit| unit.bits).sum();
+        let mut frames = vec![0_u64; units.iter().map(number).max().unwrap_or(0) + 1];
+        units.iter().for_each(|unit| frames[number(unit)] += unit.bits);
+        let waits = units.iter().zip(&served.finished);
+        let mut waits: Vec<u64> = waits.map(|(unit, finished)| finished - unit.read).collect();
+        waits.sort_unstable();
+        let rank = |percent| nearest_rank(&waits, percent);
+        let decisions = units.iter().map(|unit| unit.decided - unit.read);
+        let span = (0, timeline.end());
+        Self {
+            bytes: bits.div_ceil(8),
+            bytes_per_second: per_second(bits, timeline.end()),
+            windows: WINDOWS_MS.map(|window| Rates::of(&units, span, window)),
+            largest_frame_bytes: frames.into_iter().max().unwrap_or(0).div_ceil(8),
+            decision_ns: decisions.max().unwrap_or(0),
+            delivery_ns: Delivery { median: rank(50), p99: rank(99), longest: rank(100) },
+            buffer_bytes: served.backlog.div_ceil(8),
+            overloaded: is_overloaded(bits, timeline.end(), rate),
+        }
+    }
+}
+
+/// The number of a unit's frame.
+fn number(unit: &Unit) -> usize {
+    usize::try_from(unit.frame).expect("frames are in memory")
+}
+
+/// Bytes per second, rounded to the nearest.
+pub(crate) fn per_second(bits: u64, duration_ns: u64) -> u64 {
+    let duration = 8 * u128::from(duration_ns.max(1));
+    let rate = (u128::from(bits) * 1_000_000_000 + duration / 2) / duration;
+    u64::try_from(rate).unwrap_or(u64::MAX)
+}
+
+fn is_overloaded(bits: u64, duration_ns: u64, rate: u64) -> bool {
+    u128::from(bits) * 1_000_000_000 > u128::from(rate) * u128::from(duration_ns)
+}

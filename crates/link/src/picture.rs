@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bytes against quality as charts: the design's thresholds and the codecs' quantizers.
+
+use foveate_chart::{Chart, Line, Shape};
+
+use crate::{ClipReport, Point, Quality};
+
+/// What is above the bytes: the file, the axis, and how it is taken from a quality.
+type View = (&'static str, &'static str, fn(&Quality) -> Option<f64>);
+
+const VIEWS: [View; 2] = [
+    ("rate-distortion", "PSNR of what the receiver sees [dB]", |quality| quality.psnr),
+    ("rate-distortion-ssim", "SSIM of what the receiver sees", |quality| Some(quality.ssim)),
+];
+
+/// The charts of a clip; `suffix` goes behind the names of their files.
+pub(crate) fn charts(clip: &ClipReport, suffix: &str) -> Vec<Chart> {
+    let chart = |&(file, y, part): &View| Chart {
+        file: format!("{file}{suffix}"),
+        title: format!("Bytes against quality: {}", clip.name),
+        x: "bytes per second (logarithmic)".to_owned(),
+        y: y.to_owned(),
+        caption: caption(clip),
+        shape: Shape::LogLines(lines(clip, part)),
+    };
+    VIEWS.iter().map(chart).collect()
+}
+
+fn caption(clip: &ClipReport) -> String {
+    let incomplete = if clip.problem.is_some() { " · NOT COMPLETE" } else { "" };
+    format!(
+        "foveate {} link · design {} · {} frames of {}x{} pixels{incomplete}",
+        env!("CARGO_PKG_VERSION"),
+        clip.design,
+        clip.frames,
+        clip.width,
+        clip.height
+    )
+}
+
+/// The design, then a line for each threshold and each codec, in the order of the points. Pictures without
+/// any difference have no PSNR, and no point there.
+fn lines(clip: &ClipReport, part: fn(&Quality) -> Option<f64>) -> Vec<Line> {
+    let place = |bytes: u64, quality: &Quality| Some((coordinate(bytes), part(quality)?));
+    let own = clip.senders.iter().find(|sender| sender.sender.starts_with("region"));
+    let own = own.and_then(|own| place(own.figures.bytes_per_second, own.quality.as_ref()?));
+    let mut lines =
+        vec![Line { name: "this design".to_owned(), points: own.into_iter().collect() }];
+    for point in &clip.curves {
+        let name = name(point);
+        if lines.last().is_none_or(|line| line.name != name) {
+            lines.push(Line { name, points: Vec::new() });
+        }
+        let line = lines.last_mut().expect("one has just been added");
+        line.points.extend(place(point.bytes_per_second, &point.quality));
+    }
+    lines
+}
+
+fn name(point: &Point) -> String {
+    match point.knob {
+        "quantizer" => point.sender.to_owned(),
+        key => key.to_owned(),
+    }
+}
+
+/// A rate as a coordinate; a logarithm has no 0.
+#[allow(clippy::cast_precision_loss, reason = "a coordinate of a chart")]
+fn coordinate(rate: u64) -> f64 {
+    rate.max(1) as f64
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How near the pictures of a receiver are to the original.
+
+use foveate_fidelity::Likeness;
+use serde::Serialize;
+
+/// PSNR and SSIM over the frames of a clip, rounded to four digits.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Quality {
+    /// In dB; none where every pixel is equal.
+    pub psnr: Option<f64>,
+    /// At most 1.
+    pub ssim: f64,
+}
+
+impl Quality {
+    pub(crate) const IDENTICAL: Self = Self { psnr: None, ssim: 1.0 };
+
+    pub(crate) fn of(likeness: &Likeness) -> Self {
+        let rounded = |value: f64| (value * 1e4).round() / 1e4;
+        Self { psnr: likeness.psnr().map(rounded), ssim: rounded(likeness.ssim()) }
+    }
+
+    /// Whether the PSNR is at least that of `other`.
+    pub(crate) fn has_psnr_of(self, other: Self) -> bool {
+        self.psnr.unwrap_or(f64::INFINITY) >= other.psnr.unwrap_or(f64::INFINITY)
+    }
+
+    /// Whether the SSIM is at least that of `other`.
+    pub(crate) fn has_ssim_of(self, other: Self) -> bool {
+        self.ssim >= other.ssim
+    }
+}

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cameras that are compared, and when each gives what to the link.
+//!
+//! | sender | a unit | is given to the link |
+//! | --- | --- | --- |
+//! | raw | a row | when it has been read |
+//! | pixel | the events of a row | when the row has been read |
+//! | region by rows | two bits and the forwarded pixels of a row of regions | when its decisions fall |
+//! | region array | two bits of the regions of a slot; their forwarded pixels | when they leave the array |
+//!
+//! *By rows*, every row of regions is an array of its own that takes pixels as they are read, and its
+//! pixels are at hand when the decision falls. *Array* is the generated `rcm`: it takes a frame when all of
+//! it has been read, and its pixels leave when [`Departure`] says.
+
+use foveate_design::{Departure, Design};
+use foveate_simulator::PIXEL_EVENT_BYTES;
+
+use crate::{LinkError, Timeline, Unit};
+
+/// What the region camera sends of one frame, and what a pixel camera does.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sent {
+    /// Forwarded pixels of every row of regions.
+    pub rows: Vec<u64>,
+    /// Forwarded pixels of every slot; one slot where no regions share a unit.
+    pub slots: Vec<u64>,
+    /// Events of the pixels of every row.
+    pub events: Vec<u64>,
+}
+
+impl Sent {
+    /// Counts the pixels of active regions; padding is not sent.
+    #[must_use]
+    pub fn of(design: &Design, active: &[bool], events: Vec<u64>) -> Self {
+        let (columns, size) = (design.columns(), design.region_size());
+        let mut rows = vec![0; design.rows() as usize];
+        let mut slots = vec![0; design.fold() as usize];
+        for (region, _) in (0..).zip(active).filter(|&(_, &active)| active) {
+            let (row, column): (u32, u32) = (region / columns, region % columns);
+            let wide = size.min(design.width() - column * size);
+            let high = size.min(design.height() - row * size);
+            let pixels = u64::from(wide) * u64::from(high);
+            rows[row as usize] += pixels;
+            slots[(region % design.fold()) as usize] += pixels;
+        }
+        Self { rows, slots, events }
+    }
+}
+
+/// The cameras over a clip.
+#[derive(Debug)]
+pub struct Cameras<'a> {
+    design: &'a Design,
+    timeline: &'a Timeline,
+    departure: Departure,
+    clock_hz: u64,
+}
+
+/// Bits per region and frame that say what becomes of it: SRS and TRS.
+pub(crate) const DECISION_BITS: u64 = 2;
+
+impl<'a> Cameras<'a> {
+    /// Cameras with an array at a clock of so many Hz.
+    ///
+    /// # Errors
+    /// When the array is not done with a frame when the next one comes.
+    pub fn new(
+        clip: &str,
+        design: &'a Design,
+        timeline: &'a Timeline,
+        clock_hz: u64,
+    ) -> Result<Self, LinkError> {
+        let timing = design.timing();
+        let cameras = Self { design, timeline, departure: timing.departure(), clock_hz };
+        let by_rows = match cameras.departure.alone {
+            true => u64::from(design.height()) * u64::from(design.stream_side()),
+            false => 0,
+        };
+        let needed_ns = cameras.clocks(timing.clocks_per_frame().max(by_rows));
+        let interval_ns = timeline.shortest();
+        if needed_ns > interval_ns {
+            let clip = clip.to_owned();
+            return Err(LinkError::TooSlow { clip, interval_ns, needed_ns, clock_hz });
+        }
+        Ok(cameras)
+    }
+
+    /// Every pixel of every frame.
+    #[must_use]
+    pub fn raw(&self) -> Vec<Unit> {
+        let bits = u64::from(self.design.width()) * u64::from(self.design.pixel_bits());
+        self.rows_of_pixels(|_, _| bits)
+    }
+
+    /// A camera with events of pixels.
+    #[must_use]
+    pub fn pixel(&self, sent: &[Sent]) -> Vec<Unit> {
+        let events = |frame: usize, row: usize| sent[frame].events[row] * 8 * PIXEL_EVENT_BYTES;
+        self.rows_of_pixels(events)
+    }
+
+    /// The region camera row by row; none where the units of the array work in step.
+    #[must_use]
+    pub fn region_by_rows(&self, sent: &[Sent]) -> Option<Vec<Unit>> {
+        if !self.departure.alone {
+            return None;
+        }
+        let (size, rows) = (self.design.region_size(), self.design.rows());
+        let map = DECISION_BITS * u64::from(self.design.columns());
+        let mut units = Vec::new();
+        for (frame, sent) in (0..).zip(sent) {
+            for (row, &pixels) in (0..rows).zip(&sent.rows) {
+                let at = self.decided_by_rows(frame, row);
+                units.push(Unit {
+                    frame,
+                    read: self.timeline.row(frame, row * size),
+                    decided: at,
+                    sent: at,
+                    bits: map + pixels * u64::from(self.design.pixel_bits()),
+                });
+            }
+        }
+        Some(units)
+    }
+
+    /// The generated array.
+    #[must_use]
+    pub fn region_array(&self, sent: &[Sent]) -> Vec<Unit> {
+        let (fold, regions) = (self.design.fold(), self.design.regions());
+        let Departure { decision_frames, decision_clocks, .. } = self.departure;
+        let Departure { forward_frames, forward_clocks, slot_clocks, .. } = self.departure;
+        let mut units = Vec::new();
+        for (frame, sent) in (0..).zip(sent) {
+            let read = self.timeline.row(frame, 0);
+            for (slot, &pixels) in (0..fold).zip(&sent.slots) {
+                let wait = u64::from(slot) * slot_clocks;
+                let decided = self.leaves(frame, decision_frames, decision_clocks + wait);
+                // Regions slot, slot + fold, slot + 2 fold and so on.
+                let map = DECISION_BITS * u64::from((regions - slot).div_ceil(fold));
+                units.push(Unit { frame, read, decided, sent: decided, bits: map });
+                let sent = self.leaves(frame, forward_frames, forward_clocks + wait);
+                let bits = pixels * u64::from(self.design.pixel_bits());
+                if bits > 0 {
+                    units.push(Unit { frame, read, decided, sent, bits });
+                }
+            }
+        }
+        units
+    }
+
+    /// An encoder that has a frame when all of it has been read, and takes no time.
+    #[must_use]
+    pub fn codec(&self, packets: &[u64]) -> Vec<Unit> {
+        let unit = |(frame, &bytes): (u64, &u64)| {
+            let sent = self.timeline.start(frame + 1);
+            let read = self.timeline.row(frame, 0);
+            Unit { frame, read, decided: sent, sent, bits: 8 * bytes }
+        };
+        (0..).zip(packets).map(unit).collect()
+    }
+
+    fn rows_of_pixels(&self, bits: impl Fn(usize, usize) -> u64) -> Vec<Unit> {
+        let mut units = Vec::new();
+        for (frame, number) in (0..self.timeline.frames()).zip(0..) {
+            for (row, place) in (0..self.design.height()).zip(0..) {
+                let at = self.timeline.row(frame, row);
+                match bits(number, place) {
+                    0 => {}
+                    bits => units.push(Unit { frame, read: at, decided: at, sent: at, bits }),
+                }
+            }
+        }
+        units
+    }
+
+    /// When the decisions of a row of regions fall: its last row of pixels, or of their halo, has been
+    /// read and taken with what repeats it below the frame, and the latency is over.
+    fn decided_by_rows(&self, frame: u64, row: u32) -> u64 {
+        let past = (row + 1) * self.design.region_size() + self.design.halo();
+        let last = past.min(self.design.height()) - 1;
+        let rows = u64::from(past - last);
+        let clocks = rows * u64::from(self.design.stream_side()) + self.departure.decision_clocks;
+        let frame = frame + u64::from(self.departure.decision_frames);
+        self.timeline.row(frame, last) + self.clocks(clocks)
+    }
+
+    /// When something of a frame leaves the array.
+    fn leaves(&self, frame: u64, later: u32, clocks: u64) -> u64 {
+        let read = self.timeline.start(frame + u64::from(later) + 1);
+        read + self.clocks(self.departure.take_clocks + clocks)
+    }
+
+    /// Clocks in ns, rounded up.
+    fn clocks(&self, clocks: u64) -> u64 {
+        let ns = (u128::from(clocks) * 1_000_000_000).div_ceil(u128::from(self.clock_hz.max(1)));
+        u64::try_from(ns).unwrap_or(u64::MAX)
+    }
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A report as Markdown, for people: kB are 1000 bytes.
+
+use std::fmt::Write as _;
+
+use crate::{ClipReport, Report, SenderReport};
+
+const COLUMNS: [&str; 14] = [
+    "sender",
+    "equal",
+    "quantizer",
+    "PSNR [dB]",
+    "SSIM",
+    "kB/s",
+    "x region",
+    "1 ms: p99, peak",
+    "10 ms",
+    "100 ms",
+    "largest frame [kB]",
+    "decision [ms]",
+    "last byte: median, longest [ms]",
+    "buffer [kB]",
+];
+
+impl Report {
+    /// A table per clip. Rates of windows are in kB/s.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        let mut text = String::new();
+        for (number, clip) in self.clips.iter().enumerate() {
+            let _ = write!(
+                text,
+                "{}{}: {} frames of {} x {} pixels in {} ms, link {} kB/s\n\n",
+                if number == 0 { "" } else { "\n" },
+                clip.name,
+                clip.frames,
+                clip.width,
+                clip.height,
+                milli(clip.duration_ns / 1_000_000, 0),
+                kilo(self.link_bits_per_second / 8),
+            );
+            let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
+            let _ = writeln!(text, "| --- | --- |{}", " ---: |".repeat(COLUMNS.len() - 2));
+            for sender in &clip.senders {
+                let _ = writeln!(text, "| {} |", row(clip, sender).join(" | "));
+            }
+        }
+        text
+    }
+}
+
+fn row(clip: &ClipReport, sender: &SenderReport) -> [String; COLUMNS.len()] {
+    let figures = &sender.figures;
+    let [one, ten, hundred] =
+        figures.windows.map(|rates| format!("{}, {}", kilo(rates.p99), kilo(rates.peak)));
+    let delivery = figures.delivery_ns;
+    let grows = if figures.overloaded { "grows: " } else { "" };
+    let ms = |ns: u64| milli(ns / 1000, 3);
+    [
+        sender.sender.to_owned(),
+        sender.equal.map_or("-".to_owned(), str::to_uppercase),
+        quantizer(sender),
+        psnr(sender),
+        sender.quality.map_or("-".to_owned(), |quality| format!("{:.4}", quality.ssim)),
+        kilo(figures.bytes_per_second),
+        ratio(clip, sender),
+        one,
+        ten,
+        hundred,
+        kilo(figures.largest_frame_bytes),
+        ms(figures.decision_ns),
+        format!("{}, {}", ms(delivery.median), ms(delivery.longest)),
+        format!("{grows}{}", kilo(figures.buffer_bytes)),
+    ]
+}
+
+fn quantizer(sender: &SenderReport) -> String {
+    let Some(quantizer) = sender.quantizer else { return "-".to_owned() };
+    match sender.found {
+        Some("finest") => format!("{quantizer}: not reached"),
+        Some("coarsest") => format!("{quantizer}: still better"),
+        _ => quantizer.to_string(),
+    }
+}
+
+fn psnr(sender: &SenderReport) -> String {
+    sender.quality.map_or("-".to_owned(), |quality| {
+        quality.psnr.map_or("equal".to_owned(), |psnr| format!("{psnr:.2}"))
+    })
+}
+
+/// Bytes as a multiple of those of the region camera.
+fn ratio(clip: &ClipReport, sender: &SenderReport) -> String {
+    let own = clip.senders.iter().find(|sender| sender.sender.starts_with("region"));
+    #[allow(clippy::cast_precision_loss, reason = "shown with two decimals")]
+    let ratio = own.map(|own| sender.figures.bytes as f64 / own.figures.bytes.max(1) as f64);
+    ratio.map_or(String::new(), |ratio| format!("{ratio:.2}"))
+}
+
+/// Thousands with one decimal, rounded to the nearest.
+fn kilo(value: u64) -> String {
+    milli((value + 50) / 100 * 100, 1)
+}
+
+/// Thousandths with so many decimals.
+fn milli(value: u64, decimals: usize) -> String {
+    let thousandths = format!("{:03}", value % 1000);
+    match decimals {
+        0 => value.to_string(),
+        _ => format!("{}.{}", value / 1000, &thousandths[..decimals]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_rounded_and_thousandths_are_cut() {
+        assert_eq!([0, 49, 50, 12_345].map(kilo), ["0.0", "0.0", "0.1", "12.3"]);
+        assert_eq!((milli(1_002, 3), milli(33, 0)), ("1.002".to_owned(), "33".to_owned()));
+    }
+}

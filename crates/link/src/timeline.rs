@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! When the sensor has read what: it reads the rows of a frame one after the other, evenly over the time
+//! until the next frame begins.
+
+use crate::LinkError;
+
+/// Nanoseconds of a microsecond.
+const OF_MICRO: u64 = 1000;
+
+/// The times of a clip in ns. After the last frame the sensor goes on at the mean interval.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Timeline {
+    starts: Vec<u64>,
+    end: u64,
+    rows: u64,
+}
+
+impl Timeline {
+    /// Frames of so many rows that begin at these times.
+    ///
+    /// # Errors
+    /// When there are less than two, or one does not begin after the one before.
+    pub fn new(clip: &str, times_us: &[u64], rows: u32) -> Result<Self, LinkError> {
+        let (&[first, ..], &[.., last]) = (times_us, times_us) else {
+            return Err(LinkError::OneFrame { clip: clip.to_owned(), frames: 0 });
+        };
+        let frames = times_us.len() as u64;
+        if frames < 2 {
+            return Err(LinkError::OneFrame { clip: clip.to_owned(), frames });
+        }
+        if let Some(frame) = times_us.windows(2).position(|pair| pair[1] <= pair[0]) {
+            let time_us = times_us[frame + 1];
+            return Err(LinkError::Times { clip: clip.to_owned(), frame: frame + 1, time_us });
+        }
+        // The last frame lasts as long as the others on average.
+        let (span, intervals) = (u128::from(last - first), u128::from(frames - 1));
+        let duration = (span * (intervals + 1) + intervals / 2) / intervals;
+        let duration = u64::try_from(duration).unwrap_or(u64::MAX);
+        let starts: Vec<u64> = times_us.iter().map(|time| (time - first) * OF_MICRO).collect();
+        Ok(Self { starts, end: duration.saturating_mul(OF_MICRO), rows: rows.into() })
+    }
+
+    /// Frames of the clip.
+    #[must_use]
+    pub fn frames(&self) -> u64 {
+        self.starts.len() as u64
+    }
+
+    /// When the clip ends: how long it lasts.
+    #[must_use]
+    pub fn end(&self) -> u64 {
+        self.end
+    }
+
+    /// When a frame begins, which is when the frame before it has been read.
+    #[must_use]
+    pub fn start(&self, frame: u64) -> u64 {
+        match self.starts.get(usize::try_from(frame).unwrap_or(usize::MAX)) {
+            Some(&start) => start,
+            None => self.end + scaled(self.end, frame - self.frames(), self.frames()),
+        }
+    }
+
+    /// When a row of a frame has been read.
+    #[must_use]
+    pub fn row(&self, frame: u64, row: u32) -> u64 {
+        let (start, next) = (self.start(frame), self.start(frame + 1));
+        start + scaled(next - start, u64::from(row) + 1, self.rows)
+    }
+
+    /// The shortest time between two frames.
+    #[must_use]
+    pub fn shortest(&self) -> u64 {
+        let intervals = (0..self.frames()).map(|frame| self.start(frame + 1) - self.start(frame));
+        intervals.min().expect("there are two frames")
+    }
+}
+
+/// `value * part / whole`, rounded down.
+fn scaled(value: u64, part: u64, whole: u64) -> u64 {
+    let scaled = u128::from(value) * u128::from(part) / u128::from(whole.max(1));
+    u64::try_from(scaled).unwrap_or(u64::MAX)
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The buffer and the windows against a simulation that moves one bit at a time.
+
+use foveate_link::{Figures, Rates, Timeline, Unit, serve};
+use proptest::prelude::*;
+
+/// Every nanosecond: take what comes, then pass on a bit whenever the last one has taken its time.
+fn bit_by_bit(units: &[Unit], ns_per_bit: u64) -> (Vec<u64>, u64) {
+    let mut finished = vec![0; units.len()];
+    let mut queue = std::collections::VecDeque::new();
+    let (mut next, mut busy_until, mut now, mut most) = (0, None, 0, 0);
+    while next < units.len() || !queue.is_empty() {
+        if busy_until == Some(now) {
+            let done: usize = queue.pop_front().unwrap();
+            finished[done] = now;
+            busy_until = None;
+        }
+        while next < units.len() && units[next].sent == now {
+            queue.extend((0..units[next].bits).map(|_| next));
+            if units[next].bits == 0 {
+                // Nothing has arrived when everything before it has.
+                finished[next] = now;
+            }
+            next += 1;
+        }
+        if busy_until.is_none() && !queue.is_empty() {
+            busy_until = Some(now + ns_per_bit);
+        }
+        most = most.max(queue.len() as u64);
+        now += 1;
+    }
+    (finished, most)
+}
+
+fn unit(frame: u64, sent: u64, bits: u64) -> Unit {
+    Unit { frame, read: sent, decided: sent, sent, bits }
+}
+
+fn units() -> impl Strategy<Value = Vec<Unit>> {
+    let one = (0_u64..400, 1_u64..40);
+    prop::collection::vec(one, 1..12).prop_map(|mut list| {
+        list.sort_unstable();
+        list.into_iter().map(|(sent, bits)| unit(0, sent, bits)).collect()
+    })
+}
+
+proptest! {
+    #[test]
+    fn a_link_moves_one_bit_after_the_other(units in units(), ns_per_bit in 1_u64..9) {
+        // Rates that give whole nanoseconds; others are rounded up below.
+        let ns_per_bit = [1, 2, 4, 5, 8, 10, 16, 20][ns_per_bit as usize % 8];
+        let served = serve(&units, 1_000_000_000 / ns_per_bit);
+        let (finished, most) = bit_by_bit(&units, ns_per_bit);
+        prop_assert_eq!(&served.finished, &finished);
+        prop_assert_eq!(served.backlog, most);
+    }
+
+    #[test]
+    fn windows_add_up(units in units(), end in 1_u64..2000, window in 1_u64..4) {
+        let scale = 100_000;
+        let units: Vec<Unit> =
+            units.into_iter().map(|old| unit(0, old.sent * scale, old.bits)).collect();
+        let rates = Rates::of(&units, (0, end * scale), window);
+        // Naive: every window asks every unit.
+        let length = window * 1_000_000;
+        let last = units.last().unwrap().sent;
+        let mut sums = Vec::new();
+        for start in (0..(end * scale).max(last + 1)).step_by(usize::try_from(length).unwrap()) {
+            let inside = units.iter().filter(|u| u.sent >= start && u.sent < start + length);
+            sums.push(inside.map(|unit| unit.bits).sum::<u64>());
+        }
+        sums.sort_unstable();
+        let per_second = |bits: u64| (bits as f64 * 125.0 / window as f64).round() as u64;
+        prop_assert_eq!(rates.peak, per_second(*sums.last().unwrap()));
+        // The smallest value that at least 99 of 100 windows do not exceed.
+        let enough = |&value: &u64| {
+            100 * sums.iter().filter(|&&sum| sum <= value).count() >= 99 * sums.len()
+        };
+        prop_assert_eq!(rates.p99, per_second(sums.iter().copied().find(|v| enough(v)).unwrap()));
+    }
+}
+
+#[test]
+fn a_link_that_does_not_divide_a_second_is_rounded_up_once() {
+    // 3 bits per second: the first bit after a third of a second, the third after a whole one.
+    let units = [unit(0, 0, 1), unit(0, 0, 1), unit(0, 0, 1)];
+    let served = serve(&units, 3);
+    assert_eq!(served.finished, [333_333_334, 666_666_667, 1_000_000_000]);
+    // At 0.5 s the first bit has left, half of the second and all of the third have not: 1.5 + 1.
+    let units = [unit(0, 0, 3), unit(0, 500_000_000, 1)];
+    assert_eq!(serve(&units, 3).backlog, 3);
+}
+
+#[test]
+fn figures_of_a_burst_by_hand() {
+    // Two frames of 100 ms: 8,000 bits each at their end, over 1 Mbit/s: 8 ms each.
+    let timeline = Timeline::new("clip", &[0, 100_000], 10).unwrap();
+    assert_eq!((timeline.end(), timeline.shortest()), (200_000_000, 100_000_000));
+    let units: Vec<Unit> = (0..2)
+        .map(|frame| {
+            let sent = timeline.start(frame + 1);
+            Unit { frame, read: timeline.row(frame, 0), decided: sent, sent, bits: 8000 }
+        })
+        .collect();
+    let figures = Figures::of(units, &timeline, 1_000_000);
+    assert_eq!((figures.bytes, figures.bytes_per_second), (2000, 10_000));
+    assert_eq!((figures.largest_frame_bytes, figures.buffer_bytes), (1000, 1000));
+    // The first row is read after 10 ms, the last after 100.
+    assert_eq!(figures.decision_ns, 90_000_000);
+    assert_eq!(figures.delivery_ns.longest, 98_000_000);
+    assert_eq!(figures.windows.map(|rates| rates.peak), [1_000_000, 100_000, 10_000]);
+    // 201 windows of 1 ms, of which two have something: the 199th is empty.
+    assert_eq!(figures.windows.map(|rates| rates.p99), [0, 100_000, 10_000]);
+    assert!(!figures.overloaded);
+}
+
+#[test]
+fn a_link_below_the_mean_is_overloaded() {
+    let timeline = Timeline::new("clip", &[0, 1000], 1).unwrap();
+    let units = || vec![unit(0, 0, 1001), unit(1, 1_000_000, 999)];
+    assert!(!Figures::of(units(), &timeline, 1_000_000).overloaded);
+    assert!(Figures::of(units(), &timeline, 999_999).overloaded);
+}
+
+#[test]
+fn rows_are_read_evenly_and_the_sensor_goes_on_after_the_last_frame() {
+    let timeline = Timeline::new("clip", &[5, 15, 35], 3).unwrap();
+    assert_eq!((timeline.frames(), timeline.end()), (3, 45_000));
+    assert_eq!(
+        [0, 1, 2, 3, 4, 5].map(|t| timeline.start(t)),
+        [0, 10_000, 30_000, 45_000, 60_000, 75_000]
+    );
+    assert_eq!([0, 1, 2].map(|row| timeline.row(0, row)), [3_333, 6_666, 10_000]);
+    assert_eq!(timeline.row(1, 2), timeline.start(2));
+    assert_eq!(timeline.shortest(), 10_000);
+}
+
+#[test]
+fn times_that_make_no_rate_are_refused() {
+    let refused = |times: &[u64]| Timeline::new("clip", times, 1).unwrap_err().to_string();
+    assert!(refused(&[]).contains("`clip` has 0 frame"));
+    assert!(refused(&[7]).contains("`clip` has 1 frame"));
+    assert!(refused(&[0, 10, 10]).starts_with("frame 2 of `clip` is at 10 us"));
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! When cameras send, worked out by hand from docs/timing.md and docs/serial.md.
+
+use foveate_design::{Config, Design};
+use foveate_link::{Cameras, Sent, Timeline, Unit};
+
+/// 20x12 pixels in regions of 8: 3x2 of them, the last column 4 wide and the last row 4 high.
+const SIZE: &str = "frame={width=20,height=12}";
+/// A clock of 1 us.
+const MEGAHERTZ: u64 = 1_000_000;
+
+fn design(overrides: &[&str]) -> Design {
+    let all: Vec<&str> = [&[SIZE][..], overrides].concat();
+    Config::from_toml_with("", &all).unwrap().validate().unwrap()
+}
+
+/// Two frames of 12 ms, a row every millisecond.
+fn timeline() -> Timeline {
+    Timeline::new("clip", &[0, 12_000], 12).unwrap()
+}
+
+/// Region 0 (64 pixels) and the ragged region 5 (4x4) of the first frame.
+fn sent(design: &Design) -> [Sent; 2] {
+    let active = [true, false, false, false, false, true];
+    [Sent::of(design, &active, vec![0; 12]), Sent::of(design, &[false; 6], vec![0; 12])]
+}
+
+/// Read, decided, sent in us, and bits.
+fn times(units: &[Unit]) -> Vec<(u64, u64, u64, u64)> {
+    units.iter().map(|u| (u.read / 1000, u.decided / 1000, u.sent / 1000, u.bits)).collect()
+}
+
+#[test]
+fn padding_is_not_sent() {
+    let design = design(&[]);
+    assert_eq!(sent(&design)[0].rows, [64, 16]);
+    assert_eq!(sent(&design)[0].slots, [80]);
+    assert_eq!(sent(&design)[1].rows, [0, 0]);
+}
+
+#[test]
+fn a_row_of_regions_is_decided_when_its_last_row_was_read() {
+    // Median and edge, isolated: (N+1) + 2 and N+1 clocks of latency, 20. A row of 8 pixels takes 8.
+    let (design, timeline) = (design(&[]), timeline());
+    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let units = cameras.region_by_rows(&sent(&design)).unwrap();
+    let above = 8_000 + 8 + 20;
+    // Below the frame the last row is repeated four times: 5 rows of 8 pixels.
+    let below = 12_000 + 5 * 8 + 20;
+    let expected = [
+        (1_000, above, above, 3 * 2 + 64 * 8),
+        (9_000, below, below, 3 * 2 + 16 * 8),
+        (13_000, 12_000 + above, 12_000 + above, 6),
+        (21_000, 12_000 + below, 12_000 + below, 6),
+    ];
+    assert_eq!(times(&units), expected);
+}
+
+#[test]
+fn neighbors_and_a_second_pass_are_waited_for() {
+    // Shared with median and edge: two rows of halo, 12 pixels a row, latency 2; row 9 is the tenth.
+    let (design, timeline) = (design(&["region.neighborhood=\"shared\""]), timeline());
+    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let units = cameras.region_by_rows(&sent(&design)).unwrap();
+    assert_eq!(units[0].decided / 1000, 10_000 + 12 + 2);
+    // `mad` decides when the next frame has passed: 12 ms later.
+    let design = self::design(&["spatial=[{feature=\"mad\"}]", "denoise.filter=\"none\""]);
+    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let units = cameras.region_by_rows(&sent(&design)).unwrap();
+    // 8 pixels of the last row, and the tail's delay of 1.
+    assert_eq!(units[0].decided / 1000, 12_000 + 8_000 + 8 + 1);
+}
+
+#[test]
+fn pixels_leave_the_pipelined_array_with_the_next_frame() {
+    let (design, timeline) = (design(&[]), timeline());
+    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    // A frame is taken in 64 clocks once it has been read, and decided 20 clocks later.
+    let decided = 12_000 + 64 + 20;
+    let expected = [
+        (1_000, decided, decided, 6 * 2),
+        (1_000, decided, decided + 12_000, 80 * 8),
+        (13_000, decided + 12_000, decided + 12_000, 6 * 2),
+    ];
+    assert_eq!(times(&cameras.region_array(&sent(&design))), expected);
+}
+
+#[test]
+fn a_serial_array_sends_slot_by_slot_within_the_frame() {
+    let hardware = "hardware={organization=\"serial\",fold=2}";
+    let (design, timeline) = (design(&[hardware]), timeline());
+    let cameras = Cameras::new("clip", &design, &timeline, 100 * MEGAHERTZ).unwrap();
+    let sent = sent(&design);
+    // Region 0 is in slot 0 and region 5 in slot 1.
+    assert_eq!(sent[0].slots, [64, 16]);
+    assert!(cameras.region_by_rows(&sent).is_none(), "its lanes work in step");
+    let units = cameras.region_array(&sent);
+    // Three lanes. 2 * 64 pixels are taken. A slot: 64 * 83 median, 3 count, 14 * 64 edge, 3 score, 64 unload.
+    let (median, edge) = (64 * 83, 14 * 64);
+    let (decides, slot) = (median + 3 + edge + 3, median + 3 + edge + 3 + 64);
+    let clocks = |clocks: u64| 12_000_000 + (128 + clocks) * 10;
+    let ns: Vec<_> = units[..4].iter().map(|u| (u.decided, u.sent, u.bits)).collect();
+    let expected = [
+        (clocks(decides), clocks(decides), 3 * 2),
+        (clocks(decides), clocks(slot), 64 * 8),
+        (clocks(slot + decides), clocks(slot + decides), 3 * 2),
+        (clocks(slot + decides), clocks(2 * slot), 16 * 8),
+    ];
+    assert_eq!(ns, expected);
+}
+
+#[test]
+fn rows_and_frames_of_the_others() {
+    let (design, timeline) = (design(&[]), timeline());
+    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let raw = cameras.raw();
+    assert_eq!((raw.len(), raw[11].sent, raw[11].bits), (24, 12_000_000, 20 * 8));
+    assert!(raw.iter().all(|unit| unit.read == unit.sent));
+    let mut sent = sent(&design);
+    sent[1].events[2] = 5;
+    assert_eq!(times(&cameras.pixel(&sent)), [(15_000, 15_000, 15_000, 5 * 32)]);
+    let codec = times(&cameras.codec(&[100, 7]));
+    assert_eq!(codec, [(1_000, 12_000, 12_000, 800), (13_000, 24_000, 24_000, 56)]);
+}
+
+#[test]
+fn an_array_that_is_too_slow_is_refused() {
+    // 64 clocks for a frame, but 12 rows of 8 pixels one by one: 96 clocks in 12 ms.
+    let (design, timeline) = (design(&[]), timeline());
+    assert!(Cameras::new("clip", &design, &timeline, 8_000).is_ok());
+    let error = Cameras::new("clip", &design, &timeline, 7_999).unwrap_err().to_string();
+    assert!(error.contains("every 12000000 ns") && error.contains("12001501 ns"), "{error}");
+}
