@@ -13,7 +13,7 @@ use foveate_toolchain::{Tool, Toolchain};
 use crate::clip::{Measured, Seen, watch};
 use crate::encoder::{check_encoders, scratch};
 use crate::figures::per_second;
-use crate::report::FORMAT_VERSION;
+use crate::report::{FORMAT_VERSION, QUANTIZER};
 use crate::search::coarsest;
 use crate::sender::DECISION_BITS;
 use crate::{
@@ -214,7 +214,7 @@ fn codec_point(
 ) -> Point {
     Point {
         sender: codec.name(),
-        knob: "quantizer",
+        knob: QUANTIZER,
         value: quantizer.into(),
         bytes_per_second: per_second(8 * encoded.packets.iter().sum::<u64>(), timeline.end()),
         quality: encoded.quality,

@@ -3,6 +3,7 @@
 
 use foveate_chart::{Chart, Line, Shape};
 
+use crate::report::QUANTIZER;
 use crate::{ClipReport, Point, Quality};
 
 /// What is above the bytes: the file, the axis, and how it is taken from a quality.
@@ -38,15 +39,16 @@ fn caption(clip: &ClipReport) -> String {
     )
 }
 
-/// The design, then a line for each threshold and each codec, in the order of the points. Pictures without
+/// A line for each codec and each threshold in the order of the points, and the design on top. Pictures without
 /// any difference have no PSNR, and no point there.
 fn lines(clip: &ClipReport, part: fn(&Quality) -> Option<f64>) -> Vec<Line> {
     let place = |bytes: u64, quality: &Quality| Some((coordinate(bytes), part(quality)?));
     let own = clip.senders.iter().find(|sender| sender.sender.starts_with("region"));
     let own = own.and_then(|own| place(own.figures.bytes_per_second, own.quality.as_ref()?));
-    let mut lines =
-        vec![Line { name: "this design".to_owned(), points: own.into_iter().collect() }];
-    for point in &clip.curves {
+    let mut lines: Vec<Line> = Vec::new();
+    let of_codecs = clip.curves.iter().filter(|point| point.knob == QUANTIZER);
+    let of_thresholds = clip.curves.iter().filter(|point| point.knob != QUANTIZER);
+    for point in of_codecs.chain(of_thresholds) {
         let name = name(point);
         if lines.last().is_none_or(|line| line.name != name) {
             lines.push(Line { name, points: Vec::new() });
@@ -54,12 +56,13 @@ fn lines(clip: &ClipReport, part: fn(&Quality) -> Option<f64>) -> Vec<Line> {
         let line = lines.last_mut().expect("one has just been added");
         line.points.extend(place(point.bytes_per_second, &point.quality));
     }
+    lines.push(Line { name: "this design".to_owned(), points: own.into_iter().collect() });
     lines
 }
 
 fn name(point: &Point) -> String {
     match point.knob {
-        "quantizer" => point.sender.to_owned(),
+        QUANTIZER => point.sender.to_owned(),
         key => key.to_owned(),
     }
 }

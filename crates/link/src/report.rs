@@ -8,6 +8,9 @@ use crate::{Figures, Quality};
 /// Changes when a key changes its meaning or goes.
 pub(crate) const FORMAT_VERSION: u32 = 1;
 
+/// The knob of a codec.
+pub(crate) const QUANTIZER: &str = "quantizer";
+
 /// A comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {

@@ -148,7 +148,8 @@ impl<'a> Cameras<'a> {
         units
     }
 
-    /// An encoder that has a frame when all of it has been read, and takes no time.
+    /// An encoder that takes a frame when all of it has been read, and no time for it. (Encoders that send a
+    /// frame in slices begin earlier.)
     #[must_use]
     pub fn codec(&self, packets: &[u64]) -> Vec<Unit> {
         let unit = |(frame, &bytes): (u64, &u64)| {

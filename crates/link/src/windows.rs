@@ -2,6 +2,8 @@
 //! How unevenly something is sent: bits in windows of one length, one after the other from the first
 //! frame on.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::Unit;
@@ -23,15 +25,24 @@ impl Rates {
     #[must_use]
     pub fn of(units: &[Unit], (start, end): (u64, u64), window_ms: u64) -> Self {
         let length = window_ms * 1_000_000;
-        let number = |unit: &Unit| (unit.sent.saturating_sub(start) / length) as usize;
-        let during = end.saturating_sub(start).div_ceil(length) as usize;
-        let count = units.iter().map(|unit| number(unit) + 1).max().unwrap_or(0).max(during);
-        let mut bits = vec![0_u64; count.max(1)];
-        units.iter().for_each(|unit| bits[number(unit)] += unit.bits);
+        // Only windows with something in them: a clip may last for days.
+        let mut windows: BTreeMap<u64, u64> = BTreeMap::new();
+        for unit in units {
+            *windows.entry(unit.sent.saturating_sub(start) / length).or_default() += unit.bits;
+        }
+        let during = end.saturating_sub(start).div_ceil(length);
+        let count = windows.last_key_value().map_or(0, |(last, _)| last + 1).max(during);
+        let empty = count - windows.len() as u64;
+        let mut bits: Vec<u64> = windows.into_values().collect();
         bits.sort_unstable();
-        let rate = |bits: u64| (bits * 125 + window_ms / 2) / window_ms;
-        let p99 = rate(nearest_rank(&bits, 99));
-        Self { window_ms, p99, peak: rate(nearest_rank(&bits, 100)) }
+        let rate = |percent: u64| {
+            let rank = (count * percent).div_ceil(100);
+            let bits = rank.checked_sub(empty + 1).map_or(0, |at| {
+                bits[usize::try_from(at).expect("there are as many windows in memory")]
+            });
+            (bits * 125 + window_ms / 2) / window_ms
+        };
+        Self { window_ms, p99: rate(99), peak: rate(100) }
     }
 }
 

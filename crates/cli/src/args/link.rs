@@ -15,8 +15,7 @@ use super::{Clock, DesignArgs};
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples: foveate link scene:street -o out --max-frames 10 --codecs mjpeg,h264
-          foveate link street.mp4 -o out --link 100Mbit
-          foveate link street.mp4 bus.mp4 -o out --max-frames 10 --set spatial.0.min_score=0 --codecs h264"
+          foveate link street.mp4 -o out --link 10Mbit --codecs h264 --set spatial.0.min_score=0"
 )]
 pub(crate) struct LinkArgs {
     /// Clips, as for `foveate simulate`; several scenes are allowed. Each gets a table of its own
