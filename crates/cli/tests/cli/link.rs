@@ -156,7 +156,6 @@ fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
         &["10 bits", "frame.pixel_bits = 8"],
     );
     link(&["scene:street"], &["--max-frames", "3", "--clock", "10Hz"], &["a faster --clock"]);
-    link(&["scene:street"], &["--link", "100MB"], &["--link", "100Mbit"]);
     link(&["none.mp4"], &[], &["none.mp4"]);
     // Two images of 16x16 pixels.
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
