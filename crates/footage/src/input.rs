@@ -58,6 +58,8 @@ pub struct InputOptions {
     pub images: ImagesAs,
     /// The labels of an IDX file, if they are not beside it under their usual name.
     pub labels: Option<PathBuf>,
+    /// Whether the number of every frame must be known: then a late start is decoded to, not sought.
+    pub numbered: bool,
 }
 
 /// Opens inputs as one source of frames with the configuration's bits per pixel. Scenes also take
@@ -189,7 +191,8 @@ fn file(
             Box::new(Y4m::new(name, open_unpacked(path)?, bits, options.frame_rate)?)
         }
         sniff::FileKind::Video => {
-            let start = options.selection.start_us.unwrap_or(0);
+            let sought = options.selection.start_us.filter(|_| !options.numbered);
+            let start = sought.unwrap_or(0);
             let medium = Medium::File(path.to_owned());
             Box::new(Video::open(medium, bits, options.frame_rate, start)?)
         }

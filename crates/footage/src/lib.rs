@@ -33,5 +33,5 @@ pub use plan::{Clip, Plan, plan};
 pub use source::ahead::{Frames, read_ahead};
 pub use source::form::{IdxFile, Labels, SetFiles, SetForm};
 pub use source::select::{Selection, parse_time};
-pub use source::{FrameRate, Kind, Source, SourceFrame};
+pub use source::{FrameRate, Kind, Origin, Source, SourceFrame};
 pub use subject::{Subject, subjects};

@@ -26,6 +26,18 @@ pub struct SourceFrame {
     pub frame: Raster,
 }
 
+/// Where a frame was in its input, before any option took, cropped or scaled it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// Its number among all frames of the input, from 0. After a sought start only with
+    /// [`InputOptions::numbered`](crate::InputOptions::numbered).
+    pub number: u64,
+    /// Width and height.
+    pub size: (u32, u32),
+    /// Whether its name is that of a file of its own.
+    pub own_file: bool,
+}
+
 /// How the frames of a source are related.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -65,6 +77,12 @@ pub trait Source: Send {
 
     /// Takes back a frame that is no longer needed, to use its memory again.
     fn give_back(&mut self, _frame: SourceFrame) {}
+
+    /// Where the frame that was given last was in its input; `None` where a source has no such place, and
+    /// before the first frame.
+    fn origin(&self) -> Option<Origin> {
+        None
+    }
 
     /// Whether frames follow each other in time. In a set, every frame is a first frame.
     fn kind(&self) -> Kind {

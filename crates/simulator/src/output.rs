@@ -35,7 +35,7 @@ mod summary;
 mod table;
 mod video;
 
-pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
+pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic, pixels_forwarded, region_bits};
 pub use data_set::DataSet;
 pub use options::{EventTables, Medium, PixelEvents, RunOptions};
 pub use pixel_camera::{PixelCamera, PixelEvent};

@@ -75,6 +75,7 @@ impl InputArgs {
                 Some(ImagesChoice::CifarSheet) => ImagesAs::CifarSheet,
             },
             labels: self.labels.clone(),
+            numbered: false,
         }
     }
 }

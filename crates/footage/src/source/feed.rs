@@ -5,7 +5,7 @@
 use super::form::SetForm;
 use super::resize;
 use super::select::{Selection, Selector, Verdict};
-use super::{Kind, Source, SourceFrame};
+use super::{Kind, Origin, Source, SourceFrame};
 use crate::FootageError;
 use crate::limits::Crop;
 
@@ -38,6 +38,11 @@ pub(crate) trait Feed: Send {
     /// No more frames are wanted: what feeds them may end.
     fn stop(&mut self) {}
 
+    /// Whether every frame is a file with a name of its own.
+    fn is_of_files(&self) -> bool {
+        false
+    }
+
     /// Whether what came before a fault is a result worth keeping, as of a long recording.
     fn is_stream(&self) -> bool {
         false
@@ -63,7 +68,11 @@ pub(crate) struct Input {
     first: Option<SourceFrame>,
     first_name: String,
     size: (u32, u32),
+    /// Frames that the feed has given, taken or not.
+    given: u64,
     taken: u64,
+    /// Of the frame that was taken last.
+    origin: Option<Origin>,
     problem: Option<String>,
     ended: bool,
 }
@@ -92,7 +101,9 @@ impl Input {
             first: None,
             first_name: String::new(),
             size: (0, 0),
+            given: 0,
             taken: 0,
+            origin: None,
             problem: None,
             ended: false,
         };
@@ -118,10 +129,15 @@ impl Input {
                 self.problem = self.feed.problem();
                 break;
             };
+            let number = self.given;
+            self.given += 1;
             match self.selector.judge(next.time_us) {
                 Verdict::Skip => {}
                 Verdict::End => break,
                 Verdict::Take => {
+                    let size = (next.frame.width(), next.frame.height());
+                    let own_file = self.feed.is_of_files();
+                    self.origin = Some(Origin { number, size, own_file });
                     if let Some(part) = self.adjustment.crop {
                         next.frame = resize::crop(&next.frame, part)?;
                     }
@@ -203,6 +219,11 @@ impl Source for Input {
         if let Some(bytes) = frame.frame.into_bytes() {
             self.feed.give_back(bytes);
         }
+    }
+
+    /// The first frame is read early, but no other before it is given.
+    fn origin(&self) -> Option<Origin> {
+        self.origin.filter(|_| self.first.is_none())
     }
 
     fn kind(&self) -> Kind {

@@ -62,6 +62,10 @@ impl Feed for ImageFiles {
         self.kind
     }
 
+    fn is_of_files(&self) -> bool {
+        true
+    }
+
     fn form(&self) -> SetForm {
         SetForm { files: SetFiles::Images, labels: self.labels.clone() }
     }

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use crate::clips::{all, ffmpeg, frames, opened, tools};
-use foveate_footage::{InputOptions, Selection};
+use foveate_footage::{Crop, FrameRate, InputOptions, Origin, Selection};
 
 /// 200 frames of a moving picture at 25 per second, larger than a pipe from the first second on.
 fn moving(folder: &Path, name: &str, more: &[&str]) -> std::path::PathBuf {
@@ -77,6 +77,31 @@ fn a_late_start_changes_nothing_but_where_it_starts() {
             drop(source);
         }
     }
+}
+
+#[test]
+fn frames_are_numbered_whatever_is_taken() {
+    if !tools() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let path =
+        moving(dir.path(), "a.mp4", &["-c:v", "libx264", "-preset", "ultrafast", "-g", "20"]);
+    let rate = Some(FrameRate::new(5, 1).unwrap());
+    let selection = Selection { start_us: Some(5_000_000), end_us: Some(5_700_000), rate };
+    let crop = Some(Crop { size: (64, 48), at: (8, 8) });
+    let resize = Some((32, 24));
+    let options =
+        InputOptions { selection, crop, resize, numbered: true, ..InputOptions::default() };
+    let mut source = opened(&path, 8, &options).unwrap();
+    assert_eq!(source.origin(), None, "no frame was given");
+    let mut origins = Vec::new();
+    while source.next_frame().unwrap().is_some() {
+        origins.extend(source.origin());
+    }
+    let expected =
+        [125, 130, 135, 140].map(|number| Origin { number, size: (320, 240), own_file: false });
+    assert_eq!(origins, expected);
 }
 
 #[cfg(target_os = "linux")]

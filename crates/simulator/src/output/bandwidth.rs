@@ -63,8 +63,7 @@ impl Bandwidth {
         let pixels = u64::from(design.width()) * u64::from(design.height());
         let depth = u64::from(design.pixel_bits());
         let raw = (sums.frames * pixels * depth).div_ceil(8);
-        let map = 2 * u64::from(design.regions()) * sums.frames;
-        let region = (map + sums.pixels_forwarded * depth).div_ceil(8);
+        let region = region_bits(design, sums.frames, sums.pixels_forwarded).div_ceil(8);
         Self {
             raw: Traffic::of(None, raw, duration_us),
             region: Traffic::of(Some(sums.active), region, duration_us),
@@ -74,6 +73,25 @@ impl Bandwidth {
             duration_us,
         }
     }
+}
+
+/// Bits that the region camera sends for frames of which so many pixels are forwarded.
+#[must_use]
+pub fn region_bits(design: &Design, frames: u64, pixels_forwarded: u64) -> u64 {
+    let map = 2 * u64::from(design.regions()) * frames;
+    map + pixels_forwarded * u64::from(design.pixel_bits())
+}
+
+/// Pixels of the active regions of a frame, without padding.
+#[must_use]
+pub fn pixels_forwarded(design: &Design, active: &[bool]) -> u64 {
+    let side = design.region_size();
+    let inside = |position: u32, size: u32| u64::from(side.min(size - position * side));
+    let pixels = |region: u32| {
+        inside(region % design.columns(), design.width())
+            * inside(region / design.columns(), design.height())
+    };
+    (0..).zip(active).filter(|(_, active)| **active).map(|(region, _)| pixels(region)).sum()
 }
 
 impl Traffic {

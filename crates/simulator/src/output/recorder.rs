@@ -9,6 +9,7 @@ use foveate_staging::Reserve;
 use rayon::prelude::*;
 
 use super::arrays::Arrays;
+use super::bandwidth::pixels_forwarded;
 use super::data_set::{self, DataSet};
 use super::gallery::Gallery;
 use super::heatmap::Heatmap;
@@ -152,11 +153,7 @@ impl Recorder {
     fn push_row(&mut self, source: &SourceFrame, outcome: &Outcome) {
         let (srs, trs) = (count(&outcome.srs), count(&outcome.trs));
         let active = count(&outcome.active);
-        let pixels_forwarded = (0..)
-            .zip(&outcome.active)
-            .filter(|(_, active)| **active)
-            .map(|(region, _)| pixels_of(&self.design, region))
-            .sum();
+        let pixels_forwarded = pixels_forwarded(&self.design, &outcome.active);
         let (frame, time_us, name) = (self.totals.frames, source.time_us, source.name.as_str());
         let label = source.label.as_deref();
         self.totals.add(srs, trs, active, pixels_forwarded);
@@ -179,12 +176,4 @@ fn give_up(path: &Path, problem: &mut Option<String>) {
 
 fn count(bits: &[bool]) -> u64 {
     bits.iter().map(|&bit| u64::from(bit)).sum()
-}
-
-/// Pixels of a region that are in the frame, without padding.
-fn pixels_of(design: &Design, region: u32) -> u64 {
-    let side = design.region_size();
-    let inside = |position: u32, size: u32| u64::from(side.min(size - position * side));
-    inside(region % design.columns(), design.width())
-        * inside(region / design.columns(), design.height())
 }
