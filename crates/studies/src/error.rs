@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 
 use foveate_chart::ChartError;
+use foveate_boxes::BoxError;
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
@@ -73,6 +74,23 @@ pub enum StudyError {
         from: u64,
         /// That of the last.
         to: u64,
+    },
+    /// The boxes are missing.
+    #[error(
+        "the study `recall` needs ground-truth boxes of objects; name their file or folder with --boxes"
+    )]
+    NoBoxes,
+    /// Boxes that cannot be read, or that do not fit the clips.
+    #[error(transparent)]
+    Boxes(#[from] BoxError),
+    /// There is nothing to look for.
+    #[error(
+        "no object is to be counted in any frame after the first of `{clips}`; check --boxes, and take more \
+         frames, or --images set for unrelated images"
+    )]
+    NoObjects {
+        /// The clips.
+        clips: String,
     },
     /// Charts cannot be drawn.
     #[error(transparent)]

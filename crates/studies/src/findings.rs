@@ -10,6 +10,10 @@ use crate::watch::Watched;
 /// What a study makes of what was seen.
 pub(crate) struct Findings {
     pub(crate) table: Table,
+    /// Fewer rows and columns, to be printed where the table is too large.
+    pub(crate) shown: Option<Table>,
+    /// Tables beside it, with what follows the name of the study in the names of their files.
+    pub(crate) more: Vec<(&'static str, Table)>,
     pub(crate) charts: Vec<Chart>,
     pub(crate) notes: Vec<String>,
     pub(crate) problems: Vec<String>,
@@ -17,7 +21,7 @@ pub(crate) struct Findings {
 
 impl Findings {
     /// Notes on the clips; charts are captioned with the first of them.
-    pub(crate) fn new<T>(study: Study, watched: &[Watched<T>], table: Table) -> Self {
+    pub(crate) fn new<T, G>(study: Study, watched: &[Watched<T, G>], table: Table) -> Self {
         let version = env!("CARGO_PKG_VERSION");
         let mut notes = vec![format!("foveate {version} analyze {}", study.name())];
         let mut problems = Vec::new();
@@ -36,11 +40,11 @@ impl Findings {
             problems.extend(clip.problem.as_ref().map(|why| format!("{}: {why}", clip.name)));
         }
         notes.extend(problems.iter().map(|problem| format!("NOT COMPLETE: {problem}")));
-        Self { table, charts: Vec::new(), notes, problems }
+        Self { table, shown: None, more: Vec::new(), charts: Vec::new(), notes, problems }
     }
 
     /// Adds a chart with its caption: the program, the first design, the inputs.
-    pub(crate) fn chart<T>(&mut self, mut chart: Chart, watched: &[Watched<T>]) {
+    pub(crate) fn chart<T, G>(&mut self, mut chart: Chart, watched: &[Watched<T, G>]) {
         // The first note, which every study has.
         let program = self.notes[0].clone();
         let mut designs: Vec<String> = watched

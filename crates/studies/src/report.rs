@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::StudyError;
 use crate::findings::Findings;
-use crate::study::{Study, activity, histogram, redundancy, sensor, sweep, temporal};
+use crate::study::{Study, activity, histogram, recall, redundancy, sensor, sweep, temporal};
 use crate::table::Table;
 use crate::watch::Watcher;
 
@@ -30,6 +30,8 @@ pub struct Request<'a> {
     pub sensor_events: Option<&'a Path>,
     /// For [`Study::Sensor`]: the time of the first frame on the clock of the events.
     pub sensor_start_us: u64,
+    /// For [`Study::Recall`]: ground-truth boxes, one file or folder for all inputs, or one for each.
+    pub boxes: &'a [PathBuf],
 }
 
 /// What a study found, and the files that it left.
@@ -45,13 +47,17 @@ pub struct Report {
     pub rows: Vec<Vec<String>>,
     /// Clips that ended before their end, and why.
     pub problems: Vec<String>,
+    /// What is printed of a table that is too large.
+    #[serde(skip)]
+    shown: Option<Table>,
 }
 
 impl Report {
-    /// The table as Markdown.
+    /// The table as Markdown, or the most important of a large one.
     #[must_use]
     pub fn markdown(&self) -> String {
-        Table { columns: self.columns.clone(), rows: self.rows.clone() }.markdown()
+        let whole = || Table { columns: self.columns.clone(), rows: self.rows.clone() };
+        self.shown.clone().unwrap_or_else(whole).markdown()
     }
 }
 
@@ -69,11 +75,16 @@ pub fn analyze(
     let study = request.study;
     let staging = StagedFolder::new(output, STUDY, overwrite)?;
     let subjects = subjects(request.inputs, request.input)?;
-    let watcher =
-        Watcher { subjects: &subjects, config: request.config, input: request.input, hooks };
+    let input = InputOptions { numbered: study == Study::Recall, ..request.input.clone() };
+    let watcher = Watcher { subjects: &subjects, config: request.config, input: &input, hooks };
     let findings = run(&watcher, request)?;
     let mut files = vec![format!("{}.csv", study.name())];
     staging.write(&files[0], findings.table.csv(&findings.notes).as_bytes())?;
+    for (name, table) in &findings.more {
+        let name = format!("{}-{name}.csv", study.name());
+        staging.write(&name, table.csv(&findings.notes).as_bytes())?;
+        files.push(name);
+    }
     for chart in &findings.charts {
         for (extension, contents) in
             [("svg", chart.svg(&findings.notes)?.into_bytes()), ("png", chart.png()?)]
@@ -84,8 +95,8 @@ pub fn analyze(
         }
     }
     staging.commit()?;
-    let Table { columns, rows } = findings.table;
-    Ok(Report { study: study.name(), files, columns, rows, problems: findings.problems })
+    let Findings { table: Table { columns, rows }, shown, problems, .. } = findings;
+    Ok(Report { study: study.name(), files, columns, rows, problems, shown })
 }
 
 fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyError> {
@@ -97,6 +108,7 @@ fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyEr
         Study::Size => sweep::size(watcher),
         Study::Threshold => sweep::threshold(watcher),
         Study::Sensor => sensor::run(watcher, request.sensor_events, request.sensor_start_us),
+        Study::Recall => recall::run(watcher, request.boxes),
     }
 }
 

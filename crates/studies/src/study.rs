@@ -3,6 +3,7 @@
 
 pub(crate) mod activity;
 pub(crate) mod histogram;
+pub(crate) mod recall;
 pub(crate) mod redundancy;
 pub(crate) mod sensor;
 pub(crate) mod sweep;
@@ -30,11 +31,13 @@ pub enum Study {
     Threshold,
     /// Rank correlation with a real sensor's own events.
     Sensor,
+    /// Share of objects whose regions are active, against bytes.
+    Recall,
 }
 
 impl Study {
     /// All of them, in the order of the documentation.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Activity,
         Self::Temporal,
         Self::Redundancy,
@@ -42,6 +45,7 @@ impl Study {
         Self::Size,
         Self::Threshold,
         Self::Sensor,
+        Self::Recall,
     ];
 
     /// Its name on the command line and in files.
@@ -55,6 +59,7 @@ impl Study {
             Self::Size => "size",
             Self::Threshold => "threshold",
             Self::Sensor => "sensor",
+            Self::Recall => "recall",
         }
     }
 }

@@ -7,15 +7,15 @@ use std::sync::{Mutex, PoisonError};
 
 use foveate_design::{Config, Design};
 use foveate_engine::{Engine, Outcome};
-use foveate_footage::{FootageError, InputOptions, Kind, Subject, open};
+use foveate_footage::{FootageError, InputOptions, Kind, Source, SourceFrame, Subject, open};
 use foveate_simulator::{BatchHooks, BatchProgress};
 use rayon::prelude::*;
 
 use crate::StudyError;
 
-/// What was seen of one clip: a value per design.
+/// What was seen of one clip: a value per design, and what its guide knows.
 #[derive(Debug)]
-pub(crate) struct Watched<T> {
+pub(crate) struct Watched<T, G = ()> {
     pub(crate) name: String,
     pub(crate) inputs: Vec<String>,
     pub(crate) kind: Kind,
@@ -23,6 +23,18 @@ pub(crate) struct Watched<T> {
     /// Why it ended before its end, if it did.
     pub(crate) problem: Option<String>,
     pub(crate) points: Vec<(Design, T)>,
+    pub(crate) guide: G,
+}
+
+/// Looks at every frame of a clip before the designs do, for what they have in common.
+pub(crate) trait Guide: Send + Sync {
+    fn look(&mut self, frame: &SourceFrame, source: &dyn Source) -> Result<(), StudyError>;
+}
+
+impl Guide for () {
+    fn look(&mut self, _: &SourceFrame, _: &dyn Source) -> Result<(), StudyError> {
+        Ok(())
+    }
 }
 
 /// One frame as an engine saw it.
@@ -50,6 +62,16 @@ impl Watcher<'_> {
         configs: &[Config],
         see: impl Fn(&mut T, &Design, &Seen<'_>) + Sync,
     ) -> Result<Vec<Watched<T>>, StudyError> {
+        self.watch_guided(configs, |_| (), |(), value, design, seen| see(value, design, seen))
+    }
+
+    /// The same with a guide for every clip, by its number.
+    pub(crate) fn watch_guided<T: Default + Send, G: Guide>(
+        &self,
+        configs: &[Config],
+        guide: impl Fn(usize) -> G + Sync,
+        see: impl Fn(&G, &mut T, &Design, &Seen<'_>) + Sync,
+    ) -> Result<Vec<Watched<T, G>>, StudyError> {
         let (next, done, frames) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicU64::new(0));
         let results: Vec<Mutex<Option<_>>> =
             self.subjects.iter().map(|_| Mutex::new(None)).collect();
@@ -71,7 +93,7 @@ impl Watcher<'_> {
                     frames.fetch_add(1, Ordering::Relaxed);
                     tell();
                 };
-                let result = self.one(subject, configs, &see, &count);
+                let result = self.one(subject, configs, guide(number), &see, &count);
                 *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
                 done.fetch_add(1, Ordering::Relaxed);
                 tell();
@@ -90,13 +112,14 @@ impl Watcher<'_> {
         results.into_iter().map(result).collect()
     }
 
-    fn one<T: Default + Send>(
+    fn one<T: Default + Send, G: Guide>(
         &self,
         subject: &Subject,
         configs: &[Config],
-        see: &(impl Fn(&mut T, &Design, &Seen<'_>) + Sync),
+        mut guide: G,
+        see: &(impl Fn(&G, &mut T, &Design, &Seen<'_>) + Sync),
         count: &dyn Fn(),
-    ) -> Result<Watched<T>, StudyError> {
+    ) -> Result<Watched<T, G>, StudyError> {
         let mut source = open(&subject.inputs, self.config, self.input)?;
         let (width, height) = source.size();
         let design = |config: &Config| -> Result<Design, StudyError> {
@@ -113,13 +136,15 @@ impl Watcher<'_> {
                 return Err(StudyError::Cancelled);
             }
             let set = source.kind() == Kind::Set;
+            guide.look(&current, source.as_ref())?;
+            let guide = &guide;
             points.par_iter_mut().zip(&designs).try_for_each(|((camera, value), design)| {
                 if set {
                     camera.reset();
                 }
                 let outcome = camera.step_raster(&current.frame)?;
                 let (without_reference, time_us) = (!set && frame == 0, current.time_us);
-                see(value, design, &Seen { without_reference, time_us, outcome });
+                see(guide, value, design, &Seen { without_reference, time_us, outcome });
                 Ok::<_, StudyError>(())
             })?;
             frame += 1;
@@ -136,6 +161,7 @@ impl Watcher<'_> {
             frames: frame,
             problem: source.problem(),
             points: designs.into_iter().zip(points.into_iter().map(|(_, value)| value)).collect(),
+            guide,
         })
     }
 }

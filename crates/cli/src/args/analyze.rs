@@ -15,7 +15,8 @@ use super::input::InputArgs;
 #[command(after_help = "Examples: foveate analyze temporal street.mp4 bus.mp4 -o out
           foveate analyze size clips/ -o out --max-frames 60 --resize 640x360
           foveate analyze redundancy photos/ -o out --images set --resize 224x224
-          foveate analyze sensor frames/ -o out --rate 25 --sensor-events events.csv.gz --sensor-start 1000")]
+          foveate analyze sensor frames/ -o out --rate 25 --sensor-events events.csv.gz --sensor-start 1000
+          foveate analyze recall frames/ -o out --boxes gt.txt")]
 pub(crate) struct AnalyzeArgs {
     /// What to study
     #[arg(value_enum, value_name = "STUDY")]
@@ -37,6 +38,11 @@ pub(crate) struct AnalyzeArgs {
     /// For `sensor`: the time of the first frame on the clock of the events, in microseconds
     #[arg(long, value_name = "T_US", default_value_t = 0)]
     pub(crate) sensor_start: u64,
+    /// For `recall`: ground-truth boxes: a gt.txt of MOT, JSON of COCO, CSV with the columns file, x0, y0, x1,
+    /// y1, or a folder of YOLO files. Give one for all inputs, or one for each in their order. What does not
+    /// exist as given is looked for in the folder of every clip, and in the one above
+    #[arg(long, value_name = "FILE")]
+    pub(crate) boxes: Vec<PathBuf>,
     /// Print the table as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -74,6 +80,9 @@ impl ValueEnum for StudyChoice {
             Study::Size => "Active share against region sizes 4, 8, 16 and 32",
             Study::Threshold => "Active share against each threshold",
             Study::Sensor => "Rank correlation with the events of a real sensor, over regions",
+            Study::Recall => {
+                "Share of ground-truth objects whose regions are active, against bytes"
+            }
         };
         Some(PossibleValue::new(self.0.name()).help(help))
     }

@@ -10,6 +10,12 @@ use crate::error::CliError;
 use crate::output;
 
 pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
+    if !args.boxes.is_empty() && args.study.0 != Study::Recall {
+        let study = args.study.0.name();
+        return Err(CliError::Usage(format!(
+            "--boxes belongs to the study recall, not to {study}; leave it out"
+        )));
+    }
     let config = args.design.read()?;
     let input = args.input.options(ImagesAs::Clip);
     let request = Request {
@@ -19,6 +25,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
         config: &config,
         sensor_events: args.sensor_events.as_deref(),
         sensor_start_us: args.sensor_start,
+        boxes: &args.boxes,
     };
     warn_of(&args.inputs, &input);
     let hooks = Terminal::new(args.quiet)?;
@@ -42,8 +49,11 @@ fn text(args: &AnalyzeArgs, report: &Report) -> String {
     let files = format!("{}: {}\n", args.output.display(), report.files.join(", "));
     match args.study.0 {
         Study::Activity | Study::MadHistogram => files,
-        Study::Temporal | Study::Redundancy | Study::Size | Study::Threshold | Study::Sensor => {
-            files + &report.markdown()
-        }
+        Study::Temporal
+        | Study::Redundancy
+        | Study::Size
+        | Study::Threshold
+        | Study::Sensor
+        | Study::Recall => files + &report.markdown(),
     }
 }

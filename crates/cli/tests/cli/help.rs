@@ -56,6 +56,7 @@ fn furnish(folder: &Path) {
     for (from, to) in [("001", "photos/a.png"), ("005", "photos/b.png"), ("002", "photo.png")] {
         fs::copy(folder.join(format!("frames/{from}.png")), folder.join(to)).unwrap();
     }
+    fs::write(folder.join("gt.txt"), "2,1,9,9,64,64,1,1,1\n").unwrap();
     succeed_in(folder, &["generate", "-o", "core", "--quiet"]);
     fs::copy(folder.join("core/design.toml"), folder.join("camera.toml")).unwrap();
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];

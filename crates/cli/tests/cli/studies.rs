@@ -33,6 +33,39 @@ fn every_study_of_scenes_writes_tables_and_charts() {
 }
 
 #[test]
+fn recall_prints_objects_and_writes_everything() {
+    let dir = tempfile::tempdir().unwrap();
+    let rows = (1..=4).map(|frame| format!("{frame},5,9,9,32,24,1,1,1\n{frame},6,1,1,3,3,0,1,1\n"));
+    for (name, text) in
+        [("a.txt", rows.collect::<String>()), ("b.txt", "2,1,9,9,8,8,1,1,1\n".to_owned())]
+    {
+        std::fs::write(dir.path().join(name), text).unwrap();
+    }
+    let boxes = ["--boxes", "a.txt", "--boxes", "b.txt"];
+    let printed = succeed_in(dir.path(), &analyze("recall", &boxes));
+    assert!(printed.starts_with("out: recall.csv, recall-tracks.csv, recall.svg"), "{printed}");
+    for row in ["| street | all | 3 |", "| shake | all | 1 |", "| all clips | all | 4 |"] {
+        assert!(printed.contains(row), "{row}: {printed}");
+    }
+    let json =
+        succeed_in(dir.path(), &analyze("recall", &[&boxes[..], &["--json", "--force"]].concat()));
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["columns"][6], "objects");
+    assert_eq!(json["rows"][0][6], "3");
+    let known = [("recall", "--boxes"), ("temporal", "--boxes belongs to the study recall")];
+    for ((study, part), boxes) in known.into_iter().zip([&[][..], &boxes]) {
+        fail_in(dir.path(), 2, &analyze(study, &[&["--force"], boxes].concat()), &[part]);
+    }
+    std::fs::write(dir.path().join("b.txt"), "2,1,9,9,8,8,1,1,1\n3,1,9,9,8\n").unwrap();
+    fail_in(
+        dir.path(),
+        2,
+        &analyze("recall", &[&boxes[..], &["--force"]].concat()),
+        &["b.txt", "line 2"],
+    );
+}
+
+#[test]
 fn mistakes_are_one_line_and_leave_what_is_there() {
     let dir = tempfile::tempdir().unwrap();
     succeed_in(dir.path(), &analyze("temporal", &[]));

@@ -21,39 +21,43 @@ const LEVELS: [u64; 10] = [0, 1, 2, 4, 6, 8, 12, 16, 24, 32];
 const SQUARES: [u64; 9] = [1, 5, 10, 25, 50, 100, 200, 400, 800];
 
 /// One number and the values that it takes.
-struct Key {
-    name: String,
+pub(super) struct Key {
+    pub(super) name: String,
     /// What it means, with its unit, for the axis.
     axis: String,
     /// Of the charts.
     file: &'static str,
     /// Whether it is about change, of which a set has none.
-    temporal: bool,
-    points: Vec<(u64, Config)>,
+    pub(super) temporal: bool,
+    pub(super) points: Vec<(u64, Config)>,
 }
 
 pub(crate) fn size(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+    run(Study::Size, watcher, &[region_size(watcher.config)])
+}
+
+pub(crate) fn threshold(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+    run(Study::Threshold, watcher, &thresholds(watcher.config))
+}
+
+/// Each threshold by itself.
+pub(super) fn thresholds(config: &Config) -> [Key; 3] {
+    [min_score(config), level(config), min_count(config)]
+}
+
+pub(super) fn region_size(config: &Config) -> Key {
     let point = |&size: &u32| {
-        let mut config = watcher.config.clone();
+        let mut config = config.clone();
         config.region.size = size;
         (u64::from(size), config)
     };
-    let key = Key {
+    Key {
         name: "region.size".to_owned(),
         axis: "region size N [pixels]".to_owned(),
         file: "size",
         temporal: false,
         points: SIZES.iter().map(point).collect(),
-    };
-    run(Study::Size, watcher, &[key])
-}
-
-pub(crate) fn threshold(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
-    run(
-        Study::Threshold,
-        watcher,
-        &[min_score(watcher.config), level(watcher.config), min_count(watcher.config)],
-    )
+    }
 }
 
 /// Of the first feature; the others keep theirs.

@@ -36,6 +36,7 @@ fn sets_have_no_change_to_study() {
         config: &config,
         sensor_events: None,
         sensor_start_us: 0,
+        boxes: &[],
     };
     let out = dir.path().join("out");
     let refused = analyze(&request(Study::Temporal), &out, false, &Silent).unwrap_err();
@@ -65,6 +66,7 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
         config: &Config::default(),
         sensor_events: Some(&events),
         sensor_start_us: 1000,
+        boxes: &[],
     };
     let out = dir.path().join("out");
     let report = analyze(&request, &out, true, &Silent).unwrap();
@@ -115,6 +117,7 @@ fn a_cut_clip_is_marked_and_a_stopped_study_leaves_nothing() {
         config: &config,
         sensor_events: None,
         sensor_start_us: 0,
+        boxes: &[],
     };
     let out = dir.path().join("out");
     let stopped = analyze(&request, &out, false, &Stopped).unwrap_err();

@@ -37,6 +37,7 @@ pub(crate) fn run(
         config,
         sensor_events: None,
         sensor_start_us: 0,
+        boxes: &[],
     };
     analyze(&request, output, true, &Silent)
 }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which boxes belong to which clip.
+//!
+//! One file is for all clips, several are for one each, in their order. A path that does not exist as given is
+//! looked for in the folder of the clip, and in the one above it. So `gt/gt.txt` finds the boxes of every
+//! sequence of MOT whose images are in `img1`.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::{BoxError, Boxes};
+
+/// A clip that needs boxes.
+#[derive(Clone, Copy, Debug)]
+pub struct Clip<'a> {
+    /// Its name in messages.
+    pub name: &'a str,
+    /// Its folder, or its first file.
+    pub input: &'a Path,
+}
+
+/// Reads the boxes of every clip, in the order of the clips. A file that several clips share is read once.
+///
+/// # Errors
+/// When there are more or fewer files than clips, a file does not exist or cannot be read, or clips would share
+/// a file that goes by frame numbers.
+pub fn assign(files: &[PathBuf], clips: &[Clip<'_>]) -> Result<Vec<Arc<Boxes>>, BoxError> {
+    let per_clip: Vec<&PathBuf> = match files {
+        [one] => clips.iter().map(|_| one).collect(),
+        several if several.len() == clips.len() => several.iter().collect(),
+        _ => return Err(BoxError::Count { files: files.len(), clips: clips.len() }),
+    };
+    let mut read: HashMap<PathBuf, (Arc<Boxes>, &str)> = HashMap::new();
+    let mut found = Vec::new();
+    for (clip, file) in clips.iter().zip(per_clip) {
+        let path = find(file, clip)?;
+        if let Some((boxes, owner)) = read.get(&path) {
+            if boxes.are_of_one_clip() {
+                let (one, other) = ((*owner).to_owned(), clip.name.to_owned());
+                return Err(BoxError::Shared { path, one, other });
+            }
+            found.push(Arc::clone(boxes));
+            continue;
+        }
+        let boxes = Arc::new(Boxes::read(&path)?);
+        found.push(Arc::clone(&boxes));
+        read.insert(path, (boxes, clip.name));
+    }
+    Ok(found)
+}
+
+/// The file as given, or beside the clip.
+fn find(file: &Path, clip: &Clip<'_>) -> Result<PathBuf, BoxError> {
+    let folder = if clip.input.is_dir() { Some(clip.input) } else { clip.input.parent() };
+    let above = folder.and_then(Path::parent);
+    let beside = [folder, above].into_iter().flatten().map(|folder| folder.join(file));
+    let missing = || BoxError::Missing { path: file.to_owned(), clip: clip.name.to_owned() };
+    std::iter::once(file.to_owned()).chain(beside).find(|path| path.exists()).ok_or_else(missing)
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! COCO: a JSON document with `images` (id, `file_name`) and `annotations` (`image_id`, `bbox` as left, top,
+//! width, height, and `iscrowd`). Annotations of crowds are no objects. Everything else, masks among it, is
+//! passed over as it is read, so that memory grows only with the number of boxes.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::marker::PhantomData;
+use std::path::Path;
+
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use crate::boxes::key;
+use crate::limits::{self, MAX_BOXES};
+use crate::{BoxError, Labelled, Rect};
+
+#[derive(Deserialize)]
+struct Document {
+    #[serde(deserialize_with = "limited")]
+    images: Vec<Image>,
+    #[serde(deserialize_with = "limited")]
+    annotations: Vec<Annotation>,
+}
+
+#[derive(Deserialize)]
+struct Image {
+    id: u64,
+    file_name: String,
+}
+
+#[derive(Deserialize)]
+struct Annotation {
+    image_id: u64,
+    bbox: [f64; 4],
+    #[serde(default)]
+    iscrowd: u8,
+}
+
+/// The boxes of every image, by its name.
+pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxError> {
+    let wrong = |problem| BoxError::File { path: path.to_owned(), problem };
+    let document: Document = serde_json::from_reader(limits::open(path)?).map_err(|error| {
+        if error.is_io() {
+            return BoxError::Io { path: path.to_owned(), source: error.into() };
+        }
+        wrong(format!("{error}; expected a JSON object of COCO with `images` and `annotations`"))
+    })?;
+    let mut names: HashMap<u64, String> = HashMap::new();
+    let mut images: HashMap<String, Vec<Labelled>> = HashMap::new();
+    for Image { id, file_name } in document.images {
+        let name = key(&file_name)
+            .ok_or_else(|| wrong(format!("the image with the id {id} has no file name")))?;
+        if images.insert(name.clone(), Vec::new()).is_some() {
+            return Err(wrong(format!("two images are called `{name}`")));
+        }
+        if names.insert(id, name).is_some() {
+            return Err(wrong(format!("two images have the id {id}")));
+        }
+    }
+    for (number, Annotation { image_id, bbox, iscrowd }) in (1..).zip(document.annotations) {
+        let wrong = |problem: String| wrong(format!("annotation {number}: {problem}"));
+        let rect = Rect::of_sides(bbox).map_err(wrong)?;
+        let boxes = names.get(&image_id).and_then(|name| images.get_mut(name));
+        let boxes = boxes.ok_or_else(|| wrong(format!("no image has the id {image_id}")))?;
+        if iscrowd == 0 {
+            boxes.push(Labelled { rect, track: None });
+        }
+    }
+    Ok(images)
+}
+
+/// A list of at most [`MAX_BOXES`].
+fn limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
+    struct Limited<T>(PhantomData<T>);
+
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Limited<T> {
+        type Value = Vec<T>;
+
+        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+            formatter.write_str("a list")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<T>, A::Error> {
+            let mut items = Vec::new();
+            while let Some(item) = list.next_element()? {
+                if items.len() == MAX_BOXES {
+                    return Err(A::Error::custom(limits::too_many()));
+                }
+                items.push(item);
+            }
+            Ok(items)
+        }
+    }
+
+    from.deserialize_seq(Limited(PhantomData))
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Numbers in the fields of a text file.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use csv::{ErrorKind, Position, StringRecord};
+
+use crate::BoxError;
+
+/// A field as a number.
+pub(crate) fn number(name: &str, text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|value: &f64| value.is_finite())
+        .ok_or_else(|| format!("`{}` is no {name}; expected a number", text.escape_debug()))
+}
+
+/// A field as a whole number of at least `least`, which may be written with a point, as in `3.0`.
+pub(crate) fn whole(name: &str, text: &str, least: u32) -> Result<u64, String> {
+    // Above this not every whole number is one of the type.
+    const MOST: f64 = 9e15;
+    let value = number(name, text).ok();
+    let value = value.filter(|v| v.fract() == 0.0 && (f64::from(least)..MOST).contains(v));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
+    value.map(|value| value as u64).ok_or_else(|| {
+        let text = text.escape_debug();
+        format!("`{text}` is no {name}; expected a whole number of at least {least}")
+    })
+}
+
+/// Fields as numbers, with the names of the columns.
+pub(crate) fn numbers<const N: usize>(
+    names: [&str; N],
+    texts: [&str; N],
+) -> Result<[f64; N], String> {
+    let mut values = [0.0; N];
+    for (value, (name, text)) in values.iter_mut().zip(names.into_iter().zip(texts)) {
+        *value = number(name, text)?;
+    }
+    Ok(values)
+}
+
+/// A message on the line of a record.
+pub(crate) fn in_line(path: &Path, record: &StringRecord, problem: String) -> BoxError {
+    match record.position().map(|place| line_of(path, place)) {
+        Some(Ok(line)) => BoxError::Line { path: path.to_owned(), line, problem },
+        Some(Err(source)) => BoxError::Io { path: path.to_owned(), source },
+        None => BoxError::File { path: path.to_owned(), problem },
+    }
+}
+
+/// The line at which a record begins. Its place is where the blank lines before it begin.
+fn line_of(path: &Path, place: &Position) -> io::Result<u64> {
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::Start(place.byte()))?;
+    let mut line = place.line();
+    for byte in BufReader::new(file).bytes() {
+        match byte? {
+            b'\n' => line += 1,
+            b'\r' => {}
+            _ => break,
+        }
+    }
+    Ok(line)
+}
+
+/// A record that cannot be read as text.
+pub(crate) fn unreadable(path: &Path, error: csv::Error) -> BoxError {
+    let path = path.to_owned();
+    match error.into_kind() {
+        ErrorKind::Io(source) => BoxError::Io { path, source },
+        ErrorKind::Utf8 { pos: Some(place), .. } => match line_of(&path, &place) {
+            Ok(line) => {
+                let problem = "it is no text in UTF-8; expected rows of text".to_owned();
+                BoxError::Line { path, line, problem }
+            }
+            Err(source) => BoxError::Io { path, source },
+        },
+        kind => BoxError::File { path, problem: format!("{kind:?}") },
+    }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `gt.txt` of MOT16, MOT17 and MOT20: a row per object and frame, without a header.
+//!
+//! frame, track, left, top, width, height, counted, class, visibility. Frames and coordinates begin at 1. A
+//! row is an object if it is counted (not 0), its class is 1 (pedestrian), and at least a quarter of it is
+//! visible; what nobody can see says nothing about a camera.
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use super::field::{in_line, numbers, unreadable, whole};
+use crate::limits::{self, MAX_BOXES};
+use crate::{BoxError, Labelled, Rect};
+
+const COLUMNS: [&str; 9] =
+    ["frame", "track", "left", "top", "width", "height", "counted", "class", "visibility"];
+const PEDESTRIAN: f64 = 1.0;
+const LEAST_VISIBLE: f64 = 0.25;
+
+/// The objects of every frame that has a row, by its number.
+pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<Labelled>>, BoxError> {
+    let mut file = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(Trim::All)
+        .from_reader(limits::open(path)?);
+    let mut frames: BTreeMap<u64, Vec<Labelled>> = BTreeMap::new();
+    let mut seen = HashSet::new();
+    for record in file.records() {
+        let record = record.map_err(|error| unreadable(path, error))?;
+        let wrong = |problem| in_line(path, &record, problem);
+        if seen.len() == MAX_BOXES {
+            return Err(wrong(limits::too_many()));
+        }
+        let row = row(&record).map_err(wrong)?;
+        if !seen.insert((row.frame, row.track)) {
+            let Row { frame, track, .. } = row;
+            return Err(wrong(format!("track {track} has a second box in frame {frame}")));
+        }
+        let objects = frames.entry(row.frame).or_default();
+        if row.is_object {
+            objects.push(Labelled { rect: row.rect, track: Some(row.track) });
+        }
+    }
+    Ok(frames)
+}
+
+struct Row {
+    frame: u64,
+    track: u64,
+    rect: Rect,
+    is_object: bool,
+}
+
+fn row(record: &StringRecord) -> Result<Row, String> {
+    let fields: Vec<&str> = record.iter().collect();
+    let Ok([frame, track, left, top, width, height, counted, class, visibility]) =
+        <[&str; COLUMNS.len()]>::try_from(fields)
+    else {
+        let (columns, names) = (record.len(), COLUMNS.join(", "));
+        return Err(format!("the row has {columns} columns; expected {}: {names}", COLUMNS.len()));
+    };
+    let frame = whole("frame", frame, 1)?;
+    let track = whole("track", track, 0)?;
+    let names = [COLUMNS[2], COLUMNS[3], COLUMNS[4], COLUMNS[5]];
+    let [left, top, width, height] = numbers(names, [left, top, width, height])?;
+    let names = [COLUMNS[6], COLUMNS[7], COLUMNS[8]];
+    let [counted, class, visible] = numbers(names, [counted, class, visibility])?;
+    let rect = Rect::of_sides([left - 1.0, top - 1.0, width, height])?;
+    let is_object = counted != 0.0 && class == PEDESTRIAN && visible >= LEAST_VISIBLE;
+    Ok(Row { frame, track, rect, is_object })
+}

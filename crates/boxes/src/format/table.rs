@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A CSV table with a row per box: the columns file, x0, y0, x1, y1 in any order, and others that are not
+//! read. `x1` and `y1` are where the box ends.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use csv::{ReaderBuilder, Trim};
+
+use super::field::{in_line, numbers, unreadable};
+use crate::boxes::key;
+use crate::limits::{self, MAX_BOXES};
+use crate::{BoxError, Labelled, Rect};
+
+pub(crate) const COLUMNS: [&str; 5] = ["file", "x0", "y0", "x1", "y1"];
+
+/// The boxes of every image that has a row, by its name.
+pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxError> {
+    let reader = limits::open(path)?;
+    let mut file = ReaderBuilder::new().flexible(true).trim(Trim::All).from_reader(reader);
+    let headers = file.headers().map_err(|error| unreadable(path, error))?.clone();
+    let mut places = [0; COLUMNS.len()];
+    for (place, column) in places.iter_mut().zip(COLUMNS) {
+        *place = headers.iter().position(|header| header == column).ok_or_else(|| {
+            let problem = format!(
+                "there is no column `{column}`; expected the columns {}",
+                COLUMNS.join(", ")
+            );
+            in_line(path, &headers, problem)
+        })?;
+    }
+    let mut images: HashMap<String, Vec<Labelled>> = HashMap::new();
+    for (number, record) in file.records().enumerate() {
+        let record = record.map_err(|error| unreadable(path, error))?;
+        let wrong = |problem| in_line(path, &record, problem);
+        if number == MAX_BOXES {
+            return Err(wrong(limits::too_many()));
+        }
+        let mut fields = [""; COLUMNS.len()];
+        for (field, place) in fields.iter_mut().zip(places) {
+            *field = record.get(place).ok_or_else(|| {
+                let (found, expected) = (record.len(), headers.len());
+                wrong(format!("the row has {found} columns; expected {expected}"))
+            })?;
+        }
+        let [name, corners @ ..] = fields;
+        let names = [COLUMNS[1], COLUMNS[2], COLUMNS[3], COLUMNS[4]];
+        let rect = numbers(names, corners).and_then(Rect::of_corners).map_err(wrong)?;
+        let name = key(name).ok_or_else(|| wrong("the name of the image is missing".to_owned()))?;
+        images.entry(name).or_default().push(Labelled { rect, track: None });
+    }
+    Ok(images)
+}

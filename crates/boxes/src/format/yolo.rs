@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! YOLO: a text file per image, with its name and the extension `txt`, and a line per object: class, centre
+//! (x, y), width and height, the last four as shares of the image. An image without a file has no objects.
+
+use std::io::{BufRead, Read};
+use std::path::{Path, PathBuf};
+
+use super::field::{numbers, whole};
+use crate::limits::{self, MAX_BOXES};
+use crate::{BoxError, Labelled, Rect};
+
+/// Longest line, of which a few dozen letters are used.
+const MAX_LINE: u64 = 4096;
+const COLUMNS: [&str; 5] = ["class", "x", "y", "width", "height"];
+
+/// The file of an image: with as many of its folders as there are below `folder`.
+pub(crate) fn file_of(folder: &Path, names: &[String]) -> Option<PathBuf> {
+    names.iter().map(|name| folder.join(name).with_extension("txt")).find(|file| file.is_file())
+}
+
+/// The boxes of an image of this size.
+pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Labelled>, BoxError> {
+    let mut reader = limits::open(path)?;
+    let mut boxes = Vec::new();
+    for number in 1.. {
+        let mut line = Vec::new();
+        let read = reader.by_ref().take(MAX_LINE).read_until(b'\n', &mut line);
+        if read.map_err(|source| BoxError::Io { path: path.to_owned(), source })? == 0 {
+            break;
+        }
+        let wrong = |problem| BoxError::Line { path: path.to_owned(), line: number, problem };
+        let text = str::from_utf8(&line)
+            .map_err(|_| wrong("it is no text in UTF-8; expected numbers".to_owned()))?;
+        let fields: Vec<&str> = text.split_whitespace().collect();
+        if fields.is_empty() {
+            continue;
+        }
+        if boxes.len() == MAX_BOXES {
+            return Err(wrong(limits::too_many()));
+        }
+        let shares = shares(&fields).map_err(wrong)?;
+        let rect = shares.scaled(f64::from(width), f64::from(height));
+        boxes.push(Labelled { rect, track: None });
+    }
+    Ok(boxes)
+}
+
+/// The box in parts of the image.
+fn shares(fields: &[&str]) -> Result<Rect, String> {
+    let [class, x, y, width, height] = *fields else {
+        let (found, names) = (fields.len(), COLUMNS.join(", "));
+        return Err(format!("the line has {found} numbers; expected 5: {names}"));
+    };
+    whole("class", class, 0)?;
+    let names = [COLUMNS[1], COLUMNS[2], COLUMNS[3], COLUMNS[4]];
+    let values = numbers(names, [x, y, width, height])?;
+    if let Some(value) = values.iter().find(|value| !(0.0..=1.0).contains(*value)) {
+        return Err(format!("{value} is no share of the image; expected 0 to 1"));
+    }
+    let [x, y, width, height] = values;
+    Rect::of_sides([x - width / 2.0, y - height / 2.0, width, height])
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which regions belong to a box.
+//!
+//! A column of regions belongs to a box if at least half of the column's width lies between the left and the
+//! right side of the box, and a row in the same way. The regions of the box are those in its columns and its
+//! rows. So a box is rounded to whole regions, and regions that are mostly background do not count. A box
+//! that no column fills by half, because it is narrow, has the column in which most of it lies, the first of
+//! two equal ones. So every box has a region, and a narrow one has a line of them.
+
+use std::ops::Range;
+
+use crate::Rect;
+
+/// The regions of a frame: squares from the upper left, cut at the right and below.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grid {
+    /// Side of a region.
+    pub side: u32,
+    /// Width of the frame.
+    pub width: u32,
+    /// Height of the frame.
+    pub height: u32,
+}
+
+impl Grid {
+    /// How many regions of a box say yes, and how many it has.
+    #[must_use]
+    pub fn votes(&self, rect: &Rect, votes: &[bool]) -> (u64, u64) {
+        self.regions(rect)
+            .fold((0, 0), |(yes, all), region| (yes + u64::from(votes[region]), all + 1))
+    }
+
+    /// The regions of a box that lies in the frame and has an area, by their numbers in rows.
+    pub fn regions(&self, rect: &Rect) -> impl Iterator<Item = usize> + use<> {
+        let columns = lines((rect.x0, rect.x1), self.side, self.width);
+        let rows = lines((rect.y0, rect.y1), self.side, self.height);
+        let per_row = self.width.div_ceil(self.side) as usize;
+        rows.flat_map(move |row| {
+            columns.clone().map(move |column| row as usize * per_row + column as usize)
+        })
+    }
+}
+
+/// The columns of a box from its left to its right side, or the rows, in a frame of this size.
+fn lines((from, to): (f64, f64), side: u32, size: u32) -> Range<u32> {
+    let begin = |line: u32| f64::from(line * side);
+    let end = |line: u32| f64::from((line * side).saturating_add(side).min(size));
+    let inside = |line: u32| to.min(end(line)) - from.max(begin(line));
+    let count = size.div_ceil(side);
+    let touched = line_of(from, side, count)..line_of(to, side, count) + 1;
+    let half = |line: &u32| 2.0 * inside(*line) >= end(*line) - begin(*line);
+    let first = touched.clone().find(half);
+    match first.zip(touched.clone().rfind(half)) {
+        Some((first, last)) => first..last + 1,
+        None => {
+            let larger = |best, line| if inside(line) > inside(best) { line } else { best };
+            let most = touched.clone().fold(touched.start, larger);
+            most..most + 1
+        }
+    }
+}
+
+/// The line in which a coordinate lies; what lies on the far side of the frame is in the last one.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the frame")]
+fn line_of(at: f64, side: u32, count: u32) -> u32 {
+    ((at / f64::from(side)).floor() as u32).min(count - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GRID: Grid = Grid { side: 8, width: 36, height: 20 };
+
+    fn of(corners: [f64; 4]) -> Vec<usize> {
+        GRID.regions(&Rect::of_corners(corners).unwrap()).collect()
+    }
+
+    #[test]
+    fn regions_of_known_boxes() {
+        // Five columns, the last 4 pixels wide, and three rows, the last 4 pixels high.
+        assert_eq!(of([0., 0., 8., 8.]), [0]);
+        assert_eq!(of([4., 0., 12., 8.]), [0, 1], "half of two columns");
+        assert_eq!(of([5., 0., 12., 8.]), [1], "less than half of the first");
+        assert_eq!(of([0., 0., 36., 20.]), (0..15).collect::<Vec<_>>());
+        assert_eq!(of([34., 18., 36., 20.]), [14], "half of what is there of the last region");
+        assert_eq!(of([1., 1., 2., 2.]), [0], "smaller than a region");
+        assert_eq!(of([7., 7., 10., 10.]), [6], "most of it is in the fourth of four regions");
+        assert_eq!(of([6., 6., 10., 10.]), [0], "the first of four equal ones");
+        assert_eq!(of([9., 0., 11., 20.]), [1, 6, 11], "a narrow one has a line of regions");
+    }
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Ground-truth boxes of objects, and the regions of a camera that belong to them.
+//!
+//! [`Boxes`] reads a file of MOT, COCO or CSV, or a folder of YOLO files, and gives the boxes of a frame by
+//! its number or its name. [`assign`] finds the boxes of several clips. A [`View`] moves boxes into a frame
+//! that is cropped and scaled, and a [`Grid`] says which regions a box owns. This crate knows no camera and
+//! reads no frames.
+
+mod assign;
+mod boxes;
+mod error;
+mod format;
+mod grid;
+mod limits;
+mod rect;
+mod view;
+
+pub use assign::{Clip, assign};
+pub use boxes::{Boxes, Found, Labelled, Place};
+pub use error::BoxError;
+pub use format::Format;
+pub use grid::Grid;
+pub use limits::{MAX_BOXES, MAX_COORDINATE};
+pub use rect::Rect;
+pub use view::View;

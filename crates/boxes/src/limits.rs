@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Limits of box files, so that none takes all memory.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Take};
+use std::path::Path;
+
+use crate::BoxError;
+
+/// The most boxes of a file, or of a file of a YOLO folder.
+pub const MAX_BOXES: usize = 4_000_000;
+/// The largest coordinate and side, in pixels.
+pub const MAX_COORDINATE: f64 = 1e7;
+/// The largest file.
+const MAX_FILE: u64 = 1 << 30;
+
+/// Opens a file that is not too large, or ends where it would be.
+pub(crate) fn open(path: &Path) -> Result<BufReader<Take<File>>, BoxError> {
+    let unreadable = |source| BoxError::Io { path: path.to_owned(), source };
+    let file = File::open(path).map_err(unreadable)?;
+    if file.metadata().map_err(unreadable)?.len() > MAX_FILE {
+        let problem = "it has more than 1 GiB, which is the limit; split it by clip".to_owned();
+        return Err(BoxError::File { path: path.to_owned(), problem });
+    }
+    Ok(BufReader::new(file.take(MAX_FILE)))
+}
+
+/// What is said of a file with too many boxes.
+pub(crate) fn too_many() -> String {
+    format!("more than {MAX_BOXES} boxes, which is the limit; split it by clip")
+}

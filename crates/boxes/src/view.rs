@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From a frame as the file describes it to the frame that a camera sees: cropped, then scaled.
+
+use crate::Rect;
+
+/// Boxes of which less than this share lies in the frame are not counted.
+const LEAST_INSIDE: f64 = 0.25;
+
+/// A part of a frame, scaled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct View {
+    /// The left and upper pixel of the part.
+    pub at: (u32, u32),
+    /// Width and height of the part before it is scaled.
+    pub part: (u32, u32),
+    /// Width and height after that.
+    pub seen: (u32, u32),
+}
+
+impl View {
+    /// Of a frame of this size, of which a part (its width and height, its left and upper pixel) may be taken.
+    #[must_use]
+    pub fn of(size: (u32, u32), crop: Option<((u32, u32), (u32, u32))>, seen: (u32, u32)) -> Self {
+        let (part, at) = crop.unwrap_or((size, (0, 0)));
+        Self { at, part, seen }
+    }
+
+    /// Where a box lies in the frame that is seen, also what lies outside.
+    #[must_use]
+    pub fn place(&self, rect: &Rect) -> Rect {
+        let scale = |seen: u32, part: u32| f64::from(seen) / f64::from(part);
+        rect.moved(-f64::from(self.at.0), -f64::from(self.at.1))
+            .scaled(scale(self.seen.0, self.part.0), scale(self.seen.1, self.part.1))
+    }
+
+    /// Where a box lies in the frame that is seen, without what lies outside. `None` if less than a quarter of
+    /// its area lies inside, or if it has none.
+    #[must_use]
+    pub fn see(&self, rect: &Rect) -> Option<Rect> {
+        let whole = self.place(rect);
+        let inside = whole.within(self.seen);
+        let enough = inside.area() >= LEAST_INSIDE * whole.area();
+        (enough && inside.area() > 0.0).then_some(inside)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rect(corners: [f64; 4]) -> Rect {
+        Rect::of_corners(corners).unwrap()
+    }
+
+    #[test]
+    fn boxes_follow_the_crop_and_the_scale() {
+        let view = View { at: (100, 50), part: (200, 100), seen: (100, 100) };
+        assert_eq!(view.see(&rect([110., 60., 130., 80.])), Some(rect([5., 10., 15., 30.])));
+        // A half, a quarter and less than a quarter of it is inside.
+        assert_eq!(view.see(&rect([90., 60., 110., 80.])), Some(rect([0., 10., 5., 30.])));
+        assert_eq!(view.see(&rect([85., 60., 105., 80.])), Some(rect([0., 10., 2.5, 30.])));
+        assert_eq!(view.see(&rect([84., 60., 104., 80.])), None);
+        assert_eq!(view.see(&rect([0., 0., 50., 50.])), None);
+        assert_eq!(view.see(&rect([110., 60., 110., 80.])), None, "it has no area");
+    }
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Every mistake in a file is one line that names the file, the place, and what would be right.
+
+use crate::support::{at, file, frame, image};
+use foveate_boxes::Boxes;
+
+#[test]
+fn damaged_files_are_refused_in_one_line() {
+    let coco = |images: &str, annotations: &str| {
+        format!("{{\"images\": [{images}],\n\"annotations\": [{annotations}]}}")
+    };
+    let one = r#"{"id": 1, "file_name": "a"}"#;
+    for (text, parts) in [
+        ("", vec!["empty", "MOT"]),
+        ("\u{1}\u{2}", vec!["no known format", "COCO"]),
+        ("[{\"image_id\": 1}]", vec!["list of results"]),
+        ("1,1,1,1,1,1,1,1\n", vec!["line 1", "8 columns", "expected 9"]),
+        ("1,1,1,1,1,1,1,1,1\n2,1,1,x,1,1,1,1,1\n", vec!["line 2", "`x` is no top"]),
+        (
+            "1,1,1,1,1,1,1,1,1\n\n0,1,1,1,1,1,1,1,1\n",
+            vec!["line 3", "`0` is no frame", "at least 1"],
+        ),
+        ("1,-1,1,1,1,1,1,1,1\n", vec!["line 1", "`-1` is no track"]),
+        ("1.5,1,1,1,1,1,1,1,1\n", vec!["`1.5` is no frame"]),
+        ("1,1,1,1,-3,1,1,1,1\n", vec!["line 1", "-3 x 1", "at least 0"]),
+        ("1,1,1,1,1,1,1,1,nan\n", vec!["`nan` is no visibility"]),
+        ("1,1,1e300,1,1,1,1,1,1\n", vec!["out of range", "10000000"]),
+        ("1,1,1,1,1,1,1,1,1\n1,1,5,5,1,1,0,1,1\n", vec!["line 2", "second box in frame 1"]),
+        ("file,x0,y0,x1\na,1,2,3\n", vec!["line 1", "no column `y1`"]),
+        ("file,x0,y0,x1,y1\na,1,2,3\n", vec!["line 2", "4 columns; expected 5"]),
+        ("file,x0,y0,x1,y1\na,1,2,3,4\nb,5,2,3,4\n", vec!["line 3", "ends before it begins"]),
+        ("file,x0,y0,x1,y1\n,1,2,3,4\n", vec!["line 2", "name of the image"]),
+        ("file,x0,y0,x1,y1\na,,2,3,4\n", vec!["line 2", "`` is no x0"]),
+        ("{\"images\": [\n", vec!["line 2", "COCO"]),
+        ("{\"images\": []}", vec!["annotations"]),
+        (&coco(one, r#"{"image_id": 2, "bbox": [0, 0, 1, 1]}"#), vec!["annotation 1", "id 2"]),
+        (&coco(one, r#"{"image_id": 1, "bbox": [0, 0, 1]}"#), vec!["line 2", "array of length 4"]),
+        (&coco(one, r#"{"image_id": 1, "bbox": [0, 0, -1, 1]}"#), vec!["annotation 1", "-1 x 1"]),
+        (&coco(&format!("{one}, {one}"), ""), vec!["two images are called `a`"]),
+        (&coco(r#"{"id": 1, "file_name": "/"}"#, ""), vec!["id 1", "no file name"]),
+    ] {
+        let message = at(text, &frame(0)).unwrap_err().to_string();
+        assert!(message.contains("boxes`") && !message.contains('\n'), "{message}");
+        for part in parts {
+            assert!(message.contains(part), "{part} for {text:?}: {message}");
+        }
+    }
+}
+
+#[test]
+fn text_that_is_no_text_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes, part) in [
+        ("gt.txt", &b"1,1,1,1,1,1,1,1,1\n2,1,\xff,1,1,1,1,1,1\n"[..], "line 2"),
+        ("a.csv", &b"file,x0,y0,x1,y1\n\xff,1,2,3,4\n"[..], "line 2"),
+        ("a.json", &b"{\"images\": \"\xff\"}"[..], "a.json"),
+    ] {
+        let message = Boxes::read(&file(folder.path(), name, bytes)).unwrap_err().to_string();
+        assert!(message.contains(part) && message.contains(name), "{message}");
+    }
+}
+
+#[test]
+fn a_damaged_file_of_a_yolo_folder_names_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    for (text, parts) in [
+        (&b"0 0.5 0.5 1 1\n0 0.5 0.5 1\n"[..], ["line 2", "4 numbers; expected 5"]),
+        (b"0 0.5 0.5 1 1.5\n", ["line 1", "1.5 is no share"]),
+        (b"0.5 0.5 0.5 1 1\n", ["line 1", "`0.5` is no class"]),
+        (b"0 0.5 \xff 1 1\n", ["line 1", "UTF-8"]),
+    ] {
+        file(folder.path(), "a.txt", text);
+        let boxes = Boxes::read(folder.path()).unwrap();
+        let message = boxes.at(&image("a.jpg")).unwrap_err().to_string();
+        for part in parts.into_iter().chain(["a.txt"]) {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+    }
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Files of boxes, and what they hold for a frame.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use foveate_boxes::{BoxError, Boxes, Found, Labelled, Place, Rect};
+
+/// A file in a folder.
+pub(crate) fn file(folder: &Path, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder.join(name);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, text).unwrap();
+    path
+}
+
+/// An image of 200 x 100 pixels, the first of its input.
+pub(crate) fn image(name: &str) -> Place<'_> {
+    Place { name: Path::new(name), own_file: true, number: 0, size: (200, 100) }
+}
+
+/// A frame of a video.
+pub(crate) fn frame(number: u64) -> Place<'static> {
+    Place { name: Path::new("04.mp4"), own_file: false, number, size: (200, 100) }
+}
+
+/// What a text in a file holds for a frame.
+pub(crate) fn at(text: &str, place: &Place<'_>) -> Result<Found, BoxError> {
+    let folder = tempfile::tempdir().unwrap();
+    Boxes::read(&file(folder.path(), "boxes", text))?.at(place)
+}
+
+pub(crate) fn labelled(corners: [f64; 4], track: Option<u64>) -> Labelled {
+    Labelled { rect: Rect::of_corners(corners).unwrap(), track }
+}

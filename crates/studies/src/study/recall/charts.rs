@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The charts of the study, of all clips together: recall against bytes, and recall by class.
+
+use foveate_chart::{Bars, Chart, Line, Shape};
+use foveate_palette::SERIES;
+
+use super::class::{CLASSES, UNKNOWN};
+use super::{Key, Outcome};
+use crate::number::{coordinate, percent};
+
+/// Names of the levels of a count, in its order.
+const LEVELS: [&str; 3] = ["at least a quarter", "at least half", "all"];
+const HALF: usize = 1;
+
+/// Groups with a chart, and what their classes are of.
+const GROUPS: [(&str, &str); 3] = [
+    ("size", "size: below 32², below 96², above [pixels]"),
+    ("speed", "speed: below 0.5, below 2, below 8, above [pixels per frame]"),
+    ("contrast", "contrast to the surroundings: below 8, below 32, above [grey levels of 8 bits]"),
+];
+
+pub(super) fn all(keys: &[Key], results: &[Outcome]) -> Vec<Chart> {
+    let last = results.last().map_or("", |result| result.clip.as_str());
+    let together: Vec<&Outcome> = results.iter().filter(|result| result.clip == last).collect();
+    let own = together.iter().find(|result| result.point == 0);
+    let by_class =
+        own.into_iter().flat_map(|own| GROUPS.iter().filter_map(|group| bars(own, *group)));
+    std::iter::once(against_bytes(keys, &together)).chain(by_class).collect()
+}
+
+/// A line for every number that is varied.
+fn against_bytes(keys: &[Key], together: &[&Outcome]) -> Chart {
+    let mut first = 1;
+    let mut lines = Vec::new();
+    for key in keys {
+        let range = first..first + key.points.len();
+        first = range.end;
+        let own = together.iter().filter(|result| range.contains(&result.point));
+        let point = |result: &&Outcome| {
+            let count = result.sums.count(0);
+            let half = percent(count.active.at_least[HALF], count.objects);
+            (coordinate(result.sums.bytes()) / 1000.0, half)
+        };
+        let points: Vec<(f64, f64)> = own.map(point).collect();
+        if !points.is_empty() {
+            lines.push(Line { name: key.name.clone(), points });
+        }
+    }
+    Chart {
+        file: "recall".to_owned(),
+        title: "Objects of which at least half of the regions are active".to_owned(),
+        x: "kilobytes per frame (1000 bytes)".to_owned(),
+        y: "share of objects [%]".to_owned(),
+        caption: String::new(),
+        shape: Shape::Lines(lines),
+    }
+}
+
+/// Recall of every class of a group that has an object, unless nothing is known.
+fn bars(own: &Outcome, (group, axis): (&str, &str)) -> Option<Chart> {
+    let classes = CLASSES.iter().enumerate().filter(|(_, class)| class.0 == group);
+    let counted = classes.map(|(at, class)| (class.1, own.sums.count(at)));
+    let counted: Vec<_> =
+        counted.filter(|(name, count)| count.objects > 0 && *name != UNKNOWN).collect();
+    let series = |(level, name): (usize, &&str)| Bars {
+        name: (*name).to_owned(),
+        colour: SERIES[level % SERIES.len()],
+        values: counted.iter().map(|(_, c)| percent(c.active.at_least[level], c.objects)).collect(),
+        ranges: Vec::new(),
+    };
+    let chart = || Chart {
+        file: format!("recall-{group}"),
+        title: format!("Objects whose regions are active, by {group}"),
+        x: axis.to_owned(),
+        y: "share of objects [%]".to_owned(),
+        caption: String::new(),
+        shape: Shape::Bars {
+            groups: counted.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            series: LEVELS.iter().enumerate().map(series).collect(),
+        },
+    };
+    (!counted.is_empty()).then(chart)
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Classes of objects: by size as COCO has them, by speed, and by contrast.
+
+use foveate_boxes::Rect;
+
+/// Group and name of every class. The first holds every object, the others those of one kind.
+pub(super) const CLASSES: [(&str, &str); 13] = [
+    (ALL, "all"),
+    ("size", "small"),
+    ("size", "medium"),
+    ("size", "large"),
+    ("speed", "still"),
+    ("speed", "slow"),
+    ("speed", "medium"),
+    ("speed", "fast"),
+    ("speed", UNKNOWN),
+    ("contrast", "low"),
+    ("contrast", "medium"),
+    ("contrast", "high"),
+    ("contrast", UNKNOWN),
+];
+/// The group of the class that holds every object.
+pub(super) const ALL: &str = "all";
+/// The class of objects of which a group says nothing.
+pub(super) const UNKNOWN: &str = "unknown";
+
+/// Areas from which an object is medium and large, in pixels of the frame that is seen.
+const AREAS: [f64; 2] = [32.0 * 32.0, 96.0 * 96.0];
+/// Pixels per frame from which an object is slow, medium and fast.
+const SPEEDS: [f64; 3] = [0.5, 2.0, 8.0];
+/// Grey levels of 8 bits from which contrast is medium and high.
+const CONTRASTS: [f64; 2] = [8.0, 32.0];
+
+/// The classes of an object, as places in [`CLASSES`]. What is not known has a class of its own.
+pub(super) fn classes_of(rect: &Rect, speed: Option<f64>, contrast: Option<f64>) -> [usize; 4] {
+    let size = 1 + steps(rect.area(), &AREAS);
+    let speed = 4 + speed.map_or(SPEEDS.len() + 1, |speed| steps(speed, &SPEEDS));
+    let contrast = 9 + contrast.map_or(CONTRASTS.len() + 1, |value| steps(value, &CONTRASTS));
+    [0, size, speed, contrast]
+}
+
+/// How many of the limits a value reaches.
+fn steps(value: f64, limits: &[f64]) -> usize {
+    limits.iter().filter(|limit| value >= **limit).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objects_are_in_one_class_of_every_group() {
+        let names = |side: f64, speed, contrast| {
+            let rect = Rect::of_corners([0.0, 0.0, side, side]).unwrap();
+            classes_of(&rect, speed, contrast).map(|class| CLASSES[class])
+        };
+        let of = |size, speed, contrast| {
+            [(ALL, "all"), ("size", size), ("speed", speed), ("contrast", contrast)]
+        };
+        assert_eq!(names(31.9, Some(0.49), Some(7.9)), of("small", "still", "low"));
+        assert_eq!(names(32.0, Some(0.5), Some(8.0)), of("medium", "slow", "medium"));
+        assert_eq!(names(95.9, Some(2.0), Some(32.0)), of("medium", "medium", "high"));
+        assert_eq!(names(96.0, Some(8.0), None), of("large", "fast", "unknown"));
+        assert_eq!(names(96.0, None, None), of("large", "unknown", "unknown"));
+    }
+}

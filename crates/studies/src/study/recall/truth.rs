@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The objects of every frame of a clip, the same for all designs: where they are in the frame that is seen, and
+//! of which classes they are.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use foveate_boxes::{BoxError, Boxes, Place, Rect, View};
+use foveate_footage::{Crop, Kind, Source, SourceFrame};
+
+use super::class::classes_of;
+use super::contrast::Sums;
+use crate::StudyError;
+use crate::watch::Guide;
+
+/// An object of the current frame.
+pub(super) struct Object {
+    /// In the frame that is seen, without what lies outside of it.
+    pub(super) rect: Rect,
+    pub(super) track: Option<u64>,
+    /// Places in [`CLASSES`](super::class::CLASSES).
+    pub(super) classes: [usize; 4],
+}
+
+/// The boxes of a clip, and the objects of the frame that is seen.
+pub(super) struct Truth {
+    boxes: Arc<Boxes>,
+    crop: Option<Crop>,
+    /// Whether any frame had an entry.
+    found: bool,
+    /// Boxes that lie mostly outside of the frame, over all frames.
+    outside: u64,
+    /// Centres of the tracks in the frame before.
+    before: HashMap<u64, (f64, f64)>,
+    objects: Vec<Object>,
+}
+
+impl Truth {
+    pub(super) fn new(boxes: Arc<Boxes>, crop: Option<Crop>) -> Self {
+        let (before, objects) = (HashMap::new(), Vec::new());
+        Self { boxes, crop, found: false, outside: 0, before, objects }
+    }
+
+    pub(super) fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// An error where the boxes have nothing to do with the clip.
+    pub(super) fn check(&self, clip: &str) -> Result<(), BoxError> {
+        if self.found { Ok(()) } else { Err(self.boxes.none_fit(clip)) }
+    }
+
+    /// Where the objects are from.
+    pub(super) fn note(&self, clip: &str) -> String {
+        let (path, format) = (self.boxes.path().display(), self.boxes.format().name());
+        let outside = self.outside;
+        format!("{clip}: boxes {path} ({format}), {outside} left out, mostly outside of the frame")
+    }
+}
+
+impl Guide for Truth {
+    fn look(&mut self, frame: &SourceFrame, source: &dyn Source) -> Result<(), StudyError> {
+        self.objects.clear();
+        let origin = source.origin().expect("an input knows where its frames are from");
+        let name = Path::new(&frame.name);
+        let (number, own_file) = (origin.number, origin.own_file);
+        let place = Place { name, own_file, number, size: origin.size };
+        let labelled = self.boxes.at(&place)?;
+        self.found |= labelled.is_some();
+        let labelled = labelled.unwrap_or_default();
+        // In a set an object is in one image.
+        let has_tracks = source.kind() == Kind::Clip;
+        let seen = (frame.frame.width(), frame.frame.height());
+        let view = View::of(origin.size, self.crop.map(|crop| (crop.size, crop.at)), seen);
+        let sums = (!labelled.is_empty()).then(|| Sums::of(&frame.frame));
+        let before = std::mem::take(&mut self.before);
+        for one in labelled {
+            let track = one.track.filter(|_| has_tracks);
+            let centre = view.place(&one.rect).centre();
+            let last = track.and_then(|track| before.get(&track));
+            let speed = last.map(|last| (centre.0 - last.0).hypot(centre.1 - last.1));
+            self.before.extend(track.map(|track| (track, centre)));
+            let Some(rect) = view.see(&one.rect) else {
+                self.outside += 1;
+                continue;
+            };
+            let contrast = sums.as_ref().and_then(|sums| sums.contrast(&rect));
+            let classes = classes_of(&rect, speed, contrast);
+            self.objects.push(Object { rect, track, classes });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Boxes follow the frames that are seen, whatever the input is.
+
+use std::fs;
+use std::path::PathBuf;
+use std::slice::from_ref;
+
+use super::{check_known, frame, images, mot, recall, row};
+use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, Selection};
+
+#[test]
+fn boxes_are_cropped_and_scaled_with_the_frames() {
+    let dir = tempfile::tempdir().unwrap();
+    let (clip, out) = (dir.path().join("clip"), dir.path().join("out"));
+    let gt = clip.join("gt.txt");
+    images(&clip, 2, 24);
+    // An object outside of the crop, by more than three quarters, is no object.
+    fs::write(&gt, mot(2, 24) + "2,9,5,25,24,16,1,1,1\n").unwrap();
+    let crop = Some(Crop { size: (64, 32), at: (24, 24) });
+    let input = InputOptions { crop, resize: Some((32, 16)), ..InputOptions::default() };
+    let report = recall(&[clip], &[gt], &input, &out).unwrap();
+    check_known(&report, "clip", &out);
+    assert!(fs::read_to_string(out.join("recall.csv")).unwrap().contains("(MOT), 1 left out"));
+}
+
+#[test]
+fn boxes_follow_the_frames_that_are_seen() {
+    let dir = tempfile::tempdir().unwrap();
+    let (clip, gt, out) =
+        (dir.path().join("a.y4m"), dir.path().join("gt.txt"), dir.path().join("out"));
+    let mut stream = b"YUV4MPEG2 W32 H16 F10:1 Cmono\n".to_vec();
+    for number in [0, 0, 0, 1, 1, 1] {
+        stream.extend([b"FRAME\n".as_slice(), &frame(number, 1, 0).2].concat());
+    }
+    fs::write(&clip, stream).unwrap();
+    // Region 0 changes from the third to the fourth frame. The object moves 0.4 pixels per frame, and stays in
+    // that region by more than a half.
+    let rows =
+        (1..=6).map(|frame| format!("{frame},1,{},1,8,8,1,1,1\n", 0.4 * f64::from(frame) + 0.6));
+    fs::write(&gt, rows.collect::<String>()).unwrap();
+    let of = |start_us, rate: Option<u32>| {
+        let rate = rate.map(|rate| FrameRate::new(rate, 1).unwrap());
+        let selection = Selection { start_us, rate, ..Selection::default() };
+        let input = InputOptions { selection, ..InputOptions::default() };
+        let report = recall(from_ref(&clip), from_ref(&gt), &input, &out).unwrap();
+        let speed = ["still", "slow"].into_iter().find(|speed| {
+            let of_speed = |row: &&Vec<String>| row[1] == "design" && row[4..6] == ["speed", speed];
+            report.rows.iter().any(|row| of_speed(&row))
+        });
+        (row(&report, "a", "active", ("all", "all"))[..5].join(" "), speed)
+    };
+    // 5 frames after the first, and in one of them it is active; from the third frame on one of 3; every second
+    // frame one of 2, and it moves twice as far.
+    assert_eq!(of(None, None), ("5 0.800000 0.200000 0.200000 0.200000".to_owned(), Some("still")));
+    let late = "3 0.666667 0.333333 0.333333 0.333333".to_owned();
+    assert_eq!(of(Some(200_000), None), (late, Some("still")));
+    let sparse = "2 0.500000 0.500000 0.500000 0.500000".to_owned();
+    assert_eq!(of(None, Some(5)), (sparse, Some("slow")));
+    // Boxes of the frames before the start would not do: there is a box only in the fourth frame.
+    fs::write(&gt, "4,1,1,1,8,8,1,1,1\n").unwrap();
+    let one = "1 0.000000 1.000000 1.000000 1.000000".to_owned();
+    assert_eq!(of(Some(200_000), None), (one, None));
+}
+
+#[test]
+fn sets_have_boxes_by_name_and_count_what_is_relevant() {
+    let dir = tempfile::tempdir().unwrap();
+    let (set, out) = (dir.path().join("set"), dir.path().join("out"));
+    images(&set, 1, 0);
+    let file = |name: &str, text: &str| {
+        let path = dir.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let csv = file("a.csv", "file,x0,y0,x1,y1\n000002.pgm,0,0,16,8\n000003.pgm,0,0,32,16\n");
+    let coco = r#"{"images": [{"id": 1, "file_name": "000002.pgm"}, {"id": 2, "file_name": "000003.pgm"}],
+        "annotations": [{"image_id": 2, "bbox": [0, 0, 32, 16]}, {"image_id": 1, "bbox": [0, 0, 16, 8]}]}"#;
+    let coco = file("a.json", coco);
+    file("yolo/000002.txt", "0 0.25 0.25 0.5 0.5\n");
+    let yolo = file("yolo/000003.txt", "1 0.5 0.5 1 1\n").parent().unwrap().to_owned();
+    let input = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
+    let mut tables = Vec::new();
+    for boxes in [csv.clone(), coco, yolo] {
+        let report = recall(from_ref(&set), &[boxes], &input, &out).unwrap();
+        // All regions of all images have an edge, and every image counts.
+        let all = ["2", "0.000000", "1.000000", "1.000000", "1.000000", "", "514"];
+        assert_eq!(row(&report, "set", "active", ("all", "all")), all);
+        assert!(!report.files.contains(&"recall-tracks.csv".to_owned()));
+        assert!(report.rows.iter().all(|row| !row[1].starts_with("temporal")));
+        tables.push(report.rows);
+    }
+    assert!(tables[0] == tables[1] && tables[1] == tables[2]);
+    // An image alone is a clip of one frame, which counts because there is no other.
+    let image = set.join("000002.pgm");
+    let report = recall(&[image], &[csv], &InputOptions::default(), &out).unwrap();
+    assert_eq!(row(&report, "000002", "active", ("all", "all"))[..2], ["1", "0.000000"]);
+}
+
+#[test]
+fn boxes_that_do_not_fit_are_refused_and_leave_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let (clip, out) = (dir.path().join("clip"), dir.path().join("out"));
+    images(&clip, 1, 0);
+    let gt = dir.path().join("gt.txt");
+    let message = |text: &str, boxes: &[PathBuf]| {
+        fs::write(&gt, text).unwrap();
+        let refused = recall(from_ref(&clip), boxes, &InputOptions::default(), &out).unwrap_err();
+        assert!(!out.exists());
+        refused.to_string()
+    };
+    let given = [gt.clone()];
+    assert!(message("", &[]).contains("--boxes"));
+    assert!(message("1,1,x\n", &given).contains("gt.txt`, line 1"));
+    assert!(message("9,1,1,1,8,8,1,1,1\n", &given).contains("begins with frame 9"));
+    assert!(message("1,1,1,1,8,8,1,1,1\n", &given).contains("any frame after the first of `clip`"));
+    assert!(message("2,1,1,1,8,8,0,1,1\n", &given).contains("no object"));
+}

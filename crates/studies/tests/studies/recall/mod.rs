@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A known clip with known objects, and what the study says of it.
+
+mod counted;
+mod inputs;
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::Silent;
+use foveate_design::Config;
+use foveate_footage::InputOptions;
+use foveate_studies::{Report, Request, Study, StudyError, analyze};
+
+/// Objects of regions 0 and 1, 6, and 3, in frames of 4 x 2 regions.
+const MOT: [(u32, [u32; 4]); 3] = [(1, [0, 0, 16, 8]), (2, [16, 8, 8, 8]), (3, [24, 0, 8, 8])];
+/// What region 0, 6 and all others show in each frame: 0 and 1 are edges with light and dark swapped.
+const SHOWN: [[u8; 3]; 4] = [[0, 0, 0], [1, 0, 0], [0, 0, 0], [1, 1, 0]];
+
+/// Every region of a frame has an edge in its middle; `zoom` enlarges pixels, `edge` surrounds them.
+fn frame(number: usize, zoom: usize, edge: usize) -> (usize, usize, Vec<u8>) {
+    let (width, height) = (32 * zoom + 2 * edge, 16 * zoom + 2 * edge);
+    let mut pixels = vec![90; width * height];
+    for (y, x) in (0..16 * zoom).flat_map(|y| (0..32 * zoom).map(move |x| (y, x))) {
+        let (column, row) = (x / zoom / 8, y / zoom / 8);
+        let [first, sixth, others] = SHOWN[number];
+        let swapped = match 4 * row + column {
+            0 => first,
+            6 => sixth,
+            _ => others,
+        };
+        let light = (x / zoom % 8 < 4) == (swapped == 0);
+        pixels[(y + edge) * width + x + edge] = if light { 200 } else { 20 };
+    }
+    (width, height, pixels)
+}
+
+fn images(folder: &Path, zoom: usize, edge: usize) {
+    fs::create_dir_all(folder).unwrap();
+    for number in 0..SHOWN.len() {
+        let (width, height, pixels) = frame(number, zoom, edge);
+        let image = [format!("P5 {width} {height} 255\n").into_bytes(), pixels].concat();
+        fs::write(folder.join(format!("{:06}.pgm", number + 1)), image).unwrap();
+    }
+}
+
+/// Rows of all objects in all frames.
+fn mot(zoom: u32, edge: u32) -> String {
+    let mut text = String::new();
+    for (frame, (track, [x, y, w, h])) in
+        (1..=SHOWN.len()).flat_map(|frame| MOT.map(|object| (frame, object)))
+    {
+        let [x, y] = [x, y].map(|at| at * zoom + edge + 1);
+        let (w, h) = (w * zoom, h * zoom);
+        writeln!(text, "{frame},{track},{x},{y},{w},{h},1,1,1").unwrap();
+    }
+    text
+}
+
+fn config() -> Config {
+    let isolated = "region.neighborhood = \"isolated\"";
+    Config::from_toml_with("", &[isolated, "denoise.filter=\"none\""]).unwrap()
+}
+
+fn recall(
+    inputs: &[PathBuf],
+    boxes: &[PathBuf],
+    input: &InputOptions,
+    out: &Path,
+) -> Result<Report, StudyError> {
+    let config = config();
+    let (sensor_events, sensor_start_us) = (None, 0);
+    let study = Study::Recall;
+    let request =
+        Request { study, inputs, input, config: &config, sensor_events, sensor_start_us, boxes };
+    analyze(&request, out, true, &Silent)
+}
+
+/// Cells of a row of the design as it is.
+fn row<'a>(report: &'a Report, clip: &str, vote: &str, class: (&str, &str)) -> &'a [String] {
+    let wanted = [clip, "design", "", vote, class.0, class.1];
+    let mut rows = report.rows.iter().filter(|row| row[..6] == wanted);
+    let row = rows.next().unwrap_or_else(|| panic!("no row {wanted:?} in {:?}", report.rows));
+    assert!(rows.next().is_none(), "twice: {wanted:?}");
+    &row[6..13]
+}
+
+/// What all ways to show the known clip have in common: by hand, frames 1 to 3 of three objects each.
+fn check_known(report: &Report, clip: &str, folder: &Path) {
+    let known = ["9", "0.555556", "0.444444", "0.444444", "0.111111", "", "87"];
+    assert_eq!(row(report, clip, "active", ("all", "all")), known);
+    assert_eq!(row(report, clip, "active", ("size", "small")), known);
+    assert_eq!(row(report, clip, "active", ("speed", "still")), known);
+    let relevant = ["9", "0.000000", "1.000000", "1.000000", "1.000000", "", "87"];
+    assert_eq!(row(report, clip, "srs", ("all", "all")), relevant);
+    let tracks = ["3", "0.333333", "0.666667", "0.666667", "0.333333", "3", "87"];
+    assert_eq!(row(report, clip, "active", ("track", "all")), tracks);
+    let table = fs::read_to_string(folder.join("recall-tracks.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    let columns = "clip,track,frames,some,quarter,half,all,longest_gap";
+    let expected =
+        ["1,3,3,3,3,0,0", "2,3,1,1,1,1,2", "3,3,0,0,0,0,3"].map(|row| format!("{clip},{row}"));
+    assert_eq!((rows[0], &rows[1..]), (columns, &expected.each_ref().map(String::as_str)[..]));
+}
