@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use foveate_boxes::BoxError;
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
@@ -51,6 +52,18 @@ pub enum ExploreError {
         other: String,
         /// Its size.
         other_size: String,
+    },
+    /// Boxes that cannot be read, or that do not fit the clips.
+    #[error(transparent)]
+    Boxes(#[from] BoxError),
+    /// There is nothing of which a share could be sent.
+    #[error(
+        "no object is to be counted in the {half} half of the clips, so --min-recall says nothing; check --boxes, \
+         or take more footage"
+    )]
+    NoObjects {
+        /// First or second.
+        half: &'static str,
     },
     /// An input that can be read only once.
     #[error(

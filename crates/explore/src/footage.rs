@@ -3,13 +3,16 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use foveate_boxes::{Boxes, Clip, Rect, assign};
 use foveate_design::{Config, Design};
 use foveate_fidelity::{Figures, Tally};
-use foveate_footage::{InputOptions, Source, Subject, is_read_once, open, subjects};
+use foveate_footage::{InputOptions, Source, SourceFrame, Subject, is_read_once, open, subjects};
 
-use crate::measure::{Clip, Measured};
+use crate::measure::{self, Measured};
+use crate::objects::{Objects, objects};
 use crate::store::{Store, identity, key};
 use crate::{ExploreError, Hooks, Progress};
 
@@ -25,6 +28,8 @@ pub(crate) struct Footage<'a> {
     input: &'a InputOptions,
     ideal: &'a Config,
     hooks: &'a dyn Hooks,
+    /// Ground-truth boxes of every clip, or none.
+    pub(crate) boxes: Vec<Arc<Boxes>>,
 }
 
 impl<'a> Footage<'a> {
@@ -54,7 +59,28 @@ impl<'a> Footage<'a> {
             }
         }
         let size = first.map_or((0, 0), |(_, size)| size);
-        Ok(Self { subjects, size, input, ideal, hooks })
+        Ok(Self { subjects, size, input, ideal, hooks, boxes: Vec::new() })
+    }
+
+    /// Reads the boxes of every clip from these files, if there are any.
+    pub(crate) fn with_boxes(mut self, files: &[PathBuf]) -> Result<Self, ExploreError> {
+        if !files.is_empty() {
+            let clips = self.subjects.iter();
+            let clips = clips.map(|clip| Clip { name: &clip.name, input: &clip.inputs[0] });
+            self.boxes = assign(files, &clips.collect::<Vec<_>>())?;
+        }
+        Ok(self)
+    }
+
+    /// The objects of a frame of a clip, by its number; `None` without an entry for the frame.
+    pub(crate) fn objects(
+        &self,
+        clip: usize,
+        frame: &SourceFrame,
+        source: &dyn Source,
+    ) -> Result<Option<Vec<Rect>>, ExploreError> {
+        let Some(boxes) = self.boxes.get(clip) else { return Ok(None) };
+        objects(boxes, frame, source, self.input.crop)
     }
 
     /// For every clip and design what was seen of it over the whole clip.
@@ -66,7 +92,7 @@ impl<'a> Footage<'a> {
         let all = self.subjects.len() * designs.len();
         let done = AtomicUsize::new(0);
         let mut results = Vec::new();
-        for subject in &self.subjects {
+        for (clip_number, subject) in self.subjects.iter().enumerate() {
             let clip = identity(subject, self.input);
             let keys: Vec<String> =
                 designs.iter().map(|design| key(&clip, self.ideal, design.config())).collect();
@@ -78,8 +104,12 @@ impl<'a> Footage<'a> {
                 let tell = || Progress::Measuring { done: done.load(Ordering::Relaxed), all };
                 let together: Vec<Design> =
                     some.iter().map(|&index| designs[index].clone()).collect();
-                let measured =
-                    self.parts(subject, &together, std::slice::from_ref(&(0..u64::MAX)), &tell)?;
+                let measured = self.parts(
+                    clip_number,
+                    &together,
+                    std::slice::from_ref(&(0..u64::MAX)),
+                    &tell,
+                )?;
                 for (&index, mut parts) in some.iter().zip(measured) {
                     let Some(measured) = parts.pop() else { continue };
                     // A clip that broke off may be whole the next time.
@@ -100,39 +130,42 @@ impl<'a> Footage<'a> {
         Ok(open(&subject.inputs, self.ideal, self.input)?)
     }
 
-    /// For every design its figures over the first halves of all clips; `halves` says for each clip how
+    /// For every design its figures over the first halves of all clips, and what becomes of objects; `halves` says for each clip how
     /// many frames that is. `before` designs count as done already.
     pub(crate) fn first_halves(
         &self,
         designs: &[Design],
         halves: &[(u64, u64)],
         before: usize,
-    ) -> Result<Vec<Figures>, ExploreError> {
+    ) -> Result<Vec<(Figures, Objects)>, ExploreError> {
         let mut found = Vec::new();
         let all = before + designs.len();
         for some in designs.chunks(TOGETHER) {
-            let mut sums: Vec<Option<Tally>> = vec![None; some.len()];
+            let mut sums: Vec<Option<(Tally, Objects)>> = vec![None; some.len()];
             let done = before + found.len();
             let tell = || Progress::Measuring { done, all };
-            for (subject, &(half, _)) in self.subjects.iter().zip(halves) {
-                let measured =
-                    self.parts(subject, some, std::slice::from_ref(&(0..half)), &tell)?;
+            for (clip, &(half, _)) in halves.iter().enumerate() {
+                let measured = self.parts(clip, some, std::slice::from_ref(&(0..half)), &tell)?;
                 for (sum, part) in sums.iter_mut().zip(measured.into_iter().flatten()) {
                     match sum {
-                        Some(sum) => sum.merge(&part.tally),
-                        None => *sum = Some(part.tally),
+                        Some((tally, objects)) => {
+                            tally.merge(&part.tally);
+                            objects.merge(part.objects);
+                        }
+                        None => *sum = Some((part.tally, part.objects)),
                     }
                 }
             }
-            found.extend(sums.iter().flatten().map(Tally::figures));
+            let figures = |(tally, objects): &(Tally, Objects)| (tally.figures(), *objects);
+            found.extend(sums.iter().flatten().map(figures));
         }
         Ok(found)
     }
 
-    /// What was seen of designs in parts of one clip, measured now.
+    /// What was seen of designs in parts of one clip, by its number, measured now.
     pub(crate) fn parts(
         &self,
-        subject: &Subject,
+        clip: usize,
         designs: &[Design],
         parts: &[Range<u64>],
         tell: &(dyn Fn() -> Progress + Sync),
@@ -141,7 +174,8 @@ impl<'a> Footage<'a> {
             self.hooks.progress(tell());
             !self.hooks.cancelled()
         };
-        let clip = Clip { subject, input: self.input, ideal: self.ideal, parts, go_on: &go_on };
-        clip.measure(designs)
+        let boxes = self.boxes.get(clip).map(AsRef::as_ref);
+        let (subject, input, ideal) = (&self.subjects[clip], self.input, self.ideal);
+        measure::Clip { subject, input, ideal, parts, boxes, go_on: &go_on }.measure(designs)
     }
 }

@@ -17,6 +17,7 @@ mod front;
 mod measure;
 mod method;
 mod objective;
+mod objects;
 mod point;
 mod report;
 mod row;

@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use foveate_boxes::{Boxes, Rect};
 use foveate_design::{Config, Design};
 use foveate_engine::Engine;
 use foveate_fidelity::{Fidelity, Tally};
@@ -17,6 +18,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::ExploreError;
+use crate::objects::{Objects, objects};
 
 /// Frames that are ready before the engines ask for them.
 const AHEAD: usize = 2;
@@ -26,6 +28,9 @@ const AHEAD: usize = 2;
 pub(crate) struct Measured {
     /// Errors against the ideal.
     pub(crate) tally: Tally,
+    /// What becomes of objects, where there are boxes.
+    #[serde(default)]
+    pub(crate) objects: Objects,
     /// Time in the engine in nanoseconds, beside whatever else the machine did.
     pub(crate) nanoseconds: u64,
     /// Why the clip ended before its end, if it did.
@@ -40,6 +45,8 @@ pub(crate) struct Clip<'a> {
     pub(crate) ideal: &'a Config,
     /// Parts of the clip, by the numbers of their frames, that are measured apart.
     pub(crate) parts: &'a [Range<u64>],
+    /// Its ground-truth boxes, if there are any.
+    pub(crate) boxes: Option<&'a Boxes>,
     /// Called after every frame; says whether to go on.
     pub(crate) go_on: &'a (dyn Fn() -> bool + Sync),
 }
@@ -49,14 +56,17 @@ struct Judged {
     number: u64,
     frame: Raster,
     ideal: IdealOutcome,
+    objects: Vec<Rect>,
 }
 
 /// A design at work.
 struct Candidate {
+    design: Design,
     engine: Engine,
     bits: u32,
     /// One for each part.
     fidelity: Vec<Fidelity>,
+    objects: Vec<Objects>,
     time: Vec<Duration>,
 }
 
@@ -74,16 +84,17 @@ impl Clip<'_> {
         let problem = thread::scope(|scope| {
             let (give, take) = sync_channel(AHEAD);
             let end = self.parts.iter().map(|part| part.end).max().expect("a clip has a part");
-            let judge = scope.spawn(move || judge(source, ideal, end, &give));
+            let judge = scope.spawn(move || self.judge(source, ideal, end, &give));
             let seen = self.watch(&mut candidates, set, take);
             let problem = judge.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What stopped the engines explains why nobody took the frames.
             seen.and(problem)
         })?;
         let measured = |candidate: Candidate| {
-            let parts = candidate.fidelity.into_iter().zip(candidate.time);
-            let one = |(fidelity, time): (Fidelity, Duration)| Measured {
+            let parts = candidate.fidelity.into_iter().zip(candidate.objects).zip(candidate.time);
+            let one = |((fidelity, objects), time): ((Fidelity, Objects), Duration)| Measured {
                 tally: fidelity.tally().clone(),
+                objects,
                 nanoseconds: u64::try_from(time.as_nanos()).unwrap_or(u64::MAX),
                 problem: problem.clone(),
             };
@@ -110,30 +121,37 @@ impl Clip<'_> {
         }
         Ok(())
     }
-}
 
-/// Decodes the clip and shows it to the ideal camera until frame `end`, or nobody listens. Says why it ended
-/// before its end, if it did.
-fn judge(
-    mut source: Box<dyn Source>,
-    ideal: &Design,
-    end: u64,
-    give: &SyncSender<Judged>,
-) -> Result<Option<String>, ExploreError> {
-    let mut camera = IdealCamera::new(ideal);
-    let mut number = 0;
-    while number < end {
-        let Some(current) = source.next_frame()? else { return Ok(source.problem()) };
-        if source.kind() == Kind::Set {
-            camera.reset();
+    /// Decodes the clip and shows it to the ideal camera until frame `end`, or nobody listens. Says why it ended
+    /// before its end, if it did. Objects of the first frame, which has no reference, do not count.
+    fn judge(
+        &self,
+        mut source: Box<dyn Source>,
+        ideal: &Design,
+        end: u64,
+        give: &SyncSender<Judged>,
+    ) -> Result<Option<String>, ExploreError> {
+        let mut camera = IdealCamera::new(ideal);
+        let mut number = 0;
+        while number < end {
+            let Some(current) = source.next_frame()? else { return Ok(source.problem()) };
+            let set = source.kind() == Kind::Set;
+            if set {
+                camera.reset();
+            }
+            let ideal = camera.step(&current.frame)?.clone();
+            let objects = match self.boxes.filter(|_| set || number > 0) {
+                Some(boxes) => objects(boxes, &current, source.as_ref(), self.input.crop)?,
+                None => None,
+            };
+            let objects = objects.unwrap_or_default();
+            if give.send(Judged { number, frame: current.frame, ideal, objects }).is_err() {
+                return Ok(None);
+            }
+            number += 1;
         }
-        let ideal = camera.step(&current.frame)?.clone();
-        if give.send(Judged { number, frame: current.frame, ideal }).is_err() {
-            return Ok(None);
-        }
-        number += 1;
+        Ok(None)
     }
-    Ok(None)
 }
 
 impl Candidate {
@@ -143,6 +161,8 @@ impl Candidate {
             engine: Engine::new(design),
             bits: design.pixel_bits(),
             fidelity: fidelity.collect::<Result<_, _>>()?,
+            objects: vec![Objects::default(); parts],
+            design: design.clone(),
             time: vec![Duration::ZERO; parts],
         })
     }
@@ -163,6 +183,7 @@ impl Candidate {
         self.engine.step_raster(frame)?;
         self.time[part] += began.elapsed();
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
+        self.objects[part].add(&self.design, &judged.objects, &outcome.active);
         Ok(self.fidelity[part].add(&judged.frame, &judged.ideal, outcome, screen)?)
     }
 }

@@ -42,6 +42,9 @@ pub(crate) struct FitArgs {
     /// Synthesize at most this many designs, the most promising first
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = at_least_one())]
     pub(crate) max_syntheses: u32,
+    /// Ground-truth boxes for --min-recall, as of `foveate analyze recall`
+    #[arg(long, value_name = "FILE", requires = "min_recall")]
+    pub(crate) boxes: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) constraints: ConstraintArgs,
     #[command(flatten)]
@@ -76,6 +79,9 @@ pub(crate) struct ConstraintArgs {
     /// At most this many bytes per frame may leave the array
     #[arg(long, value_name = "BYTES", value_parser = at_least_one())]
     pub(crate) max_bytes: Option<u32>,
+    /// Smallest share of the ground-truth objects of --boxes of which at least half of the regions are active
+    #[arg(long, value_name = "PERCENT", value_parser = percent, requires = "boxes")]
+    pub(crate) min_recall: Option<f64>,
     /// At most this many LUTs of one RPU or lane
     #[arg(long, value_name = "N")]
     pub(crate) max_lut: Option<u64>,
@@ -98,6 +104,7 @@ impl ConstraintArgs {
             min_psnr: self.min_psnr,
             max_stale_frames: self.max_stale_frames,
             max_bytes: self.max_bytes.map(f64::from),
+            min_recall: self.min_recall,
             min_fps: Some(self.min_fps.per_second()),
             max_lut: self.max_lut,
             max_ff: self.max_ff,

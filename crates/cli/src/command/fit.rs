@@ -29,6 +29,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         constraints: &args.constraints.constraints(),
         clock_hz: args.constraints.clock.0,
         target_active: args.constraints.target_active,
+        boxes: &args.boxes,
         synthesizer: &synthesizer,
         most: usize::try_from(args.max_syntheses).unwrap_or(usize::MAX),
     };

@@ -129,4 +129,13 @@ fn what_fit_finds_can_be_generated() {
     assert_eq!(none.code, 1, "{}", none.stdout);
     assert!(none.stdout.contains("Binding: without --max-lut"), "{}", none.stdout);
     assert!(none.stderr.contains("no design meets all limits"), "{}", none.stderr);
+    // An object in the lower left corner, which changes now and then.
+    let rows = (1..=8).map(|frame| format!("{frame},1,1,17,8,8,1,1,1\n"));
+    fs::write(dir.path().join("gt.txt"), rows.collect::<String>()).unwrap();
+    let lost = fit(&["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);
+    assert_eq!(lost.code, 1, "{}", lost.stdout);
+    assert!(lost.stdout.contains("NOT objects sent by half "), "{}", lost.stdout);
+    assert!(lost.stdout.contains("Binding: without --min-recall"), "{}", lost.stdout);
+    assert_eq!(fit(&["--min-recall", "90%"]).code, 2, "without boxes");
+    assert_eq!(fit(&["--boxes", "gt.txt"]).code, 2, "without a limit");
 }

@@ -21,6 +21,8 @@ pub struct Constraints {
     pub max_stale_frames: Option<u64>,
     /// Bytes per frame that leave the array.
     pub max_bytes: Option<f64>,
+    /// Share of the objects of which at least half of the regions are active. It needs boxes.
+    pub min_recall: Option<f64>,
     /// Frames per second at the clock.
     pub min_fps: Option<f64>,
     /// LUTs of one RPU or lane, those used as memory included.
@@ -82,9 +84,9 @@ pub(super) fn excess(held: &[Held]) -> f64 {
 }
 
 impl Constraints {
-    /// The constraints on what a camera sees and sends.
+    /// The constraints on what a camera sees and sends; `recall` is known where it is limited.
     #[must_use]
-    pub fn on_figures(&self, design: &Design, figures: &Figures) -> Vec<Held> {
+    pub fn on_figures(&self, design: &Design, figures: &Figures, recall: Option<f64>) -> Vec<Held> {
         let at_most =
             |name, limit: Option<f64>, value| limit.map(|l| Held::at_most(name, value, l));
         // Screens that are identical are as near as can be.
@@ -99,6 +101,7 @@ impl Constraints {
                 real(figures.staleness.longest),
             ),
             at_most("max-bytes", self.max_bytes, bytes_per_frame(design, figures.active)),
+            self.min_recall.zip(recall).map(|(limit, r)| Held::at_least("min-recall", r, limit)),
         ]
         .into_iter()
         .flatten()

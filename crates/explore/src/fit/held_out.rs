@@ -21,10 +21,11 @@ const LEAST: u64 = 4;
 pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves, ExploreError> {
     let mut found = Halves::default();
     let mut read = 0;
-    for subject in &footage.subjects {
+    for (clip, subject) in footage.subjects.iter().enumerate() {
         let mut source = footage.open(subject)?;
-        let mut frames = 0;
+        let (mut frames, mut has_boxes) = (0, footage.boxes.is_empty());
         while let Some(frame) = source.next_frame()? {
+            has_boxes |= footage.objects(clip, &frame, source.as_ref())?.is_some();
             source.give_back(frame);
             frames += 1;
             read += 1;
@@ -36,6 +37,9 @@ pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves,
         if frames < LEAST {
             let clip = subject.name.clone();
             return Err(ExploreError::Short { clip, frames, least: LEAST });
+        }
+        if let Some(boxes) = footage.boxes.get(clip).filter(|_| !has_boxes) {
+            return Err(boxes.none_fit(&subject.name).into());
         }
         found.frames.push((frames / 2, frames));
         let problem = source.problem().map(|problem| format!("{}: {problem}", subject.name));

@@ -14,6 +14,7 @@ use super::held_out::Halves;
 use crate::ExploreError;
 use crate::Progress;
 use crate::footage::Footage;
+use crate::objects::Objects;
 use crate::row::together;
 
 /// Sides of regions that are tried beside the task's.
@@ -178,8 +179,9 @@ impl<'a> Search<'a> {
         let designs_new: Vec<_> = new.values().cloned().collect();
         let figures =
             self.footage.first_halves(&designs_new, &self.halves.frames, self.seen.len())?;
-        for ((text, design), figures) in new.iter().zip(figures) {
-            let held = self.constraints.on_figures(design, &figures);
+        for ((text, design), (figures, objects)) in new.iter().zip(figures) {
+            let recall = self.recall(objects, "first")?;
+            let held = self.constraints.on_figures(design, &figures, recall);
             let look = Look { config: design.config().clone(), figures, held };
             self.seen.insert(text.clone(), look);
         }
@@ -191,17 +193,28 @@ impl<'a> Search<'a> {
     pub(super) fn second_half(&self, look: &Look) -> Result<(Figures, Vec<Held>), ExploreError> {
         let design = look.config.validate()?;
         let mut measured = Vec::new();
-        for (subject, &(half, all)) in self.footage.subjects.iter().zip(&self.halves.frames) {
+        for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
             let tell = || Progress::Measuring { done: 0, all: 1 };
             let designs = std::slice::from_ref(&design);
-            let mut parts = self.footage.parts(subject, designs, &[0..half, half..all], &tell)?;
+            let mut parts = self.footage.parts(clip, designs, &[0..half, half..all], &tell)?;
             measured.extend(parts.pop().and_then(|mut parts| parts.pop()));
         }
         let all: Vec<_> = measured.iter().collect();
         let figures = together(&all).map(|tally| tally.figures());
         let figures = figures.ok_or(DesignError::Syntax("no clip".to_owned()))?;
-        let held = self.constraints.on_figures(&design, &figures);
+        let mut objects = Objects::default();
+        measured.iter().for_each(|part| objects.merge(part.objects));
+        let recall = self.recall(objects, "second")?;
+        let held = self.constraints.on_figures(&design, &figures, recall);
         Ok((figures, held))
+    }
+
+    /// The share of the objects of a half that is sent, if it is limited.
+    fn recall(&self, objects: Objects, half: &'static str) -> Result<Option<f64>, ExploreError> {
+        if self.constraints.min_recall.is_none() {
+            return Ok(None);
+        }
+        objects.recall().ok_or(ExploreError::NoObjects { half }).map(Some)
     }
 }
 

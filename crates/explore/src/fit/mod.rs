@@ -51,6 +51,8 @@ pub struct FitRequest<'a> {
     pub clock_hz: u64,
     /// The wanted share of active regions, 0..=1; the task's thresholds are set to it.
     pub target_active: Option<f64>,
+    /// Ground-truth boxes for [`Constraints::min_recall`]: one file or folder for all inputs, or one for each.
+    pub boxes: &'a [PathBuf],
     /// The synthesizer, for areas.
     pub synthesizer: &'a Synthesizer,
     /// The most designs that are synthesized: of those that meet all other limits, or of the nearest ones.
@@ -68,14 +70,17 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let HardwareConfig { thresholds, memory, .. } = request.task.hardware;
     let hardware = HardwareConfig { thresholds, ..HardwareConfig::default() };
     let task = Config { hardware, ..request.task.clone() };
-    let request = &FitRequest { task: &task, ..request.clone() };
-    let (lengths, (task, target)) = {
+    let input = InputOptions { numbered: !request.boxes.is_empty(), ..request.input.clone() };
+    let request = &FitRequest { task: &task, input: &input, ..request.clone() };
+    let (lengths, boxes, (task, target)) = {
         let footage = Footage::new(request.inputs, request.input, request.task, hooks)?;
+        let footage = footage.with_boxes(request.boxes)?;
         let lengths = halves(&footage, hooks)?;
         let aimed = target::aim(request, &footage, &lengths)?;
-        (lengths, aimed)
+        (lengths, footage.boxes, aimed)
     };
-    let footage = Footage::new(request.inputs, request.input, &task, hooks)?;
+    let mut footage = Footage::new(request.inputs, request.input, &task, hooks)?;
+    footage.boxes = boxes;
     let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
     search.run()?;
     let built = build(&search, request, memory, hooks)?;

@@ -57,7 +57,7 @@ fn nearest(
     let (tasks, designs): (Vec<Config>, Vec<_>) =
         tasks.into_iter().filter_map(|task| Some((task.clone(), design(&task).ok()?))).unzip();
     let shares = footage.first_halves(&designs, &halves.frames, 0)?;
-    let found = tasks.into_iter().zip(shares.iter().map(|figures| figures.active));
+    let found = tasks.into_iter().zip(shares.iter().map(|(figures, _)| figures.active));
     let best = found
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
     best.ok_or(ExploreError::NoPoints {
@@ -126,6 +126,7 @@ mod tests {
                 constraints: &Constraints::default(),
                 clock_hz: 1,
                 target_active: Some(wanted),
+                boxes: &[],
                 synthesizer: &Synthesizer {
                     toolchain: Toolchain::system(),
                     cache: Cache::throw_away().unwrap(),

@@ -169,7 +169,7 @@ impl Held {
     pub fn text(&self) -> String {
         let side = if self.at_least { "at least" } else { "at most" };
         let number = |value: f64| match self.name {
-            "max-flips" | "max-missed" => format!("{:.2} %", value * 100.0),
+            "max-flips" | "max-missed" | "min-recall" => format!("{:.2} %", value * 100.0),
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
             "min-fps" | "max-bram" => {
@@ -183,6 +183,7 @@ impl Held {
             "min-psnr" => "PSNR",
             "max-stale-frames" => "stale frames",
             "max-bytes" => "bytes per frame",
+            "min-recall" => "objects sent by half",
             "min-fps" => "frames/s",
             "max-lut" => "LUTs of a unit",
             "max-ff" => "flip-flops of a unit",

@@ -3,11 +3,12 @@
 
 use std::path::PathBuf;
 
-use foveate_design::Config;
+use foveate_design::{Config, Design};
+use foveate_engine::Engine;
 use foveate_explore::{
-    Constraints, ExploreError, Fit, FitRequest, Hooks, Progress, Synthesizer, fit,
+    Constraints, ExploreError, Fit, FitRequest, Held, Hooks, Progress, Synthesizer, fit,
 };
-use foveate_footage::InputOptions;
+use foveate_footage::{InputOptions, open};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
@@ -32,6 +33,15 @@ impl Hooks for Cancelled {
 }
 
 fn run(frames: u32, constraints: &Constraints, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
+    run_with(&[], frames, constraints, hooks)
+}
+
+fn run_with(
+    boxes: &[PathBuf],
+    frames: u32,
+    constraints: &Constraints,
+    hooks: &dyn Hooks,
+) -> Result<Fit, ExploreError> {
     let task = "[frame]\nwidth = 32\nheight = 24\n[temporal]\nreference = \"last-sent\"\n";
     fit(
         &FitRequest {
@@ -41,6 +51,7 @@ fn run(frames: u32, constraints: &Constraints, hooks: &dyn Hooks) -> Result<Fit,
             constraints,
             clock_hz: 1_000_000,
             target_active: None,
+            boxes,
             synthesizer: &Synthesizer {
                 toolchain: Toolchain::system(),
                 cache: Cache::from_env().unwrap(),
@@ -101,4 +112,65 @@ fn a_clip_must_have_halves_and_a_run_can_be_stopped() {
     assert!(matches!(short, ExploreError::Short { frames: 3, .. }), "{short}");
     let stopped = run(8, &Constraints::default(), &Cancelled).unwrap_err();
     assert!(matches!(stopped, ExploreError::Cancelled), "{stopped}");
+}
+
+/// Two objects in every frame, squares of 8 pixels in the lower corners, which are sent now and then.
+const BOXES: [[u32; 2]; 2] = [[0, 16], [24, 16]];
+
+/// Their recall by a design, counted in frames of the clip, the first of which does not count.
+fn counted(design: &Design, frames: std::ops::Range<usize>) -> f64 {
+    let options = InputOptions { frames: Some(8), ..InputOptions::default() };
+    let mut source = open(&["scene:street"], design.config(), &options).unwrap();
+    let mut engine = Engine::new(design);
+    let (mut all, mut sent) = (0.0, 0.0);
+    for number in 0..frames.end {
+        let frame = source.next_frame().unwrap().unwrap();
+        let active = &engine.step_raster(&frame.frame).unwrap().active;
+        for [x, y] in BOXES.into_iter().filter(|_| number > 0 && frames.contains(&number)) {
+            let side = design.region_size();
+            let inside = |at: &u32| {
+                let (column, row) = (at % design.columns() * side, at / design.columns() * side);
+                (x..x + 8).contains(&column) && (y..y + 8).contains(&row)
+            };
+            let regions: Vec<u32> = (0..design.regions()).filter(inside).collect();
+            let yes = regions.iter().filter(|&&region| active[region as usize]).count();
+            all += 1.0;
+            sent += f64::from(u8::from(2 * yes >= regions.len()));
+        }
+    }
+    sent / all
+}
+
+#[test]
+fn objects_are_counted_and_bind_where_they_are_lost() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let rows = |frames: std::ops::RangeInclusive<u32>| -> String {
+        let row = |frame, [x, y]: [u32; 2]| format!("{frame},{x},{},{},8,8,1,1,1\n", x + 1, y + 1);
+        frames.flat_map(|frame| BOXES.map(|at| row(frame, at))).collect()
+    };
+    let boxes = [dir.path().join("gt.txt")];
+    let fitted = |text: String, share: f64| {
+        std::fs::write(&boxes[0], text).unwrap();
+        let (max_flips, min_recall) = (Some(0.0), Some(share));
+        let constraints = Constraints { max_flips, min_recall, ..Constraints::default() };
+        run_with(&boxes, 8, &constraints, &Quiet)
+    };
+    let found = fitted(rows(1..=8), 0.01).unwrap();
+    let recall = |held: &[Held]| held.iter().find(|held| held.name == "min-recall").unwrap().value;
+    let design = found.design.config.validate().unwrap();
+    assert_eq!(recall(&found.design.fitted_held), counted(&design, 0..4));
+    assert_eq!(recall(&found.design.held_out_held), counted(&design, 4..8));
+    assert!((0.01..1.0).contains(&recall(&found.design.fitted_held)), "it would show nothing");
+    let lost = fitted(rows(1..=8), 1.0).unwrap();
+    assert!(!lost.feasible && lost.binding == ["min-recall"], "{:?}", lost.binding);
+    // Frame 0 does not count, so there is nothing in the first half; and boxes of other frames do not fit.
+    for (text, part) in
+        [(rows(1..=1), "first half"), (rows(5..=8), "first half"), (rows(9..=9), "frame 9")]
+    {
+        let refused = fitted(text, 0.5).unwrap_err().to_string();
+        assert!(refused.contains(part), "{part}: {refused}");
+    }
 }
