@@ -55,7 +55,9 @@ impl Truth {
     pub(super) fn note(&self, clip: &str) -> String {
         let (path, format) = (self.boxes.path().display(), self.boxes.format().name());
         let outside = self.outside;
-        format!("{clip}: boxes {path} ({format}), {outside} left out, mostly outside of the frame")
+        format!(
+            "{clip}: boxes {path} ({format}); {outside} lie mostly outside of the frame, left out"
+        )
     }
 }
 

@@ -27,12 +27,10 @@ fn objects_of_a_known_clip_are_counted() {
         ["recall.csv", "recall-tracks.csv"].map(str::to_owned).into_iter().chain(charts).collect();
     assert_eq!(report.files, files);
     let notes = fs::read_to_string(out.join("recall.csv")).unwrap();
-    assert!(
-        notes.contains(&format!(
-            "# clip: boxes {} (MOT), 0 left out",
-            clip.join("gt.txt").display()
-        ))
-    );
+    assert!(notes.contains(&format!(
+        "# clip: boxes {} (MOT); 0 lie mostly outside",
+        clip.join("gt.txt").display()
+    )));
     // Every threshold and region size, and no class twice.
     for (key, points) in [
         ("spatial.0.min_score", 9),

@@ -20,7 +20,9 @@ fn boxes_are_cropped_and_scaled_with_the_frames() {
     let input = InputOptions { crop, resize: Some((32, 16)), ..InputOptions::default() };
     let report = recall(&[clip], &[gt], &input, &out).unwrap();
     check_known(&report, "clip", &out);
-    assert!(fs::read_to_string(out.join("recall.csv")).unwrap().contains("(MOT), 1 left out"));
+    assert!(
+        fs::read_to_string(out.join("recall.csv")).unwrap().contains("(MOT); 1 lie mostly outside")
+    );
 }
 
 #[test]
