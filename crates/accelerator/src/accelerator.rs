@@ -158,7 +158,7 @@ impl Accelerator {
         (sums * u64::from(self.sum_bits)).div_ceil(8)
     }
 
-    fn validate(&self) -> Result<(), AcceleratorError> {
+    pub(crate) fn validate(&self) -> Result<(), AcceleratorError> {
         within("value_bits", self.value_bits.into(), 1..=64, "1 to 64")?;
         within("sum_bits", self.sum_bits.into(), 1..=64, "1 to 64")?;
         for side in self.tile {

@@ -30,8 +30,10 @@ impl Accelerator {
     /// Maps a layer onto the array.
     ///
     /// # Errors
-    /// When the buffer of a row-stationary array is too small for any mapping.
+    /// When the buffer of a row-stationary array is too small for any mapping, or the accelerator was changed into one that
+    /// [`Accelerator::from_toml`] refuses.
     pub fn plan(&self, layer: Layer) -> Result<Plan<'_>, AcceleratorError> {
+        self.validate()?;
         let way = match (layer.products, &self.array) {
             (None, _) => Way::Transfer,
             (Some(products), Dataflow::WeightStationary(array)) => {

@@ -113,3 +113,13 @@ fn a_buffer_that_is_too_small_is_named_with_what_is_needed() {
         "`array.buffer_bytes` = 20 is too small for this layer; its smallest pass needs 64 bytes"
     );
 }
+
+#[test]
+fn an_accelerator_that_was_changed_is_checked_again() {
+    let accelerator = Accelerator { tile: [0, 1], ..Accelerator::preset("eyeriss").unwrap() };
+    let message = accelerator.plan(Layer::product(1, 1, 1).unwrap()).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "accelerator, `tile` = 0 is out of range; the valid range is 1 to 65536 for each side"
+    );
+}
