@@ -3,8 +3,8 @@
 
 use std::path::PathBuf;
 
-use foveate_chart::ChartError;
 use foveate_boxes::BoxError;
+use foveate_chart::ChartError;
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
