@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What the masks of the camera save networks: the table of docs/savings.md.
+
+    savings.py FOLDER [--clips CLIP...] [--frames N] [--tune GOAL] [NAME...]
+
+FOLDER holds ONNX files, as scripts/networks.py makes them. Of each network and clip, over the second half of the frames: the share of regions
+that changed, and the shares of the MACs that were needed in the modes exact, compare and with --tune, which has not seen these frames, with the error
+that it costs. Runs two at a time. Needs onnx, and `foveate` on the path (or its path in FOVEATE).
+"""
+import argparse
+import concurrent.futures
+import csv
+import glob
+import json
+import os
+import subprocess
+import tempfile
+
+import onnx
+
+# Networks for pictures of any size see this one.
+OPEN_SIZE = (640, 360)
+MODES = (["--mode", "exact"], ["--mode", "compare"])
+
+
+def size_of(path):
+    """Width and height of the pictures that a network takes."""
+    shape = [length.dim_value for length in onnx.load(path, load_external_data=False).graph.input[0].type.tensor_type.shape.dim]
+    return (shape[3], shape[2]) if shape[2] and shape[3] else OPEN_SIZE
+
+
+def infer(path, clip, size, frames, options):
+    """The summary of a run."""
+    width, height = size
+    fit = ["--set", f"frame={{width={width},height={height}}}"] if clip.startswith("scene:") else ["--resize", f"{width}x{height}"]
+    if min(size) < 64:
+        fit += ["--set", "region.size=4"]
+    with tempfile.TemporaryDirectory() as folder:
+        command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"), "--json", "--quiet",
+                   "--max-frames", str(frames), *fit, *options]
+        done = subprocess.run(command, capture_output=True, text=True, env=dict(os.environ, RAYON_NUM_THREADS="1"))
+        if done.returncode != 0:
+            raise SystemExit(f"savings: {' '.join(command)}: {done.stderr.strip()}")
+        with open(os.path.join(folder, "out", "frames.csv"), newline="") as table:
+            return json.loads(done.stdout), list(csv.DictReader(table))
+
+
+def needed(rows, frames):
+    """Share of the MACs over the counted frames of the second half, which --tune reports; its first frame is computed whole there."""
+    counted = [row for row in rows if int(row["frame"]) > frames // 2]
+    return sum(float(row["macs_needed"]) for row in counted) / sum(float(row["macs_dense"]) for row in counted)
+
+
+def row(path, clip, options):
+    """A row of the table."""
+    size = size_of(path)
+    runs = [infer(path, clip, size, options.frames, mode) for mode in (*MODES, ["--tune", options.tune])]
+    shares = [f"{100 * needed(rows, options.frames):.1f} %" for _, rows in runs]
+    tuned = runs[-1][0]
+    error = tuned["error"]
+    cells = [os.path.basename(path).removesuffix(".onnx"), f"{size[0]}x{size[1]}", os.path.basename(clip).rsplit(".", 1)[0],
+             f"{100 * tuned['changed_share']:.1f} %", *shares,
+             f"{100 * error['rms_of_variation']:.1f} %" + ("" if tuned["tuning"]["holds"] else " (missed)"), f"{100 * error['relative_rms']:.2g} %"]
+    return f"| {' | '.join(cells)} |"
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="savings.py", description="What the masks of the camera save networks.")
+    parser.add_argument("folder")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="files without .onnx; by default all")
+    parser.add_argument("--clips", nargs="+", default=["scene:street"], help="clips (%(default)s)")
+    parser.add_argument("--frames", type=int, default=12)
+    parser.add_argument("--tune", default="variation=10%", help="the goal of --tune (%(default)s)".replace("10%", "10%%"))
+    options = parser.parse_args()
+    paths = [os.path.join(options.folder, f"{name}.onnx") for name in options.names] or sorted(glob.glob(os.path.join(options.folder, "*.onnx")))
+    print(f"{options.frames} frames, --tune {options.tune}\n")
+    print("| network | size | clip | changed | exact | compare | tuned | error, of variation | error, of values |")
+    print("| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        jobs = [pool.submit(row, path, clip, options) for path in paths for clip in options.clips]
+        for job in jobs:
+            print(job.result(), flush=True)
+
+
+if __name__ == "__main__":
+    main()
