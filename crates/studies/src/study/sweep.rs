@@ -47,9 +47,13 @@ pub(super) fn thresholds(config: &Config) -> [Key; 3] {
 
 pub(super) fn region_size(config: &Config) -> Key {
     let point = |&size: &u32| {
-        let mut config = config.clone();
-        config.region.size = size;
-        (u64::from(size), config)
+        let mut other = config.clone();
+        other.region.size = size;
+        if size != config.region.size {
+            // Fewer regions may not fill the lanes, and how many share one changes no result.
+            other.hardware.fold = 1;
+        }
+        (u64::from(size), other)
     };
     Key {
         name: "region.size".to_owned(),

@@ -14,7 +14,7 @@ use std::slice::from_ref;
 use std::sync::Arc;
 
 use foveate_boxes::{Clip, assign};
-use foveate_design::Config;
+use foveate_design::{Config, HardwareConfig};
 use foveate_footage::Kind;
 
 use super::Study;
@@ -56,8 +56,7 @@ pub(crate) fn run(watcher: &Watcher<'_>, files: &[PathBuf]) -> Result<Findings, 
     let subjects = watcher.subjects;
     let clips = subjects.iter().map(|clip| Clip { name: &clip.name, input: &clip.inputs[0] });
     let boxes = assign(files, &clips.collect::<Vec<_>>())?;
-    let keys: Vec<Key> =
-        thresholds(watcher.config).into_iter().chain([region_size(watcher.config)]).collect();
+    let keys = keys(watcher.config);
     let varied = keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone()));
     let configs: Vec<Config> = std::iter::once(watcher.config.clone()).chain(varied).collect();
     let watched = watcher.watch_guided(
@@ -76,6 +75,18 @@ pub(crate) fn run(watcher: &Watcher<'_>, files: &[PathBuf]) -> Result<Findings, 
         findings.chart(chart, &watched);
     }
     Ok(findings)
+}
+
+/// What is varied. Values that are no design, such as a count above the pixels of a small region, are left out.
+fn keys(config: &Config) -> Vec<Key> {
+    let mut keys: Vec<Key> = thresholds(config).into_iter().chain([region_size(config)]).collect();
+    for key in &mut keys {
+        // How the array is built depends on the size of the frame, which is not known yet.
+        let alone =
+            |config: &Config| Config { hardware: HardwareConfig::default(), ..config.clone() };
+        key.points.retain(|(_, config)| alone(config).validate().is_ok());
+    }
+    keys
 }
 
 /// Refuses boxes that have nothing to do with a clip, and clips without anything to look for.

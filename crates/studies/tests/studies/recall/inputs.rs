@@ -5,7 +5,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::slice::from_ref;
 
-use super::{check_known, frame, images, mot, recall, row};
+use super::{check_known, frame, images, mot, recall, recall_of, row};
+use foveate_design::Config;
 use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, Selection};
 
 #[test]
@@ -62,6 +63,23 @@ fn boxes_follow_the_frames_that_are_seen() {
     fs::write(&gt, "4,1,1,1,8,8,1,1,1\n").unwrap();
     let one = "1 0.000000 1.000000 1.000000 1.000000".to_owned();
     assert_eq!(of(Some(200_000), None), (one, None));
+}
+
+#[test]
+fn a_design_of_few_sizes_is_studied_in_those() {
+    let dir = tempfile::tempdir().unwrap();
+    let (clip, gt, out) =
+        (dir.path().join("clip"), [dir.path().join("gt.txt")], dir.path().join("out"));
+    images(&clip, 1, 0);
+    fs::write(&gt[0], mot(1, 0)).unwrap();
+    // 20 pixels are more than a region of 4 x 4 has, and 8 regions are more than there are of 32 x 32.
+    let built = ["temporal.min_count=20", "hardware.organization=\"serial\"", "hardware.fold=8"];
+    let config = Config::from_toml_with("", &built).unwrap();
+    let report = recall_of(&config, from_ref(&clip), &gt, &InputOptions::default(), &out).unwrap();
+    let size =
+        |row: &&Vec<String>| row[1] == "region.size" && row[3..6] == ["active", "all", "all"];
+    let sizes: Vec<&String> = report.rows.iter().filter(size).map(|row| &row[2]).collect();
+    assert_eq!(sizes, ["8", "16", "32"]);
 }
 
 #[test]

@@ -69,11 +69,18 @@ fn recall(
     input: &InputOptions,
     out: &Path,
 ) -> Result<Report, StudyError> {
-    let config = config();
-    let (sensor_events, sensor_start_us) = (None, 0);
-    let study = Study::Recall;
-    let request =
-        Request { study, inputs, input, config: &config, sensor_events, sensor_start_us, boxes };
+    recall_of(&config(), inputs, boxes, input, out)
+}
+
+fn recall_of(
+    config: &Config,
+    inputs: &[PathBuf],
+    boxes: &[PathBuf],
+    input: &InputOptions,
+    out: &Path,
+) -> Result<Report, StudyError> {
+    let (study, sensor_events, sensor_start_us) = (Study::Recall, None, 0);
+    let request = Request { study, inputs, input, config, sensor_events, sensor_start_us, boxes };
     analyze(&request, out, true, &Silent)
 }
 
