@@ -42,7 +42,7 @@ pub enum LinkError {
     Output(#[from] StagingError),
     /// ffmpeg is missing or failed.
     #[error(transparent)]
-    Tool(#[from] ToolError),
+    Tool(ToolError),
     /// A chart cannot be drawn.
     #[error(transparent)]
     Chart(#[from] ChartError),
@@ -143,4 +143,10 @@ pub enum LinkError {
     /// The user stopped it.
     #[error("interrupted; nothing was written")]
     Cancelled,
+}
+
+impl From<ToolError> for LinkError {
+    fn from(error: ToolError) -> Self {
+        if error.is_interrupted() { Self::Cancelled } else { Self::Tool(error) }
+    }
 }

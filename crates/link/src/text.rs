@@ -92,9 +92,9 @@ fn psnr(sender: &SenderReport) -> String {
 /// Bytes as a multiple of those of the region camera.
 fn ratio(clip: &ClipReport, sender: &SenderReport) -> String {
     let own = clip.senders.iter().find(|sender| sender.sender.starts_with("region"));
-    #[allow(clippy::cast_precision_loss, reason = "shown with two decimals")]
+    #[allow(clippy::cast_precision_loss, reason = "shown with three decimals")]
     let ratio = own.map(|own| sender.figures.bytes as f64 / own.figures.bytes.max(1) as f64);
-    ratio.map_or(String::new(), |ratio| format!("{ratio:.2}"))
+    ratio.map_or(String::new(), |ratio| format!("{ratio:.3}"))
 }
 
 /// Thousands with one decimal, rounded to the nearest.
