@@ -30,14 +30,15 @@ impl Report {
         for (number, clip) in self.clips.iter().enumerate() {
             let _ = write!(
                 text,
-                "{}{}: {} frames of {} x {} pixels in {} ms, link {} kB/s\n\n",
+                "{}{}: {} frames of {} x {} pixels in {} ms, link {} kB/s{}\n\n",
                 if number == 0 { "" } else { "\n" },
                 clip.name,
                 clip.frames,
                 clip.width,
                 clip.height,
-                milli(clip.duration_ns / 1_000_000, 0),
+                clip.duration_ns / 1_000_000,
                 kilo(self.link_bits_per_second / 8),
+                if clip.problem.is_some() { ", NOT COMPLETE" } else { "" },
             );
             let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
             let _ = writeln!(text, "| --- | --- |{}", " ---: |".repeat(COLUMNS.len() - 2));
@@ -102,13 +103,10 @@ fn kilo(value: u64) -> String {
     milli((value + 50) / 100 * 100, 1)
 }
 
-/// Thousandths with so many decimals.
+/// Thousandths with so many decimals, at least one.
 fn milli(value: u64, decimals: usize) -> String {
     let thousandths = format!("{:03}", value % 1000);
-    match decimals {
-        0 => value.to_string(),
-        _ => format!("{}.{}", value / 1000, &thousandths[..decimals]),
-    }
+    format!("{}.{}", value / 1000, &thousandths[..decimals])
 }
 
 #[cfg(test)]
@@ -118,6 +116,6 @@ mod tests {
     #[test]
     fn thousands_are_rounded_and_thousandths_are_cut() {
         assert_eq!([0, 49, 50, 12_345].map(kilo), ["0.0", "0.0", "0.1", "12.3"]);
-        assert_eq!((milli(1_002, 3), milli(33, 0)), ("1.002".to_owned(), "33".to_owned()));
+        assert_eq!([milli(1_002, 3), milli(999, 1)], ["1.002", "0.9"]);
     }
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, succeed_in};
+use crate::common::{fail_in, files_below, run_in, succeed_in};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
@@ -167,4 +167,24 @@ fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
     let args = ["link", "scene:street", "-o", "mine", "--force"];
     fail_in(dir.path(), 2, &args, &["mine"]);
     assert_eq!(fs::read_to_string(dir.path().join("mine/file")).unwrap(), "mine");
+}
+
+#[test]
+fn a_clip_that_ends_early_is_compared_as_far_as_it_goes() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let frame = |value: u8| [&b"FRAME\n"[..], &[value; 64 * 48]].concat();
+    let whole =
+        [&b"YUV4MPEG2 W64 H48 F25:1 Cmono\n"[..], &frame(9), &frame(99), &frame(30)].concat();
+    fs::write(dir.path().join("cut.y4m"), &whole[..whole.len() - 100]).unwrap();
+    let args = ["link", "cut.y4m", "-o", "out", "--codecs", "mjpeg"];
+    fail_in(dir.path(), 1, &args, &["`out` is not complete: cut: "]);
+    let again = run_in(dir.path(), &[&args[..], &["--force"]].concat());
+    assert!(again.stdout.contains("kB/s, NOT COMPLETE\n"), "{}", again.stdout);
+    let report = fs::read_to_string(dir.path().join("out/link.json")).unwrap();
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["clips"][0]["frames"], 2);
+    assert!(report["clips"][0]["problem"].is_string(), "{report}");
 }

@@ -145,6 +145,32 @@ fn sigterm_stops_a_tool() {
     wait_for("end of the tool", || ended(pid.trim()));
 }
 
+/// A comparison has no part that is worth keeping; its temporary files go, too.
+#[test]
+fn a_comparison_of_links_leaves_nothing() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let temporary = dir.path().join("tmp");
+    fs::create_dir(&temporary).unwrap();
+    let child = listening()
+        .args(["link", "scene:street", "-o", "out", "--max-frames", "200", "--codecs", "h264"])
+        .current_dir(dir.path())
+        .env("TMPDIR", &temporary)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    wait_for("stream", || has(&temporary, "clip.h264"));
+    let output = stop(child, "INT");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.ends_with("foveate: interrupted; nothing was written\n"), "{said}");
+    assert_eq!(fs::read_dir(&temporary).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "only the folder for temporary files");
+}
+
 /// Nothing has this number any more, or only its parent has not noticed yet.
 fn ended(pid: &str) -> bool {
     let state = Command::new("ps").args(["-o", "stat=", "-p", pid]).output();
