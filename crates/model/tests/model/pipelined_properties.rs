@@ -176,6 +176,18 @@ fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOu
     };
     let expected: Vec<usize> = (timing.decision_frames as usize..film.len()).map(due).collect();
     assert_eq!(valid, expected);
+    // The last pixel of an active region leaves when `Departure` says so.
+    let design = recipe.design();
+    let departure = design.timing().departure();
+    let mut camera = Camera::new(&design);
+    let last = film.len().saturating_sub(departure.forward_frames as usize);
+    for (index, frame) in film.iter().enumerate().take(last) {
+        let later = index + departure.forward_frames as usize;
+        let taken = (later + 1) * departure.take_clocks as usize - 1;
+        let outputs = &shown[taken + departure.forward_clocks as usize];
+        let left: Vec<bool> = outputs.iter().map(|output| output.forward_valid).collect();
+        assert_eq!(left, camera.step(frame).unwrap().active);
+    }
 }
 
 proptest! {

@@ -210,3 +210,36 @@ fn quiet_clocks_are_quiet_and_can_be_skipped() {
         assert!(skipped > 1000, "{skipped}");
     }
 }
+
+/// What `Departure` says of every slot is what the array shows.
+#[test]
+fn decisions_and_pixels_leave_when_the_design_says() {
+    let always = "[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0\n";
+    let frame = "[frame]\nwidth = 16\nheight = 24\n";
+    for hardware in [
+        "fold = 1",
+        "fold = 2",
+        "fold = 3\nfeed = \"raster\"",
+        "fold = 2\n[denoise]\nfilter = \"none\"",
+        "fold = 6\n[region]\nneighborhood = \"shared\"",
+    ] {
+        let toml = format!("{always}{frame}[hardware]\norganization = \"serial\"\n{hardware}\n");
+        let design = design(&toml);
+        let timing = design.timing();
+        let departure = timing.departure();
+        let (outputs, taken) = play(&design, timing.pixels_per_frame() as usize);
+        let since = |edge: usize| (edge - taken.last().unwrap()) as u64;
+        for slot in 0..design.fold() {
+            let wait = u64::from(slot) * departure.slot_clocks;
+            let mut decided = decisions(&outputs).into_iter();
+            let last = decided.rfind(|(_, region)| region % design.fold() == slot);
+            let decided = since(last.unwrap().0);
+            assert_eq!(decided, departure.decision_clocks + wait, "{hardware}, slot {slot}");
+            let end = departure.forward_clocks + wait;
+            let left = forwarding(&outputs).into_iter().map(since).filter(|&edge| edge <= end);
+            assert_eq!(left.max(), Some(end), "{hardware}, slot {slot}");
+        }
+        let after = departure.forward_clocks + u64::from(design.fold() - 1) * departure.slot_clocks;
+        assert_eq!(forwarding(&outputs).into_iter().map(since).max(), Some(after), "{hardware}");
+    }
+}
