@@ -2,6 +2,7 @@
 //! What can go wrong. Every message names the thing and says what to do.
 
 use foveate_accelerator::AcceleratorError;
+use foveate_chart::ChartError;
 use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
@@ -28,6 +29,9 @@ pub enum InferenceError {
     /// The folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
+    /// A chart cannot be drawn.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
     /// A table cannot be written.
     #[error("cannot write the table `{name}`: {source}")]
     Table {

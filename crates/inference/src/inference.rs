@@ -3,9 +3,10 @@
 
 use crate::album::Album;
 use crate::camera::{Camera, Seen};
+use crate::charts::charts;
 use crate::cost::Costs;
 use crate::player::Player;
-use crate::run::{Run, Told};
+use crate::run::{Ended, Run, Told};
 use crate::summary::{Summary, mode_name};
 use crate::tune::{Tuned, tune};
 use crate::{Goal, InferenceError, Mapping};
@@ -14,7 +15,6 @@ use foveate_design::{Config, Design};
 use foveate_footage::{FootageError, Hooks, Progress, Source, read_ahead};
 use foveate_network::{Executor, FrameSize, Mode, Network};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
-use foveate_tables::Table;
 use std::path::{Path, PathBuf};
 
 /// What is computed, and how.
@@ -109,7 +109,7 @@ impl Inference {
                 (run, problem, format!("tuned to {goal}"), Some((tuning, goal)))
             }
         };
-        let (summary, frames) = run.summary(Told {
+        let ended = run.end(Told {
             mode,
             accelerator: accelerator.map(|(name, _)| name.clone()),
             tuning,
@@ -118,9 +118,9 @@ impl Inference {
             inputs: source.inputs().to_vec(),
             mapping: options.mapping.clone(),
         });
-        write(&staging, &summary, &frames)?;
+        write(&staging, &ended)?;
         staging.commit()?;
-        Ok(summary)
+        Ok(ended.summary)
     }
 }
 
@@ -162,7 +162,8 @@ impl std::fmt::Debug for Inference {
 }
 
 /// The files of a run.
-fn write(staging: &StagedFolder, summary: &Summary, frames: &Table) -> Result<(), InferenceError> {
+fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
+    let Ended { summary, frames, shares } = ended;
     let layers = summary.layer_table();
     let table = |name: &'static str| move |source| InferenceError::Table { name, source };
     staging.write("layers.csv", layers.csv().as_bytes())?;
@@ -174,6 +175,11 @@ fn write(staging: &StagedFolder, summary: &Summary, frames: &Table) -> Result<()
     }
     staging.write("frames.csv", frames.csv().as_bytes())?;
     staging.write("frames.parquet", &frames.parquet("frames").map_err(table("frames.parquet"))?)?;
+    for chart in charts(summary, shares) {
+        let notes = [chart.caption.clone()];
+        staging.write(&format!("{}.svg", chart.file), chart.svg(&notes)?.as_bytes())?;
+        staging.write(&format!("{}.png", chart.file), &chart.png()?)?;
+    }
     let json = serde_json::to_vec_pretty(summary).expect("a summary has no keys that are not text");
     Ok(staging.write("inference.json", &json)?)
 }

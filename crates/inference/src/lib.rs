@@ -7,6 +7,7 @@
 
 mod album;
 mod camera;
+mod charts;
 mod closeness;
 mod cost;
 mod error;

@@ -2,6 +2,7 @@
 //! A run under way: what every frame did, and the sums.
 
 use crate::camera::Seen;
+use crate::charts::Shares;
 use crate::cost::Costs;
 use crate::player::Player;
 use crate::summary::{Summary, Tuning, error, layers, macs, ratio};
@@ -25,6 +26,14 @@ pub(crate) struct Told {
     pub(crate) mapping: Mapping,
 }
 
+/// A run at its end.
+pub(crate) struct Ended {
+    pub(crate) summary: Summary,
+    /// A row per frame.
+    pub(crate) frames: Table,
+    pub(crate) shares: Vec<Shares>,
+}
+
 /// A run under way.
 pub(crate) struct Run<'a> {
     design: &'a Design,
@@ -34,6 +43,8 @@ pub(crate) struct Run<'a> {
     costs: Option<Costs<'a>>,
     sums: Vec<Positions>,
     rows: Vec<Cells>,
+    /// Of the counted frames.
+    shares: Vec<Shares>,
     counted: u64,
     active: u64,
     changed: u64,
@@ -58,6 +69,7 @@ impl<'a> Run<'a> {
             costs,
             sums: vec![Positions::default(); network.nodes().len()],
             rows: Vec::new(),
+            shares: Vec::new(),
             counted: 0,
             active: 0,
             changed: 0,
@@ -98,6 +110,14 @@ impl<'a> Run<'a> {
         let macs = macs(self.network, &own);
         let share = |count| ratio(count, u64::from(self.design.regions()));
         let real = |value: f64| Cell::Real(Some(value));
+        if is_counted {
+            self.shares.push(Shares {
+                number: seen.number,
+                active: share(seen.active_regions),
+                changed: share(seen.changed_regions),
+                needed: macs.share(macs.needed),
+            });
+        }
         self.rows.push(
             [
                 ("frame", Cell::Count(Some(seen.number))),
@@ -116,8 +136,8 @@ impl<'a> Run<'a> {
         );
     }
 
-    /// The summary, and a row per frame.
-    pub(crate) fn summary(self, told: Told) -> (Summary, Table) {
+    /// What is to be written.
+    pub(crate) fn end(self, told: Told) -> Ended {
         let executor = self.player.executor();
         let layers = layers(
             self.network,
@@ -170,6 +190,6 @@ impl<'a> Run<'a> {
             }),
             layers,
         };
-        (summary, Table::of(self.rows.into_iter()))
+        Ended { summary, frames: Table::of(self.rows.into_iter()), shares: self.shares }
     }
 }

@@ -47,7 +47,17 @@ fn exact_modes_are_exact_and_save_most_of_the_work() {
     }
     let names: Vec<_> =
         files_below(dir.path()).into_iter().map(|(name, _)| name.display().to_string()).collect();
-    for name in ["frames.csv", "frames.parquet", "inference.json", "layers.csv", "layers.parquet"] {
+    for name in [
+        "depth.png",
+        "depth.svg",
+        "frames.csv",
+        "frames.parquet",
+        "frames.png",
+        "frames.svg",
+        "inference.json",
+        "layers.csv",
+        "layers.parquet",
+    ] {
         assert!(names.iter().any(|found| found.ends_with(name)), "{name} in {names:?}");
     }
     let layers = fs::read_to_string(dir.path().join("out/layers.csv")).unwrap();
@@ -97,6 +107,10 @@ fn tuned_limits_keep_the_goal_where_they_were_chosen_and_save_more() {
     assert!(found["layers"].as_array().unwrap().iter().any(|layer| real(&layer["limit"]) > 0.0));
     let frames = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
     assert!(frames.lines().nth(1).unwrap().starts_with("6,"), "{frames}");
+    let chart = fs::read_to_string(dir.path().join("out/tuning.svg")).unwrap();
+    for label in ["same relative limit", "never computed again", "chosen"] {
+        assert!(chart.contains(label), "{label}");
+    }
     let rows = fs::read_to_string(dir.path().join("out/tuning.csv")).unwrap();
     for limits in ["exact,0,", "uniform,0.5,", "frozen,,", "chosen,,"] {
         assert!(rows.lines().any(|row| row.starts_with(limits)), "{limits} in {rows}");
