@@ -80,7 +80,8 @@ def row_of_accelerator(path, clip, name, options):
     whole, masked = (found["accelerator"][key] for key in ("whole", "masked"))
     cells = [os.path.basename(path).removesuffix(".onnx"), label(clip), name, f"{100 * found['macs']['needed'] / found['macs']['dense']:.1f} %"]
     for key, scale in (("seconds", 1e3), ("energy_mj", 1), ("dram_accesses", 1e-6)):
-        cells += [f"{scale * whole[key]:.3g}", f"{100 * masked[key] / whole[key]:.1f} %"]
+        of_whole = scale * whole[key]
+        cells += [f"{of_whole:,.0f}" if of_whole >= 100 else f"{of_whole:.3g}", f"{100 * masked[key] / whole[key]:.1f} %"]
     return f"| {' | '.join(cells)} |"
 
 
