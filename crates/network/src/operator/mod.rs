@@ -27,7 +27,7 @@ pub(crate) use reduce::{Reduce, Reduction};
 pub(crate) use reshape::Reshape;
 pub(crate) use resize::{Coordinates, Nearest, Resize, ResizeKind, Size};
 pub(crate) use scale::Scale;
-pub(crate) use slice::Slice;
+pub(crate) use slice::{Cut, Slice};
 pub(crate) use softmax::Softmax;
 pub(crate) use transpose::Transpose;
 

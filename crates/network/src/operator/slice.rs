@@ -4,10 +4,17 @@
 use super::{Job, Operator, only};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::tensor::for_each_run;
 
-/// Every so many elements of an axis, from a first one to before a last one.
+/// A part of some axes, and all of the others.
 #[derive(Clone, Debug)]
 pub(crate) struct Slice {
+    pub(crate) cuts: Vec<Cut>,
+}
+
+/// Every so many elements of an axis, from a first one to before a last one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cut {
     pub(crate) axis: i64,
     /// Negative from the end on, and cut off where the axis ends.
     pub(crate) start: i64,
@@ -15,58 +22,87 @@ pub(crate) struct Slice {
     pub(crate) step: usize,
 }
 
-impl Slice {
-    /// The axis, the first element, and how many there are.
-    fn range(&self, form: &Form) -> Result<(usize, usize, usize), String> {
-        let axis = form.axis(self.axis)?;
-        let length = i64::try_from(form.shape()[axis]).map_err(|_| "an axis is too long")?;
+/// The elements of an axis that are taken.
+#[derive(Clone, Copy, Debug)]
+struct Taken {
+    start: usize,
+    step: usize,
+    count: usize,
+}
+
+impl Taken {
+    fn all(count: usize) -> Self {
+        Self { start: 0, step: 1, count }
+    }
+
+    /// What each element sees.
+    fn sources(self) -> Vec<(usize, usize)> {
+        (0..self.count).map(|at| self.start + at * self.step).map(|at| (at, at)).collect()
+    }
+}
+
+impl Cut {
+    /// What it takes of so many elements.
+    fn of(&self, count: usize) -> Result<Taken, String> {
+        let length = i64::try_from(count).map_err(|_| "an axis is too long")?;
         let place =
             |at: i64| if at < 0 { at.saturating_add(length).max(0) } else { at.min(length) };
         let (start, end) = (place(self.start), place(self.end));
-        let count = usize::try_from(end - start).unwrap_or(0).div_ceil(self.step);
-        if count == 0 {
-            return Err(format!("{}..{} of {length} elements is empty", self.start, self.end));
+        match usize::try_from(end - start).map(|count| count.div_ceil(self.step)) {
+            Ok(count) if count > 0 => {
+                let start = usize::try_from(start).expect("not negative");
+                Ok(Taken { start, step: self.step, count })
+            }
+            _ => Err(format!("{}..{} of {length} elements is empty", self.start, self.end)),
         }
-        Ok((axis, usize::try_from(start).expect("not negative"), count))
+    }
+}
+
+impl Slice {
+    /// What is taken of every axis.
+    fn taken(&self, form: &Form) -> Result<Vec<Taken>, String> {
+        let mut cuts = vec![None; form.shape().len()];
+        for cut in &self.cuts {
+            let axis = form.axis(cut.axis)?;
+            if cuts[axis].replace(cut).is_some() {
+                return Err(format!("its axis {axis} is cut twice"));
+            }
+        }
+        let of = |(cut, &count): (&Option<&Cut>, _)| {
+            cut.map_or(Ok(Taken::all(count)), |cut| cut.of(count))
+        };
+        cuts.iter().zip(form.shape()).map(of).collect()
     }
 }
 
 impl Operator for Slice {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
         let input = only(inputs)?;
-        let (axis, _, count) = self.range(input)?;
-        let mut shape = input.shape().to_vec();
-        shape[axis] = count;
+        let shape = self.taken(input)?.iter().map(|taken| taken.count).collect();
         Ok(Form::at(shape, input.axes()))
     }
 
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+    fn spread(&self, inputs: &[(&Form, &Mask)], _output: &Form) -> Mask {
         let (form, mask) = inputs[0];
-        let (axis, start, _) = self.range(form).expect("the form has it");
-        let along = |of: usize| (axis == of).then_some((start, self.step));
-        let columns = form.has_positions().then(|| along(form.axes().end - 1)).flatten();
-        let rows = (form.axes().len() == 2).then(|| along(form.axes().start)).flatten();
-        if rows.is_none() && columns.is_none() {
-            return mask.clone();
+        let taken = self.taken(form).expect("the form has them");
+        match &taken[form.axes()] {
+            [rows, columns] => mask.between(&rows.sources(), &columns.sources()),
+            [columns] => mask.between(&Taken::all(1).sources(), &columns.sources()),
+            _ => mask.clone(),
         }
-        let sees = |range: Option<(usize, usize)>, count: usize| -> Vec<(usize, usize)> {
-            let (start, step) = range.unwrap_or((0, 1));
-            (0..count).map(|at| (start + at * step, start + at * step)).collect()
-        };
-        mask.between(&sees(rows, output.height()), &sees(columns, output.width()))
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
-        let (axis, start, count) = self.range(inputs[0].form()).expect("the form has it");
-        let behind: usize = form.shape()[axis + 1..].iter().product();
-        let all = inputs[0].form().shape()[axis];
-        crate::tensor::for_each_run(form, at, |run| {
+        let Job { inputs, form, output, at } = job;
+        let input = inputs[0].form();
+        let taken = self.taken(input).expect("the form has them");
+        let steps = input.steps();
+        let first: usize = taken.iter().zip(&steps).map(|(taken, step)| taken.start * step).sum();
+        let steps: Vec<usize> =
+            taken.iter().zip(&steps).map(|(taken, step)| taken.step * step).collect();
+        for_each_run(form, at, |run| {
             for (place, to) in run.clone().zip(&mut output[run]) {
-                let (before, index, after) =
-                    (place / behind / count, place / behind % count, place % behind);
-                *to =
-                    inputs[0].values()[(before * all + start + index * self.step) * behind + after];
+                *to = inputs[0].values()[first + form.offset(place, &steps)];
             }
         });
     }

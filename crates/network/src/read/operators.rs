@@ -7,9 +7,9 @@ use super::node::{NodeReader, from_start, positive, signed};
 use crate::form::Form;
 use crate::network::MAX_AXES;
 use crate::operator::{
-    Activation, Arithmetic, Binary, Concat, Conv, Coordinates, Linear, MatMul, Nearest, Operator,
-    Pad, Pointwise, Pool, PoolKind, Reduce, Reduction, Reshape, Resize, ResizeKind, Scale, Size,
-    Slice, Softmax, Transpose,
+    Activation, Arithmetic, Binary, Concat, Conv, Coordinates, Cut, Linear, MatMul, Nearest,
+    Operator, Pad, Pointwise, Pool, PoolKind, Reduce, Reduction, Reshape, Resize, ResizeKind,
+    Scale, Size, Slice, Softmax, Transpose,
 };
 use crate::tensor::Tensor;
 use foveate_lanes::Level;
@@ -399,24 +399,22 @@ fn slice(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let ends = node.ints_of("ends", 2)?.ok_or("it has no ends")?;
     let axes = node.ints_of("axes", 3)?.unwrap_or_else(|| (0..).take(starts.len()).collect());
     let steps = node.ints_of("steps", 4)?.unwrap_or_else(|| vec![1; starts.len()]);
-    match (starts.as_slice(), ends.as_slice(), axes.as_slice(), steps.as_slice()) {
-        (&[start], &[end], &[axis], &[step]) => {
-            one(Slice { axis, start, end, step: positive("step", step)? }, vec![node.value(0)?])
-        }
-        _ => Err("a slice of several axes at once is not supported".to_owned()),
+    if [ends.len(), axes.len(), steps.len()] != [starts.len(); 3] {
+        return Err("its starts, ends, axes and steps differ in length".to_owned());
     }
+    let cut = |at: usize| -> Result<Cut, String> {
+        let step = positive("step", steps[at])?;
+        Ok(Cut { axis: axes[at], start: starts[at], end: ends[at], step })
+    };
+    let cuts = (0..starts.len()).map(cut).collect::<Result<_, _>>()?;
+    one(Slice { cuts }, vec![node.value(0)?])
 }
 
 fn split(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
     let form = (node.forms)(value);
     let axis = node.int("axis", 0);
-    let own = from_start(axis, form.shape().len());
-    let length = usize::try_from(own)
-        .ok()
-        .and_then(|own| form.shape().get(own))
-        .copied()
-        .ok_or("its axis is outside")?;
+    let length = form.shape()[form.axis(axis)?];
     let parts = node.node.output.len().max(1);
     let each = length.div_ceil(parts);
     let sizes = node.ints_of("split", 1)?.unwrap_or_else(|| {
@@ -430,9 +428,9 @@ fn split(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
         return Err(format!("{length} elements cannot be split into {parts} parts as it says"));
     }
     let slices = sizes.iter().map(|&size| {
-        let slice = Slice { axis, start, end: start.saturating_add(size), step: 1 };
+        let cut = Cut { axis, start, end: start.saturating_add(size), step: 1 };
         start = start.saturating_add(size);
-        Made::Operator(Arc::new(slice), vec![value])
+        Made::Operator(Arc::new(Slice { cuts: vec![cut] }), vec![value])
     });
     Ok(slices.collect())
 }

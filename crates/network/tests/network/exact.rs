@@ -40,6 +40,11 @@ enum Layer {
         start: i64,
         step: i64,
     },
+    /// Of rows and columns at once.
+    Crop {
+        start: [i64; 2],
+        step: [i64; 2],
+    },
     Pad {
         around: [i64; 4],
     },
@@ -74,6 +79,7 @@ fn layer() -> impl Strategy<Value = Layer> {
         2 => any::<bool>().prop_map(|up| Layer::Join { up }),
         1 => Just(Layer::Scale),
         1 => (1..4i64, 0..2i64, 1..3i64).prop_map(|(axis, start, step)| Layer::Cut { axis, start, step }),
+        1 => (prop::array::uniform2(0..2i64), prop::array::uniform2(1..3i64)).prop_map(|(start, step)| Layer::Crop { start, step }),
         1 => pads().prop_map(|around| Layer::Pad { around }),
         1 => (any::<bool>(), prop_oneof![Just(1u8), Just(3), Just(4)]).prop_map(|(linear, halves)| Layer::Resize { linear, halves }),
         1 => Just(Layer::Softmax),
@@ -229,6 +235,18 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
                 _ => next.width = count,
             }
             Some(next)
+        }
+        Layer::Crop { start, step } => {
+            // To before the last element.
+            let count = |length: i64, at: usize| (length - 1 - start[at] + step[at] - 1) / step[at];
+            let (height, width) = (count(height, 0), count(width, 1));
+            if height < 1 || width < 1 {
+                return None;
+            }
+            let [starts, ends, axes, steps] =
+                [start, [-1, -1], [2, -1], step].map(|values| model.ints(&values));
+            let name = model.node("Slice", &[&name, &starts, &ends, &axes, &steps], &[]);
+            Some(State { name, height, width, ..now.clone() })
         }
         Layer::Pad { around: [top, left, bottom, right] } => {
             let pads = model.ints(&[0, 0, top, left, 0, 0, bottom, right]);

@@ -96,3 +96,27 @@ fn pooling_is_that_of_the_standard() {
     assert_eq!(run("GlobalAveragePool", &[]), [12.0]);
     assert_eq!(run("GlobalMaxPool", &[]), [24.0]);
 }
+
+/// Rows 1 and 2 and columns 1 and 3 of four rows and five columns; and, of a network without such a slice, the same in two steps.
+#[test]
+fn slices_are_those_of_the_standard() {
+    let picture: Vec<f32> = (0..20u8).map(f32::from).collect();
+    let run = |slices: &[[&[i64]; 4]]| {
+        let mut model = Model::new(&[1, 1, 4, 5]);
+        let mut name = "picture".to_owned();
+        for slice in slices {
+            let bounds = slice.map(|values| model.ints(values));
+            let inputs: Vec<&str> =
+                std::iter::once(name.as_str()).chain(bounds.iter().map(String::as_str)).collect();
+            name = model.node("Slice", &inputs, &[]);
+        }
+        model.output(&name);
+        let network = model.read(5, 4).unwrap();
+        let mut executor = Executor::new(&network, Mode::Dense);
+        executor.step(&picture, &Mask::full(4, 5));
+        executor.value(slices.len()).values().to_vec()
+    };
+    let at_once = run(&[[&[1, -4], &[-1, 9], &[2, -1], &[1, 2]]]);
+    assert_eq!(at_once, [6.0, 8.0, 11.0, 13.0]);
+    assert_eq!(run(&[[&[-4], &[9], &[3], &[2]], [&[1], &[-1], &[-2], &[1]]]), at_once);
+}

@@ -151,6 +151,8 @@ fn what_is_not_as_it_seems_is_refused() {
         (with("Unsqueeze", &[&[0, 0]], &[]), "it names an axis twice"),
         (with("Reshape", &[&[1, 1, 1, 1, 1, 1, 1, 1, -1]], &[]), "more than 8 axes"),
         (with("Split", &[&[5, 4]], &[("axis", Value::Int(2))]), "8 elements cannot be split"),
+        (with("Slice", &[&[0, 0], &[4, 4], &[2, -2]], &[]), "its axis 2 is cut twice"),
+        (with("Slice", &[&[0, 0], &[4], &[2, 3]], &[]), "differ in length"),
         (with("ReduceMean", &[&[1]], &[]), "only one over the last axes"),
     ];
     for (refusal, says) in cases {
