@@ -7,10 +7,12 @@ mod depthwise;
 mod gather;
 mod micro;
 mod panels;
+mod parts;
 mod weights;
 
 pub(crate) use blocking::Blocking;
 pub(crate) use depthwise::Depthwise;
 pub(crate) use gather::{CHUNK, Chunk, Picture, chunks};
 pub(crate) use panels::{Outputs, convolve, scheduled};
+pub(crate) use parts::parts;
 pub(crate) use weights::Weights;

@@ -18,17 +18,18 @@ pub(crate) fn scheduled(chunks: usize, blocking: Blocking) -> usize {
     (chunks * CHUNK).next_multiple_of(blocking.lanes)
 }
 
-/// Some channels of the outputs.
+/// Some rows of some channels of the outputs.
 pub(crate) struct Outputs<'a> {
-    /// Channel by channel, each of `places` positions in rows of `width`.
-    pub(crate) values: &'a mut [f32],
+    /// These rows of each channel, of `width` positions.
+    pub(crate) planes: Vec<&'a mut [f32]>,
+    /// The first row.
+    pub(crate) top: usize,
     /// The blocks of these channels.
     pub(crate) blocks: &'a [Range<usize>],
-    pub(crate) places: usize,
     pub(crate) width: usize,
 }
 
-/// Computes the channels of `outputs` at the chunks. `finish` is applied to every output.
+/// Computes the channels of `outputs` at the chunks, which are in their rows. `finish` is applied to every output.
 pub(crate) fn convolve(
     level: Level,
     picture: &Picture<'_>,
@@ -60,7 +61,7 @@ impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F
     #[inline(always)]
     fn run(self) {
         let Work { picture, weights, chunks, outputs, finish } = self.0;
-        let Outputs { values, blocks, places, width } = outputs;
+        let Outputs { mut planes, top, blocks, width } = outputs;
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
         let (first, stride) = (first.start, last.end - first.start);
         let depth = weights.depth();
@@ -87,8 +88,8 @@ impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F
                 }
             }
             for (sums, chunks) in sums.chunks(stride).zip(group.chunks(LANES / CHUNK)) {
-                for (sums, plane) in sums.iter().zip(values.chunks_mut(places)) {
-                    scatter(sums, chunks, plane, width, &finish);
+                for (sums, plane) in sums.iter().zip(&mut planes) {
+                    scatter(sums, chunks, (plane, top, width), &finish);
                 }
             }
         }
@@ -126,12 +127,12 @@ fn add<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
 fn scatter(
     sums: &[f32],
     chunks: &[Chunk],
-    plane: &mut [f32],
-    width: usize,
+    (plane, top, width): (&mut [f32], usize, usize),
     finish: impl Fn(f32) -> f32,
 ) {
     for (sums, chunk) in sums.chunks(CHUNK).zip(chunks) {
-        let row = &mut plane[chunk.y * width + chunk.x..(chunk.y + 1) * width];
+        let y = chunk.y - top;
+        let row = &mut plane[y * width + chunk.x..(y + 1) * width];
         for (output, &sum) in row.iter_mut().zip(sums) {
             *output = finish(sum);
         }

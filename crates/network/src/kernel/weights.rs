@@ -10,7 +10,6 @@ use std::ops::Range;
 pub(crate) struct Weights {
     blocking: Blocking,
     blocks: Vec<Range<usize>>,
-    channels: usize,
     /// Products of an output.
     depth: usize,
     packed: Vec<f32>,
@@ -32,7 +31,7 @@ impl Weights {
                 );
             }
         }
-        Self { blocking, blocks, channels, depth, packed, bias: bias.to_vec() }
+        Self { blocking, blocks, depth, packed, bias: bias.to_vec() }
     }
 
     pub(crate) fn blocking(&self) -> Blocking {
@@ -41,10 +40,6 @@ impl Weights {
 
     pub(crate) fn depth(&self) -> usize {
         self.depth
-    }
-
-    pub(crate) fn channels(&self) -> usize {
-        self.channels
     }
 
     /// The channels of all blocks.

@@ -7,7 +7,6 @@ use crate::kernel::{self, Blocking, CHUNK, Chunk, Depthwise, Outputs, Picture, W
 use crate::mask::{Mask, Window};
 use foveate_lanes::Level;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// What a convolution says of itself.
@@ -143,7 +142,7 @@ impl Conv {
     fn convolve(&self, job: Job<'_>, chunks: &[Chunk], finish: impl Fn(f32) -> f32 + Copy + Sync) {
         let Job { inputs, form, output, .. } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
-        let (out_width, places) = (form.width(), form.places());
+        let places = form.places();
         let of_group = self.inputs / self.groups * height * width;
         let picture = |group: usize| Picture {
             values: &inputs[0].values()[group * of_group..][..of_group],
@@ -158,8 +157,16 @@ impl Conv {
                 let channel = |(channel, outputs)| {
                     let (weights, bias) = (&weights[channel * taps..][..taps], bias[channel]);
                     let picture = picture(channel);
-                    Depthwise { picture, weights, bias, chunks, outputs, width: out_width, finish }
-                        .convolve(self.level);
+                    Depthwise {
+                        picture,
+                        weights,
+                        bias,
+                        chunks,
+                        outputs,
+                        width: form.width(),
+                        finish,
+                    }
+                    .convolve(self.level);
                 };
                 output.par_chunks_mut(places).enumerate().for_each(channel);
             }
@@ -168,34 +175,14 @@ impl Conv {
                 let planes = output.chunks_mut(of_group * places);
                 for (group, (weights, values)) in groups.iter().zip(planes).enumerate() {
                     let picture = picture(group);
-                    let part = |(blocks, values)| {
-                        let outputs = Outputs { values, blocks, places, width: out_width };
+                    let part = |(chunks, outputs): (&[Chunk], Outputs<'_>)| {
                         kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
                     };
-                    shared(weights, values, places).into_par_iter().for_each(part);
+                    kernel::parts(weights, chunks, values, form).into_par_iter().for_each(part);
                 }
             }
         }
     }
-}
-
-/// The channels as parts, one for each thread, which gathers the inputs that it needs.
-fn shared<'a>(
-    weights: &'a Weights,
-    values: &'a mut [f32],
-    places: usize,
-) -> Vec<(&'a [Range<usize>], &'a mut [f32])> {
-    let blocks = weights.blocks();
-    let size = blocks.len().div_ceil(rayon::current_num_threads());
-    let mut rest = values;
-    let part = |blocks: &'a [Range<usize>]| {
-        let end = blocks.last().map_or(0, |block| block.end.min(weights.channels()));
-        let (own, others) =
-            std::mem::take(&mut rest).split_at_mut((end - blocks[0].start) * places);
-        rest = others;
-        (blocks, own)
-    };
-    blocks.chunks(size).map(part).collect()
 }
 
 /// Outputs of a window along an axis of so many inputs.

@@ -438,6 +438,37 @@ fn every_node_has_a_limit_of_its_own() {
     }
 }
 
+/// Threads share rows of large pictures and channels of small ones; the bits are the same.
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let layers = [
+        three_by_three(37, 1),
+        Layer::Depthwise { kernel: 3, stride: 1, pads: [1; 4] },
+        three_by_three(19, 2),
+        Layer::Residual,
+    ];
+    let network = network(1, [96, 128], &layers);
+    let frames = clip(1, [96, 128], &[vec![(3, 3, 40)], vec![(60, 50, 30), (2, 90, 5)]]);
+    let values = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut executor = Executor::new(&network, Mode::Exact);
+            for (picture, mask) in &frames {
+                executor.step(picture, mask);
+            }
+            (0..=network.nodes().len())
+                .map(|value| executor.value(value).clone())
+                .collect::<Vec<_>>()
+        })
+    };
+    let alone = values(1);
+    for threads in [2, 3, 5] {
+        for (value, (alone, shared)) in alone.iter().zip(values(threads)).enumerate() {
+            assert!(alone.differences(&shared).is_empty(), "{threads} threads, value {value}");
+        }
+    }
+}
+
 /// Blocks do not overlap, so a part never costs more than the whole, however scattered it is.
 #[test]
 fn a_part_is_never_more_than_the_whole() {

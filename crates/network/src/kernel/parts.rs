@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A convolution as parts, one for each thread, which gathers the inputs that it needs.
+
+use super::gather::{CHUNK, Chunk};
+use super::panels::Outputs;
+use super::weights::Weights;
+use crate::form::Form;
+use std::ops::Range;
+
+/// Positions that make it worth to share them: with fewer, threads share the channels, so that each has weights of its own.
+const MANY: usize = 1024;
+
+/// The chunks and outputs of every part. `values` are the channels of the weights one after the other, each of the positions of `form`.
+pub(crate) fn parts<'a>(
+    weights: &'a Weights,
+    chunks: &'a [Chunk],
+    values: &'a mut [f32],
+    form: &Form,
+) -> Vec<(&'a [Chunk], Outputs<'a>)> {
+    let threads = rayon::current_num_threads();
+    if threads == 1 || chunks.len() * CHUNK >= MANY * threads {
+        by_rows(weights, cut(chunks, threads), values, form)
+    } else {
+        by_channels(weights, chunks, values, form, threads)
+    }
+}
+
+/// Cuts chunks between rows into at most so many parts of about the same length.
+fn cut(chunks: &[Chunk], parts: usize) -> Vec<&[Chunk]> {
+    let mut rest = chunks;
+    let mut found = Vec::new();
+    for left in (1..=parts).rev() {
+        let Some(last) = rest.len().div_ceil(left).checked_sub(1) else { break };
+        let row = rest[last].y;
+        let end = rest.partition_point(|chunk| chunk.y <= row);
+        let (own, others) = rest.split_at(end);
+        found.push(own);
+        rest = others;
+    }
+    found
+}
+
+fn by_rows<'a>(
+    weights: &'a Weights,
+    parts: Vec<&'a [Chunk]>,
+    values: &'a mut [f32],
+    form: &Form,
+) -> Vec<(&'a [Chunk], Outputs<'a>)> {
+    let (width, blocks) = (form.width(), weights.blocks());
+    let output = |chunks: &'a [Chunk]| {
+        let outputs = Outputs { planes: Vec::new(), top: chunks[0].y, blocks, width };
+        (chunks, outputs)
+    };
+    let mut found: Vec<_> = parts.into_iter().map(output).collect();
+    for mut rest in values.chunks_mut(form.places()) {
+        let mut row = 0;
+        for (chunks, outputs) in &mut found {
+            let end = chunks[chunks.len() - 1].y + 1;
+            let (_, own) = rest.split_at_mut((outputs.top - row) * width);
+            let (own, others) = own.split_at_mut((end - outputs.top) * width);
+            outputs.planes.push(own);
+            (rest, row) = (others, end);
+        }
+    }
+    found
+}
+
+fn by_channels<'a>(
+    weights: &'a Weights,
+    chunks: &'a [Chunk],
+    values: &'a mut [f32],
+    form: &Form,
+    threads: usize,
+) -> Vec<(&'a [Chunk], Outputs<'a>)> {
+    let mut planes = values.chunks_mut(form.places());
+    let part = |blocks: &'a [Range<usize>]| {
+        let channels: usize = blocks.iter().map(Range::len).sum();
+        let planes = planes.by_ref().take(channels).collect();
+        (chunks, Outputs { planes, top: 0, blocks, width: form.width() })
+    };
+    let blocks = weights.blocks();
+    blocks.chunks(blocks.len().div_ceil(threads)).map(part).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{Blocking, chunks};
+    use crate::mask::Mask;
+    use foveate_lanes::Level;
+
+    /// Every chunk is in one part, whose planes hold its rows: each writes its number over them, and nobody else does.
+    #[test]
+    fn parts_are_all_chunks_and_share_no_row() {
+        let form = Form::features(vec![1, 13, 40, 70]);
+        let weights = Weights::new(&[1.0; 13], 1, &[0.0; 13], Blocking::of(Level::detect()));
+        let masks = [
+            Mask::full(40, 70),
+            Mask::from_fn(40, 70, |x, y| (x * 7 + y * 11) % 17 == 0),
+            Mask::from_fn(40, 70, |x, y| y == 39 && x > 60),
+            Mask::from_fn(40, 70, |x, y| y % 13 == 5 && x < 40),
+        ];
+        for (mask, threads) in
+            masks.iter().flat_map(|mask| (1..9).map(move |threads| (mask, threads)))
+        {
+            let all = chunks(mask);
+            let mut values = vec![0.0f32; form.elements()];
+            let parts = by_rows(&weights, cut(&all, threads), &mut values, &form);
+            assert!(parts.len() <= threads);
+            let mut seen = Vec::new();
+            for (own, outputs) in parts {
+                assert_eq!(outputs.planes.len(), 13);
+                for plane in outputs.planes {
+                    for chunk in own {
+                        for value in &mut plane[(chunk.y - outputs.top) * 70 + chunk.x..][..1] {
+                            *value += 1.0;
+                        }
+                    }
+                }
+                seen.extend_from_slice(own);
+            }
+            assert_eq!(seen, all);
+            for (at, &value) in values.iter().enumerate() {
+                let (_, y, x) = form.coordinates(at);
+                assert_eq!(
+                    value,
+                    f32::from(u8::from(all.contains(&Chunk { x, y }))),
+                    "{threads}: {x}, {y}"
+                );
+            }
+            let parts = by_channels(&weights, &all, &mut values, &form, threads);
+            let planes: usize = parts.iter().map(|(_, outputs)| outputs.planes.len()).sum();
+            assert!(planes == 13 && parts.iter().all(|(own, _)| *own == all));
+        }
+    }
+}
