@@ -3,7 +3,6 @@
 
 use super::{Job, Operator, only};
 use crate::form::Form;
-use crate::tensor::for_each_run;
 
 /// A function of one value, by the definition of ONNX.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,10 +102,9 @@ impl Operator for Pointwise {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
-        let (from, to) = (inputs[0].values(), output);
-        for_each_run(form, at, |run| {
-            for (to, &from) in to[run.clone()].iter_mut().zip(&from[run]) {
+        let from = job.inputs[0].values();
+        job.fill(|run, to| {
+            for (to, &from) in to.iter_mut().zip(&from[run]) {
                 *to = self.0.of(from);
             }
         });

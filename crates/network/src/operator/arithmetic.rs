@@ -4,7 +4,7 @@
 use super::{Activation, Job, Operator};
 use crate::form::Form;
 use crate::mask::Mask;
-use crate::tensor::{Tensor, for_each_run};
+use crate::tensor::Tensor;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -111,19 +111,18 @@ impl Operator for Binary {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
+        let (inputs, form) = (job.inputs, job.form);
         let [a, b] =
             self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
         let (of_a, of_b) = (steps(a.form(), form), steps(b.form(), form));
         let last = form.shape().last().copied().unwrap_or(1);
-        let to = output;
-        for_each_run(form, at, |run| {
-            let mut start = run.start;
+        job.fill(|run, to| {
+            let (first, mut start) = (run.start, run.start);
             while start < run.end {
                 let end = run.end.min((start / last + 1) * last);
                 let (a, b) =
                     (values_of(a, &of_a, form, start..end), values_of(b, &of_b, form, start..end));
-                let to = &mut to[start..end];
+                let to = &mut to[start - first..end - first];
                 // What is known here needs no choice in the loop.
                 match (self.kind, self.finish) {
                     (Arithmetic::Add, Activation::Identity) => line(a, b, to, |a, b| a + b),

@@ -34,7 +34,9 @@ pub(crate) use transpose::Transpose;
 use crate::form::Form;
 use crate::mask::{Mask, Window};
 use crate::tensor::Tensor;
+use rayon::prelude::*;
 use std::fmt::Debug;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The sums of products of an operator, as accelerators map them onto their arrays.
@@ -104,6 +106,25 @@ pub(crate) struct Job<'a> {
     pub(crate) form: &'a Form,
     pub(crate) output: &'a mut [f32],
     pub(crate) at: &'a Mask,
+}
+
+impl Job<'_> {
+    /// Fills every run of positions of the mask: `fill` gets its range in the output's memory, and the values there. Threads share what lies
+    /// outside of the positions, such as channels.
+    fn fill(self, fill: impl Fn(Range<usize>, &mut [f32]) + Sync) {
+        let Self { form, output, at, .. } = self;
+        let (inner, width) = (form.inner(), form.width());
+        let length = form.places() * inner;
+        output.par_chunks_mut(length).enumerate().for_each(|(outer, plane)| {
+            for y in 0..form.height() {
+                for (x, count) in at.runs(y) {
+                    let run = (y * width + x) * inner..(y * width + x + count) * inner;
+                    let start = outer * length;
+                    fill(start + run.start..start + run.end, &mut plane[run]);
+                }
+            }
+        });
+    }
 }
 
 /// The union of all masks. Where an input has other positions than the output, everything depends on it.

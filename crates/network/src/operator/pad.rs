@@ -33,11 +33,11 @@ impl Operator for Pad {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
+        let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
         let [rows, columns] = self.windows();
-        crate::tensor::for_each_run(form, at, |run| {
-            for (place, to) in run.clone().zip(&mut output[run]) {
+        job.fill(|run, to| {
+            for (place, to) in run.zip(to) {
                 let (channel, y, x) = form.coordinates(place);
                 *to = match (rows.input(y, 0, height), columns.input(x, 0, width)) {
                     (Some(y), Some(x)) => inputs[0].values()[(channel * height + y) * width + x],

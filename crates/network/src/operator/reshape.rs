@@ -4,7 +4,6 @@
 use super::{Job, Operator, Products, only, same_position};
 use crate::form::Form;
 use crate::mask::Mask;
-use crate::tensor::for_each_run;
 
 /// The same values, in the same order, in another shape.
 #[derive(Clone, Debug)]
@@ -50,10 +49,8 @@ impl Operator for Reshape {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
-        for_each_run(form, at, |run| {
-            output[run.clone()].copy_from_slice(&inputs[0].values()[run]);
-        });
+        let inputs = job.inputs;
+        job.fill(|run, to| to.copy_from_slice(&inputs[0].values()[run]));
     }
 }
 

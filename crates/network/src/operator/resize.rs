@@ -129,12 +129,12 @@ impl Operator for Resize {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
+        let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
         let rows = self.taps(0, height, form.height());
         let columns = self.taps(1, width, form.width());
-        crate::tensor::for_each_run(form, at, |run| {
-            for (place, to) in run.clone().zip(&mut output[run]) {
+        job.fill(|run, to| {
+            for (place, to) in run.zip(to) {
                 let (channel, y, x) = form.coordinates(place);
                 let plane = &inputs[0].values()[channel * height * width..][..height * width];
                 let (row, column) = (rows[y], columns[x]);

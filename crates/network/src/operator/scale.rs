@@ -50,12 +50,10 @@ impl Operator for Scale {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
-        let plane = form.elements() / self.factors.len();
-        let (from, to) = (inputs[0].values(), output);
-        crate::tensor::for_each_run(form, at, |run| {
-            let start = run.start;
-            for (place, (to, &from)) in (start..).zip(to[run.clone()].iter_mut().zip(&from[run])) {
+        let plane = job.form.elements() / self.factors.len();
+        let from = job.inputs[0].values();
+        job.fill(|run, to| {
+            for (place, (to, &from)) in run.clone().zip(to.iter_mut().zip(&from[run])) {
                 let channel = place / plane;
                 *to = from.mul_add(self.factors[channel], self.offsets[channel]);
             }

@@ -4,7 +4,6 @@
 use super::{Job, Operator, only};
 use crate::form::Form;
 use crate::mask::Mask;
-use crate::tensor::for_each_run;
 
 /// A part of some axes, and all of the others.
 #[derive(Clone, Debug)]
@@ -93,15 +92,15 @@ impl Operator for Slice {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at } = job;
+        let (inputs, form) = (job.inputs, job.form);
         let input = inputs[0].form();
         let taken = self.taken(input).expect("the form has them");
         let steps = input.steps();
         let first: usize = taken.iter().zip(&steps).map(|(taken, step)| taken.start * step).sum();
         let steps: Vec<usize> =
             taken.iter().zip(&steps).map(|(taken, step)| taken.step * step).collect();
-        for_each_run(form, at, |run| {
-            for (place, to) in run.clone().zip(&mut output[run]) {
+        job.fill(|run, to| {
+            for (place, to) in run.zip(to) {
                 *to = inputs[0].values()[first + form.offset(place, &steps)];
             }
         });

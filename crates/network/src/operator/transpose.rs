@@ -37,14 +37,14 @@ impl Operator for Transpose {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
-        if at.is_empty() {
+        let (inputs, form) = (job.inputs, job.form);
+        if job.at.is_empty() {
             return;
         }
         let steps = inputs[0].form().steps();
         let steps: Vec<usize> = self.order.iter().map(|&axis| steps[axis]).collect();
-        crate::tensor::for_each_run(form, at, |run| {
-            for (place, to) in run.clone().zip(&mut output[run]) {
+        job.fill(|run, to| {
+            for (place, to) in run.zip(to) {
                 *to = inputs[0].values()[form.offset(place, &steps)];
             }
         });
