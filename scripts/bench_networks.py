@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Times `foveate infer` beside onnxruntime, in one run.
 
-    bench_networks.py FOLDER [--input INPUT] [--frames N] [--rounds N] [--threads N...] [NAME...]
+    bench_networks.py FOLDER [NAME...] [--input INPUT] [--frames N] [--rounds N] [--threads N...]
 
 FOLDER holds ONNX files, as scripts/networks.py makes them. The programs take turns, and the best of the rounds counts: other work on the
 machine only makes a time longer. Needs `foveate` on the path (or its path in FOVEATE), and onnxruntime.
