@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution of each channel by itself, which has too few products per input to be worth gathering them.
+//! Convolution of each channel by itself.
 
-use super::gather::{CHUNK, Chunk, Picture};
+use super::chunks::{CHUNK, Chunk};
+use super::gather::{Gathered, Picture};
 use foveate_lanes::{Level, Task};
+
+/// Chunks whose inputs are gathered at once.
+const GROUP: usize = 8;
 
 /// One channel.
 pub(crate) struct Depthwise<'a, F> {
@@ -33,26 +37,25 @@ impl<F: Fn(f32) -> f32, const FUSED: bool> Task for Of<'_, F, FUSED> {
     #[inline(always)]
     fn run(self) {
         let Depthwise { picture, weights, bias, chunks, outputs, width, finish } = self.0;
-        let offsets = picture.offsets();
-        let mut gathered = vec![[0.0; CHUNK]; weights.len()];
-        for &chunk in chunks {
-            let mut sums = [bias; CHUNK];
-            if let Some(start) = picture.inside(chunk) {
-                for (&weight, &offset) in weights.iter().zip(&offsets) {
-                    let mut inputs = [0.0; CHUNK];
-                    picture.take(&picture.values[start + offset..], &mut inputs);
-                    add::<FUSED>(weight, &inputs, &mut sums);
+        let rows = 0..picture.rows.kernel;
+        let mut gathered = Gathered::new(picture.columns, GROUP, rows.len());
+        for group in chunks.chunks(GROUP) {
+            gathered.choose(group);
+            gathered.gather(&picture, &rows);
+            let Gathered { rows, pitch, taps, .. } = &gathered;
+            for (chunk, place) in group.iter().zip(&gathered.places) {
+                let mut sums = [bias; CHUNK];
+                for (weights, row) in weights.chunks(taps.len()).zip(rows.chunks(*pitch)) {
+                    for (&weight, tap) in weights.iter().zip(taps) {
+                        let inputs = row[place + tap..].first_chunk();
+                        let inputs = inputs.expect("a tap has an input for each position");
+                        add::<FUSED>(weight, inputs, &mut sums);
+                    }
                 }
-            } else {
-                // A product with padding is 0 here as in every other convolution.
-                picture.gather_border(0, chunk, 0..CHUNK, &mut gathered);
-                for (&weight, inputs) in weights.iter().zip(&gathered) {
-                    add::<FUSED>(weight, inputs, &mut sums);
+                let row = &mut outputs[chunk.y * width + chunk.x..(chunk.y + 1) * width];
+                for (output, sum) in row.iter_mut().zip(sums) {
+                    *output = finish(sum);
                 }
-            }
-            let row = &mut outputs[chunk.y * width + chunk.x..(chunk.y + 1) * width];
-            for (output, sum) in row.iter_mut().zip(sums) {
-                *output = finish(sum);
             }
         }
     }

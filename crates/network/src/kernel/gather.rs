@@ -1,36 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Gathers the inputs of any positions side by side, as if they were neighbors.
+//! Gathers what neighboring positions see, row of the window by row: neighbors share most of their inputs.
 
-use crate::mask::{Mask, Window};
+use super::chunks::{CHUNK, Chunk};
+use crate::mask::Window;
 use std::ops::Range;
-
-/// Neighboring positions of a row that are gathered at once.
-pub(crate) const CHUNK: usize = 8;
-
-/// The first of [`CHUNK`] neighboring positions, as far as the row has them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Chunk {
-    pub(crate) x: usize,
-    pub(crate) y: usize,
-}
-
-/// The positions of a mask as chunks. A chunk may hold positions that are not in the mask, and two chunks may share some.
-pub(crate) fn chunks(at: &Mask) -> Vec<Chunk> {
-    let mut found = Vec::new();
-    let last = at.width().saturating_sub(CHUNK);
-    for y in 0..at.height() {
-        let mut done = 0;
-        for (start, length) in at.runs(y) {
-            let mut x = start.max(done);
-            while x < start + length {
-                found.push(Chunk { x: x.min(last), y });
-                x += CHUNK;
-            }
-            done = x;
-        }
-    }
-    found
-}
 
 /// What a convolution sees: the channels of its group, and the windows.
 #[derive(Clone, Copy, Debug)]
@@ -43,143 +16,173 @@ pub(crate) struct Picture<'a> {
     pub(crate) columns: Window,
 }
 
-/// Some positions of a chunk, and the input of the first.
+/// Which inputs of a row of the window are kept: strands of inputs that are a stride apart, so that the inputs of a tap are neighbors for
+/// positions that are.
 #[derive(Clone, Debug)]
-struct Inside {
-    lanes: Range<usize>,
-    x: usize,
+struct Layout {
+    /// Where each strand begins, in columns from the window's first.
+    strands: Vec<usize>,
+    /// Inputs of a strand beyond one for each position.
+    more: usize,
+    /// The strand of each tap, and how many inputs of it come before.
+    taps: Vec<(usize, usize)>,
+}
+
+impl Layout {
+    fn new(columns: Window) -> Self {
+        let Window { kernel, stride, dilation, .. } = columns;
+        let (strands, more) = (stride.min(columns.span()), (columns.span() - 1) / stride);
+        let tap = |tap| tap * dilation;
+        if strands * (CHUNK + more) <= kernel * CHUNK {
+            let taps = (0..kernel).map(tap).map(|column| (column % stride, column / stride));
+            Self { strands: (0..strands).collect(), more, taps: taps.collect() }
+        } else {
+            // Taps far from each other share no inputs.
+            let taps = (0..kernel).map(|tap| (tap, 0)).collect();
+            Self { strands: (0..kernel).map(tap).collect(), more: 0, taps }
+        }
+    }
+}
+
+/// Chunks that follow each other in a row.
+#[derive(Clone, Debug)]
+struct Stretch {
+    first: Chunk,
+    /// Where its inputs begin in each strand, and how many there are.
+    place: usize,
+    length: usize,
+}
+
+/// The gathered inputs of some chunks.
+#[derive(Clone, Debug)]
+pub(super) struct Gathered {
+    layout: Layout,
+    stretches: Vec<Stretch>,
+    /// Values of a strand of all stretches.
+    strand: usize,
+    /// Where the inputs of each chunk begin, for a tap that begins at 0.
+    pub(super) places: Vec<usize>,
+    /// Where the inputs of each tap begin.
+    pub(super) taps: Vec<usize>,
+    /// Values of a row of the window.
+    pub(super) pitch: usize,
+    /// The rows.
+    pub(super) rows: Vec<f32>,
+}
+
+impl Gathered {
+    /// Room for so many chunks and rows of the window.
+    pub(super) fn new(columns: Window, chunks: usize, rows: usize) -> Self {
+        let layout = Layout::new(columns);
+        let room = layout.strands.len() * (CHUNK + layout.more) * chunks;
+        Self {
+            stretches: Vec::with_capacity(chunks),
+            strand: 0,
+            places: vec![0; chunks],
+            taps: vec![0; columns.kernel],
+            pitch: 0,
+            rows: vec![0.0; rows * room],
+            layout,
+        }
+    }
+
+    /// Chooses the chunks. One that is missing has the inputs of the first.
+    pub(super) fn choose(&mut self, chunks: &[Chunk]) {
+        let Layout { strands, more, taps } = &self.layout;
+        self.stretches.clear();
+        self.places.fill(0);
+        let (mut end, mut next) = (0, None);
+        for (&chunk, place) in chunks.iter().zip(&mut self.places) {
+            match self.stretches.last_mut() {
+                Some(last) if next == Some(chunk) => {
+                    last.length += CHUNK;
+                    end += CHUNK;
+                }
+                _ => {
+                    let length = CHUNK + more;
+                    self.stretches.push(Stretch { first: chunk, place: end, length });
+                    end += length;
+                }
+            }
+            *place = end - more - CHUNK;
+            next = Some(Chunk { x: chunk.x + CHUNK, y: chunk.y });
+        }
+        self.strand = end;
+        self.pitch = end * strands.len();
+        self.taps.iter_mut().zip(taps).for_each(|(to, (strand, at))| *to = strand * end + at);
+    }
+
+    /// Gathers some rows of the window, which count from the first row of the first channel. Padding is 0.
+    #[inline(always)]
+    pub(super) fn gather(&mut self, picture: &Picture<'_>, rows: &Range<usize>) {
+        for stretch in &self.stretches {
+            for (at, &strand) in self.layout.strands.iter().enumerate() {
+                let to = &mut self.rows[at * self.strand + stretch.place..];
+                picture.gather(stretch, strand, rows, to, self.pitch);
+            }
+        }
+    }
 }
 
 impl Picture<'_> {
-    /// Inputs of an output.
-    fn depth(&self) -> usize {
-        self.values.len() / (self.height * self.width) * self.rows.kernel * self.columns.kernel
-    }
-
-    /// Where each input of an output is, from the place of its first one.
-    pub(super) fn offsets(&self) -> Vec<usize> {
-        let places = self.height * self.width;
-        let offset = |at: usize| {
-            let (tap, column) = (at / self.columns.kernel, at % self.columns.kernel);
-            let (channel, row) = (tap / self.rows.kernel, tap % self.rows.kernel);
-            let down = row * self.rows.dilation * self.width;
-            channel * places + down + column * self.columns.dilation
-        };
-        (0..self.depth()).map(offset).collect()
-    }
-
-    /// Gathers some inputs of all positions of the chunks: for every panel of [`CHUNK`] positions per chunk, as many rows as there are inputs;
-    /// 0 where a chunk is missing and where an input is padding.
+    /// Gathers the inputs of a strand for some rows of the window, each `pitch` values from the one before.
     #[inline(always)]
-    pub(super) fn gather<const LANES: usize>(
+    fn gather(
         &self,
-        offsets: &[usize],
-        inputs: &Range<usize>,
-        chunks: &[Chunk],
-        gathered: &mut [[f32; LANES]],
+        stretch: &Stretch,
+        strand: usize,
+        rows: &Range<usize>,
+        to: &mut [f32],
+        pitch: usize,
     ) {
-        let depth = inputs.len();
-        if let Some(start) = self
-            .neighbors(chunks)
-            .filter(|_| chunks.len() * CHUNK == gathered.len() / depth * LANES)
-        {
-            // Row by row through all panels, so that memory is read in its order.
-            for (row, &offset) in offsets[inputs.clone()].iter().enumerate() {
-                let (values, _) = self.values[start + offset..].as_chunks::<LANES>();
-                for (panel, values) in gathered[row..].iter_mut().step_by(depth).zip(values) {
-                    *panel = *values;
-                }
+        let Window { stride, before, .. } = self.columns;
+        // The columns count from the first one of the padding.
+        let first = stretch.first.x * stride + strand;
+        let from = before.saturating_sub(first).div_ceil(stride).min(stretch.length);
+        let end = (before + self.width).saturating_sub(first).div_ceil(stride);
+        let inside = from..end.clamp(from, stretch.length);
+        let column = (first + from * stride).saturating_sub(before).min(self.width);
+        let kernel = self.rows.kernel;
+        let (mut channel, mut tap) = (rows.start / kernel, rows.start % kernel);
+        for to in to.chunks_mut(pitch).take(rows.len()) {
+            let to = &mut to[..stretch.length];
+            let y = self.rows.input(stretch.first.y, tap, self.height);
+            if y.is_none() || inside.len() < stretch.length {
+                to.fill(0.0);
             }
-            return;
-        }
-        for (panel, chunks) in gathered.chunks_mut(depth).zip(chunks.chunks(LANES / CHUNK)) {
-            for lane in 0..LANES / CHUNK {
-                let lanes = lane * CHUNK..(lane + 1) * CHUNK;
-                match chunks.get(lane).map(|&chunk| (chunk, self.inside(chunk))) {
-                    None => panel.iter_mut().for_each(|panel| panel[lanes.clone()].fill(0.0)),
-                    Some((chunk, None)) => self.gather_border(inputs.start, chunk, lanes, panel),
-                    Some((_, Some(start))) => {
-                        for (&offset, panel) in offsets[inputs.clone()].iter().zip(panel.iter_mut())
-                        {
-                            self.take(&self.values[start + offset..], &mut panel[lanes.clone()]);
-                        }
-                    }
-                }
+            if let Some(y) = y {
+                let row = (channel * self.height + y) * self.width;
+                take(&self.values[row + column..row + self.width], stride, &mut to[inside.clone()]);
+            }
+            tap += 1;
+            if tap == kernel {
+                (channel, tap) = (channel + 1, 0);
             }
         }
     }
+}
 
-    /// Where the first input of the chunks is, if they are neighbors without gaps and none of their inputs is padding.
-    fn neighbors(&self, chunks: &[Chunk]) -> Option<usize> {
-        let (first, last) = (chunks.first()?, chunks.last()?);
-        let is_next =
-            |(at, chunk): (usize, &Chunk)| (chunk.x, chunk.y) == (first.x + at * CHUNK, first.y);
-        let are_neighbors = self.columns.stride == 1 && chunks.iter().enumerate().all(is_next);
-        let start = if are_neighbors { self.inside(*first)? } else { return None };
-        self.inside(*last).map(|_| start)
-    }
-
-    /// Where the first input of a chunk is, if none of its inputs is padding.
-    pub(super) fn inside(&self, chunk: Chunk) -> Option<usize> {
-        let Self { rows, columns, .. } = self;
-        let y = (chunk.y * rows.stride).checked_sub(rows.before)?;
-        let x = (chunk.x * columns.stride).checked_sub(columns.before)?;
-        let right = x + (CHUNK - 1) * columns.stride + columns.span();
-        (y + rows.span() <= self.height && right <= self.width).then_some(y * self.width + x)
-    }
-
-    /// Every so many inputs, one for each position.
-    #[inline(always)]
-    pub(super) fn take(&self, inputs: &[f32], to: &mut [f32]) {
-        match self.columns.stride {
-            1 => to.copy_from_slice(&inputs[..CHUNK]),
-            2 => {
-                let inputs: &[f32; 2 * CHUNK - 1] =
-                    inputs.first_chunk().expect("the last input is inside");
-                to.iter_mut().enumerate().for_each(|(at, to)| *to = inputs[2 * at]);
-            }
-            stride => to
-                .iter_mut()
-                .zip(inputs.iter().step_by(stride))
-                .for_each(|(to, &input)| *to = input),
+/// Every so many inputs.
+#[inline(always)]
+fn take(from: &[f32], stride: usize, to: &mut [f32]) {
+    match stride {
+        1 => copy(&from[..to.len()], to),
+        2 => {
+            let from = &from[..(2 * to.len()).saturating_sub(1)];
+            to.iter_mut().enumerate().for_each(|(at, to)| *to = from[2 * at]);
         }
+        stride => to.iter_mut().zip(from.iter().step_by(stride)).for_each(|(to, &from)| *to = from),
     }
+}
 
-    /// The same where some inputs are padding.
-    #[inline(never)]
-    pub(super) fn gather_border<const LANES: usize>(
-        &self,
-        from: usize,
-        chunk: Chunk,
-        lanes: Range<usize>,
-        panel: &mut [[f32; LANES]],
-    ) {
-        let Self { rows, columns, height, width, .. } = *self;
-        let inside: Vec<Inside> =
-            (0..columns.kernel).map(|tap| self.inside_row(chunk, tap)).collect();
-        let (mut tap, mut column) = (from / columns.kernel, from % columns.kernel);
-        for to in panel {
-            let to = &mut to[lanes.clone()];
-            to.fill(0.0);
-            let (channel, row) = (tap / rows.kernel, tap % rows.kernel);
-            if let Some(y) = rows.input(chunk.y, row, height) {
-                let Inside { lanes, x } = inside[column].clone();
-                let inputs = self.values[(channel * height + y) * width + x..].iter();
-                let inputs = inputs.step_by(columns.stride);
-                to[lanes].iter_mut().zip(inputs).for_each(|(to, &input)| *to = input);
-            }
-            column += 1;
-            if column == columns.kernel {
-                (tap, column) = (tap + 1, 0);
-            }
-        }
-    }
-
-    /// The positions of a chunk whose input of a tap is no padding: they are neighbors.
-    fn inside_row(&self, chunk: Chunk, tap: usize) -> Inside {
-        let input = |lane: &usize| self.columns.input(chunk.x + lane, tap, self.width);
-        let first = (0..CHUNK).find(|lane| input(lane).is_some()).unwrap_or(CHUNK);
-        let end = (first..CHUNK).find(|lane| input(lane).is_none()).unwrap_or(CHUNK);
-        Inside { lanes: first..end, x: input(&first).filter(|_| first < end).unwrap_or(0) }
+/// Copies a little more than some whole registers: by whole registers, of which the last two overlap.
+#[inline(always)]
+fn copy(from: &[f32], to: &mut [f32]) {
+    let (registers, _) = from.as_chunks::<CHUNK>();
+    let (places, _) = to.as_chunks_mut::<CHUNK>();
+    places.iter_mut().zip(registers).for_each(|(to, from)| *to = *from);
+    match (from.last_chunk::<CHUNK>(), to.last_chunk_mut::<CHUNK>()) {
+        (Some(from), Some(to)) => *to = *from,
+        _ => to.copy_from_slice(from),
     }
 }

@@ -1,26 +1,48 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The innermost loop: a block of output channels at a panel of positions.
 
+use super::chunks::CHUNK;
+use super::gather::Gathered;
+
 /// Adds the products of one weight per channel and one input per position, input by input.
+///
+/// The inputs of each [`CHUNK`] are at its place in a row; if `IS_ROW`, the chunks follow each other, and so do the places.
 ///
 /// `FUSED` rounds once per multiplication and addition; every processor with AVX2 has an instruction for it. How many channels there are
 /// matters for speed alone: loops over 4, 6 or 12 of them become vector instructions, those over 8 or 16 do not.
 #[inline(always)]
-pub(super) fn multiply<const CHANNELS: usize, const LANES: usize, const FUSED: bool>(
+pub(super) fn multiply<
+    const CHANNELS: usize,
+    const LANES: usize,
+    const IS_ROW: bool,
+    const FUSED: bool,
+>(
     weights: &[[f32; CHANNELS]],
-    inputs: &[[f32; LANES]],
+    gathered: &Gathered,
+    places: &[usize],
     sums: &mut [[f32; LANES]; CHANNELS],
 ) {
     let mut own = *sums;
-    for (weights, inputs) in weights.iter().zip(inputs) {
-        for channel in 0..CHANNELS {
-            for lane in 0..LANES {
-                let sum = &mut own[channel][lane];
-                *sum = if FUSED {
-                    weights[channel].mul_add(inputs[lane], *sum)
-                } else {
-                    weights[channel] * inputs[lane] + *sum
-                };
+    let Gathered { taps, rows, pitch, .. } = gathered;
+    for (weights, row) in weights.chunks(taps.len()).zip(rows.chunks(*pitch)) {
+        for (weights, &tap) in weights.iter().zip(taps) {
+            let mut inputs = [0.0; LANES];
+            if IS_ROW {
+                inputs.copy_from_slice(&row[places[0] + tap..][..LANES]);
+            } else {
+                for (inputs, place) in inputs.chunks_mut(CHUNK).zip(places) {
+                    inputs.copy_from_slice(&row[place + tap..][..CHUNK]);
+                }
+            }
+            for channel in 0..CHANNELS {
+                for lane in 0..LANES {
+                    let sum = &mut own[channel][lane];
+                    *sum = if FUSED {
+                        weights[channel].mul_add(inputs[lane], *sum)
+                    } else {
+                        weights[channel] * inputs[lane] + *sum
+                    };
+                }
             }
         }
     }

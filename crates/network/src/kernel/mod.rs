@@ -3,6 +3,7 @@
 //! that a part of a tensor has the same bits as in the whole.
 
 mod blocking;
+mod chunks;
 mod depthwise;
 mod gather;
 mod micro;
@@ -11,8 +12,9 @@ mod parts;
 mod weights;
 
 pub(crate) use blocking::Blocking;
+pub(crate) use chunks::{CHUNK, Chunk, chunks};
 pub(crate) use depthwise::Depthwise;
-pub(crate) use gather::{CHUNK, Chunk, Picture, chunks};
+pub(crate) use gather::Picture;
 pub(crate) use panels::{Outputs, convolve, scheduled};
 pub(crate) use parts::parts;
 pub(crate) use weights::Weights;

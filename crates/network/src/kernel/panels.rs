@@ -2,16 +2,17 @@
 //! Convolution at any set of positions: their inputs are gathered into panels, which are multiplied with the weights.
 
 use super::blocking::Blocking;
-use super::gather::{CHUNK, Chunk, Picture};
+use super::chunks::{CHUNK, Chunk};
+use super::gather::{Gathered, Picture};
 use super::micro::multiply;
 use super::weights::Weights;
 use foveate_lanes::{Level, Task};
 use std::ops::Range;
 
-/// Inputs that are multiplied before the next are gathered: a panel of them stays in the nearest cache.
-const DEPTH: usize = 384;
+/// Inputs that are multiplied before the next are gathered: those of a panel stay in the nearest cache.
+const DEPTH: usize = 288;
 /// Panels that share a pass over the weights.
-const GROUP: usize = 3;
+const GROUP: usize = 6;
 
 /// Positions that are computed for so many chunks: whole panels.
 pub(crate) fn scheduled(chunks: usize, blocking: Blocking) -> usize {
@@ -64,9 +65,10 @@ impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F
         let Outputs { mut planes, top, blocks, width } = outputs;
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
         let (first, stride) = (first.start, last.end - first.start);
-        let depth = weights.depth();
-        let offsets = picture.offsets();
-        let mut gathered = vec![[0.0; LANES]; DEPTH.min(depth) * GROUP];
+        let taps = picture.columns.kernel;
+        let rows = weights.depth() / taps;
+        let at_once = rows.min((DEPTH / taps).max(1));
+        let mut gathered = Gathered::new(picture.columns, GROUP * LANES / CHUNK, at_once);
         let mut sums = vec![[0.0; LANES]; stride * GROUP];
         for group in chunks.chunks(GROUP * LANES / CHUNK) {
             let panels = group.len().div_ceil(LANES / CHUNK);
@@ -75,15 +77,15 @@ impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F
                     *sum = [weights.bias(channel); LANES];
                 }
             }
-            for from in (0..depth).step_by(DEPTH) {
-                let inputs = from..depth.min(from + DEPTH);
-                let gathered = &mut gathered[..panels * inputs.len()];
-                picture.gather(&offsets, &inputs, group, gathered);
+            gathered.choose(group);
+            for from in (0..rows).step_by(at_once) {
+                let rows = from..rows.min(from + at_once);
+                gathered.gather(picture, &rows);
                 for block in blocks {
-                    let products = weights.of(block, &inputs);
-                    for (panel, gathered) in gathered.chunks(inputs.len()).enumerate() {
-                        let sums = &mut sums[panel * stride + block.start - first..][..block.len()];
-                        add_block::<LANES, FUSED>(products, gathered, sums);
+                    let products = weights.of(block, &(rows.start * taps..rows.end * taps));
+                    for (panel, sums) in sums.chunks_mut(stride).take(panels).enumerate() {
+                        let sums = &mut sums[block.start - first..][..block.len()];
+                        add_block::<LANES, FUSED>(products, &gathered, panel, sums);
                     }
                 }
             }
@@ -100,14 +102,15 @@ impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F
 #[inline(always)]
 fn add_block<const LANES: usize, const FUSED: bool>(
     weights: &[f32],
-    inputs: &[[f32; LANES]],
+    inputs: &Gathered,
+    panel: usize,
     sums: &mut [[f32; LANES]],
 ) {
     match (LANES, sums.len()) {
-        (32, 12) => add::<LANES, 12, FUSED>(weights, inputs, sums),
-        (32, 10) => add::<LANES, 10, FUSED>(weights, inputs, sums),
-        (16 | 32, 6) => add::<LANES, 6, FUSED>(weights, inputs, sums),
-        _ => add::<LANES, 4, FUSED>(weights, inputs, sums),
+        (32, 12) => add::<LANES, 12, FUSED>(weights, inputs, panel, sums),
+        (32, 10) => add::<LANES, 10, FUSED>(weights, inputs, panel, sums),
+        (16 | 32, 6) => add::<LANES, 6, FUSED>(weights, inputs, panel, sums),
+        _ => add::<LANES, 4, FUSED>(weights, inputs, panel, sums),
     }
 }
 
@@ -115,11 +118,18 @@ fn add_block<const LANES: usize, const FUSED: bool>(
 #[inline(always)]
 fn add<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
     weights: &[f32],
-    inputs: &[[f32; LANES]],
+    inputs: &Gathered,
+    panel: usize,
     sums: &mut [[f32; LANES]],
 ) {
     let sums = sums.try_into().expect("a block has a sum for each of its channels");
-    multiply::<CHANNELS, LANES, FUSED>(weights.as_chunks().0, inputs, sums);
+    let weights = weights.as_chunks().0;
+    let places = &inputs.places[panel * LANES / CHUNK..][..LANES / CHUNK];
+    if places.windows(2).all(|pair| pair[0] + CHUNK == pair[1]) {
+        multiply::<CHANNELS, LANES, true, FUSED>(weights, inputs, places, sums);
+    } else {
+        multiply::<CHANNELS, LANES, false, FUSED>(weights, inputs, places, sums);
+    }
 }
 
 /// Writes the outputs of a channel to their positions.

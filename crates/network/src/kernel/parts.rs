@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A convolution as parts, one for each thread, which gathers the inputs that it needs.
 
-use super::gather::{CHUNK, Chunk};
+use super::chunks::{CHUNK, Chunk};
 use super::panels::Outputs;
 use super::weights::Weights;
 use crate::form::Form;

@@ -67,8 +67,9 @@ fn three_by_three(channels: usize, stride: i64) -> Layer {
 
 fn layer() -> impl Strategy<Value = Layer> {
     let pads = || prop::array::uniform4(0..3i64);
+    let dilation = || prop_oneof![7 => 1..3i64, 1 => Just(9i64)];
     prop_oneof![
-        4 => (1..14usize, prop::array::uniform2(1..4i64), prop::array::uniform2(1..4i64), prop::array::uniform2(1..3i64), pads())
+        4 => (1..14usize, prop::array::uniform2(1..4i64), prop::array::uniform2(1..4i64), prop::array::uniform2(dilation()), pads())
             .prop_map(|(channels, kernel, strides, dilations, pads)| Layer::Conv { channels, kernel, strides, dilations, pads }),
         2 => (1..4i64, 1..3i64, pads()).prop_map(|(kernel, stride, pads)| Layer::Depthwise { kernel, stride, pads }),
         1 => Just(Layer::Grouped),
