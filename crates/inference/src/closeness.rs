@@ -2,6 +2,7 @@
 //! How close values are to those of a whole computation, and how close they have to be.
 
 use foveate_network::{Executor, Network};
+use std::borrow::Cow;
 
 /// Sums over values and over those of a whole computation.
 #[derive(Clone, Copy, Debug)]
@@ -117,15 +118,15 @@ impl Closeness {
     /// Of a frame. `right` gives a value of the network as a whole computation has it.
     pub(crate) fn of<'r>(
         network: &Network,
-        right: impl Fn(usize) -> &'r [f32],
+        right: impl Fn(usize) -> Cow<'r, [f32]>,
         found: &Executor<'_>,
     ) -> Self {
         let (mut distance, mut agrees) = (Distance::default(), true);
         let mut sums = Vec::new();
         for &value in network.outputs() {
-            let (right, found) = (right(value), found.value(value).values());
-            distance.add(Distance::of(right, found).0);
-            agrees &= largest(right) == largest(found);
+            let (right, found) = (right(value), found.value(value).reals());
+            distance.add(Distance::of(&right, &found).0);
+            agrees &= largest(&right) == largest(&found);
             sums.extend(right.iter().map(|&value| f64::from(value)));
         }
         let variation = Variation { sums, squares: distance.right };

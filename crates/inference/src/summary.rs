@@ -226,7 +226,7 @@ pub(crate) fn layers(
             scheduled_share: share(sums.scheduled),
             changed_share: share(sums.changed),
             weight_bytes: place.weight_bytes(),
-            output_bytes: 4 * form.elements() as u64,
+            output_bytes: form.bytes(),
             limit: executor.limit(node + 1),
             whole_cost: cost.map(|(whole, _)| whole),
             masked_cost: cost.map(|(_, masked)| masked),

@@ -35,7 +35,7 @@ impl NotFinite {
     /// Looks at the outputs of a frame.
     pub(crate) fn look(&mut self, frame: u64, network: &Network, executor: &Executor<'_>) {
         let is_odd =
-            |value: usize| !executor.value(value).values().iter().all(|value| value.is_finite());
+            |value: usize| !executor.value(value).reals().iter().all(|value| value.is_finite());
         if !network.outputs().iter().any(|&value| is_odd(value)) {
             return;
         }
@@ -99,13 +99,13 @@ impl<'a> Reference<'a> {
         let mut is_different = false;
         for (node, layer) in self.layers.iter_mut().enumerate() {
             let (distance, differs) =
-                Distance::of(self.dense.value(node + 1).values(), other.value(node + 1).values());
+                Distance::of(&self.dense.value(node + 1).reals(), &other.value(node + 1).reals());
             if is_counted {
                 layer.add(distance);
             }
             is_different |= differs;
         }
-        let outputs = Closeness::of(self.network, |value| self.dense.value(value).values(), other);
+        let outputs = Closeness::of(self.network, |value| self.dense.value(value).reals(), other);
         self.different += u64::from(is_different);
         if is_counted {
             self.outputs.add(&outputs);

@@ -14,6 +14,7 @@ use crate::summary::{Macs, Tried, Tuning, macs};
 use crate::tally::Positions;
 use foveate_footage::{Hooks, Progress};
 use foveate_network::{Executor, Mode, Network};
+use std::borrow::Cow;
 
 /// Multiples that all nodes get together: 2 to these powers.
 const POWERS: std::ops::RangeInclusive<i32> = -10..=1;
@@ -110,12 +111,12 @@ fn whole(network: &Network, frames: &[Kept]) -> (Vec<Vec<Vec<f32>>>, Vec<f32>) {
         let nodes = 1..=network.nodes().len();
         if scales.is_empty() {
             scales =
-                nodes.clone().map(|value| root_mean_square(dense.value(value).values())).collect();
+                nodes.clone().map(|value| root_mean_square(&dense.value(value).reals())).collect();
         }
         // By value, so that it is found as in an executor; what is no output is not needed.
         let outputs = network.outputs();
         let of = |value| {
-            if outputs.contains(&value) { dense.value(value).values().to_vec() } else { Vec::new() }
+            if outputs.contains(&value) { dense.value(value).reals().to_vec() } else { Vec::new() }
         };
         right.push((0..=network.nodes().len()).map(of).collect());
     }
@@ -147,7 +148,7 @@ impl Tuner<'_> {
                 }
                 closeness.add(&Closeness::of(
                     self.network,
-                    |value| &right[value],
+                    |value| Cow::Borrowed(&right[value]),
                     player.executor(),
                 ));
             }

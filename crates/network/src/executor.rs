@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs a network frame by frame, and computes again only what may have changed.
 
+use crate::element::{Element, Number, typed};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::network::Network;
 use crate::operator::Job;
-use crate::tensor::{Tensor, for_each_run};
+use crate::tensor::{Tensor, Values, for_each_run};
 use std::time::{Duration, Instant};
 
 /// What is computed for a frame after the first. The first is always computed whole.
@@ -17,7 +18,8 @@ pub enum Mode {
     Exact,
     /// The same, but an output that came out equal has not changed. Equal to [`Mode::Dense`] bit for bit.
     Compare,
-    /// A position of which no value differs by more than this from the value that was last passed on keeps that value.
+    /// A position of which no value differs by more than this from the value that was last passed on keeps that value. Of an integer it is
+    /// the real number that it stands for that counts, if its scale is known, and if not the integer itself.
     Truncate(f32),
     /// In every tensor only the positions that lie under a changed part of the picture. Wrong at its borders.
     Fixed,
@@ -48,8 +50,8 @@ pub struct Executor<'a> {
     /// By node: where it was computed.
     wanted: Vec<Mask>,
     work: Vec<Work>,
-    /// Where a node computes whose output is compared.
-    fresh: Vec<f32>,
+    /// Where a node computes whose output is compared, for each kind of value.
+    fresh: [Values; Element::ALL.len()],
     has_begun: bool,
     /// Of the last step: time in operators, and in all else.
     computing: Duration,
@@ -67,7 +69,10 @@ impl<'a> Executor<'a> {
             Mode::Truncate(limit) => Some(limit),
         };
         let is_compared = limit.is_some() || mode == Mode::Fixed;
-        let largest = forms().map(Form::elements).max().expect("there is an input");
+        let fresh = |element| {
+            let own = forms().filter(|form| is_compared && form.encoding().element == element);
+            Values::zeros(element, own.map(Form::elements).max().unwrap_or(0))
+        };
         let mut limits: Vec<_> = forms().map(|_| limit).collect();
         // The picture is never cut.
         limits[0] = limit.map(|_| 0.0);
@@ -79,7 +84,7 @@ impl<'a> Executor<'a> {
             masks: forms().map(|form| Mask::empty(form.height(), form.width())).collect(),
             wanted: forms().skip(1).map(|form| Mask::empty(form.height(), form.width())).collect(),
             work: vec![Work::default(); network.nodes().len()],
-            fresh: vec![0.0; if is_compared { largest } else { 0 }],
+            fresh: Element::ALL.map(fresh),
             has_begun: false,
             computing: Duration::ZERO,
             overhead: Duration::ZERO,
@@ -169,10 +174,11 @@ impl<'a> Executor<'a> {
         let kept = &self.kept[0];
         self.masks[0] = match self.compared(0) {
             _ if self.is_whole() => Mask::full(changed.height(), changed.width()),
-            Some(limit) => moved(kept, picture, changed, limit),
+            Some(limit) => moved(kept.form(), kept.values(), picture, changed, limit),
             None => changed.clone(),
         };
-        copy(picture, &mut self.kept[0], &self.masks[0]);
+        let form = self.network.input();
+        copy(form, picture, f32::of_mut(self.kept[0].stored_mut()), &self.masks[0]);
     }
 
     /// The positions of a node's output that are to be computed.
@@ -199,7 +205,7 @@ impl<'a> Executor<'a> {
         let inputs: Vec<&Tensor> = place.inputs().iter().map(|&value| &before[value]).collect();
         let kept = &mut rest[0];
         let computing = &mut self.computing;
-        let mut compute = |output: &mut [f32]| {
+        let mut compute = |output: &mut Values| {
             let start = Instant::now();
             if !at.is_empty() {
                 place.operator.compute(Job { inputs: &inputs, form, output, at: &at });
@@ -210,17 +216,20 @@ impl<'a> Executor<'a> {
         // unless an input is not what it was.
         let in_place = limit.is_none() && (self.mode != Mode::Fixed || !self.has_begun);
         let changed = if in_place {
-            compute(kept.values_mut());
+            compute(kept.stored_mut());
             at
         } else {
-            let fresh = &mut self.fresh[..form.elements()];
+            let fresh = &mut self.fresh[form.encoding().element as usize];
             compute(fresh);
-            let changed = match limit {
-                Some(limit) => moved(kept, fresh, &at, limit),
-                None => at,
-            };
-            copy(fresh, kept, &changed);
-            changed
+            typed!(form.encoding().element, T => {
+                let (fresh, kept) = (T::of(fresh), T::of_mut(kept.stored_mut()));
+                let changed = match limit {
+                    Some(limit) => moved(form, kept, fresh, &at, limit),
+                    None => at,
+                };
+                copy(form, fresh, kept, &changed);
+                changed
+            })
         };
         self.work[node] = Work { needed, scheduled, changed: changed.count() };
         self.masks[node + 1] = changed;
@@ -228,13 +237,13 @@ impl<'a> Executor<'a> {
 }
 
 /// The positions of `at` of which a value differs by more than `limit`; with a limit of 0, in any bit.
-fn moved(kept: &Tensor, fresh: &[f32], at: &Mask, limit: f32) -> Mask {
-    let form = kept.form();
+fn moved<T: Number>(form: &Form, kept: &[T], fresh: &[T], at: &Mask, limit: f32) -> Mask {
+    let scale = form.encoding().scale;
     let (inner, places, width) = (form.inner(), form.places(), form.width());
     let mut moved = Mask::empty(form.height(), width);
     // What is no number is neither more nor less.
-    let is_near = |kept: f32, fresh: f32| {
-        kept.to_bits() == fresh.to_bits() || (limit > 0.0 && (kept - fresh).abs() <= limit)
+    let is_near = |kept: T, fresh: T| {
+        kept.is_same(fresh) || (limit > 0.0 && kept.distance(fresh) * scale <= limit)
     };
     let mut differs = Vec::new();
     for y in 0..form.height() {
@@ -243,7 +252,7 @@ fn moved(kept: &Tensor, fresh: &[f32], at: &Mask, limit: f32) -> Mask {
             differs.resize(length, false);
             for outer in 0..form.outer() {
                 let run = (outer * places + y * width + x) * inner..;
-                let own = kept.values()[run.clone()].chunks_exact(inner);
+                let own = kept[run.clone()].chunks_exact(inner);
                 for (differs, (kept, fresh)) in
                     differs.iter_mut().zip(own.zip(fresh[run].chunks_exact(inner)))
                 {
@@ -259,9 +268,8 @@ fn moved(kept: &Tensor, fresh: &[f32], at: &Mask, limit: f32) -> Mask {
 }
 
 /// Copies the values of some positions.
-fn copy(from: &[f32], to: &mut Tensor, at: &Mask) {
-    let form = to.form().clone();
-    for_each_run(&form, at, |run| to.values_mut()[run.clone()].copy_from_slice(&from[run]));
+fn copy<T: Number>(form: &Form, from: &[T], to: &mut [T], at: &Mask) {
+    for_each_run(form, at, |run| to[run.clone()].copy_from_slice(&from[run]));
 }
 
 /// The positions of a smaller or larger tensor that lie under the positions of a mask.
@@ -279,7 +287,7 @@ fn under(mask: &Mask, height: usize, width: usize) -> Mask {
 mod tests {
     use super::*;
     use crate::mask::Window;
-    use crate::operator::{Activation, Arithmetic, Binary, Conv, Operator, Pointwise};
+    use crate::operator::{Activation, Arithmetic, Binary, Conv, Geometry, Operator, Pointwise};
     use foveate_lanes::Level;
     use std::sync::Arc;
 
@@ -332,7 +340,8 @@ mod tests {
         let window = Window { kernel: 3, stride: 2, dilation: 1, before: 1, after: 1 };
         let weights: Vec<f32> = (1..=27u8).map(|weight| f32::from(weight) / 27.0).collect();
         let level = Level::detect();
-        let conv = Conv::new(&[3, 1, 3, 3], &weights, None, window, window, 1, level).unwrap();
+        let geometry = Geometry::new(&[3, 1, 3, 3], [window; 2], 1).unwrap();
+        let conv = Conv::new(geometry, &weights, None, level).unwrap();
         let mut network = Network::new(Form::features(vec![1, 1, 24, 24])).unwrap();
         let faulty = |operator, fault| Arc::new(Faulty { operator, window, fault });
         let first =
@@ -340,7 +349,7 @@ mod tests {
         let minus = Arc::new(Pointwise(Activation::Abs));
         let second = network.push("b", "Abs", minus, vec![first]).unwrap();
         // The second input of the sum comes from a branch of its own.
-        let pool = Conv::new(&[3, 1, 3, 3], &weights, None, window, window, 1, level).unwrap();
+        let pool = Conv::new(geometry, &weights, None, level).unwrap();
         let third = network.push("c", "Conv", Arc::new(pool), vec![0]).unwrap();
         let half = Binary {
             kind: Arithmetic::Mul,

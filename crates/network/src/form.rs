@@ -1,36 +1,55 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The shape of a tensor, and which of its axes are positions in the picture.
+//! The shape of a tensor, which of its axes are positions in the picture, and how its values are stored.
 
+use crate::element::Encoding;
 use std::ops::Range;
 
 /// A shape, of which some axes are the rows and columns of the picture.
 ///
 /// In memory a tensor is `outer` x `height` x `width` x `inner` values, row by row. The features of a convolution have their channels
 /// outside; after a transposition to NHWC they are inside. A tensor without positions, such as the logits of a classifier, has one position
-/// that stands for everything.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// that stands for everything. Values are floating-point ones unless said otherwise.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Form {
     shape: Vec<usize>,
     positions: Range<usize>,
+    encoding: Encoding,
 }
 
 impl Form {
     /// Features `[1, channels, height, width]`, or any other shape with two axes after the first two.
     #[must_use]
     pub fn features(shape: Vec<usize>) -> Self {
-        if shape.len() == 4 { Self { shape, positions: 2..4 } } else { Self::whole(shape) }
+        if shape.len() == 4 { Self::at(shape, 2..4) } else { Self::whole(shape) }
     }
 
     /// A tensor without positions.
     #[must_use]
     pub fn whole(shape: Vec<usize>) -> Self {
-        Self { shape, positions: 0..0 }
+        Self::at(shape, 0..0)
     }
 
     /// A shape with these axes, one or two, as positions.
     pub(crate) fn at(shape: Vec<usize>, positions: Range<usize>) -> Self {
         debug_assert!(positions.len() <= 2 && positions.end <= shape.len());
-        Self { shape, positions }
+        Self { shape, positions, encoding: Encoding::FLOAT }
+    }
+
+    /// The same with values of another kind.
+    pub(crate) fn encoded(self, encoding: Encoding) -> Self {
+        Self { encoding, ..self }
+    }
+
+    /// How its values are stored, and what they stand for.
+    #[must_use]
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
+    }
+
+    /// Bytes of all values.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        (self.elements() * self.encoding.element.bytes()) as u64
     }
 
     /// The length of every axis.

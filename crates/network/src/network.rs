@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A network: operators in an order in which each comes after those whose outputs it takes.
 
+use crate::element::Encoding;
 use crate::error::NetworkError;
 use crate::form::Form;
 use crate::mask::Mask;
@@ -96,7 +97,11 @@ impl Network {
         inputs: Vec<usize>,
     ) -> Result<usize, NetworkError> {
         let forms: Vec<&Form> = inputs.iter().map(|&value| &self.forms[value]).collect();
-        let form = operator.form(&forms).and_then(|form| limit(&form).map(|()| form));
+        let encodings: Vec<Encoding> = forms.iter().map(|form| form.encoding()).collect();
+        let form = operator
+            .encoding(&encodings)
+            .and_then(|encoding| Ok(operator.form(&forms)?.encoded(encoding)))
+            .and_then(|form| limit(&form).map(|()| form));
         let problem = |problem| NetworkError::Node {
             node: name.to_owned(),
             operator: kind.to_owned(),
@@ -186,7 +191,7 @@ impl Network {
     /// Bytes of all tensors of a frame, which are kept from frame to frame.
     #[must_use]
     pub fn kept_bytes(&self) -> u64 {
-        4 * self.forms.iter().map(|form| form.elements() as u64).sum::<u64>()
+        self.forms.iter().map(Form::bytes).sum()
     }
 }
 

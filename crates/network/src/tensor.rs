@@ -1,31 +1,74 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Values of a tensor.
 
+use crate::element::{Element, Number, typed};
 use crate::form::Form;
 use crate::mask::Mask;
+use std::borrow::Cow;
 
-/// A tensor of 32-bit floating-point values.
+/// Values as they are stored.
+#[derive(Clone, Debug)]
+pub(crate) enum Values {
+    F32(Vec<f32>),
+    U8(Vec<u8>),
+    I8(Vec<i8>),
+    I32(Vec<i32>),
+}
+
+impl Values {
+    pub(crate) fn zeros(element: Element, count: usize) -> Self {
+        match element {
+            Element::F32 => Self::F32(vec![0.0; count]),
+            Element::U8 => Self::U8(vec![0; count]),
+            Element::I8 => Self::I8(vec![0; count]),
+            Element::I32 => Self::I32(vec![0; count]),
+        }
+    }
+}
+
+/// A tensor.
 #[derive(Clone, Debug)]
 pub struct Tensor {
     form: Form,
-    values: Vec<f32>,
+    values: Values,
 }
 
 impl Tensor {
     /// A tensor of zeros.
     #[must_use]
     pub fn zeros(form: Form) -> Self {
-        Self { values: vec![0.0; form.elements()], form }
+        Self { values: Values::zeros(form.encoding().element, form.elements()), form }
     }
 
-    /// A tensor of these values, in the order of memory.
+    /// A tensor of these floating-point values, in the order of memory.
     ///
     /// # Panics
     /// If there are not as many as the form has elements.
     #[must_use]
     pub fn new(form: Form, values: Vec<f32>) -> Self {
         assert_eq!(form.elements(), values.len(), "a tensor has as many values as its form says");
-        Self { form, values }
+        Self { form, values: Values::F32(values) }
+    }
+
+    /// A tensor of these integers, which its values can be.
+    ///
+    /// # Errors
+    /// When they cannot.
+    pub(crate) fn of_integers(form: Form, values: &[i64]) -> Result<Self, String> {
+        fn all<T: TryFrom<i64>>(values: &[i64]) -> Result<Vec<T>, String> {
+            let own = |&value: &i64| {
+                T::try_from(value)
+                    .map_err(|_| format!("a constant of {value} is outside of its bits"))
+            };
+            values.iter().map(own).collect()
+        }
+        let values = match form.encoding().element {
+            Element::F32 => unreachable!("integers are asked for"),
+            Element::U8 => Values::U8(all(values)?),
+            Element::I8 => Values::I8(all(values)?),
+            Element::I32 => Values::I32(all(values)?),
+        };
+        Ok(Self { form, values })
     }
 
     /// Its form.
@@ -35,14 +78,27 @@ impl Tensor {
     }
 
     /// The values in the order of memory.
-    #[must_use]
-    pub fn values(&self) -> &[f32] {
-        &self.values
+    pub(crate) fn values<T: Number>(&self) -> &[T] {
+        T::of(&self.values)
     }
 
-    /// The values, to be changed.
-    pub fn values_mut(&mut self) -> &mut [f32] {
+    /// The values as they are stored, to be changed.
+    pub(crate) fn stored_mut(&mut self) -> &mut Values {
         &mut self.values
+    }
+
+    /// The real numbers that the values stand for, in the order of memory.
+    #[must_use]
+    pub fn reals(&self) -> Cow<'_, [f32]> {
+        let encoding = self.form.encoding();
+        #[allow(clippy::cast_precision_loss, reason = "a zero point of a sum is 0")]
+        let (scale, zero) = (encoding.scale, encoding.zero as f32);
+        match &self.values {
+            Values::F32(values) => Cow::Borrowed(values),
+            stored => typed!(encoding.element, T => {
+                T::of(stored).iter().map(|value| (value.float() - zero) * scale).collect()
+            }),
+        }
     }
 
     /// The positions at which a value differs from that of another tensor of the same form, bit by bit.
@@ -51,12 +107,15 @@ impl Tensor {
         let (height, width) = (self.form.height(), self.form.width());
         let mut mask = Mask::empty(height, width);
         let inner = self.form.inner();
-        for (at, (own, other)) in self.values.iter().zip(&other.values).enumerate() {
-            if own.to_bits() != other.to_bits() {
-                let place = at / inner % (height * width);
-                mask.insert(place % width, place / width);
+        typed!(self.form.encoding().element, T => {
+            let pairs = self.values::<T>().iter().zip(other.values::<T>());
+            for (at, (own, other)) in pairs.enumerate() {
+                if !own.is_same(*other) {
+                    let place = at / inner % (height * width);
+                    mask.insert(place % width, place / width);
+                }
             }
-        }
+        });
         mask
     }
 }

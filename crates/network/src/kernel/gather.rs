@@ -7,13 +7,14 @@ use std::ops::Range;
 
 /// What a convolution sees: the channels of its group, and the windows.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Picture<'a> {
+pub(crate) struct Picture<'a, T = f32> {
     /// Channel by channel, row by row.
-    pub(crate) values: &'a [f32],
+    pub(crate) values: &'a [T],
     pub(crate) height: usize,
     pub(crate) width: usize,
     pub(crate) rows: Window,
     pub(crate) columns: Window,
+    pub(crate) padding: T,
 }
 
 /// Which inputs of a row of the window are kept: strands of inputs that are a stride apart, so that the inputs of a tap are neighbors for
@@ -55,7 +56,7 @@ struct Stretch {
 
 /// The gathered inputs of some chunks.
 #[derive(Clone, Debug)]
-pub(super) struct Gathered {
+pub(super) struct Gathered<T = f32> {
     layout: Layout,
     stretches: Vec<Stretch>,
     /// Values of a strand of all stretches.
@@ -67,10 +68,10 @@ pub(super) struct Gathered {
     /// Values of a row of the window.
     pub(super) pitch: usize,
     /// The rows.
-    pub(super) rows: Vec<f32>,
+    pub(super) rows: Vec<T>,
 }
 
-impl Gathered {
+impl<T: Copy + Default> Gathered<T> {
     /// Room for so many chunks and rows of the window.
     pub(super) fn new(columns: Window, chunks: usize, rows: usize) -> Self {
         let layout = Layout::new(columns);
@@ -81,7 +82,7 @@ impl Gathered {
             places: vec![0; chunks],
             taps: vec![0; columns.kernel],
             pitch: 0,
-            rows: vec![0.0; rows * room],
+            rows: vec![T::default(); rows * room],
             layout,
         }
     }
@@ -112,9 +113,9 @@ impl Gathered {
         self.taps.iter_mut().zip(taps).for_each(|(to, (strand, at))| *to = strand * end + at);
     }
 
-    /// Gathers some rows of the window, which count from the first row of the first channel. Padding is 0.
+    /// Gathers some rows of the window, which count from the first row of the first channel.
     #[inline(always)]
-    pub(super) fn gather(&mut self, picture: &Picture<'_>, rows: &Range<usize>) {
+    pub(super) fn gather(&mut self, picture: &Picture<'_, T>, rows: &Range<usize>) {
         for stretch in &self.stretches {
             for (at, &strand) in self.layout.strands.iter().enumerate() {
                 let to = &mut self.rows[at * self.strand + stretch.place..];
@@ -124,7 +125,7 @@ impl Gathered {
     }
 }
 
-impl Picture<'_> {
+impl<T: Copy> Picture<'_, T> {
     /// Gathers the inputs of a strand for some rows of the window, each `pitch` values from the one before.
     #[inline(always)]
     fn gather(
@@ -132,7 +133,7 @@ impl Picture<'_> {
         stretch: &Stretch,
         strand: usize,
         rows: &Range<usize>,
-        to: &mut [f32],
+        to: &mut [T],
         pitch: usize,
     ) {
         let Window { stride, before, .. } = self.columns;
@@ -148,7 +149,7 @@ impl Picture<'_> {
             let to = &mut to[..stretch.length];
             let y = self.rows.input(stretch.first.y, tap, self.height);
             if y.is_none() || inside.len() < stretch.length {
-                to.fill(0.0);
+                to.fill(self.padding);
             }
             if let Some(y) = y {
                 let row = (channel * self.height + y) * self.width;
@@ -164,7 +165,7 @@ impl Picture<'_> {
 
 /// Every so many inputs.
 #[inline(always)]
-fn take(from: &[f32], stride: usize, to: &mut [f32]) {
+fn take<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
     match stride {
         1 => copy(&from[..to.len()], to),
         2 => {
@@ -177,7 +178,7 @@ fn take(from: &[f32], stride: usize, to: &mut [f32]) {
 
 /// Copies a little more than some whole registers: by whole registers, of which the last two overlap.
 #[inline(always)]
-fn copy(from: &[f32], to: &mut [f32]) {
+fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     let (registers, _) = from.as_chunks::<CHUNK>();
     let (places, _) = to.as_chunks_mut::<CHUNK>();
     places.iter_mut().zip(registers).for_each(|(to, from)| *to = *from);

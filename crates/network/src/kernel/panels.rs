@@ -20,9 +20,9 @@ pub(crate) fn scheduled(chunks: usize, blocking: Blocking) -> usize {
 }
 
 /// Some rows of some channels of the outputs.
-pub(crate) struct Outputs<'a> {
+pub(crate) struct Outputs<'a, T = f32> {
     /// These rows of each channel, of `width` positions.
-    pub(crate) planes: Vec<&'a mut [f32]>,
+    pub(crate) planes: Vec<&'a mut [T]>,
     /// The first row.
     pub(crate) top: usize,
     /// The blocks of these channels.
@@ -100,7 +100,7 @@ impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F
 
 /// Adds the products of a block.
 #[inline(always)]
-fn add_block<const LANES: usize, const FUSED: bool>(
+pub(super) fn add_block<const LANES: usize, const FUSED: bool>(
     weights: &[f32],
     inputs: &Gathered,
     panel: usize,

@@ -3,25 +3,24 @@
 
 use super::chunks::{CHUNK, Chunk};
 use super::panels::Outputs;
-use super::weights::Weights;
 use crate::form::Form;
 use std::ops::Range;
 
 /// Positions that make it worth to share them: with fewer, threads share the channels, so that each has weights of its own.
 const MANY: usize = 1024;
 
-/// The chunks and outputs of every part. `values` are the channels of the weights one after the other, each of the positions of `form`.
-pub(crate) fn parts<'a>(
-    weights: &'a Weights,
+/// The chunks and outputs of every part. `values` are the channels of all blocks one after the other, each of the positions of `form`.
+pub(crate) fn parts<'a, T>(
+    blocks: &'a [Range<usize>],
     chunks: &'a [Chunk],
-    values: &'a mut [f32],
+    values: &'a mut [T],
     form: &Form,
-) -> Vec<(&'a [Chunk], Outputs<'a>)> {
+) -> Vec<(&'a [Chunk], Outputs<'a, T>)> {
     let threads = rayon::current_num_threads();
     if threads == 1 || chunks.len() * CHUNK >= MANY * threads {
-        by_rows(weights, cut(chunks, threads), values, form)
+        by_rows(blocks, cut(chunks, threads), values, form)
     } else {
-        by_channels(weights, chunks, values, form, threads)
+        by_channels(blocks, chunks, values, form, threads)
     }
 }
 
@@ -40,13 +39,13 @@ fn cut(chunks: &[Chunk], parts: usize) -> Vec<&[Chunk]> {
     found
 }
 
-fn by_rows<'a>(
-    weights: &'a Weights,
+fn by_rows<'a, T>(
+    blocks: &'a [Range<usize>],
     parts: Vec<&'a [Chunk]>,
-    values: &'a mut [f32],
+    values: &'a mut [T],
     form: &Form,
-) -> Vec<(&'a [Chunk], Outputs<'a>)> {
-    let (width, blocks) = (form.width(), weights.blocks());
+) -> Vec<(&'a [Chunk], Outputs<'a, T>)> {
+    let width = form.width();
     let output = |chunks: &'a [Chunk]| {
         let outputs = Outputs { planes: Vec::new(), top: chunks[0].y, blocks, width };
         (chunks, outputs)
@@ -65,20 +64,19 @@ fn by_rows<'a>(
     found
 }
 
-fn by_channels<'a>(
-    weights: &'a Weights,
+fn by_channels<'a, T>(
+    blocks: &'a [Range<usize>],
     chunks: &'a [Chunk],
-    values: &'a mut [f32],
+    values: &'a mut [T],
     form: &Form,
     threads: usize,
-) -> Vec<(&'a [Chunk], Outputs<'a>)> {
+) -> Vec<(&'a [Chunk], Outputs<'a, T>)> {
     let mut planes = values.chunks_mut(form.places());
     let part = |blocks: &'a [Range<usize>]| {
         let channels: usize = blocks.iter().map(Range::len).sum();
         let planes = planes.by_ref().take(channels).collect();
         (chunks, Outputs { planes, top: 0, blocks, width: form.width() })
     };
-    let blocks = weights.blocks();
     blocks.chunks(blocks.len().div_ceil(threads)).map(part).collect()
 }
 
@@ -93,7 +91,7 @@ mod tests {
     #[test]
     fn parts_are_all_chunks_and_share_no_row() {
         let form = Form::features(vec![1, 13, 40, 70]);
-        let weights = Weights::new(&[1.0; 13], 1, &[0.0; 13], Blocking::of(Level::detect()));
+        let blocks = Blocking::of(Level::detect()).blocks(13);
         let masks = [
             Mask::full(40, 70),
             Mask::from_fn(40, 70, |x, y| (x * 7 + y * 11) % 17 == 0),
@@ -105,7 +103,7 @@ mod tests {
         {
             let all = chunks(mask);
             let mut values = vec![0.0f32; form.elements()];
-            let parts = by_rows(&weights, cut(&all, threads), &mut values, &form);
+            let parts = by_rows(&blocks, cut(&all, threads), &mut values, &form);
             assert!(parts.len() <= threads);
             let mut seen = Vec::new();
             for (own, outputs) in parts {
@@ -128,7 +126,7 @@ mod tests {
                     "{threads}: {x}, {y}"
                 );
             }
-            let parts = by_channels(&weights, &all, &mut values, &form, threads);
+            let parts = by_channels(&blocks, &all, &mut values, &form, threads);
             let planes: usize = parts.iter().map(|(_, outputs)| outputs.planes.len()).sum();
             assert!(planes == 13 && parts.iter().all(|(own, _)| *own == all));
         }

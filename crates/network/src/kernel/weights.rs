@@ -7,27 +7,27 @@ use std::ops::Range;
 /// The weights of a group of output channels, block by block. A block holds one weight per channel for the first input, then for the second,
 /// and so on. Channels that only fill the last block have weights of 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Weights {
+pub(crate) struct Weights<T = f32> {
     blocking: Blocking,
     blocks: Vec<Range<usize>>,
     /// Products of an output.
     depth: usize,
-    packed: Vec<f32>,
-    bias: Vec<f32>,
+    packed: Vec<T>,
+    bias: Vec<T>,
 }
 
-impl Weights {
+impl<T: Copy + Default> Weights<T> {
     /// Packs a row of `depth` weights per channel.
-    pub(crate) fn new(rows: &[f32], depth: usize, bias: &[f32], blocking: Blocking) -> Self {
+    pub(crate) fn new(rows: &[T], depth: usize, bias: &[T], blocking: Blocking) -> Self {
         let channels = rows.len() / depth;
         let blocks = blocking.blocks(channels);
         let mut packed = Vec::with_capacity(rows.len());
         for block in &blocks {
             for input in 0..depth {
                 packed.extend(
-                    block
-                        .clone()
-                        .map(|channel| rows.get(channel * depth + input).copied().unwrap_or(0.0)),
+                    block.clone().map(|channel| {
+                        rows.get(channel * depth + input).copied().unwrap_or_default()
+                    }),
                 );
             }
         }
@@ -48,13 +48,13 @@ impl Weights {
     }
 
     /// The weights of a block for some inputs.
-    pub(super) fn of(&self, block: &Range<usize>, inputs: &Range<usize>) -> &[f32] {
+    pub(super) fn of(&self, block: &Range<usize>, inputs: &Range<usize>) -> &[T] {
         let start = block.start * self.depth;
         &self.packed[start + inputs.start * block.len()..start + inputs.end * block.len()]
     }
 
     /// What the sum of a channel begins with.
-    pub(super) fn bias(&self, channel: usize) -> f32 {
-        self.bias.get(channel).copied().unwrap_or(0.0)
+    pub(super) fn bias(&self, channel: usize) -> T {
+        self.bias.get(channel).copied().unwrap_or_default()
     }
 }

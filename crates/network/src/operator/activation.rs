@@ -102,7 +102,7 @@ impl Operator for Pointwise {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let from = job.inputs[0].values();
+        let from = job.inputs[0].values::<f32>();
         job.fill(|run, to| {
             for (to, &from) in to.iter_mut().zip(&from[run]) {
                 *to = self.0.of(from);

@@ -2,6 +2,7 @@
 //! Two tensors, element by element, each repeated along the axes in which it has one element.
 
 use super::{Activation, Job, Operator};
+use crate::element::Number;
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::Tensor;
@@ -107,10 +108,24 @@ impl Operator for Binary {
     }
 
     fn weight_bytes(&self) -> u64 {
-        self.constant.as_ref().map_or(0, |(constant, _)| 4 * constant.values().len() as u64)
+        self.constant.as_ref().map_or(0, |(constant, _)| constant.form().bytes())
     }
 
     fn compute(&self, job: Job<'_>) {
+        // What is known here needs no choice in the loop.
+        match (self.kind, self.finish) {
+            (Arithmetic::Add, Activation::Identity) => self.lines(job, |a: f32, b| a + b),
+            (Arithmetic::Add, Activation::Relu) => {
+                self.lines(job, |a: f32, b| Activation::Relu.of(a + b));
+            }
+            (kind, finish) => self.lines(job, |a, b| finish.of(kind.of(a, b))),
+        }
+    }
+}
+
+impl Binary {
+    /// Computes every line of the output.
+    pub(super) fn lines<T: Number, Y: Number>(&self, job: Job<'_>, of: impl Fn(T, T) -> Y + Sync) {
         let (inputs, form) = (job.inputs, job.form);
         let [a, b] =
             self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
@@ -123,14 +138,7 @@ impl Operator for Binary {
                 let (a, b) =
                     (values_of(a, &of_a, form, start..end), values_of(b, &of_b, form, start..end));
                 let to = &mut to[start - first..end - first];
-                // What is known here needs no choice in the loop.
-                match (self.kind, self.finish) {
-                    (Arithmetic::Add, Activation::Identity) => line(a, b, to, |a, b| a + b),
-                    (Arithmetic::Add, Activation::Relu) => {
-                        line(a, b, to, |a, b| Activation::Relu.of(a + b));
-                    }
-                    (kind, finish) => line(a, b, to, |a, b| finish.of(kind.of(a, b))),
-                }
+                line(a, b, to, &of);
                 start = end;
             }
         });
@@ -139,7 +147,7 @@ impl Operator for Binary {
 
 /// A line of values; an operand of one value is repeated.
 #[inline(always)]
-fn line(a: &[f32], b: &[f32], to: &mut [f32], of: impl Fn(f32, f32) -> f32) {
+fn line<T: Copy, Y: Copy>(a: &[T], b: &[T], to: &mut [Y], of: impl Fn(T, T) -> Y) {
     match (a.len() == to.len(), b.len() == to.len()) {
         (true, true) => {
             to.iter_mut().zip(a.iter().zip(b)).for_each(|(to, (&a, &b))| *to = of(a, b));
@@ -184,12 +192,12 @@ fn steps(operand: &Form, output: &Form) -> Vec<usize> {
 }
 
 /// The values of an operand for a line of the output, or the one value that is repeated there.
-fn values_of<'a>(
+fn values_of<'a, T: Number>(
     operand: &'a Tensor,
     steps: &[usize],
     output: &Form,
     line: Range<usize>,
-) -> &'a [f32] {
+) -> &'a [T] {
     let at = output.offset(line.start, steps);
     let is_repeated = steps.last().is_none_or(|&step| step == 0);
     &operand.values()[at..if is_repeated { at + 1 } else { at + line.len() }]

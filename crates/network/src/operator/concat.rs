@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tensors one behind the other, along an axis.
 
-use super::{Job, Operator, everything, same_position};
+use super::{Job, Operator, everything, moved, same_position, values_of};
+use crate::element::{Encoding, Number, typed};
 use crate::form::Form;
 use crate::mask::Mask;
 
@@ -36,6 +37,10 @@ impl Operator for Concat {
         })
     }
 
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        moved(inputs)
+    }
+
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         if output.has_positions() {
             same_position(inputs, output)
@@ -45,24 +50,42 @@ impl Operator for Concat {
     }
 
     fn compute(&self, job: Job<'_>) {
+        typed!(job.form.encoding().element, T => {
+            self.join(job, |_, from: &[T], to: &mut [T]| to.copy_from_slice(from));
+        });
+    }
+}
+
+impl Concat {
+    /// Makes the values of every input, by its number, those of the output where they stand.
+    pub(super) fn join<T: Number, Y: Number>(
+        &self,
+        job: Job<'_>,
+        copy: impl Fn(usize, &[T], &mut [Y]),
+    ) {
         let Job { inputs, form, output, at, .. } = job;
+        let output: &mut [Y] = values_of(output, form);
         let axis = form.axis(self.axis).expect("the form has it");
         let behind = |form: &Form| form.shape()[axis..].iter().product::<usize>();
         let whole = behind(form);
         let mut offset = 0;
-        for input in inputs {
+        for (number, input) in inputs.iter().enumerate() {
             let own = behind(input.form());
             if form.has_positions() {
                 // Positions are inside what is joined, or outside of it: a run stays a run.
                 crate::tensor::for_each_run(input.form(), at, |run| {
                     for from in Lines::of(run, own) {
                         let to = from.start / own * whole + offset + from.start % own;
-                        output[to..to + from.len()].copy_from_slice(&input.values()[from]);
+                        copy(
+                            number,
+                            &input.values()[from.clone()],
+                            &mut output[to..to + from.len()],
+                        );
                     }
                 });
             } else if !at.is_empty() {
                 let lines = output.chunks_mut(whole).zip(input.values().chunks(own));
-                lines.for_each(|(to, from)| to[offset..offset + own].copy_from_slice(from));
+                lines.for_each(|(to, from)| copy(number, from, &mut to[offset..offset + own]));
             }
             offset += own;
         }

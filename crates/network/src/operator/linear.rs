@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Products with a matrix: fully connected layers.
 
-use super::{Job, Operator, Products, everything, only};
+use super::{Job, Operator, Products, everything, only, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
 use rayon::prelude::*;
@@ -65,8 +65,8 @@ impl Operator for Linear {
         if job.at.is_empty() {
             return;
         }
-        let input = job.inputs[0].values();
-        let outputs = job.output.par_iter_mut().zip(&self.bias);
+        let input = job.inputs[0].values::<f32>();
+        let outputs = values_of::<f32>(job.output, job.form).par_iter_mut().zip(&self.bias);
         let rows = self.weights.par_chunks(self.inputs);
         outputs.zip(rows).for_each(|((output, bias), row)| *output = bias + dot(row, input));
     }
@@ -91,6 +91,23 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
     }
     let rest: f32 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
     parts.iter().sum::<f32>() + rest
+}
+
+/// The form of the product of the last axis with a matrix.
+pub(super) fn along_last(inputs: &[&Form], own: usize, outputs: usize) -> Result<Form, String> {
+    let form = only(inputs)?;
+    let mut shape = form.shape().to_vec();
+    match shape.last_mut() {
+        Some(last) if *last == own => *last = outputs,
+        _ => return Err(format!("its matrix takes {own} values, not {}", form.describe())),
+    }
+    // Rows that are positions stay what they are.
+    let last = shape.len() - 1;
+    Ok(if form.has_positions() && form.axes().end <= last {
+        Form::at(shape, form.axes())
+    } else {
+        Form::whole(shape)
+    })
 }
 
 /// The product of the last axis with a constant matrix.
@@ -118,38 +135,22 @@ impl MatMul {
 
 impl Operator for MatMul {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        let form = only(inputs)?;
-        let mut shape = form.shape().to_vec();
-        match shape.last_mut() {
-            Some(last) if *last == self.inputs => *last = self.outputs(),
-            _ => {
-                return Err(format!(
-                    "its matrix takes {} values, not {}",
-                    self.inputs,
-                    form.describe()
-                ));
-            }
-        }
-        // Rows that are positions stay what they are.
-        let last = shape.len() - 1;
-        Ok(if form.has_positions() && form.axes().end <= last {
-            Form::at(shape, form.axes())
-        } else {
-            Form::whole(shape)
-        })
+        along_last(inputs, self.inputs, self.outputs())
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
+        let Job { inputs, form, output, at } = job;
         if at.is_empty() {
             return;
         }
         let outputs = self.outputs();
-        let rows = inputs[0].values().par_chunks(self.inputs);
-        output.par_chunks_mut(outputs).zip(rows).for_each(|(outputs, input)| {
-            let weights = self.weights.chunks(self.inputs);
-            outputs.iter_mut().zip(weights).for_each(|(output, row)| *output = dot(row, input));
-        });
+        let rows = inputs[0].values::<f32>().par_chunks(self.inputs);
+        values_of::<f32>(output, form).par_chunks_mut(outputs).zip(rows).for_each(
+            |(outputs, input)| {
+                let weights = self.weights.chunks(self.inputs);
+                outputs.iter_mut().zip(weights).for_each(|(output, row)| *output = dot(row, input));
+            },
+        );
     }
 
     fn products(&self) -> Products {

@@ -5,35 +5,50 @@ mod activation;
 mod arithmetic;
 mod concat;
 mod conv;
+mod geometry;
+mod integer_conv;
+mod integer_matmul;
 mod linear;
 mod pad;
 mod pool;
+mod quantize;
+mod quantized;
 mod reduce;
 mod reshape;
 mod resize;
 mod scale;
 mod slice;
 mod softmax;
+mod sums;
+mod table;
 mod transpose;
 
 pub(crate) use activation::{Activation, Pointwise};
 pub(crate) use arithmetic::{Arithmetic, Binary};
 pub(crate) use concat::Concat;
 pub(crate) use conv::Conv;
+pub(crate) use geometry::Geometry;
+pub(crate) use integer_conv::{IntegerConv, Rows};
+pub(crate) use integer_matmul::IntegerMatMul;
 pub(crate) use linear::{Linear, MatMul};
 pub(crate) use pad::Pad;
 pub(crate) use pool::{Pool, PoolKind};
+pub(crate) use quantize::{Dequantize, Quantize, Scales};
+pub(crate) use quantized::{QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool};
 pub(crate) use reduce::{Reduce, Reduction};
 pub(crate) use reshape::Reshape;
 pub(crate) use resize::{Coordinates, Nearest, Resize, ResizeKind, Size};
 pub(crate) use scale::Scale;
 pub(crate) use slice::{Cut, Slice};
 pub(crate) use softmax::Softmax;
+pub(crate) use sums::Sums;
+pub(crate) use table::Table;
 pub(crate) use transpose::Transpose;
 
+use crate::element::{Element, Encoding, Number};
 use crate::form::Form;
 use crate::mask::{Mask, Window};
-use crate::tensor::Tensor;
+use crate::tensor::{Tensor, Values};
 use rayon::prelude::*;
 use std::fmt::Debug;
 use std::ops::Range;
@@ -70,6 +85,17 @@ pub(crate) trait Operator: Debug + Send + Sync {
     /// In words, when the operator does not take such inputs.
     fn form(&self, inputs: &[&Form]) -> Result<Form, String>;
 
+    /// How the output is stored, and what it stands for. By default an operator takes and makes floating-point values.
+    ///
+    /// # Errors
+    /// In words, when the operator does not take such values.
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        match inputs.iter().find(|input| input.element != Element::F32) {
+            None => Ok(Encoding::FLOAT),
+            Some(input) => Err(wanted(Element::F32, input.element)),
+        }
+    }
+
     /// The positions of the output that depend on a changed position of an input. By default each depends on its own position.
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         same_position(inputs, output)
@@ -104,15 +130,17 @@ pub(crate) struct Job<'a> {
     pub(crate) inputs: &'a [&'a Tensor],
     /// Of the output.
     pub(crate) form: &'a Form,
-    pub(crate) output: &'a mut [f32],
+    /// At least as long as the form says.
+    pub(crate) output: &'a mut Values,
     pub(crate) at: &'a Mask,
 }
 
 impl Job<'_> {
     /// Fills every run of positions of the mask: `fill` gets its range in the output's memory, and the values there. Threads share what lies
     /// outside of the positions, such as channels.
-    fn fill(self, fill: impl Fn(Range<usize>, &mut [f32]) + Sync) {
+    fn fill<T: Number>(self, fill: impl Fn(Range<usize>, &mut [T]) + Sync) {
         let Self { form, output, at, .. } = self;
+        let output = values_of(output, form);
         let (inner, width) = (form.inner(), form.width());
         let length = form.places() * inner;
         output.par_chunks_mut(length).enumerate().for_each(|(outer, plane)| {
@@ -125,6 +153,37 @@ impl Job<'_> {
             }
         });
     }
+}
+
+/// The values of an output.
+pub(crate) fn values_of<'a, T: Number>(output: &'a mut Values, form: &Form) -> &'a mut [T] {
+    &mut T::of_mut(output)[..form.elements()]
+}
+
+/// The encoding of the inputs of an operator that only moves values.
+pub(crate) fn moved(inputs: &[Encoding]) -> Result<Encoding, String> {
+    let first = *inputs.first().ok_or("it has no inputs")?;
+    if let Some(other) = inputs.iter().find(|input| input.element != first.element) {
+        return Err(wanted(first.element, other.element));
+    }
+    let alike = inputs.iter().all(|input| *input == first);
+    Ok(if alike { first } else { Encoding::plain(first.element) })
+}
+
+/// The encoding of an operator that makes something of 8-bit values.
+pub(crate) fn of_bytes(inputs: &[Encoding], to: Encoding) -> Result<Encoding, String> {
+    match inputs.iter().find(|input| !input.element.is_byte()) {
+        None => Ok(to),
+        Some(input) => Err(format!(
+            "it takes 8-bit integers, but its input holds {}",
+            input.element.describe()
+        )),
+    }
+}
+
+/// What is said of values of another kind than an operator takes.
+pub(crate) fn wanted(wanted: Element, found: Element) -> String {
+    format!("it takes {}, but its input holds {}", wanted.describe(), found.describe())
 }
 
 /// The union of all masks. Where an input has other positions than the output, everything depends on it.

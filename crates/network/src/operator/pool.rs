@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The largest value or the mean of a window.
 
-use super::conv::outputs;
-use super::{Job, Operator, features, only};
+use super::geometry::outputs;
+use super::{Job, Operator, features, moved, only, values_of, wanted};
+use crate::element::{Element, Encoding, Number, typed};
 use crate::form::Form;
 use crate::mask::{Mask, Window};
 use rayon::prelude::*;
@@ -37,9 +38,16 @@ impl Pool {
         })
     }
 
-    /// The outputs `x..x + run.len()` of row `y`, tap by tap, row by row.
-    fn of(&self, plane: &[f32], [height, width]: [usize; 2], x: usize, y: usize, run: &mut [f32]) {
-        run.fill(if self.kind == PoolKind::Max { f32::NEG_INFINITY } else { 0.0 });
+    /// Adds every input to those of the outputs `x..x + run.len()` of row `y` that see it, tap by tap, row by row.
+    #[inline(always)]
+    pub(super) fn each<T: Number, S>(
+        &self,
+        plane: &[T],
+        [height, width]: [usize; 2],
+        (x, y): (usize, usize),
+        run: &mut [S],
+        add: impl Fn(&mut S, T),
+    ) {
         for row in (0..self.rows.kernel).filter_map(|tap| self.rows.input(y, tap, height)) {
             let line = &plane[row * width..][..width];
             for tap in 0..self.columns.kernel {
@@ -48,25 +56,59 @@ impl Pool {
                 let Some(first) = (0..run.len()).find(inside) else { continue };
                 let input = self.columns.input(x + first, tap, width).expect("it exists");
                 let inputs = line[input..].iter().step_by(self.columns.stride);
-                match self.kind {
-                    // NaN is larger than anything.
-                    PoolKind::Max => {
-                        for (most, &value) in run[first..].iter_mut().zip(inputs) {
-                            *most = if value > *most || value.is_nan() { value } else { *most };
-                        }
-                    }
-                    PoolKind::Average { .. } => {
-                        run[first..].iter_mut().zip(inputs).for_each(|(sum, &value)| *sum += value);
-                    }
+                run[first..].iter_mut().zip(inputs).for_each(|(to, &value)| add(to, value));
+            }
+        }
+    }
+
+    /// The values of each output that count for a mean.
+    pub(super) fn counts(
+        &self,
+        [height, width]: [usize; 2],
+        (x, y): (usize, usize),
+        with_padding: bool,
+    ) -> impl Iterator<Item = u16> {
+        let rows = counted(self.rows, y, height, with_padding);
+        (x..).map(move |at| rows * counted(self.columns, at, width, with_padding))
+    }
+
+    /// The largest values of windows, of any kind.
+    fn largest<T: Number>(&self, job: Job<'_>) {
+        self.runs(job, |plane, size, place, run: &mut [T]| {
+            run.fill(T::LOWEST);
+            self.each(plane, size, place, run, |most, value: T| {
+                *most = if value.is_more(*most) { value } else { *most };
+            });
+        });
+    }
+
+    fn average(&self, job: Job<'_>, with_padding: bool) {
+        self.runs(job, |plane: &[f32], size, place, run: &mut [f32]| {
+            run.fill(0.0);
+            self.each(plane, size, place, run, |sum, value: f32| *sum += value);
+            for (sum, count) in run.iter_mut().zip(self.counts(size, place, with_padding)) {
+                *sum /= f32::from(count);
+            }
+        });
+    }
+
+    /// Fills every run of outputs of every channel from the channel's inputs; threads share the channels.
+    pub(super) fn runs<T: Number, Y: Number>(
+        &self,
+        job: Job<'_>,
+        fill: impl Fn(&[T], [usize; 2], (usize, usize), &mut [Y]) + Sync,
+    ) {
+        let Job { inputs, form, output, at } = job;
+        let size = [inputs[0].form().height(), inputs[0].form().width()];
+        let (places, width) = (form.places(), form.width());
+        let planes = inputs[0].values::<T>().par_chunks(size[0] * size[1]);
+        values_of(output, form).par_chunks_mut(places).zip(planes).for_each(|(output, plane)| {
+            for y in 0..at.height() {
+                for (x, length) in at.runs(y) {
+                    fill(plane, size, (x, y), &mut output[y * width + x..][..length]);
                 }
             }
-        }
-        if let PoolKind::Average { with_padding } = self.kind {
-            let rows = counted(self.rows, y, height, with_padding);
-            for (at, sum) in (x..).zip(run) {
-                *sum /= f32::from(rows * counted(self.columns, at, width, with_padding));
-            }
-        }
+        });
     }
 }
 
@@ -96,21 +138,23 @@ impl Operator for Pool {
         Ok(Form::features(vec![1, channels, height, width]))
     }
 
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        match (self.kind, moved(inputs)?) {
+            (PoolKind::Average { .. }, Encoding { element, .. }) if element != Element::F32 => {
+                Err(wanted(Element::F32, element))
+            }
+            (_, encoding) => Ok(encoding),
+        }
+    }
+
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         inputs[0].1.through(self.rows, self.columns, output.height(), output.width())
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
-        let size = [inputs[0].form().height(), inputs[0].form().width()];
-        let (places, width) = (form.places(), form.width());
-        let planes = inputs[0].values().par_chunks(size[0] * size[1]);
-        output.par_chunks_mut(places).zip(planes).for_each(|(output, plane)| {
-            for y in 0..at.height() {
-                for (x, length) in at.runs(y) {
-                    self.of(plane, size, x, y, &mut output[y * width + x..][..length]);
-                }
-            }
-        });
+        match self.kind {
+            PoolKind::Max => typed!(job.form.encoding().element, T => self.largest::<T>(job)),
+            PoolKind::Average { with_padding } => self.average(job, with_padding),
+        }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The mean or the largest value over whole axes: global pooling.
 
-use super::{Job, Operator, everything, only};
+use super::{Job, Operator, everything, only, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
 
@@ -40,12 +40,13 @@ impl Operator for Reduce {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, output, at, .. } = job;
+        let Job { inputs, form, output, at } = job;
         if at.is_empty() {
             return;
         }
-        let length = inputs[0].values().len() / output.len();
-        for (output, values) in output.iter_mut().zip(inputs[0].values().chunks(length)) {
+        let output = values_of(output, form);
+        let length = inputs[0].values::<f32>().len() / output.len();
+        for (output, values) in output.iter_mut().zip(inputs[0].values::<f32>().chunks(length)) {
             *output = match self.kind {
                 // In double precision, so that a mean over a large picture is as good as over a small one.
                 #[allow(

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The same values in another shape.
 
-use super::{Job, Operator, Products, only, same_position};
+use super::{Job, Operator, Products, moved, only, same_position};
+use crate::element::{Encoding, typed};
 use crate::form::Form;
 use crate::mask::Mask;
 
@@ -34,6 +35,10 @@ impl Operator for Reshape {
         })
     }
 
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        moved(inputs)
+    }
+
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         let (form, mask) = inputs[0];
         if output.has_positions() && output.height() != form.height() {
@@ -50,7 +55,9 @@ impl Operator for Reshape {
 
     fn compute(&self, job: Job<'_>) {
         let inputs = job.inputs;
-        job.fill(|run, to| to.copy_from_slice(&inputs[0].values()[run]));
+        typed!(job.form.encoding().element, T => {
+            job.fill::<T>(|run, to| to.copy_from_slice(&inputs[0].values()[run]));
+        });
     }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Features of another height and width.
 
-use super::{Job, Operator, features, only};
+use super::{Job, Operator, features, moved, only, wanted};
+use crate::element::{Element, Encoding, Number, typed};
 use crate::form::Form;
 use crate::mask::Mask;
 
@@ -118,6 +119,15 @@ impl Operator for Resize {
         Ok(Form::features(vec![1, channels, height, width]))
     }
 
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        match (self.kind, moved(inputs)?) {
+            (ResizeKind::Linear, Encoding { element, .. }) if element != Element::F32 => {
+                Err(wanted(Element::F32, element))
+            }
+            (_, encoding) => Ok(encoding),
+        }
+    }
+
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         let (form, mask) = inputs[0];
         let range = |taps: Vec<Taps>| -> Vec<(usize, usize)> {
@@ -129,6 +139,25 @@ impl Operator for Resize {
     }
 
     fn compute(&self, job: Job<'_>) {
+        match self.kind {
+            ResizeKind::Nearest(_) => typed!(job.form.encoding().element, T => {
+                self.fill(job, |plane: &[T], width, row, column| plane[row.first * width + column.first]);
+            }),
+            ResizeKind::Linear => self.fill(job, |plane: &[f32], width, row, column| {
+                let line = |y: usize| {
+                    let (left, right) =
+                        (plane[y * width + column.first], plane[y * width + column.second]);
+                    between(left, right, column.share)
+                };
+                between(line(row.first), line(row.second), row.share)
+            }),
+        }
+    }
+}
+
+impl Resize {
+    /// Every output, from the plane of its channel, whose rows are so long, and its taps.
+    fn fill<T: Number>(&self, job: Job<'_>, of: impl Fn(&[T], usize, Taps, Taps) -> T + Sync) {
         let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
         let rows = self.taps(0, height, form.height());
@@ -137,14 +166,7 @@ impl Operator for Resize {
             for (place, to) in run.zip(to) {
                 let (channel, y, x) = form.coordinates(place);
                 let plane = &inputs[0].values()[channel * height * width..][..height * width];
-                let (row, column) = (rows[y], columns[x]);
-                let line = |y: usize| {
-                    let (left, right) =
-                        (plane[y * width + column.first], plane[y * width + column.second]);
-                    between(left, right, column.share)
-                };
-                let (above, below) = (line(row.first), line(row.second));
-                *to = between(above, below, row.share);
+                *to = of(plane, width, rows[y], columns[x]);
             }
         });
     }

@@ -51,7 +51,7 @@ impl Operator for Scale {
 
     fn compute(&self, job: Job<'_>) {
         let plane = job.form.elements() / self.factors.len();
-        let from = job.inputs[0].values();
+        let from = job.inputs[0].values::<f32>();
         job.fill(|run, to| {
             for (place, (to, &from)) in run.clone().zip(to.iter_mut().zip(&from[run])) {
                 let channel = place / plane;

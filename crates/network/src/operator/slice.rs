@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A part of a tensor.
 
-use super::{Job, Operator, only};
+use super::{Job, Operator, moved, only};
+use crate::element::{Encoding, typed};
 use crate::form::Form;
 use crate::mask::Mask;
 
@@ -81,6 +82,10 @@ impl Operator for Slice {
         Ok(Form::at(shape, input.axes()))
     }
 
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        moved(inputs)
+    }
+
     fn spread(&self, inputs: &[(&Form, &Mask)], _output: &Form) -> Mask {
         let (form, mask) = inputs[0];
         let taken = self.taken(form).expect("the form has them");
@@ -99,10 +104,10 @@ impl Operator for Slice {
         let first: usize = taken.iter().zip(&steps).map(|(taken, step)| taken.start * step).sum();
         let steps: Vec<usize> =
             taken.iter().zip(&steps).map(|(taken, step)| taken.step * step).collect();
-        job.fill(|run, to| {
+        typed!(form.encoding().element, T => job.fill::<T>(|run, to| {
             for (place, to) in run.zip(to) {
                 *to = inputs[0].values()[first + form.offset(place, &steps)];
             }
-        });
+        }));
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Exponentials as shares of their sum.
 
-use super::{Job, Operator, everything, only, same_position};
+use super::{Job, Operator, everything, only, same_position, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
 
@@ -35,7 +35,7 @@ impl Operator for Softmax {
         let along = form.axis(self.axis).expect("the form has it");
         let length = form.shape()[along];
         let step: usize = form.shape()[along + 1..].iter().product();
-        let from = inputs[0].values();
+        let (from, output) = (inputs[0].values::<f32>(), values_of::<f32>(output, form));
         for start in
             (0..form.elements() / length).map(|line| line / step * step * length + line % step)
         {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The axes in another order.
 
-use super::{Job, Operator, only};
+use super::{Job, Operator, moved, only};
+use crate::element::{Encoding, typed};
 use crate::form::Form;
 
 #[derive(Clone, Debug)]
@@ -36,6 +37,10 @@ impl Operator for Transpose {
         })
     }
 
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        moved(inputs)
+    }
+
     fn compute(&self, job: Job<'_>) {
         let (inputs, form) = (job.inputs, job.form);
         if job.at.is_empty() {
@@ -43,10 +48,10 @@ impl Operator for Transpose {
         }
         let steps = inputs[0].form().steps();
         let steps: Vec<usize> = self.order.iter().map(|&axis| steps[axis]).collect();
-        job.fill(|run, to| {
+        typed!(form.encoding().element, T => job.fill::<T>(|run, to| {
             for (place, to) in run.zip(to) {
                 *to = inputs[0].values()[form.offset(place, &steps)];
             }
-        });
+        }));
     }
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Constants of a model.
 
+use crate::element::{Element, Encoding};
+use crate::form::Form;
 use crate::network::MAX_AXES;
 use crate::onnx::{TensorProto, data_type};
+use crate::tensor::Tensor;
 use std::cell::Cell;
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};
@@ -12,6 +15,8 @@ use std::path::{Component, Path, PathBuf};
 pub(super) struct Constant {
     pub(super) shape: Vec<usize>,
     pub(super) values: Values,
+    /// How ONNX stores it, if in a way that tensors have, too.
+    pub(super) element: Option<Element>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +51,11 @@ impl Folder {
 
 impl Constant {
     pub(super) fn integers(shape: Vec<usize>, values: Vec<i64>) -> Self {
-        Self { shape, values: Values::Integers(values) }
+        Self { shape, values: Values::Integers(values), element: None }
+    }
+
+    pub(super) fn floats(shape: Vec<usize>, values: Vec<f32>) -> Self {
+        Self { shape, values: Values::Floats(values), element: Some(Element::F32) }
     }
 
     /// Decodes a tensor. Memory grows with the data that is there, not with what the shape claims.
@@ -70,7 +79,7 @@ impl Constant {
         if wanted != Some(values.count()) {
             return Err(format!("it has {} values, but the shape {shape:?}", values.count()));
         }
-        Ok(Self { shape, values })
+        Ok(Self { shape, values, element: element(kind) })
     }
 
     /// How many values are infinite or no numbers.
@@ -101,6 +110,23 @@ impl Constant {
         }
     }
 
+    /// Its only value, as one of a tensor of these.
+    pub(super) fn single(&self, wanted: Element) -> Result<Tensor, String> {
+        if self.element != Some(wanted) || self.values.count() != 1 {
+            let count = self.values.count();
+            return Err(format!(
+                "a constant must be one value of {}, but is {count} of {}",
+                wanted.describe(),
+                self.element.map_or("another type", Element::describe)
+            ));
+        }
+        let form = Form::whole(Vec::new()).encoded(Encoding::plain(wanted));
+        Ok(match &self.values {
+            Values::Floats(values) => Tensor::new(form, values.clone()),
+            Values::Integers(values) => Tensor::of_integers(form, values)?,
+        })
+    }
+
     /// Its values as floating-point ones.
     pub(super) fn as_floats(&self) -> Result<&[f32], String> {
         match &self.values {
@@ -118,6 +144,19 @@ impl Values {
             Self::Floats(values) => values.len(),
             Self::Integers(values) => values.len(),
         }
+    }
+}
+
+/// The type of ONNX as one of tensors.
+fn element(kind: i32) -> Option<Element> {
+    match kind {
+        data_type::FLOAT | data_type::DOUBLE | data_type::FLOAT16 | data_type::BFLOAT16 => {
+            Some(Element::F32)
+        }
+        data_type::UINT8 => Some(Element::U8),
+        data_type::INT8 => Some(Element::I8),
+        data_type::INT32 => Some(Element::I32),
+        _ => None,
     }
 }
 

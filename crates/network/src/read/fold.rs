@@ -4,6 +4,7 @@
 use super::constant::{Constant, Values};
 use super::graph::Known;
 use super::node::{NodeReader, from_start, signed};
+use super::quantized;
 
 /// Values of the largest constant that is computed.
 const MAX_FOLDED: usize = 1 << 16;
@@ -19,10 +20,9 @@ pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
             let int = node
                 .has("value_int")
                 .then(|| Constant::integers(Vec::new(), vec![node.int("value_int", 0)]));
-            let float = node.has("value_float").then(|| Constant {
-                shape: Vec::new(),
-                values: Values::Floats(vec![node.float("value_float", 0.0)]),
-            });
+            let float = node
+                .has("value_float")
+                .then(|| Constant::floats(Vec::new(), vec![node.float("value_float", 0.0)]));
             let value = node.tensor("value")?.or(ints).or(int).or(float);
             one(value.ok_or("its value is of a kind that is not supported")?)
         }
@@ -67,10 +67,10 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
     let made = match node.kind() {
         "Cast" => match (node.int("to", 1), &first.values) {
             #[allow(clippy::cast_precision_loss, reason = "a cast rounds")]
-            (1, Values::Integers(values)) => Constant {
-                shape: first.shape.clone(),
-                values: Values::Floats(values.iter().map(|&value| value as f32).collect()),
-            },
+            (1, Values::Integers(values)) => Constant::floats(
+                first.shape.clone(),
+                values.iter().map(|&value| value as f32).collect(),
+            ),
             #[allow(clippy::cast_possible_truncation, reason = "a cast cuts off")]
             (6 | 7, Values::Floats(values)) => Constant::integers(
                 first.shape.clone(),
@@ -81,6 +81,8 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
                 return Err(format!("a cast of a constant to type {other} is not supported"));
             }
         },
+        "DequantizeLinear" => return quantized::dequantized(node, first).map(Some),
+        "QuantizeLinear" => return quantized::quantized(node, first).map(Some),
         "Gather" if first.shape.len() == 1 => {
             let index = inputs.get(1).ok_or("it has no indices")?;
             let pick = |&at: &i64| {
@@ -96,12 +98,8 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
             Constant::integers(index.shape.clone(), places.iter().map(|&at| values[at]).collect())
         }
         // Of shapes, which have one axis at most, only the values matter.
-        "Unsqueeze" if first.shape.is_empty() => {
-            Constant { shape: vec![1], values: first.values.clone() }
-        }
-        "Squeeze" if first.values.count() == 1 => {
-            Constant { shape: Vec::new(), values: first.values.clone() }
-        }
+        "Unsqueeze" if first.shape.is_empty() => Constant { shape: vec![1], ..first.clone() },
+        "Squeeze" if first.values.count() == 1 => Constant { shape: Vec::new(), ..first.clone() },
         "Concat" => {
             let parts: Vec<&[i64]> =
                 inputs.iter().map(|input| input.as_integers()).collect::<Result<_, _>>()?;

@@ -26,6 +26,15 @@ pub(super) fn is_standard(domain: Option<&str>) -> bool {
     matches!(domain, None | Some("" | "ai.onnx"))
 }
 
+/// What an operator is called, with its domain if it is not of the standard.
+pub(super) fn full_kind(node: &NodeProto) -> String {
+    let kind = node.op_type.as_deref().unwrap_or_default();
+    match node.domain.as_deref().filter(|domain| !is_standard(Some(domain))) {
+        Some(domain) => format!("{domain}.{kind}"),
+        None => kind.to_owned(),
+    }
+}
+
 /// Reads a graph for frames of a size.
 pub(super) fn read(
     graph: &GraphProto,
@@ -87,9 +96,8 @@ impl Reading<'_> {
         let kind = node.op_type.clone().unwrap_or_default();
         let name = node.name.clone().filter(|name| !name.is_empty());
         let name = name.unwrap_or_else(|| format!("{kind}_{index}"));
-        if !is_standard(node.domain.as_deref()) || !operators::is_known(&kind) {
-            let domain = node.domain.as_deref().filter(|domain| !domain.is_empty());
-            let operator = domain.map_or_else(|| kind.clone(), |domain| format!("{domain}.{kind}"));
+        let operator = full_kind(node);
+        if !operators::is_known(&operator) {
             return Err(NetworkError::Operator {
                 node: name,
                 operator,

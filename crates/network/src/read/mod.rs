@@ -7,6 +7,8 @@ mod graph;
 mod input;
 mod node;
 mod operators;
+mod quantized;
+mod scales;
 
 use crate::error::NetworkError;
 use crate::network::Network;

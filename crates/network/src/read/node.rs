@@ -3,9 +3,11 @@
 
 use super::constant::{Constant, Folder};
 use super::graph::Known;
+use crate::element::{Element, typed_byte};
 use crate::form::Form;
 use crate::mask::Window;
 use crate::onnx::{AttributeProto, NodeProto};
+use crate::operator::Geometry;
 use std::collections::HashMap;
 
 pub(super) struct NodeReader<'a> {
@@ -20,6 +22,11 @@ pub(super) struct NodeReader<'a> {
 impl<'a> NodeReader<'a> {
     pub(super) fn kind(&self) -> &str {
         self.node.op_type.as_deref().unwrap_or_default()
+    }
+
+    /// The same with the domain, if it is not of the standard.
+    pub(super) fn full_kind(&self) -> String {
+        super::graph::full_kind(self.node)
     }
 
     fn attribute(&self, name: &str) -> Option<&AttributeProto> {
@@ -69,6 +76,19 @@ impl<'a> NodeReader<'a> {
             Some(Known::Constant(constant)) => Ok(Some(constant)),
             Some(Known::Value(_)) => Err(format!("its {what} must be constant")),
         }
+    }
+
+    /// An input that is one constant integer of 8 bits.
+    pub(super) fn stored(
+        &self,
+        at: usize,
+        what: &str,
+        element: Element,
+    ) -> Result<Option<i32>, String> {
+        let Some(constant) = self.constant(at, what)? else { return Ok(None) };
+        let tensor =
+            constant.single(element).map_err(|problem| format!("its {what}: {problem}"))?;
+        Ok(Some(typed_byte!(element, T => tensor.values::<T>()[0].into())))
     }
 
     /// An input that must be there, and constant.
@@ -147,6 +167,24 @@ impl<'a> NodeReader<'a> {
             after: pads[axis][1],
         };
         Ok([window(0), window(1)])
+    }
+
+    /// What a convolution with weights of this shape sees of `value`.
+    pub(super) fn geometry(&self, weights: &[usize], value: usize) -> Result<Geometry, String> {
+        let &[_, _, height, width] = weights else {
+            return Err(format!(
+                "its weights have {} axes; only two-dimensional convolution is supported",
+                weights.len()
+            ));
+        };
+        let kernel = self.kernel()?.unwrap_or([height, width]);
+        if kernel != [height, width] || height == 0 || width == 0 {
+            return Err(format!(
+                "its kernel_shape is {kernel:?}, but its weights are {height}x{width}"
+            ));
+        }
+        let groups = positive("group", self.int("group", 1))?;
+        Geometry::new(weights, self.windows(kernel, value)?, groups)
     }
 
     /// `kernel_shape`.

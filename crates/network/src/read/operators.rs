@@ -4,12 +4,14 @@
 use super::constant::Constant;
 use super::graph::Known;
 use super::node::{NodeReader, from_start, positive, signed};
+use super::quantized;
+use crate::element::{Element, Encoding};
 use crate::form::Form;
 use crate::network::MAX_AXES;
 use crate::operator::{
-    Activation, Arithmetic, Binary, Concat, Conv, Coordinates, Cut, Linear, MatMul, Nearest,
-    Operator, Pad, Pointwise, Pool, PoolKind, Reduce, Reduction, Reshape, Resize, ResizeKind,
-    Scale, Size, Slice, Softmax, Transpose,
+    Activation, Arithmetic, Binary, Concat, Conv, Coordinates, Cut, Dequantize, Linear, MatMul,
+    Nearest, Operator, Pad, Pointwise, Pool, PoolKind, Reduce, Reduction, Reshape, Resize,
+    ResizeKind, Scale, Scales, Size, Slice, Softmax, Table, Transpose,
 };
 use crate::tensor::Tensor;
 use foveate_lanes::Level;
@@ -32,7 +34,8 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Abs", |node| finish(node, Activation::Abs)),
     ("Add", |node| binary(node, Arithmetic::Add)),
     ("AveragePool", |node| {
-        pool(node, PoolKind::Average { with_padding: node.int("count_include_pad", 0) != 0 })
+        let with_padding = node.int("count_include_pad", 0) != 0;
+        one(pool(node, PoolKind::Average { with_padding })?, vec![node.value(0)?])
     }),
     ("BatchNormalization", normalization),
     ("Cast", cast),
@@ -40,6 +43,8 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Concat", concat),
     ("Constant", |_| Err("its value is of a kind that is not supported".to_owned())),
     ("Conv", conv),
+    ("ConvInteger", quantized::conv_integer),
+    ("DequantizeLinear", quantized::dequantize),
     ("Div", |node| binary(node, Arithmetic::Div)),
     ("Dropout", dropout),
     ("Elu", |node| finish(node, Activation::Elu { alpha: node.float("alpha", 1.0) })),
@@ -64,15 +69,19 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("LeakyRelu", |node| finish(node, Activation::LeakyRelu { alpha: node.float("alpha", 0.01) })),
     ("Log", |node| finish(node, Activation::Log)),
     ("MatMul", matmul),
+    ("MatMulInteger", quantized::matmul_integer),
     ("Max", |node| binary(node, Arithmetic::Max)),
-    ("MaxPool", |node| pool(node, PoolKind::Max)),
+    ("MaxPool", |node| one(pool(node, PoolKind::Max)?, vec![node.value(0)?])),
     ("Min", |node| binary(node, Arithmetic::Min)),
     ("Mul", |node| binary(node, Arithmetic::Mul)),
     ("Neg", |node| finish(node, Activation::Neg)),
     ("Pad", pad),
     ("Pow", |node| binary(node, Arithmetic::Pow)),
+    ("QLinearConv", quantized::conv),
+    ("QLinearMatMul", quantized::matmul),
+    ("QuantizeLinear", quantized::quantize),
     ("ReduceMean", reduce_mean),
-    ("Relu", |node| finish(node, Activation::Relu)),
+    ("Relu", relu),
     ("Reshape", reshape),
     ("Resize", resize),
     ("Shape", |_| Err("it has no input".to_owned())),
@@ -88,9 +97,19 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Transpose", transpose),
     ("Unsqueeze", unsqueeze),
     ("Upsample", resize),
+    ("com.microsoft.QGemm", quantized::gemm),
+    ("com.microsoft.QLinearAdd", |node| quantized::binary(node, Arithmetic::Add)),
+    ("com.microsoft.QLinearAveragePool", quantized::average_pool),
+    ("com.microsoft.QLinearConcat", quantized::concat),
+    ("com.microsoft.QLinearGlobalAveragePool", quantized::mean),
+    ("com.microsoft.QLinearLeakyRelu", |node| {
+        quantized::activation(node, Activation::LeakyRelu { alpha: node.float("alpha", 0.01) })
+    }),
+    ("com.microsoft.QLinearMul", |node| quantized::binary(node, Arithmetic::Mul)),
+    ("com.microsoft.QLinearSigmoid", |node| quantized::activation(node, Activation::Sigmoid)),
 ];
 
-/// The operators of ONNX that are supported, in the order of the alphabet.
+/// The operators that are supported, in the order of the alphabet; those that are not of ONNX with their domain.
 pub fn operators() -> impl Iterator<Item = &'static str> {
     OPERATORS.iter().map(|&(name, _)| name)
 }
@@ -101,8 +120,10 @@ pub(super) fn is_known(kind: &str) -> bool {
 
 /// What the outputs of a node are.
 pub(super) fn make(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
-    let (_, maker) =
-        OPERATORS.iter().find(|&&(name, _)| name == node.kind()).expect("the operator is known");
+    let (_, maker) = OPERATORS
+        .iter()
+        .find(|&&(name, _)| name == node.full_kind())
+        .expect("the operator is known");
     maker(node)
 }
 
@@ -111,12 +132,24 @@ pub(super) fn pointwise(activation: Activation) -> Arc<dyn Operator> {
     Arc::new(Pointwise(activation))
 }
 
-fn one(operator: impl Operator + 'static, inputs: Vec<usize>) -> Result<Vec<Made>, String> {
+pub(super) fn one(
+    operator: impl Operator + 'static,
+    inputs: Vec<usize>,
+) -> Result<Vec<Made>, String> {
     Ok(vec![Made::Operator(Arc::new(operator), inputs)])
 }
 
 fn finish(node: &NodeReader<'_>, activation: Activation) -> Result<Vec<Made>, String> {
     Ok(vec![Made::Finish(activation, node.value(0)?)])
+}
+
+fn relu(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let value = node.value(0)?;
+    // ONNX knows it for integers with sign.
+    match (node.forms)(value).encoding().element {
+        Element::I8 => one(Table::of_stored(Element::I8, |stored| stored.max(0)), vec![value]),
+        _ => finish(node, Activation::Relu),
+    }
 }
 
 fn same(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -134,8 +167,14 @@ fn dropout(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 }
 
 fn cast(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let element = |value: usize| (node.forms)(value).encoding().element;
     match node.int("to", 1) {
-        1 => same(node),
+        1 => match node.input(0) {
+            Some(&Known::Value(value)) if element(value) != Element::F32 => {
+                one(Dequantize(Scales::one(1.0, 0)), vec![value])
+            }
+            _ => same(node),
+        },
         other => Err(format!(
             "a cast to type {other} is not supported, only one to 1, floating-point values of 32 bits"
         )),
@@ -163,6 +202,16 @@ fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made>, String> 
 }
 
 fn clip(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let value = node.value(0)?;
+    let element = (node.forms)(value).encoding().element;
+    if element.is_byte() {
+        let (min, max) = (node.stored(1, "min", element)?, node.stored(2, "max", element)?);
+        let within = |stored: i32| {
+            let stored = min.map_or(stored, |min| stored.max(min));
+            max.map_or(stored, |max| stored.min(max))
+        };
+        return one(Table::of_stored(element, within), vec![value]);
+    }
     let bound = |attribute: &str, input: usize, default: f32| -> Result<f32, String> {
         match node.constant(input, attribute)? {
             Some(constant) => constant
@@ -180,35 +229,18 @@ fn clip(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
     let weights = node.wanted(1, "weights")?;
-    let values = weights.as_weights()?;
-    let &[_, _, height, width] = weights.shape.as_slice() else {
-        return Err(format!(
-            "its weights have {} axes; only two-dimensional convolution is supported",
-            weights.shape.len()
-        ));
-    };
-    let kernel = node.kernel()?.unwrap_or([height, width]);
-    if kernel != [height, width] || height == 0 || width == 0 {
-        return Err(format!(
-            "its kernel_shape is {kernel:?}, but its weights are {height}x{width}"
-        ));
-    }
-    let [rows, columns] = node.windows(kernel, value)?;
-    let groups = positive("group", node.int("group", 1))?;
+    let geometry = node.geometry(&weights.shape, value)?;
     let bias = node.constant(2, "bias")?.map(Constant::as_floats).transpose()?;
-    one(
-        Conv::new(&weights.shape, values, bias, rows, columns, groups, Level::detect())?,
-        vec![value],
-    )
+    one(Conv::new(geometry, weights.as_weights()?, bias, Level::detect())?, vec![value])
 }
 
-fn pool(node: &NodeReader<'_>, kind: PoolKind) -> Result<Vec<Made>, String> {
+pub(super) fn pool(node: &NodeReader<'_>, kind: PoolKind) -> Result<Pool, String> {
     if node.node.output.len() > 1 {
         return Err("its indices, a second output, are not supported".to_owned());
     }
     let value = node.value(0)?;
     let [rows, columns] = node.windows(node.kernel()?.ok_or("it has no kernel_shape")?, value)?;
-    one(Pool { kind, rows, columns, ceil: node.int("ceil_mode", 0) != 0 }, vec![value])
+    Ok(Pool { kind, rows, columns, ceil: node.int("ceil_mode", 0) != 0 })
 }
 
 fn global(node: &NodeReader<'_>, kind: Reduction) -> Result<Vec<Made>, String> {
@@ -384,14 +416,16 @@ fn pad(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
             .ok_or_else(|| format!("a pad of {pad} is not supported"))
     };
     let [top, left, bottom, right] = around;
+    let input = node.value(0)?;
+    let element = (node.forms)(input).encoding().element;
     let value = match node.constant(2, "value")? {
-        Some(value) => value.as_floats()?.first().copied().unwrap_or(0.0),
-        None => node.float("value", 0.0),
+        Some(value) => value.single(element)?,
+        None if element == Element::F32 => {
+            Tensor::new(Form::whole(Vec::new()), vec![node.float("value", 0.0)])
+        }
+        None => Tensor::zeros(Form::whole(Vec::new()).encoded(Encoding::plain(element))),
     };
-    one(
-        Pad { around: [size(top)?, size(left)?, size(bottom)?, size(right)?], value },
-        vec![node.value(0)?],
-    )
+    one(Pad { around: [size(top)?, size(left)?, size(bottom)?, size(right)?], value }, vec![input])
 }
 
 fn slice(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What is computed anew is enough: every tensor of every frame has the bits of a whole computation.
 
+use crate::integer_layers::{self, IntegerLayer, integer_layer};
 use crate::model::{Model, Value, noise};
 use foveate_network::{Executor, Mask, Mode, Network};
 use proptest::prelude::*;
@@ -58,6 +59,11 @@ enum Layer {
     Turn,
     /// A factor per channel that depends on the whole picture.
     Squeeze,
+    /// Layers of 8-bit values, with a sign or without.
+    Integers {
+        signed: bool,
+        layers: Vec<IntegerLayer>,
+    },
 }
 
 /// A convolution that keeps the size, or halves it.
@@ -86,6 +92,7 @@ fn layer() -> impl Strategy<Value = Layer> {
         1 => Just(Layer::Softmax),
         1 => Just(Layer::Turn),
         1 => Just(Layer::Squeeze),
+        4 => (any::<bool>(), prop::collection::vec(integer_layer(), 1..5)).prop_map(|(signed, layers)| Layer::Integers { signed, layers }),
     ]
 }
 
@@ -111,14 +118,14 @@ fn network(channels: usize, [height, width]: [usize; 2], layers: &[Layer]) -> Ne
 }
 
 #[derive(Clone)]
-struct State {
-    name: String,
-    channels: usize,
-    height: i64,
-    width: i64,
+pub(crate) struct State {
+    pub(crate) name: String,
+    pub(crate) channels: usize,
+    pub(crate) height: i64,
+    pub(crate) width: i64,
 }
 
-fn signed(length: usize) -> i64 {
+pub(crate) fn signed(length: usize) -> i64 {
     i64::try_from(length).unwrap()
 }
 
@@ -282,6 +289,9 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
             let turned = model.node("LeakyRelu", &[&turned], &[("alpha", Value::Float(0.1))]);
             of(model.node("Transpose", &[&turned], &[("perm", Value::Ints(vec![0, 3, 1, 2]))]))
         }
+        Layer::Integers { signed, layers } => {
+            Some(integer_layers::add(model, now, signed, &layers, seed))
+        }
         Layer::Squeeze => {
             let mean = model.node("GlobalAveragePool", &[&name], &[]);
             let gate = model.node("HardSigmoid", &[&mean], &[]);
@@ -291,7 +301,7 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
 }
 
 /// Frames of which each differs from the one before at the positions of its mask, and mostly only there.
-fn clip(
+pub(crate) fn clip(
     channels: usize,
     [height, width]: [usize; 2],
     masks: &[Vec<(usize, usize, usize)>],
@@ -318,7 +328,11 @@ fn clip(
 }
 
 /// The first value of a frame that differs from a whole computation, in words.
-fn difference(network: &Network, mode: Mode, frames: &[(Vec<f32>, Mask)]) -> Option<String> {
+pub(crate) fn difference(
+    network: &Network,
+    mode: Mode,
+    frames: &[(Vec<f32>, Mask)],
+) -> Option<String> {
     let (mut dense, mut other) =
         (Executor::new(network, Mode::Dense), Executor::new(network, mode));
     let mut before: Vec<_> = Vec::new();
@@ -408,7 +422,7 @@ fn truncation_computes_less_and_stays_near() {
         let mut executor = Executor::new(&network, mode);
         executor.step(&picture, &full);
         let needed: usize = executor.step(&shifted, &full).iter().map(|work| work.needed).sum();
-        (needed, executor.value(3).values().to_vec())
+        (needed, executor.value(3).reals().to_vec())
     };
     let ((exact, right), (truncated, near)) = (needed(Mode::Exact), needed(Mode::Truncate(0.1)));
     assert!(truncated < exact, "{truncated} of {exact}");
@@ -528,7 +542,7 @@ fn an_activation_leaves_what_others_use() {
     let mut executor = Executor::new(&network, Mode::Dense);
     executor.step(&[2.0; 16], &Mask::full(4, 4));
     let &[output] = network.outputs() else { panic!("one output") };
-    assert_eq!(executor.value(output).values(), [-2.0; 16]);
+    assert_eq!(*executor.value(output).reals(), [-2.0; 16]);
 }
 
 /// Positions on other axes of equal lengths are other positions.

@@ -4,6 +4,8 @@
 
 mod documents;
 mod exact;
+mod integer_layers;
+mod integers;
 mod model;
 mod oracle;
 mod refused;

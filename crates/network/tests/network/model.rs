@@ -43,6 +43,16 @@ impl Model {
         self.constant(&[values.len().cast_signed() as i64], tensor)
     }
 
+    /// A constant of integers of a type of ONNX; returns its name.
+    pub(crate) fn typed(&mut self, data_type: i32, shape: &[i64], values: &[i32]) -> String {
+        let tensor = TensorProto {
+            data_type: Some(data_type),
+            int32_data: values.to_vec(),
+            ..TensorProto::default()
+        };
+        self.constant(shape, tensor)
+    }
+
     fn constant(&mut self, shape: &[i64], tensor: TensorProto) -> String {
         self.count += 1;
         let name = format!("constant{}", self.count);
@@ -54,7 +64,7 @@ impl Model {
         name
     }
 
-    /// A node; returns the name of its output.
+    /// A node, of onnxruntime's operators if its kind begins with their domain; returns the name of its output.
     pub(crate) fn node(
         &mut self,
         kind: &str,
@@ -63,13 +73,14 @@ impl Model {
     ) -> String {
         self.count += 1;
         let output = format!("value{}", self.count);
+        let kind_alone = kind.strip_prefix("com.microsoft.");
         self.graph.node.push(NodeProto {
-            op_type: Some(kind.to_owned()),
+            op_type: Some(kind_alone.unwrap_or(kind).to_owned()),
+            domain: kind_alone.map(|_| "com.microsoft".to_owned()),
             name: Some(format!("{kind}{}", self.count)),
             input: inputs.iter().map(|&name| name.to_owned()).collect(),
             output: vec![output.clone()],
             attribute: attributes.iter().map(|(name, value)| value.attribute(name)).collect(),
-            ..NodeProto::default()
         });
         output
     }

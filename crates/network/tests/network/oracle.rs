@@ -44,7 +44,7 @@ proptest! {
         let found = executor.value(2);
         let (height, width) = (room_y / stride.0 + 1, room_x / stride.1 + 1);
         prop_assert_eq!(found.form().shape(), &[1, outputs, height, width]);
-        for (at, &found) in found.values().iter().enumerate() {
+        for (at, &found) in found.reals().iter().enumerate() {
             let (channel, y, x) = (at / width / height, at / width % height, at % width);
             let mut sum = f64::from(bias[channel]);
             for input in 0..inner {
@@ -76,7 +76,7 @@ fn pooling_is_that_of_the_standard() {
         let network = model.read(5, 5).unwrap();
         let mut executor = Executor::new(&network, Mode::Dense);
         executor.step(&picture, &Mask::full(5, 5));
-        executor.value(1).values().to_vec()
+        executor.value(1).reals().to_vec()
     };
     let square = |side| ("kernel_shape", Value::Ints(vec![side; 2]));
     let strides = ("strides", Value::Ints(vec![2; 2]));
@@ -114,7 +114,7 @@ fn slices_are_those_of_the_standard() {
         let network = model.read(5, 4).unwrap();
         let mut executor = Executor::new(&network, Mode::Dense);
         executor.step(&picture, &Mask::full(4, 5));
-        executor.value(slices.len()).values().to_vec()
+        executor.value(slices.len()).reals().to_vec()
     };
     let at_once = run(&[[&[1, -4], &[-1, 9], &[2, -1], &[1, 2]]]);
     assert_eq!(at_once, [6.0, 8.0, 11.0, 13.0]);

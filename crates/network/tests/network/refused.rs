@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Models that are damaged, hostile, or of a kind that is not supported: each is a line that says what is wrong.
 
+use crate::exact::signed;
 use crate::model::{Model, Value};
+use foveate_network::onnx::data_type;
 use foveate_network::{FrameSize, Network};
 use proptest::prelude::*;
 use std::path::Path;
@@ -158,6 +160,121 @@ fn what_is_not_as_it_seems_is_refused() {
     for (refusal, says) in cases {
         assert!(
             refusal.contains(says) && !refusal.contains('\n') && refusal.len() < 800,
+            "{refusal} for {says}"
+        );
+    }
+}
+
+/// Every way in which a quantized network can be wrong, or of a kind that is not supported.
+#[test]
+fn quantized_networks_are_checked() {
+    // A convolution of 8 bits: what it takes may be changed.
+    let conv = |change: &dyn Fn(&mut Model, &mut Vec<String>)| {
+        let mut model = Model::new(&[1, 1, 8, 8]);
+        let (scale, zero) = (model.floats(&[], &[0.5]), model.typed(data_type::UINT8, &[], &[3]));
+        let x = model.node("QuantizeLinear", &["picture", &scale, &zero], &[]);
+        let weights = model.typed(data_type::INT8, &[2, 1, 1, 1], &[1, 2]);
+        let none = model.typed(data_type::INT8, &[], &[0]);
+        let mut inputs =
+            [&x, &scale, &zero, &weights, &scale, &none, &scale, &zero].map(Clone::clone).to_vec();
+        change(&mut model, &mut inputs);
+        let inputs: Vec<&str> = inputs.iter().map(String::as_str).collect();
+        let output = model.node("QLinearConv", &inputs, &[]);
+        model.output(&output);
+        refusal(model)
+    };
+    let of_scale = |values: &'static [f32]| {
+        conv(&|model, inputs| inputs[4] = model.floats(&[signed(values.len())], values))
+    };
+    let of_zero = |data_type, values: &'static [i32]| {
+        conv(&|model, inputs| inputs[2] = model.typed(data_type, &[signed(values.len())], values))
+    };
+    let alone =
+        |kind: &str, rest: &dyn Fn(&mut Model) -> Vec<String>, attributes: &[(&str, Value)]| {
+            let mut model = Model::new(&[1, 1, 8, 8]);
+            let rest = rest(&mut model);
+            let inputs = std::iter::once("picture").chain(rest.iter().map(String::as_str));
+            let output = model.node(kind, &inputs.collect::<Vec<_>>(), attributes);
+            model.output(&output);
+            refusal(model)
+        };
+    let to = |kind, value: i32| {
+        move |model: &mut Model| vec![model.floats(&[], &[1.0]), model.typed(kind, &[], &[value])]
+    };
+    let after = |kind: &str, attributes: &[(&str, Value)]| {
+        let mut model = Model::new(&[1, 1, 8, 8]);
+        let scale = model.floats(&[], &[1.0]);
+        let x = model.node("QuantizeLinear", &["picture", &scale], &[]);
+        let output = model.node(kind, &[&x, &scale], attributes);
+        model.output(&output);
+        refusal(model)
+    };
+    let cases = [
+        (of_scale(&[0.0]), "its w_scale is 0; it must be more than 0"),
+        (of_scale(&[1.0, -1.0]), "its w_scale is -1; it must be more than 0"),
+        (of_scale(&[f32::NAN]), "its w_scale is NaN"),
+        (of_scale(&[f32::INFINITY]), "its w_scale is inf"),
+        (of_scale(&[1.0; 3]), "its w_scale has 3 values; it must have 1 or 2"),
+        (of_zero(data_type::UINT8, &[256]), "its x_zero_point is 256; it must be 0 to 255"),
+        (of_zero(data_type::INT8, &[0]), "its x_zero_point must be of 8-bit integers without sign"),
+        (of_zero(data_type::UINT8, &[0, 0]), "its x_zero_point has 2 values; it must have 1"),
+        (
+            conv(&|model, inputs| inputs[3] = model.typed(data_type::INT8, &[1, 1, 1, 1], &[200])),
+            "a weight of 200 is outside of its 8 bits, -128 to 127",
+        ),
+        (conv(&|_, inputs| inputs[3] = inputs[0].clone()), "its w must be constant"),
+        (
+            conv(&|model, inputs| inputs[4] = model.node("Relu", &["picture"], &[])),
+            "its w_scale must be constant",
+        ),
+        (
+            conv(&|_, inputs| inputs[0] = "picture".to_owned()),
+            "it takes 8-bit integers, but its input holds 32-bit floating-point values",
+        ),
+        (
+            conv(&|model, inputs| inputs.push(model.typed(data_type::INT32, &[3], &[1; 3]))),
+            "its bias is not of 2 channels",
+        ),
+        (
+            conv(&|model, inputs| inputs.push(model.floats(&[2], &[1.0; 2]))),
+            "its bias must be of 32-bit integers",
+        ),
+        (
+            alone("QuantizeLinear", &to(data_type::INT32, 0), &[]),
+            "its y_zero_point must be of 8-bit integers",
+        ),
+        (
+            alone("QuantizeLinear", &to(data_type::INT8, -129), &[]),
+            "its y_zero_point is -129; it must be -128 to 127",
+        ),
+        (
+            alone("QuantizeLinear", &to(data_type::INT8, 0), &[("block_size", Value::Int(2))]),
+            "blocked quantization is not supported",
+        ),
+        (
+            alone("QuantizeLinear", &|model| vec![model.floats(&[3], &[1.0; 3])], &[]),
+            "it has 3 scales, but axis 1 of [1, 1, 8, 8] has 1 elements; it must have 1 or 1",
+        ),
+        (alone("DequantizeLinear", &to(data_type::INT8, 0), &[]), "it takes integers"),
+        (
+            after("Sigmoid", &[]),
+            "it takes 32-bit floating-point values, but its input holds 8-bit integers without sign",
+        ),
+        (after("Relu", &[]), "it takes 32-bit floating-point values"),
+        (after("GlobalAveragePool", &[]), "it takes 32-bit floating-point values"),
+        (
+            after("com.microsoft.QLinearSoftmax", &[]),
+            "has the operator `com.microsoft.QLinearSoftmax`, which is not supported",
+        ),
+        (
+            after("DynamicQuantizeLinear", &[]),
+            "has the operator `DynamicQuantizeLinear`, which is not supported",
+        ),
+    ];
+    for (refusal, says) in cases {
+        let names_node = refusal.starts_with("node `");
+        assert!(
+            names_node && refusal.contains(says) && !refusal.contains('\n'),
             "{refusal} for {says}"
         );
     }

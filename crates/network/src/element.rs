@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How the values of a tensor are stored, and what they stand for.
+
+use crate::tensor::Values;
+use std::fmt::Debug;
+
+/// Does something with the type of an [`Element`].
+macro_rules! typed {
+    ($element:expr, $number:ident => $body:expr) => {
+        match $element {
+            $crate::element::Element::F32 => {
+                type $number = f32;
+                $body
+            }
+            $crate::element::Element::U8 => {
+                type $number = u8;
+                $body
+            }
+            $crate::element::Element::I8 => {
+                type $number = i8;
+                $body
+            }
+            $crate::element::Element::I32 => {
+                type $number = i32;
+                $body
+            }
+        }
+    };
+}
+
+/// The same for an [`Element`] of 8 bits.
+macro_rules! typed_byte {
+    ($element:expr, $number:ident => $body:expr) => {
+        match $element {
+            $crate::element::Element::U8 => {
+                type $number = u8;
+                $body
+            }
+            $crate::element::Element::I8 => {
+                type $number = i8;
+                $body
+            }
+            $crate::element::Element::F32 | $crate::element::Element::I32 => {
+                unreachable!("a network's encodings are checked when it is read")
+            }
+        }
+    };
+}
+
+pub(crate) use {typed, typed_byte};
+
+/// How a value is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// A 32-bit floating-point value.
+    F32,
+    /// An 8-bit integer without sign.
+    U8,
+    /// An 8-bit integer with sign.
+    I8,
+    /// A 32-bit integer with sign: a sum of products.
+    I32,
+}
+
+impl Element {
+    pub(crate) const ALL: [Self; 4] = [Self::F32, Self::U8, Self::I8, Self::I32];
+
+    /// Bytes of a value.
+    #[must_use]
+    pub fn bytes(self) -> usize {
+        match self {
+            Self::F32 | Self::I32 => 4,
+            Self::U8 | Self::I8 => 1,
+        }
+    }
+
+    /// Whether it has 8 bits.
+    pub(crate) fn is_byte(self) -> bool {
+        self.bytes() == 1
+    }
+
+    /// The lowest and the highest integer, of 8 bits.
+    pub(crate) fn range(self) -> (i32, i32) {
+        typed_byte!(self, T => (T::MIN.into(), T::MAX.into()))
+    }
+
+    /// What messages call many of them.
+    pub(crate) fn describe(self) -> &'static str {
+        match self {
+            Self::F32 => "32-bit floating-point values",
+            Self::U8 => "8-bit integers without sign",
+            Self::I8 => "8-bit integers with sign",
+            Self::I32 => "32-bit integers",
+        }
+    }
+}
+
+/// How values are stored, and the real numbers that they stand for: `(value - zero) * scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Encoding {
+    /// How a value is stored.
+    pub element: Element,
+    /// What one step stands for.
+    pub scale: f32,
+    /// What stands for 0.
+    pub zero: i32,
+}
+
+impl Encoding {
+    /// Floating-point values, which stand for themselves.
+    pub const FLOAT: Self = Self::plain(Element::F32);
+
+    /// Values that stand for themselves, or of which nothing else is known.
+    #[must_use]
+    pub const fn plain(element: Element) -> Self {
+        Self { element, scale: 1.0, zero: 0 }
+    }
+}
+
+/// A value of one of the [`Element`]s.
+pub(crate) trait Number:
+    Copy + Default + Debug + PartialOrd + Send + Sync + 'static
+{
+    /// What is not more than any other.
+    const LOWEST: Self;
+
+    fn of(values: &Values) -> &[Self];
+    fn of_mut(values: &mut Values) -> &mut [Self];
+
+    /// Whether it has the same bits.
+    fn is_same(self, other: Self) -> bool;
+
+    /// By how many steps it differs from another.
+    fn distance(self, other: Self) -> f32;
+
+    /// Whether it is more than another; a value that is no number is more than any.
+    fn is_more(self, than: Self) -> bool;
+
+    /// The value in floating point.
+    fn float(self) -> f32;
+}
+
+/// A value of 8 bits.
+pub(crate) trait Byte: Number + Into<i32> + Into<f32> {
+    /// The nearest value to an integer.
+    fn saturated(value: i32) -> Self;
+
+    /// How many values are below.
+    fn index(self) -> usize;
+}
+
+macro_rules! number {
+    ($number:ty, $variant:ident, $lowest:expr, $is_same:expr, $is_more:expr, $distance:expr, $float:expr) => {
+        impl Number for $number {
+            const LOWEST: Self = $lowest;
+
+            fn of(values: &Values) -> &[Self] {
+                match values {
+                    Values::$variant(values) => values,
+                    _ => unreachable!("a network's encodings are checked when it is read"),
+                }
+            }
+
+            fn of_mut(values: &mut Values) -> &mut [Self] {
+                match values {
+                    Values::$variant(values) => values,
+                    _ => unreachable!("a network's encodings are checked when it is read"),
+                }
+            }
+
+            #[inline(always)]
+            fn is_same(self, other: Self) -> bool {
+                $is_same(self, other)
+            }
+
+            #[inline(always)]
+            fn distance(self, other: Self) -> f32 {
+                $distance(self, other)
+            }
+
+            #[inline(always)]
+            fn is_more(self, than: Self) -> bool {
+                $is_more(self, than)
+            }
+
+            #[inline(always)]
+            fn float(self) -> f32 {
+                $float(self)
+            }
+        }
+    };
+}
+
+macro_rules! byte {
+    ($number:ident, $variant:ident) => {
+        number!(
+            $number,
+            $variant,
+            $number::MIN,
+            |a, b| a == b,
+            |a, b| a > b,
+            |a: $number, b: $number| f32::from(a.abs_diff(b)),
+            f32::from
+        );
+
+        impl Byte for $number {
+            #[inline(always)]
+            fn saturated(value: i32) -> Self {
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "it has been clamped"
+                )]
+                let value = value.clamp(Self::MIN.into(), Self::MAX.into()) as Self;
+                value
+            }
+
+            #[inline(always)]
+            fn index(self) -> usize {
+                usize::from(self.abs_diff(Self::MIN))
+            }
+        }
+    };
+}
+
+number!(
+    f32,
+    F32,
+    f32::NEG_INFINITY,
+    |a: f32, b: f32| a.to_bits() == b.to_bits(),
+    |a: f32, b: f32| a > b || a.is_nan(),
+    |a: f32, b: f32| (a - b).abs(),
+    |a| a
+);
+byte!(u8, U8);
+byte!(i8, I8);
+#[allow(clippy::cast_precision_loss, reason = "a distance, and what ONNX calls a cast")]
+mod sums {
+    use super::{Number, Values};
+    number!(
+        i32,
+        I32,
+        i32::MIN,
+        |a, b| a == b,
+        |a, b| a > b,
+        |a: i32, b: i32| a.abs_diff(b) as f32,
+        |a| a as f32
+    );
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Windows and channels of a convolution, whatever its values are.
+
+use super::{Products, features, only};
+use crate::form::Form;
+use crate::mask::{Mask, Window};
+
+/// What a convolution sees, and what it makes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Geometry {
+    pub(crate) rows: Window,
+    pub(crate) columns: Window,
+    pub(crate) groups: usize,
+    /// Channels of the output.
+    pub(crate) channels: usize,
+    /// Channels of the input.
+    pub(crate) inputs: usize,
+}
+
+impl Geometry {
+    /// That of a convolution with weights of the shape `[channels, inputs per group, rows, columns]`.
+    pub(crate) fn new(
+        shape: &[usize],
+        [rows, columns]: [Window; 2],
+        groups: usize,
+    ) -> Result<Self, String> {
+        let &[channels, inputs, height, width] = shape else {
+            return Err(format!(
+                "its weights have {} axes; only two-dimensional convolution is known",
+                shape.len()
+            ));
+        };
+        if shape.contains(&0) || groups == 0 || channels % groups != 0 {
+            return Err(format!("its weights {shape:?} do not fit {groups} groups"));
+        }
+        if rows.kernel != height || columns.kernel != width {
+            return Err(format!("its kernel_shape differs from its weights, {height}x{width}"));
+        }
+        Ok(Self { rows, columns, groups, channels, inputs: inputs * groups })
+    }
+
+    /// Refuses a bias that is not of all channels.
+    pub(crate) fn check_bias<T>(&self, bias: Option<&[T]>) -> Result<(), String> {
+        match bias {
+            Some(bias) if bias.len() != self.channels => {
+                Err(format!("its bias is not of {} channels", self.channels))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Products of an output.
+    pub(crate) fn depth(&self) -> usize {
+        self.inputs / self.groups * self.rows.kernel * self.columns.kernel
+    }
+
+    /// Whether each channel is seen by itself.
+    pub(crate) fn is_depthwise(&self) -> bool {
+        self.inputs == self.groups && self.channels == self.groups
+    }
+
+    /// The form of the output.
+    pub(crate) fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let [channels, height, width] = features(only(inputs)?)?;
+        if channels != self.inputs {
+            return Err(format!("it takes {} channels, but its input has {channels}", self.inputs));
+        }
+        let (height, width) = (outputs(self.rows, height)?, outputs(self.columns, width)?);
+        Ok(Form::features(vec![1, self.channels, height, width]))
+    }
+
+    /// The outputs that see a change.
+    pub(crate) fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        inputs[0].1.through(self.rows, self.columns, output.height(), output.width())
+    }
+
+    pub(crate) fn products(&self) -> Products {
+        Products::Convolution { rows: self.rows, columns: self.columns, groups: self.groups }
+    }
+}
+
+/// Outputs of a window along an axis of so many inputs.
+pub(super) fn outputs(window: Window, inputs: usize) -> Result<usize, String> {
+    let padded = inputs + window.before + window.after;
+    let room = padded.checked_sub(window.span());
+    let room = room.ok_or_else(|| {
+        format!("its window of {} is larger than its input, {padded} with padding", window.span())
+    })?;
+    Ok(room / window.stride + 1)
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Convolution of 8-bit values: exact sums, kept or brought back to 8 bits.
+
+use super::sums::{Outcome, Sums};
+use super::{Geometry, Job, Operator, Products, of_bytes, values_of};
+use crate::element::{Byte, Element, Encoding, typed_byte};
+use crate::form::Form;
+use crate::kernel::{
+    self, Blocking, ByteWeights, CHUNK, Chunk, DepthwiseBytes, Outputs, Picture, chunks,
+};
+use crate::mask::Mask;
+use foveate_lanes::Level;
+use rayon::prelude::*;
+
+/// Weights of 8 bits, a row per channel. Those without sign are kept with 128 less, as are their zero points.
+#[derive(Clone, Debug)]
+pub(crate) struct Rows {
+    pub(crate) values: Vec<i8>,
+    /// A zero point per channel.
+    pub(crate) zeros: Vec<i8>,
+}
+
+impl Rows {
+    pub(crate) fn bytes(&self) -> u64 {
+        (self.values.len() + self.zeros.len()) as u64
+    }
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct IntegerConv {
+    geometry: Geometry,
+    level: Level,
+    kernels: Kernels,
+    weights: u64,
+    /// What stands for 0 in the input, and is its padding.
+    zero: i32,
+    sums: Sums,
+}
+
+#[derive(Clone, Debug)]
+enum Kernels {
+    Depthwise(Rows),
+    Groups(Vec<ByteWeights>),
+}
+
+impl IntegerConv {
+    pub(crate) fn new(
+        geometry: Geometry,
+        rows: Rows,
+        zero: i32,
+        sums: Sums,
+        level: Level,
+    ) -> Result<Self, String> {
+        geometry.check_bias(Some(sums.bias.as_slice()).filter(|bias| !bias.is_empty()))?;
+        let weights = rows.bytes() + sums.bytes();
+        let kernels = if geometry.is_depthwise() {
+            Kernels::Depthwise(rows)
+        } else {
+            let (depth, of_group) = (geometry.depth(), geometry.channels / geometry.groups);
+            let pack = |(rows, zeros)| ByteWeights::new(rows, depth, zeros, Blocking::of(level));
+            let groups = rows.values.chunks(of_group * depth).zip(rows.zeros.chunks(of_group));
+            Kernels::Groups(groups.map(pack).collect())
+        };
+        Ok(Self { geometry, level, kernels, weights, zero, sums })
+    }
+
+    fn convolve<X: Byte, Y: Outcome>(&self, job: Job<'_>) {
+        let chunks = chunks(job.at);
+        if chunks.is_empty() {
+            return;
+        }
+        let Job { inputs, form, output, .. } = job;
+        let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
+        let Geometry { rows, columns, groups, channels, inputs: all } = self.geometry;
+        let (of_group, seen) = (channels / groups, all / groups * height * width);
+        let picture = |group: usize| Picture {
+            values: &inputs[0].values::<X>()[group * seen..][..seen],
+            height,
+            width,
+            rows,
+            columns,
+            padding: X::saturated(self.zero),
+        };
+        let planes = values_of(output, form).par_chunks_mut(of_group * form.places()).enumerate();
+        match &self.kernels {
+            Kernels::Depthwise(weights) => planes.for_each(|(channel, outputs)| {
+                let taps = rows.kernel * columns.kernel;
+                let mut sums = vec![[0; CHUNK]; chunks.len()];
+                self.level.run(DepthwiseBytes {
+                    picture: picture(channel),
+                    weights: (&weights.values[channel * taps..][..taps], weights.zeros[channel]),
+                    chunks: &chunks,
+                    sums: &mut sums,
+                });
+                for (chunk, sums) in chunks.iter().zip(sums) {
+                    let row = &mut outputs[chunk.y * form.width()..][chunk.x..form.width()];
+                    for (output, sum) in row.iter_mut().zip(sums) {
+                        *output = self.sums.finish(channel, sum);
+                    }
+                }
+            }),
+            Kernels::Groups(kernels) => planes.for_each(|(group, values)| {
+                let (weights, picture) = (&kernels[group], picture(group));
+                let finish = |channel, sum| self.sums.finish(group * of_group + channel, sum);
+                let part = |(chunks, outputs): (&[Chunk], Outputs<'_, Y>)| {
+                    kernel::convolve_bytes(self.level, &picture, weights, chunks, outputs, finish);
+                };
+                let blocks = weights.packed().blocks();
+                kernel::parts(blocks, &chunks, values, form).into_par_iter().for_each(part);
+            }),
+        }
+    }
+}
+
+impl Operator for IntegerConv {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        self.geometry.form(inputs)
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        of_bytes(inputs, self.sums.to)
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        self.geometry.spread(inputs, output)
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        typed_byte!(job.inputs[0].form().encoding().element, X => {
+            match self.sums.to.element {
+                Element::U8 => self.convolve::<X, u8>(job),
+                Element::I8 => self.convolve::<X, i8>(job),
+                Element::I32 => self.convolve::<X, i32>(job),
+                Element::F32 => unreachable!("a convolution of integers makes integers"),
+            }
+        });
+    }
+
+    fn products(&self) -> Products {
+        self.geometry.products()
+    }
+
+    fn scheduled(&self, at: &Mask) -> usize {
+        let chunks = chunks(at).len();
+        match &self.kernels {
+            Kernels::Depthwise(_) => chunks * CHUNK,
+            Kernels::Groups(groups) => kernel::scheduled(chunks, groups[0].packed().blocking()),
+        }
+    }
+
+    fn weight_bytes(&self) -> u64 {
+        self.weights
+    }
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From floating-point values to 8-bit ones, and back.
+
+use super::sums::rounded;
+use super::{Job, Operator, only, wanted};
+use crate::element::{Element, Encoding, Number as _, typed, typed_byte};
+use crate::form::Form;
+
+/// Scales and zero points: one for a whole tensor, or one for each index of an axis.
+#[derive(Clone, Debug)]
+pub(crate) struct Scales {
+    pub(crate) scales: Vec<f32>,
+    /// As many.
+    pub(crate) zeros: Vec<i32>,
+    /// Negative from the last axis on.
+    pub(crate) axis: i64,
+}
+
+impl Scales {
+    /// Those of a whole tensor.
+    pub(crate) fn one(scale: f32, zero: i32) -> Self {
+        Self { scales: vec![scale], zeros: vec![zero], axis: 0 }
+    }
+
+    /// How a tensor is encoded that has been quantized with them.
+    fn encoding(&self, element: Element) -> Encoding {
+        match (self.scales.as_slice(), self.zeros.as_slice()) {
+            (&[scale], &[zero]) => Encoding { element, scale, zero },
+            _ => Encoding::plain(element),
+        }
+    }
+
+    /// Refuses a form that has not as many indices.
+    pub(crate) fn check(&self, form: &Form) -> Result<(), String> {
+        let count = self.scales.len();
+        if count == 1 {
+            return Ok(());
+        }
+        let axis = form.axis(self.axis)?;
+        match form.shape()[axis] {
+            length if length == count => Ok(()),
+            length => Err(format!(
+                "it has {count} scales, but axis {axis} of {} has {length} elements; it must have 1 or {length}",
+                form.describe()
+            )),
+        }
+    }
+
+    /// The scale and the zero point of the value at a place.
+    #[allow(clippy::cast_precision_loss, reason = "a zero point is an 8-bit value")]
+    #[inline(always)]
+    pub(crate) fn of(&self, form: &Form, place: usize) -> (f32, f32) {
+        let at = match self.scales.len() {
+            1 => 0,
+            count => {
+                let axis = form.axis(self.axis).expect("the form has it");
+                place / form.shape()[axis + 1..].iter().product::<usize>() % count
+            }
+        };
+        (self.scales[at], self.zeros[at] as f32)
+    }
+
+    fn bytes(&self) -> u64 {
+        8 * self.scales.len() as u64
+    }
+}
+
+/// To 8-bit values.
+#[derive(Clone, Debug)]
+pub(crate) struct Quantize {
+    pub(crate) scales: Scales,
+    pub(crate) to: Element,
+}
+
+impl Operator for Quantize {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let form = only(inputs)?;
+        self.scales.check(form).map(|()| form.clone())
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        match inputs.iter().find(|input| input.element != Element::F32) {
+            None => Ok(self.scales.encoding(self.to)),
+            Some(input) => Err(wanted(Element::F32, input.element)),
+        }
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let (from, form) = (job.inputs[0].values::<f32>(), job.form);
+        typed_byte!(self.to, Y => job.fill::<Y>(|run, to| {
+            for (place, to) in run.zip(to) {
+                let (scale, zero) = self.scales.of(form, place);
+                #[allow(clippy::cast_possible_truncation, reason = "a zero point is an integer")]
+                let zero = zero as i32;
+                *to = rounded(from[place] / scale, zero);
+            }
+        }));
+    }
+
+    fn weight_bytes(&self) -> u64 {
+        self.scales.bytes()
+    }
+}
+
+/// To floating-point values.
+#[derive(Clone, Debug)]
+pub(crate) struct Dequantize(pub(crate) Scales);
+
+impl Operator for Dequantize {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let form = only(inputs)?;
+        self.0.check(form).map(|()| form.clone())
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        match inputs.iter().find(|input| input.element == Element::F32) {
+            None => Ok(Encoding::FLOAT),
+            Some(_) => Err("it takes integers, but its input holds floating-point values".into()),
+        }
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let (inputs, form) = (job.inputs, job.form);
+        typed!(inputs[0].form().encoding().element, X => {
+            let from = inputs[0].values::<X>();
+            job.fill(|run, to| {
+                for (place, to) in run.zip(to) {
+                    let (scale, zero) = self.0.of(form, place);
+                    *to = (from[place].float() - zero) * scale;
+                }
+            });
+        });
+    }
+
+    fn weight_bytes(&self) -> u64 {
+        self.0.bytes()
+    }
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What becomes of exact sums of products of 8-bit values.
+
+use crate::element::{Byte, Encoding, Number};
+
+/// The last steps of a sum: a bias per channel is added, and the sum is brought to the output's scale.
+#[derive(Clone, Debug)]
+pub(crate) struct Sums {
+    /// One per channel, or none.
+    pub(crate) bias: Vec<i32>,
+    /// Steps of the output per step of the sum: one for all channels, or one for each. Sums that stay sums have none.
+    pub(crate) factors: Vec<f32>,
+    pub(crate) to: Encoding,
+}
+
+impl Sums {
+    /// Sums that stay 32-bit integers.
+    pub(crate) fn kept() -> Self {
+        Self {
+            bias: Vec::new(),
+            factors: vec![1.0],
+            to: Encoding::plain(crate::element::Element::I32),
+        }
+    }
+
+    /// The output of a channel. Sums beyond 32 bits wrap around, so that their order does not matter.
+    #[inline(always)]
+    pub(crate) fn finish<Y: Outcome>(&self, channel: usize, sum: i32) -> Y {
+        let bias = if self.bias.is_empty() { 0 } else { self.bias[channel] };
+        let factor = self.factors[if self.factors.len() == 1 { 0 } else { channel }];
+        Y::of_sum(sum.wrapping_add(bias), factor, self.to.zero)
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        4 * (self.bias.len() + self.factors.len()) as u64
+    }
+}
+
+/// A value that can be made of a sum.
+pub(crate) trait Outcome: Number {
+    fn of_sum(sum: i32, factor: f32, zero: i32) -> Self;
+}
+
+macro_rules! byte_of_sum {
+    ($number:ident) => {
+        impl Outcome for $number {
+            #[allow(clippy::cast_precision_loss, reason = "requantization is in floating point")]
+            #[inline(always)]
+            fn of_sum(sum: i32, factor: f32, zero: i32) -> Self {
+                rounded(sum as f32 * factor, zero)
+            }
+        }
+    };
+}
+byte_of_sum!(u8);
+byte_of_sum!(i8);
+
+impl Outcome for i32 {
+    #[inline(always)]
+    fn of_sum(sum: i32, _factor: f32, _zero: i32) -> Self {
+        sum
+    }
+}
+
+impl Outcome for f32 {
+    #[allow(clippy::cast_precision_loss, reason = "the value that the sum stands for")]
+    #[inline(always)]
+    fn of_sum(sum: i32, factor: f32, _zero: i32) -> Self {
+        sum as f32 * factor
+    }
+}
+
+/// The nearest step, an even one where two are as near, as far as there are steps. What is no number is 0.
+#[inline(always)]
+pub(crate) fn rounded<Y: Byte>(steps: f32, zero: i32) -> Y {
+    // Further than any zero point reaches. From 2^23 to 2^24 floating-point values are integers, so that an addition rounds as is wanted: on
+    // every processor, and without a call.
+    const FAR: f32 = 1024.0;
+    const WHOLE: f32 = 12_582_912.0;
+    #[allow(clippy::cast_possible_truncation, reason = "it is an integer of few bits")]
+    let steps = ((steps.clamp(-FAR, FAR) + WHOLE) - WHOLE) as i32;
+    Y::saturated(steps + zero)
+}

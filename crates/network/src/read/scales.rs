@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scales, zero points and weights of quantized networks, checked.
+
+use super::constant::{Constant, Values};
+use super::node::NodeReader;
+use crate::element::{Element, Encoding};
+use crate::operator::{Rows, Scales};
+use std::borrow::Cow;
+
+type Result<T> = std::result::Result<T, String>;
+
+impl NodeReader<'_> {
+    /// Scales: positive numbers, of which there is one or `count`.
+    fn scales(&self, at: usize, what: &str, count: Option<usize>) -> Result<Vec<f32>> {
+        let scales = self.wanted(at, what)?.as_floats()?;
+        if let Some(odd) = scales.iter().find(|scale| !scale.is_finite() || **scale <= 0.0) {
+            return Err(format!("its {what} is {odd}; it must be more than 0"));
+        }
+        match (scales.len(), count) {
+            (1, _) => Ok(scales.to_vec()),
+            (0, None) => Err(format!("its {what} is empty")),
+            (_, None) => Ok(scales.to_vec()),
+            (found, Some(count)) if found == count => Ok(scales.to_vec()),
+            (found, Some(1)) => Err(format!("its {what} has {found} values; it must have 1")),
+            (found, Some(count)) => {
+                Err(format!("its {what} has {found} values; it must have 1 or {count}"))
+            }
+        }
+    }
+
+    /// Zero points, of which there is one or `count`; 0 where the node has none.
+    fn zeros(&self, at: usize, what: &str, element: Element, count: usize) -> Result<Vec<i32>> {
+        let Some(zeros) = self.constant(at, what)? else { return Ok(vec![0; count]) };
+        if zeros.element != Some(element) {
+            return Err(format!("its {what} must be of {}, as its tensor", element.describe()));
+        }
+        let (lowest, highest) = if element.is_byte() { element.range() } else { (0, 0) };
+        let zero = |&zero: &i64| {
+            i32::try_from(zero)
+                .ok()
+                .filter(|zero| (lowest..=highest).contains(zero))
+                .ok_or_else(|| format!("its {what} is {zero}; it must be {lowest} to {highest}"))
+        };
+        let found: Vec<i32> = zeros.as_integers()?.iter().map(zero).collect::<Result<_>>()?;
+        match found.as_slice() {
+            &[one] => Ok(vec![one; count]),
+            _ if found.len() == count => Ok(found),
+            _ => Err(format!("its {what} has {} values; it must have {count}", found.len())),
+        }
+    }
+
+    /// The only zero point of a tensor.
+    pub(super) fn zero(&self, at: usize, what: &str, element: Element) -> Result<i32> {
+        self.zeros(at, what, element, 1).map(|zeros| zeros[0])
+    }
+
+    /// The encoding of a tensor whose scale is at an input and whose zero point is at the next.
+    pub(super) fn encoding(&self, at: usize, what: &str, element: Element) -> Result<Encoding> {
+        let scale = self.scales(at, &format!("{what}_scale"), Some(1))?[0];
+        let zero = self.zero(at + 1, &format!("{what}_zero_point"), element)?;
+        Ok(Encoding { element, scale, zero })
+    }
+
+    /// The same for an output, whose zero point says what it is.
+    pub(super) fn encoding_out(&self, at: usize, what: &str) -> Result<Encoding> {
+        let element = match self.constant(at + 1, &format!("{what}_zero_point"))? {
+            None => Element::U8,
+            Some(zero) => byte(zero.element, &format!("{what}_zero_point"))?,
+        };
+        self.encoding(at, what, element)
+    }
+
+    /// What a step of a sum stands for: a product of factors, one for all of `count` channels or one for each.
+    pub(super) fn factors(
+        &self,
+        [scale, alpha]: [f32; 2],
+        (at, what): (usize, &str),
+        count: usize,
+    ) -> Result<Vec<f32>> {
+        let scales = self.scales(at, what, Some(count))?;
+        Ok(scales.into_iter().map(|own| alpha * (scale * own)).collect())
+    }
+
+    /// A bias of 32-bit integers, if there is one.
+    pub(super) fn bias(&self, at: usize) -> Result<Vec<i32>> {
+        let Some(bias) = self.constant(at, "bias")? else { return Ok(Vec::new()) };
+        if bias.element != Some(Element::I32) {
+            return Err("its bias must be of 32-bit integers".to_owned());
+        }
+        let value = |&value: &i64| {
+            i32::try_from(value).map_err(|_| format!("its bias is {value}, beyond 32 bits"))
+        };
+        bias.as_integers()?.iter().map(value).collect()
+    }
+
+    /// Scales and zero points of `QuantizeLinear`, and what it makes.
+    pub(super) fn quantization(&self) -> Result<(Scales, Element)> {
+        let own = match self.int("output_dtype", 0) {
+            0 => None,
+            2 => Some(Element::U8),
+            3 => Some(Element::I8),
+            other => return Err(format!("an output_dtype of {other} is not supported")),
+        };
+        let to = match self.constant(2, "y_zero_point")? {
+            None => own.unwrap_or(Element::U8),
+            Some(zero) => byte(zero.element, "y_zero_point")?,
+        };
+        Ok((self.along("y", to)?, to))
+    }
+
+    /// Scales and zero points of `DequantizeLinear` of integers.
+    pub(super) fn dequantization(&self, element: Element) -> Result<Scales> {
+        self.along("x", element)
+    }
+
+    fn along(&self, what: &str, element: Element) -> Result<Scales> {
+        if self.int("block_size", 0) != 0 {
+            return Err("blocked quantization is not supported".to_owned());
+        }
+        let scales = self.scales(1, &format!("{what}_scale"), None)?;
+        let zeros = self.zeros(2, &format!("{what}_zero_point"), element, scales.len())?;
+        Ok(Scales { scales, zeros, axis: self.int("axis", 1) })
+    }
+}
+
+fn byte(element: Option<Element>, what: &str) -> Result<Element> {
+    element
+        .filter(|element| element.is_byte())
+        .ok_or_else(|| format!("its {what} must be of 8-bit integers; others are not supported"))
+}
+
+/// Constant weights, a row per channel; their zero points, one or one per channel, are at an input.
+pub(super) fn bytes(
+    node: &NodeReader<'_>,
+    weights: &Constant,
+    zeros: usize,
+    channels: usize,
+) -> Result<Rows> {
+    let element = byte(weights.element, "weights")?;
+    let (lowest, highest) = element.range();
+    // Without sign, 0 is kept as the lowest value with sign.
+    let kept = |value: i64| {
+        Some(value)
+            .filter(|value| (lowest.into()..=highest.into()).contains(value))
+            .and_then(|value| i8::try_from(value - i64::from(lowest) + i64::from(i8::MIN)).ok())
+    };
+    let weight = |&value: &i64| {
+        kept(value).ok_or_else(|| {
+            format!("a weight of {value} is outside of its 8 bits, {lowest} to {highest}")
+        })
+    };
+    let values: Vec<i8> = weights.as_integers()?.iter().map(weight).collect::<Result<_>>()?;
+    if values.is_empty() {
+        return Err(format!("a constant of weights is empty: {:?}", weights.shape));
+    }
+    let zeros = node.zeros(zeros, "zero point of weights", element, channels)?;
+    let zeros = zeros.into_iter().map(|zero| kept(zero.into()).expect("it has been checked"));
+    Ok(Rows { values, zeros: zeros.collect() })
+}
+
+/// A matrix of two axes with a row for each output, with how many outputs and inputs it has.
+pub(super) fn row_major(
+    matrix: &Constant,
+    is_row_major: bool,
+) -> Result<(Cow<'_, Constant>, usize, usize)> {
+    let &[rows, columns] = matrix.shape.as_slice() else {
+        return Err(format!("its matrix has {} axes, not 2", matrix.shape.len()));
+    };
+    if rows == 0 || columns == 0 {
+        return Err(format!("a constant of weights is empty: {:?}", matrix.shape));
+    }
+    if is_row_major {
+        return Ok((Cow::Borrowed(matrix), rows, columns));
+    }
+    let values = matrix.as_integers()?;
+    let turned = |output| (0..rows).map(move |input| values[input * columns + output]);
+    let values = (0..columns).flat_map(turned).collect();
+    let turned =
+        Constant { shape: vec![columns, rows], values: Values::Integers(values), ..*matrix };
+    Ok((Cow::Owned(turned), columns, rows))
+}
