@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Makes the networks of the page "What it saves" as ONNX files, with weights from a fixed seed.
 
-    networks.py FOLDER [--size WIDTHxHEIGHT] [NAME...]
+    networks.py FOLDER [NAME...] [--size WIDTHxHEIGHT] [--int8]
 
-Needs torch, torchvision and onnx. The weights are random: they serve for masks, counts and time, not for what the network says.
+--int8 also writes forms of 8-bit integers, by scripts/quantize.py: NAME-qoperator.onnx and NAME-qdq.onnx. Needs torch, torchvision and onnx; --int8
+needs onnxruntime. The weights are random: they serve for masks, counts and time, not for what the network says.
 """
 import argparse
 import os
@@ -71,6 +72,7 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("names", nargs="*", choices=[[], *NETWORKS], metavar="NAME", help=", ".join(NETWORKS))
     parser.add_argument("--size", help="WIDTHxHEIGHT of the pictures; by default the usual size of each")
+    parser.add_argument("--int8", action="store_true", help="also write quantized forms of each")
     options = parser.parse_args()
     os.makedirs(options.folder, exist_ok=True)
     warnings.filterwarnings("ignore")
@@ -83,6 +85,13 @@ def main():
         path = os.path.join(options.folder, f"{name}.onnx")
         torch.onnx.export(network, (torch.zeros(1, channels, height, width),), path, opset_version=17, dynamo=False, input_names=["picture"])
         print(f"{path}: {channels} x {height} x {width}, {sum(p.numel() for p in network.parameters()):,} parameters")
+        if options.int8:
+            # Needed for nothing else, and it needs onnxruntime.
+            from quantize import FORMATS, quantize
+            for kind in FORMATS:
+                out = os.path.join(options.folder, f"{name}-{kind}.onnx")
+                quantize(path, out, kind)
+                print(out)
 
 
 if __name__ == "__main__":

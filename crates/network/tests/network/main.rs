@@ -4,6 +4,7 @@
 
 mod documents;
 mod exact;
+mod golden;
 mod integer_layers;
 mod integers;
 mod model;
