@@ -14,8 +14,8 @@ use crate::element::{Byte, Number};
 use foveate_lanes::{Level, Task};
 use std::ops::Range;
 
-/// Products whose sum is exact.
-const EXACT: usize = 256;
+/// Products whose sum is exact. A row of the window must not have more.
+pub(crate) const EXACT: usize = 256;
 /// Panels that share a pass over the weights.
 const GROUP: usize = 3;
 /// Channels of the largest block.
@@ -100,7 +100,7 @@ impl<X: Byte, Y: Number, F: Fn(usize, i32) -> Y> Work<'_, X, Y, F> {
         let (first, stride) = (first.start, last.end - first.start);
         let taps = picture.columns.kernel;
         let rows = weights.packed.depth() / taps;
-        let at_once = rows.min((EXACT / taps).max(1));
+        let at_once = rows.min(EXACT / taps);
         let room = (picture.columns, GROUP * LANES / CHUNK, at_once);
         let mut gathered = Gathered::new(room.0, room.1, room.2);
         let mut wide = Gathered::new(room.0, room.1, room.2);

@@ -16,7 +16,7 @@ pub(crate) use blocking::Blocking;
 pub(crate) use chunks::{CHUNK, Chunk, chunks};
 pub(crate) use depthwise::Depthwise;
 pub(crate) use gather::Picture;
-pub(crate) use integer::{ByteWeights, DepthwiseBytes, convolve_bytes};
+pub(crate) use integer::{ByteWeights, DepthwiseBytes, EXACT, convolve_bytes};
 pub(crate) use panels::{Outputs, convolve, scheduled};
 pub(crate) use parts::parts;
 pub(crate) use weights::Weights;

@@ -6,7 +6,7 @@ use super::{Geometry, Job, Operator, Products, of_bytes, values_of};
 use crate::element::{Byte, Element, Encoding, typed_byte};
 use crate::form::Form;
 use crate::kernel::{
-    self, Blocking, ByteWeights, CHUNK, Chunk, DepthwiseBytes, Outputs, Picture, chunks,
+    self, Blocking, ByteWeights, CHUNK, Chunk, DepthwiseBytes, EXACT, Outputs, Picture, chunks,
 };
 use crate::mask::Mask;
 use foveate_lanes::Level;
@@ -55,6 +55,11 @@ impl IntegerConv {
         let weights = rows.bytes() + sums.bytes();
         let kernels = if geometry.is_depthwise() {
             Kernels::Depthwise(rows)
+        } else if geometry.columns.kernel > EXACT {
+            return Err(format!(
+                "its kernel has {} columns; of 8-bit values at most {EXACT} are supported",
+                geometry.columns.kernel
+            ));
         } else {
             let (depth, of_group) = (geometry.depth(), geometry.channels / geometry.groups);
             let pack = |(rows, zeros)| ByteWeights::new(rows, depth, zeros, Blocking::of(level));

@@ -222,6 +222,12 @@ fn quantized_networks_are_checked() {
             conv(&|model, inputs| inputs[3] = model.typed(data_type::INT8, &[1, 1, 1, 1], &[200])),
             "a weight of 200 is outside of its 8 bits, -128 to 127",
         ),
+        (
+            conv(&|model, inputs| {
+                inputs[3] = model.typed(data_type::INT8, &[2, 1, 1, 257], &[1; 514]);
+            }),
+            "its kernel has 257 columns; of 8-bit values at most 256 are supported",
+        ),
         (conv(&|_, inputs| inputs[3] = inputs[0].clone()), "its w must be constant"),
         (
             conv(&|model, inputs| inputs[4] = model.node("Relu", &["picture"], &[])),
