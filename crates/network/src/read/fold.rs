@@ -5,9 +5,7 @@ use super::constant::{Constant, Values};
 use super::graph::Known;
 use super::node::{NodeReader, from_start, signed};
 use super::quantized;
-
-/// Values of the largest constant that is computed.
-const MAX_FOLDED: usize = 1 << 16;
+use super::rearrange::{MAX_FOLDED, filled, reshaped, sliced, transposed};
 
 /// The output of a node that only computes with constants; `None` if it is not one of those that are known.
 pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
@@ -125,28 +123,10 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
                 if a.len() == length { first.shape.clone() } else { inputs[1].shape.clone() };
             Constant::integers(shape, values.ok_or("its result is no integer of 64 bits")?)
         }
-        "Slice" if first.shape.len() == 1 => {
-            let is_plain = |at: usize, plain: &[i64]| {
-                inputs.get(at).is_none_or(|input| matches!(&input.values, Values::Integers(values) if plain.iter().any(|&value| *values == [value])))
-            };
-            if !is_plain(3, &[0, -1]) || !is_plain(4, &[1]) {
-                return Err(
-                    "a slice of a constant must be along its only axis, in steps of 1".to_owned()
-                );
-            }
-            let bound = |at: usize, what| -> Result<i64, String> {
-                inputs
-                    .get(at)
-                    .and_then(|input| input.as_integers().ok()?.first().copied())
-                    .ok_or_else(|| format!("it has no {what}"))
-            };
-            let length = first.shape[0];
-            let place =
-                |at: i64| usize::try_from(from_start(at, length).max(0)).unwrap_or(0).min(length);
-            let (start, end) = (place(bound(1, "starts")?), place(bound(2, "ends")?));
-            let part = first.as_integers()?.get(start..end).unwrap_or_default().to_vec();
-            Constant::integers(vec![part.len()], part)
-        }
+        "ConstantOfShape" => filled(node, first)?,
+        "Reshape" => reshaped(first, inputs.get(1).ok_or("it has no shape")?)?,
+        "Transpose" => transposed(node, first)?,
+        "Slice" => sliced(first, inputs)?,
         _ => return Ok(None),
     };
     if made.values.count() > MAX_FOLDED {

@@ -8,6 +8,7 @@ mod input;
 mod node;
 mod operators;
 mod quantized;
+mod rearrange;
 mod scales;
 
 use crate::error::NetworkError;

@@ -42,6 +42,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Clip", clip),
     ("Concat", concat),
     ("Constant", |_| Err("its value is of a kind that is not supported".to_owned())),
+    ("ConstantOfShape", |_| Err("it is supported only for constants".to_owned())),
     ("Conv", conv),
     ("ConvInteger", quantized::conv_integer),
     ("DequantizeLinear", quantized::dequantize),

@@ -10,3 +10,4 @@ mod integers;
 mod model;
 mod oracle;
 mod refused;
+mod torch;

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Constants whose values are taken from another one: what exporters write to make the widths of padding from a list.
+
+use super::constant::{Constant, Values};
+use super::node::{NodeReader, from_start, signed};
+use crate::network::MAX_AXES;
+
+/// Values of the largest constant that is computed.
+pub(super) const MAX_FOLDED: usize = 1 << 16;
+
+/// As many times the same value as a shape says.
+pub(super) fn filled(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant, String> {
+    let shape: Option<Vec<usize>> =
+        shape.as_integers()?.iter().map(|&length| usize::try_from(length).ok()).collect();
+    let shape = shape.filter(|shape| shape.len() <= MAX_AXES);
+    let shape = shape.ok_or("its shape has too many axes, or a negative length")?;
+    let value = node.tensor("value")?.unwrap_or_else(|| Constant::floats(vec![1], vec![0.0]));
+    if value.values.count() != 1 {
+        return Err(format!("its value has {} values, not 1", value.values.count()));
+    }
+    pick(&value, shape, |_| 0)
+}
+
+/// The same values in another shape, of which one length may be -1 and those of 0 are as before.
+pub(super) fn reshaped(from: &Constant, shape: &Constant) -> Result<Constant, String> {
+    let wanted = shape.as_integers()?;
+    let wrong = || format!("its input {:?} cannot become {wanted:?}", from.shape);
+    if wanted.len() > MAX_AXES {
+        return Err(wrong());
+    }
+    let length = |(axis, &length): (usize, &i64)| match length {
+        -1 => Some(1),
+        0 => from.shape.get(axis).copied(),
+        length => usize::try_from(length).ok(),
+    };
+    let shape: Option<Vec<usize>> = wanted.iter().enumerate().map(length).collect();
+    let mut shape = shape.ok_or_else(wrong)?;
+    if let Some(open) = wanted.iter().position(|&length| length == -1) {
+        let known = shape.iter().try_fold(1usize, |known, &length| known.checked_mul(length));
+        shape[open] =
+            from.values.count().checked_div(known.ok_or_else(wrong)?).ok_or_else(wrong)?;
+    }
+    if shape.iter().try_fold(1usize, |all, &length| all.checked_mul(length))
+        != Some(from.values.count())
+    {
+        return Err(wrong());
+    }
+    Ok(Constant { shape, ..from.clone() })
+}
+
+/// Other axes first; without `perm`, the last.
+pub(super) fn transposed(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
+    let axes = from.shape.len();
+    let order: Vec<usize> = match node.ints("perm") {
+        None => (0..axes).rev().collect(),
+        Some(perm) => perm.iter().filter_map(|&axis| usize::try_from(axis).ok()).collect(),
+    };
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    if sorted != (0..axes).collect::<Vec<_>>() {
+        return Err(format!("its perm does not name each of {axes} axes once"));
+    }
+    let shape = order.iter().map(|&axis| from.shape[axis]).collect();
+    pick(from, shape, |place| {
+        (0..axes).map(|axis| place[position(&order, axis)] * stride(&from.shape, axis)).sum()
+    })
+}
+
+/// A part along some axes, in steps that may be negative.
+pub(super) fn sliced(from: &Constant, inputs: &[&Constant]) -> Result<Constant, String> {
+    let list = |at: usize| inputs.get(at).map(|input| input.as_integers()).transpose();
+    let starts = list(1)?.ok_or("it has no starts")?;
+    let ends = list(2)?.ok_or("it has no ends")?;
+    let every: Vec<i64> = (0..signed(starts.len())).collect();
+    let axes = list(3)?.unwrap_or(&every);
+    let ones = vec![1; starts.len()];
+    let steps = list(4)?.unwrap_or(&ones);
+    if [ends.len(), axes.len(), steps.len()].iter().any(|&length| length != starts.len()) {
+        return Err("its starts, ends, axes and steps are not as many".to_owned());
+    }
+    let (mut shape, mut first) = (from.shape.clone(), vec![0; from.shape.len()]);
+    let mut step = vec![1; from.shape.len()];
+    for (at, &axis) in axes.iter().enumerate() {
+        let axis = usize::try_from(from_start(axis, shape.len()))
+            .ok()
+            .filter(|&axis| axis < from.shape.len())
+            .ok_or_else(|| format!("its axis {axis} is outside of {:?}", from.shape))?;
+        let length = signed(from.shape[axis]);
+        // As the standard has it: backwards, an end of -1 is in front of the first.
+        let (low, high) = if steps[at] < 0 { (-1, length - 1) } else { (0, length) };
+        let start = from_start(starts[at], from.shape[axis]).clamp(low.max(0), high.max(0));
+        let end = from_start(ends[at], from.shape[axis]).clamp(low, high);
+        let count = match steps[at] {
+            0 => return Err("its step is 0".to_owned()),
+            step if step > 0 => {
+                (end - start).max(0).div_euclid(step) + i64::from((end - start).max(0) % step != 0)
+            }
+            step => {
+                let (way, step) = ((start - end).max(0), step.saturating_neg());
+                way / step + i64::from(way % step != 0)
+            }
+        };
+        shape[axis] = usize::try_from(count).expect("not negative");
+        (first[axis], step[axis]) = (start, steps[at]);
+    }
+    pick(from, shape, |place| {
+        let along = |axis: usize| {
+            let at = first[axis] + signed(place[axis]) * step[axis];
+            usize::try_from(at).expect("inside") * stride(&from.shape, axis)
+        };
+        (0..place.len()).map(along).sum()
+    })
+}
+
+/// Where an axis is in an order of all.
+fn position(order: &[usize], axis: usize) -> usize {
+    order.iter().position(|&own| own == axis).expect("every axis is named")
+}
+
+/// Values from one place of an axis to the next.
+fn stride(shape: &[usize], axis: usize) -> usize {
+    shape[axis + 1..].iter().product()
+}
+
+/// A constant whose value at each place is another's value, of which `from` gives the number.
+fn pick(
+    of: &Constant,
+    shape: Vec<usize>,
+    from: impl Fn(&[usize]) -> usize,
+) -> Result<Constant, String> {
+    let count = shape.iter().try_fold(1usize, |count, &length| count.checked_mul(length));
+    let count = count
+        .filter(|&count| count <= MAX_FOLDED)
+        .ok_or_else(|| format!("it makes a constant of more than {MAX_FOLDED} values"))?;
+    let place = |at: usize| -> Vec<usize> {
+        (0..shape.len()).map(|axis| at / stride(&shape, axis) % shape[axis]).collect()
+    };
+    let numbers = (0..count).map(|at| from(&place(at)));
+    let values = match &of.values {
+        Values::Floats(values) => Values::Floats(numbers.map(|at| values[at]).collect()),
+        Values::Integers(values) => Values::Integers(numbers.map(|at| values[at]).collect()),
+    };
+    Ok(Constant { shape, values, element: of.element })
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Small networks against torch, and so against onnxruntime: `scripts/golden_networks.py`, which has made the files, has compared the two.
+
+use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
+use std::path::Path;
+
+/// Of the largest output. Sums run in another order, and there are two ways to compute an exponential.
+const TOLERANCE: f32 = 4e-6;
+
+/// Name, width and height of each.
+const NETWORKS: [(&str, usize, usize); 8] = [
+    ("activations", 9, 7),
+    ("convolutions", 19, 13),
+    ("inverted", 18, 21),
+    ("lenet", 20, 20),
+    ("pools", 14, 11),
+    ("residual", 37, 30),
+    ("resizes", 7, 5),
+    ("shapes", 10, 9),
+];
+
+fn values(path: &Path) -> Vec<f32> {
+    let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    bytes.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
+}
+
+#[test]
+fn outputs_are_those_of_torch() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/network/golden");
+    for (name, width, height) in NETWORKS {
+        let path = folder.join(format!("{name}.onnx"));
+        let network = Network::read(&path, FrameSize { width, height }).unwrap();
+        let mut executor = Executor::new(&network, Mode::Dense);
+        executor.step(&values(&path.with_extension("input")), &Mask::full(height, width));
+        let found: Vec<f32> = network
+            .outputs()
+            .iter()
+            .flat_map(|&output| executor.value(output).reals().into_owned())
+            .collect();
+        let wanted = values(&path.with_extension("output"));
+        assert_eq!(found.len(), wanted.len(), "{name}");
+        let largest = wanted.iter().fold(0.0f32, |largest, value| largest.max(value.abs()));
+        for (at, (found, wanted)) in found.iter().zip(&wanted).enumerate() {
+            assert!(
+                (found - wanted).abs() <= TOLERANCE * largest,
+                "{name}, value {at}: {found} instead of {wanted}"
+            );
+        }
+    }
+}
