@@ -7,7 +7,8 @@ use crate::device::{Device, Share};
 use crate::paper::{PAPER_RCM, PAPER_RPU};
 use crate::render::{heading, ramb36};
 use crate::report::Report;
-use crate::table::{Table, grouped, wrap};
+use crate::table::{Table, wrap};
+use foveate_page::number::grouped;
 
 /// Clocks per frame of the paper's array.
 const PAPER_CYCLES: u64 = 64;

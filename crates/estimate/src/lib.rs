@@ -34,4 +34,3 @@ pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRo
 pub use render::{ramb36, render_markdown, render_text};
 pub use report::{FORMAT_VERSION, LeafArea, Paths, Report, ToolRecord};
 pub use synthesis::sources;
-pub use table::grouped;

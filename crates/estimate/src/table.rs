@@ -137,26 +137,9 @@ pub(crate) fn wrap(sentence: &str, width: usize) -> String {
     text
 }
 
-/// A number with commas between thousands.
-#[must_use]
-pub fn grouped(value: u64) -> String {
-    let digits = value.to_string();
-    let (first, rest) = digits.split_at((digits.len() - 1) % 3 + 1);
-    let thousands = rest.as_bytes().chunks(3).map(String::from_utf8_lossy);
-    thousands.fold(first.to_owned(), |text, group| text + "," + &group)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn thousands_are_grouped() {
-        assert_eq!(
-            [0, 12, 999, 1000, 143_472, 1_182_240].map(grouped).join(" "),
-            "0 12 999 1,000 143,472 1,182,240"
-        );
-    }
 
     #[test]
     fn columns_are_aligned_and_names_cut() {

@@ -10,6 +10,7 @@ use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
 use foveate_footage::FootageError;
 use foveate_ideal::IdealError;
+use foveate_page::PageError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -121,11 +122,8 @@ pub enum ExploreError {
     #[error(transparent)]
     Output(#[from] StagingError),
     /// The page cannot be written; this is a mistake of the program.
-    #[error("cannot write the page: {problem}")]
-    Page {
-        /// What is wrong.
-        problem: String,
-    },
+    #[error(transparent)]
+    Page(#[from] PageError),
     /// The user stopped it; what was finished is kept.
     #[error("interrupted")]
     Cancelled,

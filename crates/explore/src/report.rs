@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One page that shows an exploration: no script is needed to read it and nothing is loaded.
 
-mod axis;
 mod card;
 mod colour;
-mod number;
-mod plot;
 mod scatter;
 mod setting;
 mod summary;
@@ -20,50 +17,61 @@ pub(crate) mod sample;
 mod tests;
 
 use askama::Template;
-use foveate_palette::{DARK, LIGHT};
+use foveate_page::{COLOURS, Notice, Page, PageError, Plot, Row as Line, Table, Target, number};
 
 use crate::{Exploration, ExploreError, Refused, Row};
 use card::Card;
 use colour::Grouping;
-use plot::Plot;
 use setting::Settings;
-use summary::Fact;
-use table::{Column, Line};
 
 /// Points that a page shows; with more it would be too large to open.
 const POINTS: usize = 2000;
 /// Refused combinations that it shows.
 const REFUSED: usize = 500;
+/// Where the figures of a mark lead to.
+const TARGETS: [Target; 2] =
+    [Target { prefix: "p", name: "its row" }, Target { prefix: "c", name: "its configuration" }];
+/// What stands at the end.
+const FOOTER: &str = "Everything here is also in the files beside this page: <code>points.csv</code>, \
+    <code>points.parquet</code>, <code>pareto.csv</code>, <code>clips.csv</code>, \
+    <code>exploration.json</code> and a configuration of every point in \
+    <code>designs</code>.";
 
+/// What was explored, below the figures of the heading.
 #[derive(Template)]
-#[template(path = "report.html")]
-struct Page<'a> {
-    program: &'a str,
-    /// Colours as variables, on a light ground and on a dark one.
-    light: String,
-    dark: String,
-    /// How many colours can be told apart.
-    colours: usize,
-    title: String,
-    problems: &'a [String],
-    facts: Vec<Fact>,
+#[template(path = "about.html")]
+struct About<'a> {
     clips: &'a [crate::ClipRow],
     clip_names: String,
     camera: String,
     ideal: &'a str,
     findings: Vec<String>,
+    refused: &'a [Refused],
+}
+
+/// The sections.
+#[derive(Template)]
+#[template(path = "main.html")]
+struct Main<'a> {
     groupings: Vec<Grouping>,
     plots: Vec<Plot>,
     areas: bool,
-    columns: Vec<Column>,
-    pareto: Vec<&'a Line>,
-    lines: &'a [Line],
+    front: Table<'a>,
+    points: Table<'a>,
     cards: Vec<Card>,
     /// Points that are not shown.
     hidden: usize,
     refused: &'a [Refused],
     /// Refused combinations that are not shown.
     hidden_refused: usize,
+}
+
+/// The script that colours points by another axis.
+#[derive(Template)]
+#[template(path = "colours.js", escape = "none")]
+struct Colours {
+    /// How many can be told apart.
+    colours: usize,
 }
 
 /// The page.
@@ -75,33 +83,53 @@ pub(crate) fn page(exploration: &Exploration) -> Result<String, ExploreError> {
     let titles: Vec<String> = rows.iter().map(|row| card::title(row, &settings)).collect();
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
+    let columns = table::columns(&settings, areas);
     let lines: Vec<Line> = rows.iter().map(|row| table::line(row, &settings, areas)).collect();
+    let table = |prefix, tall, rows| Table {
+        prefix,
+        number: "number of the point",
+        link: "all of it, with its configuration",
+        tall,
+        marks_best: tall,
+        columns: &columns,
+        rows,
+    };
     let refused = exploration.refused.get(..REFUSED).unwrap_or(&exploration.refused);
-    let page = Page {
-        program: &exploration.program,
-        light: colour::variables(&LIGHT),
-        dark: colour::variables(&DARK),
-        colours: colour::COLOURS,
-        title: summary::title(exploration),
-        problems: &exploration.problems,
-        facts: summary::facts(exploration),
+    let about = About {
         clips: &exploration.clips,
         clip_names: summary::clips(exploration),
         camera: setting::camera(&exploration.ideal),
         ideal: exploration.ideal.trim_end(),
         findings: summary::findings(&exploration.rows, &settings),
+        refused,
+    };
+    let main = Main {
         groupings,
         plots,
         areas,
-        columns: table::columns(&settings, areas),
-        pareto: lines.iter().filter(|line| line.front).collect(),
-        lines: &lines,
+        front: table("f", false, lines.iter().filter(|line| line.best).collect()),
+        points: table("p", true, lines.iter().collect()),
         cards: rows.iter().map(|row| Card::new(row, &settings)).collect(),
         hidden: exploration.rows.len() - rows.len(),
         refused,
         hidden_refused: exploration.refused.len() - refused.len(),
     };
-    page.render().map_err(|error| ExploreError::Page { problem: error.to_string() })
+    let title = summary::title(exploration);
+    let failed =
+        |error: askama::Error| PageError { page: title.clone(), problem: error.to_string() };
+    let page = Page {
+        kind: "Exploration",
+        program: &exploration.program,
+        title: &title,
+        notices: &[Notice { title: "Not complete", lines: &exploration.problems }],
+        facts: &summary::facts(exploration),
+        about: &about.render().map_err(failed)?,
+        main: &main.render().map_err(failed)?,
+        footer: FOOTER,
+        targets: &TARGETS,
+        script: &Colours { colours: COLOURS }.render().map_err(failed)?,
+    };
+    Ok(page.render()?)
 }
 
 /// All rows; of too many those of the fronts and an even sample of the others.

@@ -4,7 +4,8 @@
 use crate::area::Area;
 use crate::paper::BesidePaper;
 use crate::report::Report;
-use crate::table::{Table, grouped, header};
+use crate::table::{Table, header};
+use foveate_page::number::grouped;
 
 pub(super) fn paper_table(report: &Report) -> Table {
     let mut rows = paper_rows("RPU", &report.unit, &report.rpu, &report.paper.rpu);

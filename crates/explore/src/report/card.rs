@@ -2,8 +2,8 @@
 //! A point with all that is known of it.
 
 use foveate_estimate::ramb36;
+use foveate_page::number::{grouped, percent, real};
 
-use super::number::{grouped, percent, real};
 use super::setting::Settings;
 use super::table::decibels;
 use crate::Row;

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Colours of the page, those of the palette, and of points: one grouping for each axis, of which the page
-//! shows one at a time.
+//! Colours of points: one grouping for each axis, of which the page shows one at a time.
 
-use std::fmt::Write as _;
-
-use foveate_palette::{Colour, SERIES, Style};
+use foveate_page::{COLOURS, look};
 
 use super::setting::{Settings, set};
 use crate::Row;
 
-/// Colours of the page that can be told apart; after them the same with square marks.
-pub(crate) const COLOURS: usize = SERIES.len();
 /// Groups that can be told apart; the rest is grey.
 const GROUPS: usize = 2 * COLOURS;
 
@@ -34,29 +29,6 @@ pub(crate) struct Group {
     pub(crate) class: String,
     /// Shape of the marks.
     pub(crate) shape: &'static str,
-}
-
-/// The colours of a style as variables of the page: `--k0` and on are those of the series.
-pub(crate) fn variables(style: &Style) -> String {
-    let mut text = String::new();
-    let mut say = |name: &str, [red, green, blue]: Colour| {
-        let _ = write!(text, "--{name}:#{red:02x}{green:02x}{blue:02x};");
-    };
-    say("card", style.ground);
-    say("ink", style.ink);
-    say("quiet", style.quiet);
-    say("grid", style.grid);
-    for (number, colour) in style.series.into_iter().chain([style.rest]).enumerate() {
-        say(&format!("k{number}"), colour);
-    }
-    text
-}
-
-/// The class of a group's colour and the shape of its marks.
-pub(crate) fn look(group: usize) -> (String, &'static str) {
-    let shape = if (COLOURS..GROUPS).contains(&group) { "box" } else { "dot" };
-    let class = if group < GROUPS { group % COLOURS } else { COLOURS };
-    (format!("k{class}"), shape)
 }
 
 /// Every grouping of the rows; the one to start with has the most groups that can be told apart. Where
@@ -122,13 +94,6 @@ impl Grouping {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_page_has_the_colours_of_the_palette() {
-        let dark = variables(&foveate_palette::DARK);
-        assert!(dark.starts_with("--card:#1b1e21;--ink:#e6e4df;"), "{dark}");
-        assert!(dark.contains("--k4:#009e73;--k5:#e69f00;--k6:#56b4e9;--k7:#"), "{dark}");
-    }
 
     #[test]
     fn groups_are_in_order_and_the_rest_is_grey() {

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::axis::Axis;
+use foveate_page::{Axis, Field, Line, Mark, Plot, look, staircase, text};
+
 use super::colour::Grouping;
-use super::plot::{Field, Line, Mark, Plot, staircase, text};
 use crate::objective::{Better, Objective, unbeaten};
 use crate::{Exploration, Row};
 
@@ -130,9 +130,9 @@ fn mark(
     let group = |grouping: &Grouping| grouping.of_row[index];
     let groups: Vec<String> = groupings.iter().map(|one| group(one).to_string()).collect();
     let chosen = groupings.iter().find(|grouping| grouping.chosen);
-    let (class, shape) = super::colour::look(chosen.map_or(0, group));
+    let (class, shape) = look(chosen.map_or(0, group));
     Mark {
-        number: row.number,
+        id: row.number.to_string(),
         x: text(x),
         y: text(y),
         front,
@@ -147,28 +147,29 @@ fn mark(
 /// Marks of one place name each other, and those that look different become rings around each other.
 pub(crate) fn stack(marks: &mut [Mark]) {
     let place = |mark: &Mark| (mark.x.clone(), mark.y.clone());
-    let look = |mark: &Mark| (mark.class.clone(), mark.shape);
+    let drawn = |mark: &Mark| (mark.class.clone(), mark.shape);
     // The numbers of a place, and its looks from above.
-    let mut at: BTreeMap<_, (Vec<usize>, Vec<_>)> = BTreeMap::new();
+    let mut at: BTreeMap<_, (Vec<String>, Vec<_>)> = BTreeMap::new();
     for mark in marks.iter().rev() {
         let (numbers, looks) = at.entry(place(mark)).or_default();
-        numbers.push(mark.number);
-        if !looks.contains(&look(mark)) {
-            looks.push(look(mark));
+        numbers.push(mark.id.clone());
+        if !looks.contains(&drawn(mark)) {
+            looks.push(drawn(mark));
         }
     }
     for mark in marks {
         let Some((numbers, looks)) = at.get(&place(mark)) else { continue };
-        let mut others: Vec<usize> = numbers.clone();
-        others.retain(|number| *number != mark.number);
-        others.sort_unstable();
+        let mut others: Vec<String> = numbers.clone();
+        others.retain(|number| *number != mark.id);
+        // As numbers: they have no zeros before them.
+        others.sort_unstable_by_key(|number| (number.len(), number.clone()));
         if others.is_empty() {
             continue;
         }
-        let named: Vec<String> = others.iter().take(12).map(usize::to_string).collect();
+        let named = &others[..others.len().min(12)];
         let more = if others.len() > named.len() { " and more" } else { "" };
         mark.title += &format!("\nat the same place: {}{more}", named.join(", "));
-        let above = looks.iter().position(|other| *other == look(mark));
+        let above = looks.iter().position(|other| *other == drawn(mark));
         let above = above.expect("every mark was looked at");
         let above = u8::try_from(above).unwrap_or(u8::MAX);
         mark.scale = (above > 0).then(|| text(1.0 + f64::from(above) / 2.0));

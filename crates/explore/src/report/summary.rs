@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What was explored and what came out, in a few lines.
 
-use super::number::{grouped, percent, real, things};
+use foveate_page::Fact;
+use foveate_page::number::{grouped, percent, real, things};
+
 use super::setting::Settings;
 use crate::{Exploration, Row};
-
-/// A figure of the heading.
-pub(crate) struct Fact {
-    pub(crate) name: &'static str,
-    pub(crate) value: String,
-    /// Smaller, beneath it.
-    pub(crate) note: String,
-}
 
 /// What the page is called.
 pub(crate) fn title(exploration: &Exploration) -> String {

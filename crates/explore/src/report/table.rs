@@ -2,37 +2,12 @@
 //! Points as rows of a table.
 
 use foveate_estimate::ramb36;
+use foveate_page::number::real;
+use foveate_page::{Cell, Column, Row as Line};
 
-use super::number::{NONE, grouped, percent, real};
 use super::setting::{Settings, set};
 use crate::row::real as number;
 use crate::{Row, Silicon};
-
-/// A heading.
-pub(crate) struct Column {
-    pub(crate) name: String,
-    pub(crate) unit: &'static str,
-    /// Said in full.
-    pub(crate) title: String,
-    /// Whether it holds numbers.
-    pub(crate) numbers: bool,
-}
-
-/// A value.
-pub(crate) struct Cell {
-    pub(crate) text: String,
-    /// What it is sorted by.
-    pub(crate) sort: String,
-    /// Class of the cell.
-    pub(crate) class: &'static str,
-}
-
-/// A row.
-pub(crate) struct Line {
-    pub(crate) number: usize,
-    pub(crate) front: bool,
-    pub(crate) cells: Vec<Cell>,
-}
 
 /// Name, unit and meaning of every figure, as the table has them.
 const FIGURES: [(&str, &str, &str); 8] = [
@@ -87,7 +62,7 @@ pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
     let figures = &row.figures;
     let setting = |text: String, set: bool| {
         let class = if set { "" } else { "start" };
-        Cell { sort: text.clone(), text, class }
+        Cell { class, ..Cell::words(text) }
     };
     let is_set = |axis: usize| row.settings.get(axis).is_some_and(|text| !text.is_empty());
     let mut cells: Vec<Cell> = if settings.one_at_a_time {
@@ -96,23 +71,21 @@ pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
         let axes = 0..settings.names.len();
         axes.map(|axis| setting(settings.value(row, axis), is_set(axis))).collect()
     };
-    let share = |value: f64| cell(percent(value), Some(value));
-    let count = |value: u64| cell(grouped(value), Some(number(value)));
     cells.extend([
-        share(figures.action_flips),
-        share(figures.missed),
-        share(figures.false_alarms),
-        cell(real(figures.active_iou, 4), Some(figures.active_iou)),
+        Cell::share(figures.action_flips),
+        Cell::share(figures.missed),
+        Cell::share(figures.false_alarms),
+        Cell::number(real(figures.active_iou, 4), Some(figures.active_iou)),
         decibels(figures.psnr_ideal),
-        cell(real(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
-        cell(real(figures.staleness.mean, 2), Some(figures.staleness.mean)),
-        cell(real(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
-        count(row.frames_per_second),
+        Cell::number(real(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
+        Cell::number(real(figures.staleness.mean, 2), Some(figures.staleness.mean)),
+        Cell::number(real(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
+        Cell::count(row.frames_per_second),
     ]);
     if area {
         let of = |take: fn(&Silicon) -> u64| match &row.silicon {
-            Some(silicon) => count(take(silicon)),
-            None => cell(NONE.to_owned(), None),
+            Some(silicon) => Cell::count(take(silicon)),
+            None => Cell::none(),
         };
         cells.extend([
             of(|silicon| silicon.unit.lut_total_packed),
@@ -121,25 +94,19 @@ pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
             of(|silicon| silicon.array.lut_memory_packed),
             match &row.silicon {
                 Some(Silicon { array, .. }) => {
-                    cell(ramb36(array.bram18), Some(number(array.bram18)))
+                    Cell::number(ramb36(array.bram18), Some(number(array.bram18)))
                 }
-                None => cell(NONE.to_owned(), None),
+                None => Cell::none(),
             },
         ]);
     }
-    Line { number: row.number, front: row.front.all, cells }
-}
-
-/// A number, or none, which is sorted last.
-fn cell(text: String, value: Option<f64>) -> Cell {
-    let sort = value.filter(|value| value.is_finite()).map(|value| value.to_string());
-    Cell { text, sort: sort.unwrap_or_default(), class: "number" }
+    Line { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
 }
 
 /// Equal pictures have no PSNR and are the best.
 pub(crate) fn decibels(psnr: Option<f64>) -> Cell {
     match psnr {
-        Some(psnr) => cell(real(psnr, 1), Some(psnr)),
+        Some(psnr) => Cell::number(real(psnr, 1), Some(psnr)),
         None => Cell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" },
     }
 }

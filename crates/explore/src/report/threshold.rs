@@ -3,10 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::axis::Axis;
-use super::colour::look;
-use super::number::percent;
-use super::plot::{Field, Line, Mark, Plot, text, through};
+use foveate_page::number::percent;
+use foveate_page::{Axis, Field, Line, Mark, Plot, look, text, through};
+
 use super::scatter::stack;
 use super::setting::{Settings, set};
 use crate::Row;
@@ -79,7 +78,7 @@ fn plot(settings: &Settings, rows: &[&Row], titles: &[String], axis: usize) -> O
             let Some(place) = field.place(*x, active(row)) else { continue };
             places.push(place);
             plot.marks.push(Mark {
-                number: row.number,
+                id: row.number.to_string(),
                 x: text(place.0),
                 y: text(place.1),
                 front: false,

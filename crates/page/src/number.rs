@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Numbers as people read them.
 
-pub(crate) use foveate_estimate::grouped;
-
 /// What stands where there is no number.
-pub(crate) const NONE: &str = "–";
+pub const NONE: &str = "–";
+
+/// A number with commas between thousands.
+#[must_use]
+pub fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let (first, rest) = digits.split_at((digits.len() - 1) % 3 + 1);
+    let thousands = rest.as_bytes().chunks(3).map(String::from_utf8_lossy);
+    thousands.fold(first.to_owned(), |text, group| text + "," + &group)
+}
 
 /// A share in percent, without the sign: more digits where it is small.
-pub(crate) fn percent(share: f64) -> String {
+#[must_use]
+pub fn percent(share: f64) -> String {
     let value = share * 100.0;
     match value.abs() {
         _ if !value.is_finite() => NONE.to_owned(),
@@ -20,7 +28,8 @@ pub(crate) fn percent(share: f64) -> String {
 }
 
 /// A number with some digits after the point; whole with its thousands apart where it is large.
-pub(crate) fn real(value: f64, digits: usize) -> String {
+#[must_use]
+pub fn real(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return NONE.to_owned();
     }
@@ -32,7 +41,8 @@ pub(crate) fn real(value: f64, digits: usize) -> String {
 }
 
 /// The number at a tick: short, with k, M or G.
-pub(crate) fn tick(value: f64) -> String {
+#[must_use]
+pub fn tick(value: f64) -> String {
     let size = value.abs();
     let (value, unit) = match size {
         _ if size >= 1e9 => (value / 1e9, " G"),
@@ -46,7 +56,8 @@ pub(crate) fn tick(value: f64) -> String {
 }
 
 /// A number of things: `1 clip`, `2 clips`.
-pub(crate) fn things(count: usize, one: &str) -> String {
+#[must_use]
+pub fn things(count: usize, one: &str) -> String {
     format!("{} {one}{}", grouped(count as u64), if count == 1 { "" } else { "s" })
 }
 
@@ -58,7 +69,10 @@ mod tests {
     fn numbers_have_the_digits_that_matter() {
         let shares = [0.0, 1e-8, 0.000_05, 0.003_1, 0.0999, 0.5, 1.0, f64::NAN].map(percent);
         assert_eq!(shares, ["0", "<0.001", "0.005", "0.310", "9.99", "50.0", "100.0", "–"]);
-        assert_eq!([0, 999, 1000, 1_234_567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
+        assert_eq!(
+            [0, 12, 999, 1000, 143_472, 1_182_240].map(grouped).join(" "),
+            "0 12 999 1,000 143,472 1,182,240"
+        );
         assert_eq!(
             [0.25, 37.04, 12_345.6, -4e3].map(|value| real(value, 1)),
             ["0.2", "37.0", "12,346", "-4,000"]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The axis of a plot: from numbers to places, and its ticks.
 
-use super::number::tick;
+use crate::number::tick;
 
 /// From this ratio of the largest to the smallest on, an axis of costs is logarithmic.
 const WIDE: f64 = 5.0;
@@ -14,7 +14,7 @@ const AT_ZERO: f64 = 0.5;
 
 /// An axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Axis {
+pub struct Axis {
     low: f64,
     high: f64,
     kind: Kind,
@@ -37,7 +37,8 @@ pub(crate) struct Tick {
 
 impl Axis {
     /// For what may start anywhere; logarithmic where the range is wide.
-    pub(crate) fn free(values: impl Iterator<Item = f64>) -> Self {
+    #[must_use]
+    pub fn free(values: impl Iterator<Item = f64>) -> Self {
         let Some((low, high)) = range(values) else {
             return Self { low: 0.0, high: 1.0, kind: Kind::Linear };
         };
@@ -54,7 +55,8 @@ impl Axis {
     }
 
     /// For errors, which are best at zero; logarithmic above a small one where the range is wide.
-    pub(crate) fn from_zero(values: impl Iterator<Item = f64>) -> Self {
+    #[must_use]
+    pub fn from_zero(values: impl Iterator<Item = f64>) -> Self {
         let mut zero = false;
         let positive = values.filter(|&value| {
             zero |= value == 0.0;
@@ -76,13 +78,26 @@ impl Axis {
         Self { low: 0.0, high: nice(high, true), kind: Kind::Zero(small) }
     }
 
+    /// For shares and what is compared with all of it: from zero, never logarithmic.
+    #[must_use]
+    pub fn even(values: impl Iterator<Item = f64>) -> Self {
+        let high = range(values).map_or(0.0, |(_, high)| high);
+        if high <= 0.0 {
+            return Self { low: 0.0, high: 1.0, kind: Kind::Linear };
+        }
+        let step = step(high);
+        Self { low: 0.0, high: (high / step).ceil() * step, kind: Kind::Linear }
+    }
+
     /// Whether distances are ratios.
-    pub(crate) fn logarithmic(&self) -> bool {
+    #[must_use]
+    pub fn logarithmic(&self) -> bool {
         self.kind != Kind::Linear
     }
 
     /// Where a number is: 0 at the low end, 1 at the high one. None for what is no number here.
-    pub(crate) fn place(&self, value: f64) -> Option<f64> {
+    #[must_use]
+    pub fn place(&self, value: f64) -> Option<f64> {
         let (low, high) = (self.stretched(self.low), self.stretched(self.high));
         let place = (self.stretched(value) - low) / (high - low);
         place.is_finite().then(|| place.clamp(0.0, 1.0))
@@ -196,9 +211,8 @@ mod tests {
             &[0.0, 1e-12],
         ];
         for values in kinds {
-            for axis in
-                [Axis::free(values.iter().copied()), Axis::from_zero(values.iter().copied())]
-            {
+            let all = || values.iter().copied();
+            for axis in [Axis::free(all()), Axis::from_zero(all()), Axis::even(all())] {
                 let ticks = axis.ticks();
                 assert!(
                     ticks.iter().all(|tick| (0.0..=1.0).contains(&tick.at)),
@@ -208,6 +222,10 @@ mod tests {
                 assert!(places.into_iter().all(|place| (0.0..=1.0).contains(&place)), "{values:?}");
             }
         }
+        assert_eq!(
+            labels(Axis::even([0.02, 100.0].into_iter())),
+            ["0", "20", "40", "60", "80", "100"]
+        );
         let errors = Axis::from_zero([0.0, 0.001, 50.0].into_iter());
         assert_eq!(errors.place(0.0), Some(0.0));
         assert!(errors.place(0.001) > errors.place(0.0));

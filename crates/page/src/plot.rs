@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Plots as the template draws them: every place is a number of the picture.
 
-use super::axis::{Axis, Tick};
+use askama::Template;
+
+use crate::axis::{Axis, Tick};
 
 /// The frame inside a picture of 560 by 380; the template has the same numbers.
 const LEFT: f64 = 78.0;
@@ -12,92 +14,119 @@ const BOTTOM: f64 = 316.0;
 const INSIDE: f64 = 12.0;
 
 /// One plot.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Plot {
-    pub(crate) id: String,
-    pub(crate) title: String,
+#[derive(Clone, Debug, Default, Template)]
+#[template(path = "plot.html")]
+pub struct Plot {
+    /// What the page calls it.
+    pub id: String,
+    /// Above it.
+    pub title: String,
     /// A sentence about it.
-    pub(crate) note: String,
-    pub(crate) x_title: String,
-    pub(crate) y_title: String,
-    pub(crate) x_ticks: Vec<At>,
-    pub(crate) y_ticks: Vec<At>,
+    pub note: String,
+    /// Below the horizontal axis.
+    pub x_title: String,
+    /// Beside the other.
+    pub y_title: String,
+    /// Along the horizontal axis.
+    pub x_ticks: Vec<At>,
+    /// Along the other.
+    pub y_ticks: Vec<At>,
     /// Lines across, dashed: what to compare with.
-    pub(crate) rules: Vec<At>,
+    pub rules: Vec<At>,
     /// Lines upwards, dashed.
-    pub(crate) posts: Vec<At>,
-    pub(crate) lines: Vec<Line>,
-    pub(crate) marks: Vec<Mark>,
+    pub posts: Vec<At>,
+    /// Lines through marks.
+    pub lines: Vec<Line>,
+    /// What was measured.
+    pub marks: Vec<Mark>,
     /// Whether colours are those of the chosen axis; otherwise those of the lines.
-    pub(crate) by_axis: bool,
+    pub by_axis: bool,
 }
 
 /// A place along an axis.
 #[derive(Clone, Debug)]
-pub(crate) struct At {
-    pub(crate) at: String,
-    pub(crate) label: String,
+pub struct At {
+    /// The place, a number of the picture.
+    pub at: String,
+    /// What is there.
+    pub label: String,
 }
 
 /// A line.
 #[derive(Clone, Debug)]
-pub(crate) struct Line {
-    pub(crate) path: String,
-    pub(crate) class: String,
+pub struct Line {
+    /// As SVG has it.
+    pub path: String,
+    /// Class of its colour.
+    pub class: String,
     /// Shape of its marks.
-    pub(crate) shape: &'static str,
+    pub shape: &'static str,
     /// What it is; empty for a front.
-    pub(crate) label: String,
+    pub label: String,
 }
 
-/// A point of the exploration.
+/// Something that was measured, at its place.
 #[derive(Clone, Debug)]
-pub(crate) struct Mark {
-    pub(crate) number: usize,
-    pub(crate) x: String,
-    pub(crate) y: String,
-    pub(crate) front: bool,
+pub struct Mark {
+    /// What the page calls it; marks of one id are shown together, and lead to the row of that id.
+    pub id: String,
+    /// Its place, a number of the picture.
+    pub x: String,
+    /// Its place upwards.
+    pub y: String,
+    /// Whether it is large.
+    pub front: bool,
     /// How much larger it is, so that marks of one place are rings around each other.
-    pub(crate) scale: Option<String>,
+    pub scale: Option<String>,
     /// Class of its colour.
-    pub(crate) class: String,
+    pub class: String,
     /// `dot` or `box`.
-    pub(crate) shape: &'static str,
+    pub shape: &'static str,
     /// Its group for every axis.
-    pub(crate) groups: String,
-    pub(crate) title: String,
+    pub groups: String,
+    /// Its figures.
+    pub title: String,
 }
 
 /// Where numbers are.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Field {
-    pub(crate) x: Axis,
-    pub(crate) y: Axis,
+pub struct Field {
+    /// To the right.
+    pub x: Axis,
+    /// Upwards.
+    pub y: Axis,
 }
 
 impl Field {
     /// Where a point is; none for what is no number.
-    pub(crate) fn place(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+    #[must_use]
+    pub fn place(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         Some((across(self.x.place(x)?), up(self.y.place(y)?)))
     }
 
-    pub(crate) fn x_ticks(&self) -> Vec<At> {
+    /// The ticks to the right.
+    #[must_use]
+    pub fn x_ticks(&self) -> Vec<At> {
         let ticks = self.x.ticks().into_iter();
         spaced(ticks.map(|tick| (across(tick.at), tick)), 46.0)
     }
 
-    pub(crate) fn y_ticks(&self) -> Vec<At> {
+    /// The ticks upwards.
+    #[must_use]
+    pub fn y_ticks(&self) -> Vec<At> {
         let ticks = self.y.ticks().into_iter();
         spaced(ticks.map(|tick| (up(tick.at), tick)), 22.0)
     }
 
     /// A line across at `y`.
-    pub(crate) fn rule(&self, y: f64, label: String) -> Option<At> {
+    #[must_use]
+    pub fn rule(&self, y: f64, label: String) -> Option<At> {
         Some(At { at: text(up(self.y.place(y)?)), label })
     }
 
     /// A line upwards at `x`.
-    pub(crate) fn post(&self, x: f64, label: String) -> Option<At> {
+    #[must_use]
+    pub fn post(&self, x: f64, label: String) -> Option<At> {
         Some(At { at: text(across(self.x.place(x)?)), label })
     }
 }
@@ -111,7 +140,8 @@ fn up(place: f64) -> f64 {
 }
 
 /// A number of the picture.
-pub(crate) fn text(value: f64) -> String {
+#[must_use]
+pub fn text(value: f64) -> String {
     format!("{value:.1}")
 }
 
@@ -129,7 +159,8 @@ fn spaced(ticks: impl Iterator<Item = (f64, Tick)>, least: f64) -> Vec<At> {
 }
 
 /// A line through places.
-pub(crate) fn through(places: &[(f64, f64)]) -> String {
+#[must_use]
+pub fn through(places: &[(f64, f64)]) -> String {
     let steps = places.iter().enumerate().map(|(index, (x, y))| {
         let letter = if index == 0 { 'M' } else { 'L' };
         format!("{letter}{} {}", text(*x), text(*y))
@@ -140,7 +171,8 @@ pub(crate) fn through(places: &[(f64, f64)]) -> String {
 /// The border of what a front beats, through its places: along the cost until the next one is in
 /// reach, then to its error. `left` says that costs are best on the left, `low` that errors are best
 /// below.
-pub(crate) fn staircase(places: &[(f64, f64)], left: bool, low: bool) -> String {
+#[must_use]
+pub fn staircase(places: &[(f64, f64)], left: bool, low: bool) -> String {
     let mut places = places.to_vec();
     places.sort_by(|one, other| one.0.total_cmp(&other.0).then(other.1.total_cmp(&one.1)));
     if !left {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Colours of a page: those of the palette, as variables and as classes of lines and marks.
+
+use std::fmt::Write as _;
+
+use foveate_palette::{Colour, SERIES, Style};
+
+/// Colours that can be told apart; after them come the same with square marks.
+pub const COLOURS: usize = SERIES.len();
+
+/// The class of the colour of a group and the shape of its marks. Beyond twice [`COLOURS`] all are grey.
+#[must_use]
+pub fn look(group: usize) -> (String, &'static str) {
+    let shape = if (COLOURS..2 * COLOURS).contains(&group) { "box" } else { "dot" };
+    let class = if group < 2 * COLOURS { group % COLOURS } else { COLOURS };
+    (format!("k{class}"), shape)
+}
+
+/// The colours of a style as variables: `--k0` and on are those of the series.
+pub(crate) fn variables(style: &Style) -> String {
+    let mut text = String::new();
+    let mut say = |name: &str, [red, green, blue]: Colour| {
+        let _ = write!(text, "--{name}:#{red:02x}{green:02x}{blue:02x};");
+    };
+    say("card", style.ground);
+    say("ink", style.ink);
+    say("quiet", style.quiet);
+    say("grid", style.grid);
+    for (number, colour) in style.series.into_iter().chain([style.rest]).enumerate() {
+        say(&format!("k{number}"), colour);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_has_the_colours_of_the_palette() {
+        let dark = variables(&foveate_palette::DARK);
+        assert!(dark.starts_with("--card:#1b1e21;--ink:#e6e4df;"), "{dark}");
+        assert!(dark.contains("--k4:#009e73;--k5:#e69f00;--k6:#56b4e9;--k7:#"), "{dark}");
+    }
+
+    #[test]
+    fn groups_beyond_those_that_can_be_told_apart_are_grey() {
+        let looks = [0, COLOURS, 2 * COLOURS, 99].map(look);
+        assert_eq!(looks.each_ref().map(|(class, _)| class.as_str()), ["k0", "k0", "k7", "k7"]);
+        assert_eq!(looks.map(|(_, shape)| shape), ["dot", "box", "dot", "dot"]);
+    }
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pages that show results: one file with plots, tables and numbers as people read them. No script is needed to read a page, and nothing is
+//! loaded. Knows nothing of what is shown.
+
+mod axis;
+mod colour;
+mod error;
+pub mod number;
+mod page;
+mod plot;
+mod table;
+
+pub use axis::Axis;
+pub use colour::{COLOURS, look};
+pub use error::PageError;
+pub use page::{Fact, Notice, Page, Target};
+pub use plot::{At, Field, Line, Mark, Plot, staircase, text, through};
+pub use table::{Cell, Column, Row, Table};
