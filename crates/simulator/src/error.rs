@@ -121,6 +121,7 @@ impl SimulatorError {
     pub(crate) fn is_full(&self) -> bool {
         match self {
             Self::Write { source, .. } => is_full(source),
+            Self::Output(error) => error.is_full(),
             Self::VideoOutput { problem, .. } => ["No space left on device", "Disk quota exceeded"]
                 .iter()
                 .any(|p| problem.contains(p)),

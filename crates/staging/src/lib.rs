@@ -8,10 +8,12 @@
 mod error;
 mod file;
 mod folder;
+mod growing;
 mod list;
 mod reserve;
 
 pub use error::StagingError;
 pub use file::{check_file, write_file};
 pub use folder::{Kind, StagedFolder};
+pub use growing::GrowingFile;
 pub use reserve::Reserve;

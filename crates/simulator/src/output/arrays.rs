@@ -6,9 +6,9 @@ use std::path::Path;
 
 use foveate_design::Design;
 
-use super::npy::{Element, NpyWriter};
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
+use foveate_npy::{Element, NpyWriter};
 
 /// Every array, open.
 pub(super) struct Arrays {
@@ -21,9 +21,9 @@ pub(super) struct Arrays {
 
 impl Arrays {
     pub(super) fn create(folder: &Path, design: &Design) -> Result<Self, SimulatorError> {
-        let (rows, columns) = (design.rows(), design.columns());
+        let shape = [design.rows() as usize, design.columns() as usize];
         let array = |name: &str, max: u64| {
-            NpyWriter::create(&folder.join(name), Element::up_to(max), rows, columns)
+            NpyWriter::create(&folder.join(name), Element::up_to(max), &shape)
         };
         let scores = design
             .features()
@@ -57,7 +57,7 @@ impl Sink for Arrays {
             flags.write_out(all)?;
         }
         self.temporal_count.write_out(all)?;
-        self.scores.iter_mut().try_for_each(|scores| scores.write_out(all))
+        Ok(self.scores.iter_mut().try_for_each(|scores| scores.write_out(all))?)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
@@ -65,6 +65,6 @@ impl Sink for Arrays {
         self.trs.finish()?;
         self.active.finish()?;
         self.temporal_count.finish()?;
-        self.scores.into_iter().try_for_each(NpyWriter::finish)
+        Ok(self.scores.into_iter().try_for_each(NpyWriter::finish)?)
     }
 }

@@ -4,8 +4,8 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use super::growing::GrowingFile;
 use crate::SimulatorError;
+use foveate_staging::GrowingFile;
 
 /// The file.
 pub(super) struct Csv(GrowingFile);
@@ -35,6 +35,6 @@ impl Csv {
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.0.write_out(all)
+        Ok(self.0.write_out(all)?)
     }
 }

@@ -9,10 +9,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::npy::{Element, NpyWriter};
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
 use foveate_footage::{Labels, SetFiles, SetForm};
+use foveate_npy::{Element, NpyWriter};
 
 /// Where a data set is, below the folder of its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -46,7 +46,7 @@ impl DataSet {
 pub(super) fn sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
     let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
     if form.labels != Labels::None {
-        let file = NpyWriter::create_list(&folder.join("labels.npy"), Element::Signed64)?;
+        let file = NpyWriter::create(&folder.join("labels.npy"), Element::Signed64, &[])?;
         sinks.push(Box::new(Numbers { labels: form.labels.clone(), file }));
     }
     match &form.files {
@@ -75,10 +75,10 @@ impl Sink for Numbers {
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.file.write_out(all)
+        Ok(self.file.write_out(all)?)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
-        self.file.finish()
+        Ok(self.file.finish()?)
     }
 }

@@ -8,9 +8,9 @@ use std::path::Path;
 
 use flate2::Compression;
 
-use super::growing::GrowingFile;
 use super::packer::{BEFORE_STORED, Packer, stored};
 use crate::SimulatorError;
+use foveate_staging::GrowingFile;
 
 /// Magic, deflate, no flags, no time, no level, no system.
 const GZIP: [u8; 10] = [0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0xFF];
@@ -42,17 +42,19 @@ impl<const HEADER: usize> HeadedFile<HEADER> {
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.file.write_out(all)
+        Ok(self.file.write_out(all)?)
     }
 
     /// Completes the file with its header.
     pub(super) fn finish(mut self, header: &[u8; HEADER]) -> Result<(), SimulatorError> {
-        let Some(packer) = self.packer else { return self.file.write_over(0, header) };
+        let Some(packer) = self.packer else {
+            return Ok(self.file.write_over(0, header)?);
+        };
         let (last, checksum, length) = packer.finish(header);
         self.file.append(&last);
         self.file.append(&checksum.to_le_bytes());
         self.file.append(&low_word(length).to_le_bytes());
-        self.file.write_over((GZIP.len() + BEFORE_STORED) as u64, header)
+        Ok(self.file.write_over((GZIP.len() + BEFORE_STORED) as u64, header)?)
     }
 }
 

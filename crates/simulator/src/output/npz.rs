@@ -5,10 +5,9 @@
 
 use flate2::Compression;
 
-use super::growing::GrowingFile;
-use super::npy;
 use super::packer::{Packer, stored};
 use crate::SimulatorError;
+use foveate_staging::GrowingFile;
 
 /// Bytes of an NPY header here; a multiple of 64.
 const HEADER: usize = 192;
@@ -55,7 +54,7 @@ impl Npz {
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.file.write_out(all)
+        Ok(self.file.write_out(all)?)
     }
 
     /// Closes the open array, which has `count` elements, and begins another.
@@ -79,12 +78,12 @@ impl Npz {
         let directory: Vec<u8> = self.done.iter().flat_map(Entry::central).collect();
         self.file.append(&directory);
         self.file.append(&end(self.at, length(&directory), length(&self.done)));
-        self.file.write_out(true)
+        Ok(self.file.write_out(true)?)
     }
 
     /// Leaves room for the headers of the open entry.
     fn begin(&mut self) {
-        let header = stored(&npy::header::<HEADER>(self.open.descr, "0,"));
+        let header = stored(&foveate_npy::header(HEADER, self.open.descr, "0,"));
         self.open.packed_bytes = length(&header);
         let room = [self.open.local(), header].concat();
         self.at += length(&room);
@@ -92,14 +91,15 @@ impl Npz {
     }
 
     fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
-        let header = npy::header::<HEADER>(self.open.descr, &format!("{count},"));
+        let header = foveate_npy::header(HEADER, self.open.descr, &format!("{count},"));
         let packer = std::mem::replace(&mut self.packer, Packer::new(LEVEL));
         let (last, crc, bytes) = packer.finish(&header);
         self.file.append(&last);
         self.at += length(&last);
         self.open.packed_bytes += length(&last);
         (self.open.crc, self.open.bytes) = (crc, bytes);
-        self.file.write_over(self.open.start, &[self.open.local(), stored(&header)].concat())
+        let local = [self.open.local(), stored(&header)].concat();
+        Ok(self.file.write_over(self.open.start, &local)?)
     }
 }
 

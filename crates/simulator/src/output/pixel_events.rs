@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use foveate_design::Design;
 
 use super::csv::Csv;
-use super::growing::GrowingFile;
 use super::npz::Npz;
 use super::sink::Step;
 use super::{PixelCamera, PixelEvents, cannot_write};
 use crate::SimulatorError;
+use foveate_staging::GrowingFile;
 
 /// An event as NumPy reads it, and as tonic names and types its fields; 13 bytes.
 const EVENT: &str = "[('x', '<i2'), ('y', '<i2'), ('t', '<i8'), ('p', '|b1')]";

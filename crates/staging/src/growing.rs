@@ -6,63 +6,77 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::cannot_write;
-use crate::SimulatorError;
+use crate::StagingError;
 
 /// Bytes that are worth a call of the system.
 const ENOUGH: usize = 1 << 16;
 
 /// The file, open, and what is not written yet.
-pub(super) struct GrowingFile {
+#[derive(Debug)]
+pub struct GrowingFile {
     path: PathBuf,
     file: File,
     pending: Vec<u8>,
 }
 
 impl GrowingFile {
-    pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
+    /// Creates it, or begins again one that is there.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn create(path: &Path) -> Result<Self, StagingError> {
         Self::open(path, OpenOptions::new().write(true).create(true).truncate(true))
     }
 
     /// A file that is not there yet.
-    pub(super) fn create_new(path: &Path) -> Result<Self, SimulatorError> {
+    ///
+    /// # Errors
+    /// When it is there, or cannot be written.
+    pub fn create_new(path: &Path) -> Result<Self, StagingError> {
         Self::open(path, OpenOptions::new().write(true).create_new(true))
     }
 
-    fn open(path: &Path, options: &OpenOptions) -> Result<Self, SimulatorError> {
-        let file = options.open(path).map_err(cannot_write(path))?;
+    fn open(path: &Path, options: &OpenOptions) -> Result<Self, StagingError> {
+        let file = options.open(path).map_err(StagingError::write(path))?;
         Ok(Self { path: path.to_owned(), file, pending: Vec::new() })
     }
 
-    pub(super) fn append(&mut self, bytes: &[u8]) {
+    /// Takes bytes for its end.
+    pub fn append(&mut self, bytes: &[u8]) {
         self.pending.extend_from_slice(bytes);
     }
 
     /// What is to be appended, to be written to.
-    pub(super) fn end(&mut self) -> &mut Vec<u8> {
+    pub fn end(&mut self) -> &mut Vec<u8> {
         &mut self.pending
     }
 
     /// Writes what has gathered, once it is worth it or if `all` is to go.
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+    ///
+    /// # Errors
+    /// When there is no room, or it cannot be written. What is not written is kept.
+    pub fn write_out(&mut self, all: bool) -> Result<(), StagingError> {
         if self.pending.len() < ENOUGH && !all {
             return Ok(());
         }
         let mut written = 0;
         let result = write_counting(&mut self.file, &self.pending, &mut written);
         self.pending.drain(..written);
-        result.map_err(cannot_write(&self.path))
+        result.map_err(StagingError::write(&self.path))
     }
 
     /// Writes everything, and then over bytes that are there already.
-    pub(super) fn write_over(&mut self, at: u64, bytes: &[u8]) -> Result<(), SimulatorError> {
+    ///
+    /// # Errors
+    /// As [`GrowingFile::write_out`].
+    pub fn write_over(&mut self, at: u64, bytes: &[u8]) -> Result<(), StagingError> {
         self.write_out(true)?;
         self.file
             .seek(SeekFrom::Start(at))
             .and_then(|_| self.file.write_all(bytes))
             .and_then(|()| self.file.seek(SeekFrom::End(0)))
             .map(drop)
-            .map_err(cannot_write(&self.path))
+            .map_err(StagingError::write(&self.path))
     }
 }
 

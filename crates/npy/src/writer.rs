@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A NumPy file (NPY 1.0) that grows frame by frame: the header has room for any number of frames and
+//! gets the real one at the end.
+
+use std::path::Path;
+
+use foveate_staging::{GrowingFile, StagingError};
+
+use crate::Element;
+
+/// Least bytes of a header; it stands in steps of 64.
+const HEADER: usize = 128;
+/// Bytes before the words of a header.
+const PREFIX: usize = 10;
+
+/// An array of frames, each with values of one shape.
+#[derive(Debug)]
+pub struct NpyWriter {
+    file: GrowingFile,
+    element: Element,
+    /// The other dimensions, as they are written.
+    shape: String,
+    /// Bytes of the header, which has room for any number of frames.
+    header: usize,
+    frames: u64,
+}
+
+impl NpyWriter {
+    /// An array of frames of this shape; of one value per frame if the shape is empty.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn create(path: &Path, element: Element, shape: &[usize]) -> Result<Self, StagingError> {
+        let file = GrowingFile::create(path)?;
+        let shape = shape.iter().map(|length| format!(" {length}")).collect::<Vec<_>>().join(",");
+        let mut writer = Self { file, element, shape, header: HEADER, frames: u64::MAX };
+        let least = PREFIX + writer.words().len() + 1;
+        writer.header = least.next_multiple_of(64).max(HEADER);
+        writer.frames = 0;
+        let header = writer.header();
+        writer.file.append(&header);
+        Ok(writer)
+    }
+
+    /// Appends the values of one frame, row by row; the type holds all of them, as their bits: signed ones as two's
+    /// complement, those of floating point as [`f32::to_bits`].
+    pub fn push(&mut self, values: impl Iterator<Item = u64>) {
+        let bytes = self.element.bytes();
+        for value in values {
+            debug_assert!(bytes == 8 || value >> (8 * bytes) == 0, "{value} in {:?}", self.element);
+            self.file.append(&value.to_le_bytes()[..bytes]);
+        }
+        self.frames += 1;
+    }
+
+    /// Writes what has gathered, once it is worth it or if `all` is to go.
+    ///
+    /// # Errors
+    /// When there is no room, or it cannot be written. What is not written is kept.
+    pub fn write_out(&mut self, all: bool) -> Result<(), StagingError> {
+        self.file.write_out(all)
+    }
+
+    /// Writes the number of frames into the header.
+    ///
+    /// # Errors
+    /// As [`NpyWriter::write_out`].
+    pub fn finish(mut self) -> Result<(), StagingError> {
+        let header = self.header();
+        self.file.write_over(0, &header)
+    }
+
+    fn header(&self) -> Vec<u8> {
+        framed(self.header, &self.words())
+    }
+
+    fn words(&self) -> String {
+        let shape = format!("{},{}", self.frames, self.shape);
+        words(&format!("'{}'", self.element.descr()), &shape)
+    }
+}
+
+/// A header of `size` bytes, a multiple of 64: a type and a shape as Python writes them.
+#[must_use]
+pub fn header(size: usize, descr: &str, shape: &str) -> Vec<u8> {
+    framed(size, &words(descr, shape))
+}
+
+fn words(descr: &str, shape: &str) -> String {
+    format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}")
+}
+
+fn framed(size: usize, words: &str) -> Vec<u8> {
+    let length = u16::try_from(size - PREFIX).expect("a header has a few bytes");
+    let padded = format!("{words:<0$}\n", size - PREFIX - 1);
+    [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..], padded.as_bytes()].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_has_its_size_whatever_the_numbers_are() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("array.npy");
+        for (shape, size) in [
+            (vec![], 128),
+            (vec![28, 28], 128),
+            (vec![1, 3, 224, 224], 128),
+            (vec![123_456_789; 8], 192),
+        ] {
+            let writer = NpyWriter::create(&path, Element::Float32, &shape).unwrap();
+            for frames in [0, 7, u64::MAX] {
+                let header = NpyWriter {
+                    frames,
+                    ..NpyWriter::create(&path, Element::Float32, &shape).unwrap()
+                }
+                .header();
+                assert_eq!((header.len(), writer.header), (size, size), "{shape:?}");
+                assert_eq!(usize::from(header[8]) + 256 * usize::from(header[9]) + 10, size);
+                assert_eq!(header.last(), Some(&b'\n'));
+            }
+        }
+    }
+
+    /// The bytes as the format of NumPy says, by hand.
+    #[test]
+    fn frames_follow_the_header_and_are_counted_at_the_end() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("array.npy");
+        let mut writer = NpyWriter::create(&path, Element::Float32, &[1, 2]).unwrap();
+        for frame in [[1.0f32, -2.0], [f32::NAN, 0.5]] {
+            writer.push(frame.iter().map(|value| value.to_bits().into()));
+            writer.write_out(false).unwrap();
+        }
+        writer.finish().unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let words = b"\x93NUMPY\x01\x00\x76\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 1, 2), }  ";
+        assert!(bytes.starts_with(words), "{}", String::from_utf8_lossy(&bytes));
+        let values: Vec<u32> = bytes[128..]
+            .chunks(4)
+            .map(|four| u32::from_le_bytes(four.try_into().unwrap()))
+            .collect();
+        assert_eq!(values, [0x3F80_0000, 0xC000_0000, f32::NAN.to_bits(), 0x3F00_0000]);
+    }
+}
