@@ -7,6 +7,7 @@ use foveate_design::DesignError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_network::NetworkError;
+use foveate_page::PageError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -32,6 +33,17 @@ pub enum InferenceError {
     /// A chart cannot be drawn.
     #[error(transparent)]
     Chart(#[from] ChartError),
+    /// The page cannot be written.
+    #[error(transparent)]
+    Page(#[from] PageError),
+    /// Pictures are wanted of outputs that are none.
+    #[error(
+        "no output is a picture, which has 1 or 3 channels and the height and width of the input: {outputs}; leave out png"
+    )]
+    NoPicture {
+        /// The outputs with their shapes.
+        outputs: String,
+    },
     /// A table cannot be written.
     #[error("cannot write the table `{name}`: {source}")]
     Table {

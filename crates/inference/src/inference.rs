@@ -3,9 +3,11 @@
 
 use crate::album::Album;
 use crate::camera::{Camera, Seen};
-use crate::charts::charts;
+use crate::charts::{Drawn, charts};
 use crate::cost::Costs;
+use crate::page::page;
 use crate::player::Player;
+use crate::recording::{Record, Recording};
 use crate::run::{Ended, Run, Told};
 use crate::summary::{Summary, mode_name};
 use crate::tune::{Tuned, tune};
@@ -28,6 +30,10 @@ pub struct Options {
     pub accelerator: Option<(String, Accelerator)>,
     /// Whether a whole computation runs beside, to be compared with.
     pub reference: bool,
+    /// What is written of the outputs.
+    pub record: Record,
+    /// The words of the command line, which the page shows; none if there was no command.
+    pub command: Vec<String>,
     /// Whether a folder of an earlier run is replaced.
     pub overwrite: bool,
 }
@@ -86,6 +92,7 @@ impl Inference {
         let costs =
             accelerator.map(|(_, accelerator)| Costs::new(accelerator, &network)).transpose();
         let costs = costs.map_err(|(node, source)| InferenceError::Accelerator { node, source })?;
+        let mut recording = Recording::new(&staging, &network, options.record)?;
         let run = |executor, camera: &Camera, reference| {
             Run::new(&design, &network, Player::new(executor, camera.black()), reference, costs)
         };
@@ -94,7 +101,7 @@ impl Inference {
                 let mut run = run(Executor::new(&network, mode), &camera, options.reference);
                 let problem = watch(source.as_mut(), &mut camera, hooks, |seen| {
                     run.step(seen);
-                    Ok(())
+                    recording.push(run.executor())
                 })?;
                 (run, problem, mode_name(mode), None)
             }
@@ -105,7 +112,10 @@ impl Inference {
                 let Tuned { limits, tuning } =
                     tune(&network, goal, first, camera.black(), album.len(), hooks)?;
                 let mut run = run(Executor::truncating(&network, &limits), &camera, true);
-                second.iter().for_each(|kept| run.step(kept.seen()));
+                for kept in second {
+                    run.step(kept.seen());
+                    recording.push(run.executor())?;
+                }
                 (run, problem, format!("tuned to {goal}"), Some((tuning, goal)))
             }
         };
@@ -117,8 +127,11 @@ impl Inference {
             network: path.display().to_string(),
             inputs: source.inputs().to_vec(),
             mapping: options.mapping.clone(),
+            outputs: recording.finish()?,
         });
         write(&staging, &ended)?;
+        let page = page(&ended.summary, &ended.counted, &design, &options.command)?;
+        staging.write("report.html", page.as_bytes())?;
         staging.commit()?;
         Ok(ended.summary)
     }
@@ -163,7 +176,7 @@ impl std::fmt::Debug for Inference {
 
 /// The files of a run.
 fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
-    let Ended { summary, frames, shares } = ended;
+    let Ended { summary, frames, counted } = ended;
     let layers = summary.layer_table();
     let table = |name: &'static str| move |source| InferenceError::Table { name, source };
     staging.write("layers.csv", layers.csv().as_bytes())?;
@@ -175,7 +188,7 @@ fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
     }
     staging.write("frames.csv", frames.csv().as_bytes())?;
     staging.write("frames.parquet", &frames.parquet("frames").map_err(table("frames.parquet"))?)?;
-    for chart in charts(summary, shares) {
+    for Drawn { chart, .. } in charts(summary, counted) {
         let notes = [chart.caption.clone()];
         staging.write(&format!("{}.svg", chart.file), chart.svg(&notes)?.as_bytes())?;
         staging.write(&format!("{}.png", chart.file), &chart.png()?)?;

@@ -2,14 +2,14 @@
 //! A run under way: what every frame did, and the sums.
 
 use crate::camera::Seen;
-use crate::charts::Shares;
+use crate::charts::Counted;
 use crate::cost::Costs;
 use crate::player::Player;
 use crate::summary::{Summary, Tuning, error, layers, macs, ratio};
 use crate::tally::{NotFinite, Positions, Reference};
-use crate::{Goal, Mapping};
+use crate::{Goal, Mapping, Recorded};
 use foveate_design::Design;
-use foveate_network::Network;
+use foveate_network::{Executor, Network};
 use foveate_tables::{Cell, Cells, Table};
 use std::time::Instant;
 
@@ -24,6 +24,8 @@ pub(crate) struct Told {
     pub(crate) network: String,
     pub(crate) inputs: Vec<String>,
     pub(crate) mapping: Mapping,
+    /// Files of the outputs.
+    pub(crate) outputs: Vec<Recorded>,
 }
 
 /// A run at its end.
@@ -31,7 +33,7 @@ pub(crate) struct Ended {
     pub(crate) summary: Summary,
     /// A row per frame.
     pub(crate) frames: Table,
-    pub(crate) shares: Vec<Shares>,
+    pub(crate) counted: Vec<Counted>,
 }
 
 /// A run under way.
@@ -43,9 +45,7 @@ pub(crate) struct Run<'a> {
     costs: Option<Costs<'a>>,
     sums: Vec<Positions>,
     rows: Vec<Cells>,
-    /// Of the counted frames.
-    shares: Vec<Shares>,
-    counted: u64,
+    counted: Vec<Counted>,
     active: u64,
     changed: u64,
     seconds: f64,
@@ -69,8 +69,7 @@ impl<'a> Run<'a> {
             costs,
             sums: vec![Positions::default(); network.nodes().len()],
             rows: Vec::new(),
-            shares: Vec::new(),
-            counted: 0,
+            counted: Vec::new(),
             active: 0,
             changed: 0,
             seconds: 0.0,
@@ -98,7 +97,6 @@ impl<'a> Run<'a> {
             }
         }
         if is_counted {
-            self.counted += 1;
             self.active += seen.active_regions;
             self.changed += seen.changed_regions;
             self.seconds += seconds;
@@ -111,11 +109,14 @@ impl<'a> Run<'a> {
         let share = |count| ratio(count, u64::from(self.design.regions()));
         let real = |value: f64| Cell::Real(Some(value));
         if is_counted {
-            self.shares.push(Shares {
+            self.counted.push(Counted {
                 number: seen.number,
+                name: seen.name.to_owned(),
                 active: share(seen.active_regions),
                 changed: share(seen.changed_regions),
-                needed: macs.share(macs.needed),
+                macs,
+                seconds,
+                relative_rms: close.as_ref().map(|close| close.distance.relative()),
             });
         }
         self.rows.push(
@@ -136,6 +137,10 @@ impl<'a> Run<'a> {
         );
     }
 
+    pub(crate) fn executor(&self) -> &Executor<'a> {
+        self.player.executor()
+    }
+
     /// What is to be written.
     pub(crate) fn end(self, told: Told) -> Ended {
         let executor = self.player.executor();
@@ -146,10 +151,11 @@ impl<'a> Run<'a> {
             self.reference.as_ref(),
             self.costs.as_ref(),
         );
-        let counted_regions = self.counted * u64::from(self.design.regions());
+        let counted_frames = self.counted.len() as u64;
+        let counted_regions = counted_frames * u64::from(self.design.regions());
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
-        let counted = self.counted.max(1) as f64;
+        let counted = counted_frames.max(1) as f64;
         let of_weights = self.network.not_finite().iter().map(|(name, count)| {
             format!(
                 "the weights `{name}` hold {count} infinite values, or such that are no numbers"
@@ -169,7 +175,7 @@ impl<'a> Run<'a> {
             width: self.design.width(),
             height: self.design.height(),
             frames: self.rows.len() as u64,
-            counted_frames: self.counted,
+            counted_frames,
             active_share: ratio(self.active, counted_regions),
             changed_share: ratio(self.changed, counted_regions),
             macs: macs(self.network, &self.sums),
@@ -188,8 +194,9 @@ impl<'a> Run<'a> {
                 let reference = self.reference.as_ref().expect("what is tuned is compared");
                 Tuning { holds: goal.holds(&reference.outputs), ..tuning }
             }),
+            outputs: told.outputs,
             layers,
         };
-        Ended { summary, frames: Table::of(self.rows.into_iter()), shares: self.shares }
+        Ended { summary, frames: Table::of(self.rows.into_iter()), counted: self.counted }
     }
 }

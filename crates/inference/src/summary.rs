@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a run says at its end, and its tables.
 
-use crate::Mapping;
+use crate::charts::tried;
 use crate::closeness::Closeness;
 use crate::cost::{Accelerated, Costs, FrameCost};
 use crate::tally::{Positions, Reference};
+use crate::{Mapping, Recorded};
 use foveate_network::{Executor, Mode, Network};
 use foveate_tables::{Cell, Cells, Table};
 use serde::Serialize;
@@ -60,6 +61,8 @@ pub struct Summary {
     pub error: Option<Error>,
     /// How the limits of the layers were chosen, if they were.
     pub tuning: Option<Tuning>,
+    /// The files of the outputs, if they are written.
+    pub outputs: Vec<Recorded>,
     /// Every layer.
     pub layers: Vec<Layer>,
 }
@@ -317,7 +320,7 @@ impl Summary {
     /// A row for each limit that all layers had together, and one for what was chosen.
     pub(crate) fn tuning_table(&self) -> Option<Table> {
         let tuning = self.tuning.as_ref()?;
-        let row = |(limits, tried): (&str, &Tried)| -> Cells {
+        let row = |(_, limits, tried): (String, &str, Tried)| -> Cells {
             let real = |value: f64| Cell::Real(Some(value));
             [
                 ("limits", Cell::Text(limits.to_owned())),
@@ -334,9 +337,6 @@ impl Summary {
             .map(|(name, cell)| (name.to_owned(), cell))
             .into()
         };
-        let uniform = tuning.uniform.iter().map(|tried| ("uniform", tried));
-        let others = [("frozen", &tuning.frozen), ("chosen", &tuning.chosen)];
-        let rows = [("exact", &tuning.exact)].into_iter().chain(uniform).chain(others);
-        Some(Table::of(rows.map(row)))
+        Some(Table::of(tried(tuning).into_iter().map(row)))
     }
 }

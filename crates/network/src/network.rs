@@ -23,6 +23,8 @@ pub struct Network {
     forms: Vec<Form>,
     nodes: Vec<Node>,
     outputs: Vec<usize>,
+    /// What the model calls them.
+    output_names: Vec<String>,
     /// Names of weights that hold infinite values or such that are no numbers, and how many.
     not_finite: Vec<(String, usize)>,
     /// Values of all tensors.
@@ -82,6 +84,7 @@ impl Network {
             forms: vec![input],
             nodes: Vec::new(),
             outputs: Vec::new(),
+            output_names: Vec::new(),
             not_finite: Vec::new(),
             kept,
             weight_bytes: 0,
@@ -125,9 +128,13 @@ impl Network {
         Ok(self.nodes.len())
     }
 
-    /// Says which values are the outputs, and which weights are not finite.
-    pub(crate) fn finish(&mut self, outputs: Vec<usize>, not_finite: Vec<(String, usize)>) {
-        self.outputs = outputs;
+    /// Says which values are the outputs, with their names, and which weights are not finite.
+    pub(crate) fn finish(
+        &mut self,
+        outputs: Vec<(String, usize)>,
+        not_finite: Vec<(String, usize)>,
+    ) {
+        (self.output_names, self.outputs) = outputs.into_iter().unzip();
         self.not_finite = not_finite;
     }
 
@@ -160,6 +167,12 @@ impl Network {
     #[must_use]
     pub fn outputs(&self) -> &[usize] {
         &self.outputs
+    }
+
+    /// What the model calls its outputs, in the same order.
+    #[must_use]
+    pub fn output_names(&self) -> &[String] {
+        &self.output_names
     }
 
     /// The weights that hold infinite values or such that are no numbers, by their names in the model, with how many.

@@ -45,6 +45,17 @@ impl Axis {
         if low > 0.0 && high / low >= WIDE {
             return Self { low: nice(low, false), high: nice(high, true), kind: Kind::Log };
         }
+        Self::linear(low, high)
+    }
+
+    /// For what is never logarithmic, such as numbers of frames and shares of a whole.
+    #[must_use]
+    pub fn even(values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = range(values).unwrap_or((0.0, 1.0));
+        Self::linear(low, high)
+    }
+
+    fn linear(low: f64, high: f64) -> Self {
         if high > low {
             let step = step(high - low);
             let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
@@ -76,17 +87,6 @@ impl Axis {
         }
         let small = 10.0_f64.powf(low.max(least).log10().floor());
         Self { low: 0.0, high: nice(high, true), kind: Kind::Zero(small) }
-    }
-
-    /// For shares and what is compared with all of it: from zero, never logarithmic.
-    #[must_use]
-    pub fn even(values: impl Iterator<Item = f64>) -> Self {
-        let high = range(values).map_or(0.0, |(_, high)| high);
-        if high <= 0.0 {
-            return Self { low: 0.0, high: 1.0, kind: Kind::Linear };
-        }
-        let step = step(high);
-        Self { low: 0.0, high: (high / step).ceil() * step, kind: Kind::Linear }
     }
 
     /// Whether distances are ratios.
@@ -223,7 +223,7 @@ mod tests {
             }
         }
         assert_eq!(
-            labels(Axis::even([0.02, 100.0].into_iter())),
+            labels(Axis::even([0.0, 2.0, 100.0].into_iter())),
             ["0", "20", "40", "60", "80", "100"]
         );
         let errors = Axis::from_zero([0.0, 0.001, 50.0].into_iter());

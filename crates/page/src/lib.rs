@@ -3,6 +3,8 @@
 //! loaded. Knows nothing of what is shown.
 
 mod axis;
+#[cfg(feature = "browser")]
+pub mod browser;
 mod colour;
 mod error;
 pub mod number;

@@ -4,9 +4,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use foveate_accelerator::Accelerator;
-use foveate_inference::{Computed, Goal, Mapping};
+use foveate_inference::{Computed, Goal, Mapping, Record};
 use foveate_network::Mode;
 
 use super::DesignArgs;
@@ -18,6 +18,7 @@ use crate::error::CliError;
 #[command(after_help = "Examples: foveate infer denoiser.onnx scene:street -o out --max-frames 8
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --mode truncate=0.01
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --accelerator eyeriss
+          foveate infer denoiser.onnx scene:street -o out --max-frames 8 --outputs npy,png
           foveate infer resnet50.onnx street.mp4 -o out --resize 224x224 --mean 0.485,0.456,0.406 --scale 0.229,0.224,0.225")]
 pub(crate) struct InferArgs {
     /// The network: an ONNX file whose input is [1, channels, height, width], with 1 or 3 channels
@@ -55,6 +56,10 @@ pub(crate) struct InferArgs {
     /// Then divide by this: one value, or one per channel
     #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "1", value_parser = positive)]
     pub(crate) scale: Vec<f32>,
+    /// Write the outputs of every frame: npy, an array [frames, ...shape] of each; png, pictures of those with 1
+    /// or 3 channels and the size of the input, from 0 (black) to 1 (white); separate both with a comma
+    #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',')]
+    pub(crate) outputs: Vec<OutputFormat>,
     /// Replace the folder if it holds an inference
     #[arg(long)]
     pub(crate) force: bool,
@@ -69,7 +74,20 @@ pub(crate) struct InferArgs {
     pub(crate) input: InputArgs,
 }
 
+/// How outputs are written.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum OutputFormat {
+    Npy,
+    Png,
+}
+
 impl InferArgs {
+    /// What is written of the outputs.
+    pub(crate) fn record(&self) -> Record {
+        let has = |format| self.outputs.contains(&format);
+        Record { arrays: has(OutputFormat::Npy), pictures: has(OutputFormat::Png) }
+    }
+
     /// How pixels become inputs.
     pub(crate) fn mapping(&self) -> Mapping {
         Mapping { mean: self.mean.clone(), scale: self.scale.clone() }

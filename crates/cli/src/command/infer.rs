@@ -22,6 +22,8 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
         accelerator: args.accelerator()?,
         mapping: args.mapping(),
         reference: args.has_reference(),
+        record: args.record(),
+        command: command(),
         overwrite: args.force,
     };
     let mut hooks = Terminal::new(args.quiet)?;
@@ -35,6 +37,12 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
         (false, true) => {}
     }
     hooks.verdict(&args.output, summary.problem)
+}
+
+/// The words of the command line, for the page.
+fn command() -> Vec<String> {
+    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    std::iter::once("foveate".to_owned()).chain(words).collect()
 }
 
 fn text(folder: &Path, summary: &Summary) -> String {

@@ -1,49 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The page in Chromium, where there is one; otherwise the tests say that they are skipped.
 
-use std::path::PathBuf;
-use std::process::Command;
-
-use serde_json::Value;
+use foveate_page::browser::{Tip, chromium, probe};
 
 use super::page;
 use super::sample::exploration;
 
-const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
-
-fn chromium() -> Option<PathBuf> {
-    let folders: Vec<PathBuf> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
-    let places = NAMES.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    places.into_iter().find(|place| place.is_file())
-}
-
-/// What `probe.js` found on a page in a window of that width.
-fn probe(program: &PathBuf, page: &str, width: u32) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("page.html");
-    let script = concat!("<script>", include_str!("probe.js"), "</script></body>");
-    std::fs::write(&file, page.replace("</body>", script)).unwrap();
-    let run = Command::new(program)
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--no-first-run",
-            "--hide-scrollbars",
-        ])
-        .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
-        .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
-        .arg(format!("--window-size={width},800"))
-        .arg("--dump-dom")
-        .arg(format!("file://{}", file.display()))
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&run.stdout);
-    let found =
-        text.split_once("<pre id=\"probe\">").and_then(|(_, rest)| rest.split_once("</pre>"));
-    let (found, _) = found.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&run.stderr)));
-    serde_json::from_str(found).unwrap()
-}
+/// Marks say what point they are and what is wrong with it, and lead to its row and its configuration.
+const TIP: Tip = Tip { told: r"/^Point \d+: .*\n.*% flipped/", links: 2 };
 
 #[test]
 fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
@@ -55,7 +19,7 @@ fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
     for (space, widths) in spaces.into_iter().zip([[1600, 1280, 500], [1280, 768, 500]]) {
         let page = page(&exploration(space, true)).unwrap();
         for width in widths {
-            let found = probe(&program, &page, width);
+            let found = probe(&program, &page, width, TIP);
             assert!(found["rows"].as_u64().unwrap() > 20, "{width}: {found}");
             assert_eq!(
                 (&found["hidden"], &found["wider"]),

@@ -70,7 +70,8 @@ pub(super) fn read(
     for (index, node) in graph.node.iter().enumerate() {
         reading.node(node, index)?;
     }
-    let outputs = graph.output.iter().map(|output| reading.output(name_of(output)));
+    let named = |name: &str| Ok::<_, NetworkError>((name.to_owned(), reading.output(name)?));
+    let outputs = graph.output.iter().map(|output| named(name_of(output)));
     let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
     if outputs.is_empty() {
         return Err(NetworkError::Network("it has no output".to_owned()));

@@ -8,7 +8,7 @@ addEventListener('load', function () {
   // Rows that are under the headings, or out of sight, once a mark leads to them.
   found.rows = 0;
   found.hidden = 0;
-  Array.from(document.querySelectorAll('#points tbody tr')).reverse().forEach(function (row) {
+  Array.from(document.querySelectorAll('tbody tr[id^="p"]')).reverse().forEach(function (row) {
     location.hash = '#' + row.id;
     var head = row.closest('table').querySelector('thead th').getBoundingClientRect();
     var inside = row.closest('.scroll').getBoundingClientRect();
@@ -28,9 +28,9 @@ addEventListener('load', function () {
     picture.dispatchEvent(new PointerEvent('pointerdown', Object.assign({ pointerType: 'touch' }, at)));
     picture.dispatchEvent(new MouseEvent('click', at));
     var tip = figure.querySelector('.tip');
-    var told = /^Point \d+: .*\n.*% flipped/.test(tip.textContent);
+    var told = TOLD.test(tip.textContent);
     found.plots += 1;
-    found.told += Number(told ? tip.querySelectorAll('a').length === 2 : false);
+    found.told += Number(told ? tip.querySelectorAll('a').length === LINKS : false);
   });
   // The least mark, in pixels of the screen.
   found.mark = Array.from(document.querySelectorAll('.mark')).reduce(function (least, mark) {

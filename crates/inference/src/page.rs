@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One page that shows a run: what was run, what it saved, charts, tables, and how to get it again. No script is needed to read it and
+//! nothing is loaded.
+
+mod again;
+mod figures;
+mod plots;
+mod rows;
+#[cfg(test)]
+mod tests;
+mod words;
+
+use crate::Summary;
+use crate::charts::{Counted, charts};
+use askama::Template;
+use foveate_design::Design;
+use foveate_page::{Notice, Page, PageError, Plot, Table, Target};
+use rows::Rows;
+
+/// Frames that a page shows; with more it would be too large to open.
+const FRAMES: usize = 400;
+/// Where the figures of a mark lead to.
+const TARGETS: [Target; 1] = [Target { prefix: "p", name: "its row" }];
+
+/// What was run and what came out.
+#[derive(Template)]
+#[template(path = "about.html")]
+struct About {
+    run: String,
+    findings: Vec<String>,
+    tuned: bool,
+    counted: bool,
+}
+
+/// The sections.
+#[derive(Template)]
+#[template(path = "main.html")]
+struct Main<'a> {
+    plots: Vec<Plot>,
+    layers: Table<'a>,
+    tried: Option<Table<'a>>,
+    /// Counted frames, if there are any.
+    frames: Option<Table<'a>>,
+    /// Of how many counted frames one is shown.
+    every: usize,
+    command: String,
+    camera: String,
+    toml: String,
+    fingerprint: String,
+    accelerated: bool,
+    compared: bool,
+}
+
+/// At the end.
+#[derive(Template)]
+#[template(path = "files.html")]
+struct Files<'a> {
+    tuned: bool,
+    outputs: &'a [crate::Recorded],
+}
+
+/// The page.
+pub(crate) fn page(
+    summary: &Summary,
+    frames: &[Counted],
+    design: &Design,
+    command: &[String],
+) -> Result<String, PageError> {
+    let every = frames.len().div_ceil(FRAMES).max(1);
+    let shown = shown(frames, every);
+    let is_counted = !frames.is_empty();
+    let (layers, tried, rows) =
+        (rows::layers(summary), rows::tried(summary), rows::frames(&shown, summary));
+    let titles = [&layers, &tried, &rows].into_iter().flat_map(Rows::titles).collect();
+    let charts = if is_counted { charts(summary, &shown) } else { Vec::new() };
+    let note = if every > 1 { words::sampled(every) } else { String::new() };
+    let title = words::title(summary);
+    let failed =
+        |error: askama::Error| PageError { page: title.clone(), problem: error.to_string() };
+    let about = About {
+        run: words::run(summary, design),
+        findings: words::findings(summary),
+        tuned: summary.tuning.is_some(),
+        counted: is_counted,
+    };
+    let main = Main {
+        plots: charts.iter().map(|drawn| plots::plot(drawn, &titles, &note)).collect(),
+        layers: layers.table("number of the layer"),
+        tried: summary.tuning.is_some().then(|| tried.table("number of the run")),
+        frames: is_counted.then(|| rows.table("number of the frame")),
+        every,
+        command: again::line(command),
+        camera: words::camera(design),
+        toml: design.config().to_toml(),
+        fingerprint: design.fingerprint(),
+        accelerated: summary.accelerator.is_some(),
+        compared: summary.error.is_some(),
+    };
+    let files = Files { tuned: summary.tuning.is_some(), outputs: &summary.outputs };
+    let page = Page {
+        kind: "Inference",
+        program: &format!("foveate {}", summary.foveate_version),
+        title: &title,
+        notices: &[
+            Notice { title: "Not complete", lines: &words::problems(summary) },
+            Notice { title: "Note", lines: &summary.warnings },
+        ],
+        facts: &figures::facts(summary),
+        about: &about.render().map_err(failed)?,
+        main: &main.render().map_err(failed)?,
+        footer: &files.render().map_err(failed)?,
+        targets: &TARGETS,
+        script: "",
+    };
+    page.render()
+}
+
+/// Of `every` frames in a row the one that needs the most, so that no peak is lost.
+fn shown(frames: &[Counted], every: usize) -> Vec<Counted> {
+    let most = |frames: &[Counted]| {
+        let by_macs = |one: &&Counted, other: &&Counted| {
+            // The first of equal ones.
+            one.macs.needed.total_cmp(&other.macs.needed).then(other.number.cmp(&one.number))
+        };
+        frames.iter().max_by(by_macs).cloned()
+    };
+    frames.chunks(every).filter_map(most).collect()
+}

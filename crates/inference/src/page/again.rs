@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The command line as one that a shell takes.
+
+/// The words, quoted where a shell would take them apart.
+pub(super) fn line(words: &[String]) -> String {
+    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+}
+
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./:=,%+@".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shell_reads_the_words_back() {
+        let words =
+            ["foveate", "infer", "my net.onnx", "it's <&>.mp4", "", "--tune", "psnr=40", "$HOME"];
+        let words = words.map(str::to_owned);
+        let line = line(&words);
+        assert!(line.starts_with("foveate infer 'my net.onnx' "), "{line}");
+        assert!(line.ends_with(" '' --tune psnr=40 '$HOME'"), "{line}");
+        let told = std::process::Command::new("sh")
+            .args(["-c", &format!("printf '%s\\n' {line}")])
+            .output()
+            .unwrap();
+        assert_eq!(String::from_utf8(told.stdout).unwrap(), words.join("\n") + "\n");
+    }
+}

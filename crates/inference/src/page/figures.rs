@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Figures as the page writes them, and those of its heading.
+
+use crate::Summary;
+use foveate_page::Fact;
+use foveate_page::number::{NONE, grouped, percent, real};
+
+/// A share with its sign.
+pub(super) fn share(value: f64) -> String {
+    format!("{} %", percent(value))
+}
+
+/// An error: zero, or three digits.
+pub(super) fn error(value: f64) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        _ if value.is_finite() => format!("{value:.2e}"),
+        _ => NONE.to_owned(),
+    }
+}
+
+/// A PSNR with its unit. Equal outputs have none.
+pub(super) fn decibels(psnr: Option<f64>) -> String {
+    psnr.map_or("infinite".to_owned(), |psnr| {
+        if psnr.is_finite() { format!("{psnr:.1} dB") } else { NONE.to_owned() }
+    })
+}
+
+/// Bytes with a unit.
+#[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
+pub(super) fn bytes(count: u64) -> String {
+    let size = count as f64;
+    match count {
+        0..1_000 => format!("{count} bytes"),
+        1_000..1_000_000 => format!("{:.1} kB", size / 1e3),
+        1_000_000..1_000_000_000 => format!("{:.1} MB", size / 1e6),
+        _ => format!("{:.2} GB", size / 1e9),
+    }
+}
+
+/// Many of something, with a unit.
+pub(super) fn many(count: f64) -> String {
+    match count {
+        _ if !count.is_finite() => NONE.to_owned(),
+        0.0..1e4 => real(count, 0),
+        1e4..1e9 => format!("{} M", real(count / 1e6, if count < 1e5 { 3 } else { 1 })),
+        _ => format!("{} G", real(count / 1e9, 2)),
+    }
+}
+
+/// Milliseconds.
+pub(super) fn milliseconds(seconds: f64) -> String {
+    let value = 1e3 * seconds;
+    let digits = match value.abs() {
+        0.0..0.01 => 4,
+        0.01..0.1 => 3,
+        _ => 2,
+    };
+    format!("{} ms", real(value, digits))
+}
+
+/// Millijoules.
+pub(super) fn millijoules(value: f64) -> String {
+    format!("{} mJ", real(value, if value.abs() < 0.1 { 4 } else { 3 }))
+}
+
+/// The figures of the heading. Without a counted frame there are no shares.
+pub(super) fn facts(summary: &Summary) -> Vec<Fact> {
+    // A value stays on its line.
+    let whole = |value: String| value.replace(' ', "\u{a0}").replace('-', "\u{2011}");
+    let fact = |name, value, note: String| Fact { name, value: whole(value), note };
+    let macs = &summary.macs;
+    let mut facts = Vec::new();
+    if summary.counted_frames > 0 {
+        facts.push(fact(
+            "MACs needed",
+            share(macs.share(macs.needed)),
+            format!("of {} per frame", many(macs.dense)),
+        ));
+        facts.push(fact(
+            "MACs computed",
+            share(macs.share(macs.scheduled)),
+            "whole blocks".to_owned(),
+        ));
+        facts.push(fact(
+            "Regions changed",
+            share(summary.changed_share),
+            format!("{} active", share(summary.active_share)),
+        ));
+        facts.push(fact(
+            "Time per frame",
+            milliseconds(summary.seconds_per_frame),
+            "on this computer".to_owned(),
+        ));
+    }
+    if let Some(accelerator) = summary.accelerator.as_ref().filter(|_| summary.counted_frames > 0) {
+        facts.push(fact(
+            "Energy per frame",
+            millijoules(accelerator.masked.energy_mj),
+            format!("whole {}", millijoules(accelerator.whole.energy_mj)),
+        ));
+    }
+    if let Some(found) = summary.error.filter(|_| summary.counted_frames > 0) {
+        facts.push(fact(
+            "Relative RMS error",
+            error(found.outputs.relative_rms),
+            format!("PSNR {}", decibels(found.outputs.psnr)),
+        ));
+    }
+    facts.push(fact(
+        "Frames",
+        grouped(summary.frames),
+        format!("{} counted", grouped(summary.counted_frames)),
+    ));
+    facts.push(fact("Frame", format!("{}×{}", summary.width, summary.height), "pixels".to_owned()));
+    facts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_have_the_unit_that_fits() {
+        assert_eq!(
+            [0, 999, 7_824_000, 4_000_000_000].map(bytes).join(", "),
+            "0 bytes, 999 bytes, 7.8 MB, 4.00 GB"
+        );
+        assert_eq!(
+            [0.0, 312.0, 14_700.0, 140_894_208.0, 4.1e9].map(many).join(", "),
+            "0, 312, 0.015 M, 140.9 M, 4.10 G"
+        );
+        assert_eq!([0.0, 0.012_34, f64::NAN].map(error).join(", "), "0, 1.23e-2, –");
+        assert_eq!(
+            [None, Some(41.23), Some(f64::NAN)].map(decibels).join(", "),
+            "infinite, 41.2 dB, –"
+        );
+        assert_eq!(
+            [0.001_19, 0.000_06, 0.000_002].map(milliseconds).join(", "),
+            "1.19 ms, 0.060 ms, 0.0020 ms"
+        );
+    }
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The charts as plots of the page: the same lines, with a mark for every point that says its figures.
+
+use crate::charts::Drawn;
+use foveate_chart::Shape;
+use foveate_page::{Axis, Field, Line, Mark, Plot, look, text, through};
+use std::collections::BTreeMap;
+
+/// Marks of a line beyond which they are smaller.
+const MANY: usize = 80;
+
+/// A chart. `titles` has the figures of every id; `note` says what is left out of the frames.
+pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> Plot {
+    let Shape::Lines(lines) = &drawn.chart.shape else { return Plot::default() };
+    let xs = || lines.iter().flat_map(|line| line.points.iter().map(|&(x, _)| x));
+    let ys = || lines.iter().flat_map(|line| line.points.iter().map(|&(_, y)| y));
+    let is_frames = drawn.chart.file == "frames";
+    let is_tuning = drawn.chart.file == "tuning";
+    let field = if is_tuning {
+        Field { x: Axis::even(xs().chain([0.0])), y: Axis::from_zero(ys()) }
+    } else {
+        Field { x: Axis::even(xs()), y: Axis::even(ys().chain([0.0])) }
+    };
+    // The axis of this one has no room for the words of the chart.
+    let y_title = if is_tuning { "error [% of variation]" } else { &drawn.chart.y };
+    let logarithmic = if field.y.logarithmic() { " (log)" } else { "" };
+    let mut plot = Plot {
+        id: drawn.chart.file.clone(),
+        title: drawn.chart.title.clone(),
+        note: if is_frames { note.to_owned() } else { String::new() },
+        x_title: drawn.chart.x.clone(),
+        y_title: format!("{y_title}{logarithmic}"),
+        x_ticks: field.x_ticks(),
+        y_ticks: field.y_ticks(),
+        ..Plot::default()
+    };
+    if !is_tuning {
+        // Layers and frames are whole.
+        plot.x_ticks.retain(|tick| !tick.label.contains('.'));
+    }
+    for (index, (line, ids)) in lines.iter().zip(&drawn.ids).enumerate() {
+        let (class, shape) = look(index);
+        let scale = (line.points.len() > MANY).then(|| "0.5".to_owned());
+        let mut places = Vec::new();
+        for (&(x, y), id) in line.points.iter().zip(ids) {
+            let Some(place) = field.place(x, y) else { continue };
+            places.push(place);
+            let figures = titles.get(id.as_str()).copied().unwrap_or_default();
+            plot.marks.push(Mark {
+                id: id.clone(),
+                x: text(place.0),
+                y: text(place.1),
+                front: false,
+                scale: scale.clone(),
+                class: class.clone(),
+                shape,
+                groups: String::new(),
+                title: figures.to_owned(),
+            });
+        }
+        // A line below another one shows through its gaps.
+        let class = if index % 2 == 1 { class + " dashed" } else { class };
+        plot.lines.push(Line { path: through(&places), class, shape, label: line.name.clone() });
+    }
+    plot
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What was run and what came out, in sentences.
+
+use super::figures::{bytes, decibels, error, many, millijoules, milliseconds, share};
+use crate::{Summary, Tuning};
+use foveate_design::Design;
+use foveate_page::number::{grouped, things};
+use std::path::Path;
+
+/// Inputs that are named; of more the first.
+const NAMED: usize = 3;
+
+/// What the page is called.
+pub(super) fn title(summary: &Summary) -> String {
+    let network = Path::new(&summary.network).file_name().map(|name| name.to_string_lossy());
+    let network = network.unwrap_or_else(|| summary.network.as_str().into());
+    format!("{network} over {}", inputs(summary))
+}
+
+fn inputs(summary: &Summary) -> String {
+    let more = summary.inputs.len().saturating_sub(NAMED);
+    let named = summary.inputs[..summary.inputs.len() - more].join(", ");
+    if more > 0 { format!("{named} and {more} more") } else { named }
+}
+
+/// Network, input, camera and mode.
+pub(super) fn run(summary: &Summary, design: &Design) -> String {
+    let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
+    format!(
+        "The network {} ran on {} of {}, as a camera with {} shows them, in mode {}: {}.",
+        summary.network,
+        things(frames, "frame"),
+        inputs(summary),
+        camera(design),
+        summary.mode,
+        mode(summary)
+    )
+}
+
+/// The camera in a few words.
+pub(super) fn camera(design: &Design) -> String {
+    let feature = |feature: &foveate_design::SpatialFeature| {
+        feature
+            .level()
+            .map_or(feature.kind().to_string(), |level| format!("{} {level}", feature.kind()))
+    };
+    let features: Vec<String> = design.features().iter().map(feature).collect();
+    let side = design.region_size();
+    format!(
+        "regions of {side}×{side} pixels, {} bits, {}, temporal level {} against {}",
+        design.pixel_bits(),
+        features.join(" + "),
+        design.temporal().level,
+        design.temporal().reference
+    )
+}
+
+fn mode(summary: &Summary) -> &'static str {
+    match summary.mode.split_once(['=', ' ']).map_or(&summary.mode[..], |(mode, _)| mode) {
+        "dense" => "everything is computed for every frame",
+        "exact" => "every value whose window holds a changed pixel is computed again",
+        "compare" => {
+            "values are computed again whose window holds a change; a value that came out as before is none"
+        }
+        "truncate" => {
+            "values are computed again whose window holds a change; a small change is none"
+        }
+        "fixed" => "in every layer the positions under changed regions are computed again",
+        _ => {
+            "the limit of every layer, up to which a change is none, was chosen on the first half of the frames"
+        }
+    }
+}
+
+/// Why the run is not complete.
+pub(super) fn problems(summary: &Summary) -> Vec<String> {
+    let problem = summary.problem.iter();
+    let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
+    problem.map(|problem| format!("{problem}, after {}", things(frames, "frame"))).collect()
+}
+
+/// What is left out of the plot of frames.
+pub(super) fn sampled(every: usize) -> String {
+    format!(
+        "Of every {every} frames in a row, the one that needs the most MACs is shown; frames.csv has all."
+    )
+}
+
+/// A sentence for each total.
+pub(super) fn findings(summary: &Summary) -> Vec<String> {
+    let macs = &summary.macs;
+    let memory = format!(
+        "All tensors stay from frame to frame, which takes {}; the weights take {} and the masks {}.",
+        bytes(summary.kept_bytes),
+        bytes(summary.weight_bytes),
+        bytes(summary.mask_bytes)
+    );
+    if summary.counted_frames == 0 {
+        return vec![
+            "The only frame was computed whole. Savings begin with a second one.".to_owned(),
+            memory,
+        ];
+    }
+    let mut found = vec![
+        format!(
+            "Of the regions of a frame, {} were active and {} changed on the screen, as means over {}.",
+            share(summary.active_share),
+            share(summary.changed_share),
+            things(usize::try_from(summary.counted_frames).unwrap_or(usize::MAX), "counted frame")
+        ),
+        needed(summary),
+        format!(
+            "{} of them were computed, because the executor computes whole blocks of positions; a whole frame takes {} in such blocks.",
+            share(macs.share(macs.scheduled)),
+            share(macs.share(macs.whole))
+        ),
+        memory,
+        time(summary),
+    ];
+    found.extend(accelerated(summary));
+    found.extend(compared(summary));
+    found.extend(summary.tuning.as_ref().map(tuned));
+    found
+}
+
+fn needed(summary: &Summary) -> String {
+    let macs = &summary.macs;
+    let whole =
+        format!("A whole frame takes {} multiplications and additions (MACs).", many(macs.dense));
+    if summary.mode == "dense" {
+        return format!("{whole} All of them are computed for every frame, so nothing is saved.");
+    }
+    format!("{whole} {} of them were needed.", share(macs.share(macs.needed)))
+}
+
+fn time(summary: &Summary) -> String {
+    let mut text = format!(
+        "A frame took {} on this computer, {} of it for masks, comparisons and copies",
+        milliseconds(summary.seconds_per_frame),
+        milliseconds(summary.overhead_seconds_per_frame)
+    );
+    if let Some(error) = &summary.error {
+        text +=
+            &format!("; a whole computation took {}", milliseconds(error.dense_seconds_per_frame));
+    }
+    if let Some(blocks) = summary.break_even_share() {
+        text += &format!(
+            ", as long as this run would at {} of the blocks of a whole frame",
+            share(blocks)
+        );
+    }
+    text + "."
+}
+
+fn accelerated(summary: &Summary) -> Option<String> {
+    let accelerator = summary.accelerator.as_ref()?;
+    let (whole, masked) = (&accelerator.whole, &accelerator.masked);
+    Some(format!(
+        "On the accelerator {} a frame would take {}, {} and {} accesses to DRAM; a whole frame {}, {} and {}.",
+        accelerator.name,
+        milliseconds(masked.seconds),
+        millijoules(masked.energy_mj),
+        many(masked.dram_accesses),
+        milliseconds(whole.seconds),
+        millijoules(whole.energy_mj),
+        many(whole.dram_accesses)
+    ))
+}
+
+fn compared(summary: &Summary) -> Option<String> {
+    let found = summary.error.as_ref()?;
+    let frames = grouped(summary.frames);
+    if found.different_frames == 0 {
+        return Some(format!(
+            "In all {frames} frames every tensor equals that of a whole computation, bit for bit."
+        ));
+    }
+    let outputs = &found.outputs;
+    Some(format!(
+        "{} of {frames} frames differ from a whole computation in some bit of some tensor. The relative RMS error of the outputs is {}, \
+         the largest error {}, PSNR {}, and the largest value is at the same place in {} of the frames.",
+        grouped(found.different_frames),
+        error(outputs.relative_rms),
+        error(outputs.largest),
+        decibels(outputs.psnr),
+        share(outputs.agreement)
+    ))
+}
+
+fn tuned(tuning: &Tuning) -> String {
+    let held = if tuning.holds { "is reached" } else { "is missed" };
+    let frozen = if tuning.frozen.holds {
+        " Outputs that never change after the first frame reach it as well, so it says little."
+    } else {
+        ""
+    };
+    format!(
+        "The limits were chosen on {} before these, in {} runs; there they needed {} of the MACs, and {} without a limit. The goal {} {held} on these frames.{frozen}",
+        things(usize::try_from(tuning.frames).unwrap_or(usize::MAX), "counted frame"),
+        grouped(tuning.runs),
+        share(tuning.chosen.needed_share),
+        share(tuning.exact.needed_share),
+        tuning.goal
+    )
+}

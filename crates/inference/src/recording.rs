@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The network's outputs as files that grow frame by frame: an array of each, and pictures of those that are pictures.
+
+use crate::InferenceError;
+use foveate_network::{Executor, Form, Network};
+use foveate_npy::{Element, NpyWriter};
+use foveate_staging::{StagedFolder, StagingError};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use serde::Serialize;
+
+/// The folder of all outputs.
+const FOLDER: &str = "outputs";
+/// Letters of a file's name.
+const LETTERS: usize = 100;
+
+/// What is written of the outputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Record {
+    /// NumPy arrays `[frames, ...shape]`.
+    pub arrays: bool,
+    /// PNG files of the outputs with one or three channels and the size of the input.
+    pub pictures: bool,
+}
+
+/// An output of the network and its files.
+#[derive(Clone, Debug, Serialize)]
+pub struct Recorded {
+    /// What the model calls it.
+    pub name: String,
+    /// Shape of a frame.
+    pub shape: Vec<usize>,
+    /// Type of a value, as NumPy calls it.
+    pub dtype: &'static str,
+    /// Its array.
+    pub array: Option<String>,
+    /// The folder of its pictures.
+    pub pictures: Option<String>,
+}
+
+/// The files of all outputs, open.
+pub(crate) struct Recording<'a> {
+    staging: &'a StagedFolder,
+    outputs: Vec<Output>,
+    frames: u64,
+}
+
+/// The files of an output, open.
+struct Output {
+    value: usize,
+    told: Recorded,
+    array: Option<NpyWriter>,
+}
+
+impl<'a> Recording<'a> {
+    /// # Errors
+    /// When a file cannot be written, or pictures are wanted and no output is one.
+    pub(crate) fn new(
+        staging: &'a StagedFolder,
+        network: &Network,
+        record: Record,
+    ) -> Result<Self, InferenceError> {
+        let mut outputs: Vec<Output> = Vec::new();
+        if !record.arrays && !record.pictures {
+            return Ok(Self { staging, outputs, frames: 0 });
+        }
+        let values = || network.outputs().iter().zip(network.output_names());
+        let is_picture = |value: usize| is_picture(network.form(value), network.input());
+        if record.pictures && !values().any(|(&value, _)| is_picture(value)) {
+            let shapes = values()
+                .map(|(&value, name)| format!("`{name}` is {}", by(network.form(value).shape())));
+            return Err(InferenceError::NoPicture {
+                outputs: shapes.collect::<Vec<_>>().join(", "),
+            });
+        }
+        let folder = staging.folder().join(FOLDER);
+        std::fs::create_dir(&folder)
+            .map_err(|source| StagingError::Write { path: folder.clone(), source })?;
+        for (&value, name) in values() {
+            let file = free_name(name, &outputs);
+            let shape = network.form(value).shape().to_vec();
+            let path = folder.join(format!("{file}.npy"));
+            let array = record.arrays.then(|| NpyWriter::create(&path, Element::Float32, &shape));
+            let told = Recorded {
+                name: name.clone(),
+                shape,
+                dtype: "float32",
+                array: record.arrays.then(|| format!("{FOLDER}/{file}.npy")),
+                pictures: (record.pictures && is_picture(value))
+                    .then(|| format!("{FOLDER}/{file}")),
+            };
+            outputs.push(Output { value, told, array: array.transpose()? });
+        }
+        Ok(Self { staging, outputs, frames: 0 })
+    }
+
+    /// Takes the outputs of a frame.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub(crate) fn push(&mut self, executor: &Executor<'_>) -> Result<(), InferenceError> {
+        for output in &mut self.outputs {
+            let tensor = executor.value(output.value);
+            if let Some(array) = &mut output.array {
+                array.push(tensor.values().iter().map(|value| value.to_bits().into()));
+                array.write_out(false)?;
+            }
+            if let Some(pictures) = &output.told.pictures {
+                let name = format!("{pictures}/{:06}.png", self.frames);
+                self.staging.write(&name, &png(tensor.form(), tensor.values()))?;
+            }
+        }
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// Completes the files. Returns what there is.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub(crate) fn finish(self) -> Result<Vec<Recorded>, InferenceError> {
+        let finished = self.outputs.into_iter().map(|output| {
+            output.array.map_or(Ok(()), NpyWriter::finish)?;
+            Ok(output.told)
+        });
+        finished.collect()
+    }
+}
+
+/// Whether an output can be shown: one or three channels, and the size of the input.
+fn is_picture(form: &Form, input: &Form) -> bool {
+    let (shape, input) = (form.shape(), input.shape());
+    shape.len() == 4 && shape[0] == 1 && [1, 3].contains(&shape[1]) && shape[2..] == input[2..]
+}
+
+/// 0 as black and 1 as white; what lies beyond is cut off, and what is no number is black.
+fn png(form: &Form, values: &[f32]) -> Vec<u8> {
+    let (channels, places) = (form.shape()[1], form.places());
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+    let shown = |value: f32| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
+    let bytes: Vec<u8> = (0..places)
+        .flat_map(|place| (0..channels).map(move |channel| channel * places + place))
+        .map(|at| shown(values[at]))
+        .collect();
+    let colour = if channels == 3 { ExtendedColorType::Rgb8 } else { ExtendedColorType::L8 };
+    let side = |length: usize| u32::try_from(length).expect("a side of a frame");
+    let mut file = Vec::new();
+    PngEncoder::new(&mut file)
+        .write_image(&bytes, side(form.width()), side(form.height()), colour)
+        .expect("there are as many bytes as the picture has, and memory takes them");
+    file
+}
+
+/// A name of files for a tensor that no output before it has, whatever the tensor is called, also where cases are alike.
+fn free_name(name: &str, before: &[Output]) -> String {
+    let safe = |letter: char| {
+        if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' }
+    };
+    let stem: String = name.chars().map(safe).take(LETTERS).collect();
+    let stem = if stem.is_empty() { "output".to_owned() } else { stem };
+    let is_taken = |file: &str| {
+        let of = |output: &Output| [output.told.array.clone(), output.told.pictures.clone()];
+        let taken = before.iter().flat_map(of).flatten();
+        let all = [format!("{FOLDER}/{file}"), format!("{FOLDER}/{file}.npy")];
+        taken.into_iter().any(|taken| all.iter().any(|file| file.eq_ignore_ascii_case(&taken)))
+    };
+    let numbered = (2..).map(|number| format!("{stem}_{number}"));
+    let mut names = std::iter::once(stem.clone()).chain(numbered);
+    names.find(|file| !is_taken(file)).expect("some number is free")
+}
+
+/// A shape as text.
+fn by(shape: &[usize]) -> String {
+    shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn output(name: &str, before: &[Output]) -> Output {
+        let file = free_name(name, before);
+        let told = Recorded {
+            name: name.to_owned(),
+            shape: Vec::new(),
+            dtype: "float32",
+            array: Some(format!("{FOLDER}/{file}.npy")),
+            pictures: None,
+        };
+        Output { value: 0, told, array: None }
+    }
+
+    #[test]
+    fn names_are_safe_and_no_two_are_alike() {
+        let mut outputs = Vec::new();
+        let long = "x".repeat(300);
+        for name in ["output", "Output", "../a/b:0", "__/a.b:0", "", "\"<é>\"", &long, "output_2"]
+        {
+            let output = output(name, &outputs);
+            outputs.push(output);
+        }
+        let files: Vec<String> =
+            outputs.into_iter().filter_map(|output| output.told.array).collect();
+        let long = format!("outputs/{}.npy", "x".repeat(100));
+        let expected = [
+            "outputs/output.npy",
+            "outputs/Output_2.npy",
+            "outputs/___a_b_0.npy",
+            "outputs/___a_b_0_2.npy",
+            "outputs/output_3.npy",
+            "outputs/_____.npy",
+            &long,
+            "outputs/output_2_2.npy",
+        ];
+        assert_eq!(files, expected);
+    }
+
+    #[test]
+    fn pictures_are_what_has_the_size_of_the_input() {
+        let form = |shape: &[usize]| Form::features(shape.to_vec());
+        let input = form(&[1, 1, 4, 6]);
+        for (shape, expected) in [
+            (&[1, 1, 4, 6][..], true),
+            (&[1, 3, 4, 6], true),
+            (&[1, 2, 4, 6], false),
+            (&[1, 1, 6, 4], false),
+            (&[1, 24], false),
+        ] {
+            assert_eq!(is_picture(&form(shape), &input), expected, "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn channels_lie_side_by_side_and_what_is_beyond_is_cut() {
+        let values = [0.0, 1.0, -3.0, 9.0, f32::NAN, 0.5];
+        let file = png(&Form::features(vec![1, 3, 1, 2]), &values);
+        let picture = image::load_from_memory(&file).unwrap().into_rgb8();
+        assert_eq!(picture.dimensions(), (2, 1));
+        // Red, green and blue of each: 0, -3 and no number; 1, 9 and a half.
+        assert_eq!(picture.into_raw(), [0, 0, 0, 255, 255, 128]);
+    }
+}

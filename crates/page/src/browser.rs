@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A page in Chromium, for tests, where there is one.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+
+/// Where Chromium is.
+#[must_use]
+pub fn chromium() -> Option<PathBuf> {
+    let folders: Vec<PathBuf> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
+    let places = NAMES.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+    places.into_iter().find(|place| place.is_file())
+}
+
+/// What a test expects of the marks of a page.
+#[derive(Clone, Copy, Debug)]
+pub struct Tip {
+    /// What the figures of the last mark of a plot look like, as an expression of JavaScript.
+    pub told: &'static str,
+    /// To how many places they lead.
+    pub links: usize,
+}
+
+/// What `probe.js` found on a page in a window of that width, which must be at least 500.
+///
+/// # Panics
+/// When Chromium does not run, or says nothing.
+#[must_use]
+pub fn probe(program: &Path, page: &str, width: u32, tip: Tip) -> Value {
+    let folder = tempfile::tempdir().expect("a folder for the page");
+    let file = folder.path().join("page.html");
+    let script =
+        include_str!("probe.js").replace("TOLD", tip.told).replace("LINKS", &tip.links.to_string());
+    let script = format!("<script>{script}</script></body>");
+    std::fs::write(&file, page.replace("</body>", &script)).expect("the page is written");
+    let run = Command::new(program)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-first-run",
+            "--hide-scrollbars",
+        ])
+        .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
+        .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+        .arg(format!("--window-size={width},800"))
+        .arg("--dump-dom")
+        .arg(format!("file://{}", file.display()))
+        .output()
+        .expect("Chromium runs");
+    let text = String::from_utf8_lossy(&run.stdout);
+    let found =
+        text.split_once("<pre id=\"probe\">").and_then(|(_, rest)| rest.split_once("</pre>"));
+    let (found, _) = found.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&run.stderr)));
+    serde_json::from_str(found).expect("the script writes JSON")
+}
