@@ -34,7 +34,7 @@ def steps(page):
 
 
 def given(folder, seed=1):
-    """What the pages take for granted: a labelled IDX set, labelled photographs, a clip and a folder of clips."""
+    """What the pages take for granted: a labelled IDX set, labelled photographs, a clip, a folder of clips, and the network of the sources."""
     chance = numpy.random.default_rng(seed)
     images, labels = chance.integers(0, 256, (12, 28, 28), numpy.uint8), numpy.arange(12, dtype=numpy.uint8) % 10
     images[:, :12] = 0
@@ -45,6 +45,8 @@ def given(folder, seed=1):
         (folder / "photos" / label).mkdir(parents=True, exist_ok=True)
         pixels = chance.integers(0, 256, (96, 128, 3), numpy.uint8)
         Image.fromarray(pixels).save(folder / "photos" / label / name)
+    (folder / "networks").mkdir()
+    (folder / "networks/denoiser.onnx").write_bytes(pathlib.Path("networks/denoiser.onnx").read_bytes())
     (folder / "clips").mkdir()
     command = [FOVEATE, "simulate", "scene:street", "-o", "made", "--frames", "6", "--rendered", "mp4", "--quiet"]
     subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)

@@ -12,7 +12,7 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::{require_tools, skip};
 use serde_json::Value;
 
-/// Runs simulate on a file system of so many KiB, and copies to `copy` what is there afterwards; none
+/// Runs a command on a file system of so many KiB, and copies to `copy` what is there afterwards; none
 /// where no file system can be mounted.
 fn run_within(kib: u32, folder: &Path, args: &str) -> Option<(Output, PathBuf)> {
     let (place, copy) = (folder.join("small"), folder.join(format!("copy of {kib}")));
@@ -20,7 +20,7 @@ fn run_within(kib: u32, folder: &Path, args: &str) -> Option<(Output, PathBuf)> 
     let foveate = assert_cmd::cargo::cargo_bin("foveate");
     let script = format!(
         "mount -t tmpfs -o size={kib}k none '{place}' || exit 99
-         '{foveate}' simulate {args} -o '{place}/out' --quiet --json; code=$?
+         '{foveate}' {args} -o '{place}/out' --quiet --json; code=$?
          cp -r '{place}' '{copy}'; exit $code",
         place = place.display(),
         foveate = foveate.display(),
@@ -51,7 +51,7 @@ fn frames_of(array: &[u8], bytes_of_frame: usize) -> (usize, usize) {
 fn what_fits_is_there_whole_and_marked_as_partial() {
     let dir = tempfile::tempdir().unwrap();
     // 784 regions; the table alone would need some 15 MB.
-    let args = "scene:street --frames 500 --events csv,parquet --pixel-events=npz,csv";
+    let args = "simulate scene:street --frames 500 --events csv,parquet --pixel-events=npz,csv";
     let Some((ran, copy)) = run_within(6144, dir.path(), args) else { return };
     let said = String::from_utf8_lossy(&ran.stderr).into_owned();
     assert_eq!(ran.status.code(), Some(1), "{said}");
@@ -90,7 +90,7 @@ fn a_video_for_which_there_is_no_room_is_left_out_by_name() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let args = "scene:random --frames 300 --rendered mkv --events csv";
+    let args = "simulate scene:random --frames 300 --rendered mkv --events csv";
     let Some((ran, copy)) = run_within(6144, dir.path(), args) else { return };
     assert_eq!(ran.status.code(), Some(1), "{}", String::from_utf8_lossy(&ran.stderr));
     let summary = fs::read(copy.join("out/summary.json")).unwrap();
@@ -103,9 +103,27 @@ fn a_video_for_which_there_is_no_room_is_left_out_by_name() {
 #[test]
 fn a_disk_that_is_full_at_once_leaves_nothing_and_is_named() {
     let dir = tempfile::tempdir().unwrap();
-    let Some((ran, copy)) = run_within(64, dir.path(), "scene:street --frames 50") else { return };
+    let Some((ran, copy)) = run_within(64, dir.path(), "simulate scene:street --frames 50") else {
+        return;
+    };
     let said = String::from_utf8_lossy(&ran.stderr).into_owned();
     assert_eq!(ran.status.code(), Some(2), "{said}");
     assert!(said.contains("No space left on device"), "{said}");
     assert_eq!(fs::read_dir(copy).unwrap().count(), 0);
+}
+
+/// The outputs of a network are kept whole or not at all.
+#[test]
+fn outputs_for_which_there_is_no_room_leave_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let network = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
+    for format in ["npy", "png"] {
+        let args = format!("infer '{network}' scene:street --max-frames 60 --outputs {format}");
+        let Some((ran, copy)) = run_within(640, dir.path(), &args) else { return };
+        let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+        assert_eq!(ran.status.code(), Some(2), "{format}: {said}");
+        assert!(said.contains("outputs/clean") && said.contains("No space left"), "{said}");
+        assert_eq!(fs::read_dir(&copy).unwrap().count(), 0, "{format}");
+        fs::remove_dir(copy).unwrap();
+    }
 }
