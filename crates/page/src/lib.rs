@@ -16,5 +16,5 @@ pub use axis::Axis;
 pub use colour::{COLOURS, look};
 pub use error::PageError;
 pub use page::{Fact, Notice, Page, Target};
-pub use plot::{At, Field, Line, Mark, Plot, staircase, text, through};
+pub use plot::{At, Field, Line, Mark, Plot, rings, staircase, text, through};
 pub use table::{Cell, Column, Row, Table};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Plots as the template draws them: every place is a number of the picture.
 
+use std::collections::BTreeMap;
+
 use askama::Template;
 
 use crate::axis::{Axis, Tick};
@@ -145,6 +147,29 @@ pub fn text(value: f64) -> String {
     format!("{value:.1}")
 }
 
+/// Marks of one place that look different become rings around each other; what comes last lies above. `size` is that of the others, as a
+/// share of the usual one.
+pub fn rings(marks: &mut [Mark], size: f64) {
+    let place = |mark: &Mark| (mark.x.clone(), mark.y.clone());
+    let drawn = |mark: &Mark| (mark.class.clone(), mark.shape);
+    // The looks of a place, from above.
+    let mut at: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    for mark in marks.iter().rev() {
+        let looks = at.entry(place(mark)).or_default();
+        if !looks.contains(&drawn(mark)) {
+            looks.push(drawn(mark));
+        }
+    }
+    for mark in marks {
+        let looks = &at[&place(mark)];
+        let above = looks.iter().position(|other| *other == drawn(mark));
+        let above = above.expect("every mark was looked at");
+        let above = u8::try_from(above).unwrap_or(u8::MAX);
+        let scale = size * (1.0 + f64::from(above) / 2.0);
+        mark.scale = (above > 0 || size < 1.0).then(|| text(scale));
+    }
+}
+
 /// Ticks of which no two are too near for their labels; the lowest stays.
 fn spaced(ticks: impl Iterator<Item = (f64, Tick)>, least: f64) -> Vec<At> {
     let mut found = Vec::new();
@@ -201,6 +226,34 @@ mod tests {
         let places = [(300.0, 200.0), (100.0, 300.0)];
         assert_eq!(staircase(&places, false, true), "M300.0 14.0H300.0V200.0H100.0V300.0H78.0");
         assert_eq!(staircase(&[], true, true), "");
+    }
+
+    #[test]
+    fn marks_that_would_be_hidden_are_rings() {
+        let mark = |x: &str, class: &str| Mark {
+            id: String::new(),
+            x: x.to_owned(),
+            y: "9.0".to_owned(),
+            front: false,
+            scale: None,
+            class: class.to_owned(),
+            shape: "dot",
+            groups: String::new(),
+            title: String::new(),
+        };
+        let mut marks = [
+            mark("1.0", "k0"),
+            mark("2.0", "k0"),
+            mark("1.0", "k1"),
+            mark("1.0", "k1"),
+            mark("1.0", "k2"),
+        ];
+        rings(&mut marks, 1.0);
+        let scales = marks.each_ref().map(|mark| mark.scale.as_deref());
+        assert_eq!(scales, [Some("2.0"), None, Some("1.5"), Some("1.5"), None]);
+        rings(&mut marks, 0.5);
+        let scales = marks.each_ref().map(|mark| mark.scale.as_deref());
+        assert_eq!(scales, [Some("1.0"), Some("0.5"), Some("0.8"), Some("0.8"), Some("0.5")]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use foveate_page::{Axis, Field, Line, Mark, Plot, look, staircase, text};
+use foveate_page::{Axis, Field, Line, Mark, Plot, look, rings, staircase, text};
 
 use super::colour::Grouping;
 use crate::objective::{Better, Objective, unbeaten};
@@ -147,31 +147,22 @@ fn mark(
 /// Marks of one place name each other, and those that look different become rings around each other.
 pub(crate) fn stack(marks: &mut [Mark]) {
     let place = |mark: &Mark| (mark.x.clone(), mark.y.clone());
-    let drawn = |mark: &Mark| (mark.class.clone(), mark.shape);
-    // The numbers of a place, and its looks from above.
-    let mut at: BTreeMap<_, (Vec<String>, Vec<_>)> = BTreeMap::new();
-    for mark in marks.iter().rev() {
-        let (numbers, looks) = at.entry(place(mark)).or_default();
-        numbers.push(mark.id.clone());
-        if !looks.contains(&drawn(mark)) {
-            looks.push(drawn(mark));
-        }
+    let mut at: BTreeMap<_, Vec<String>> = BTreeMap::new();
+    for mark in marks.iter() {
+        at.entry(place(mark)).or_default().push(mark.id.clone());
     }
-    for mark in marks {
-        let Some((numbers, looks)) = at.get(&place(mark)) else { continue };
+    for mark in marks.iter_mut() {
+        let Some(numbers) = at.get(&place(mark)) else { continue };
         let mut others: Vec<String> = numbers.clone();
         others.retain(|number| *number != mark.id);
-        // As numbers: they have no zeros before them.
-        others.sort_unstable_by_key(|number| (number.len(), number.clone()));
         if others.is_empty() {
             continue;
         }
+        // As numbers: they have no zeros before them.
+        others.sort_unstable_by_key(|number| (number.len(), number.clone()));
         let named = &others[..others.len().min(12)];
         let more = if others.len() > named.len() { " and more" } else { "" };
         mark.title += &format!("\nat the same place: {}{more}", named.join(", "));
-        let above = looks.iter().position(|other| *other == drawn(mark));
-        let above = above.expect("every mark was looked at");
-        let above = u8::try_from(above).unwrap_or(u8::MAX);
-        mark.scale = (above > 0).then(|| text(1.0 + f64::from(above) / 2.0));
     }
+    rings(marks, 1.0);
 }

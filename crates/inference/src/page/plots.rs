@@ -3,7 +3,7 @@
 
 use crate::charts::Drawn;
 use foveate_chart::Shape;
-use foveate_page::{Axis, Field, Line, Mark, Plot, look, text, through};
+use foveate_page::{Axis, Field, Line, Mark, Plot, look, rings, text, through};
 use std::collections::BTreeMap;
 
 /// Marks of a line beyond which they are smaller.
@@ -40,7 +40,6 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
     }
     for (index, (line, ids)) in lines.iter().zip(&drawn.ids).enumerate() {
         let (class, shape) = look(index);
-        let scale = (line.points.len() > MANY).then(|| "0.5".to_owned());
         let mut places = Vec::new();
         for (&(x, y), id) in line.points.iter().zip(ids) {
             let Some(place) = field.place(x, y) else { continue };
@@ -51,7 +50,7 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
                 x: text(place.0),
                 y: text(place.1),
                 front: false,
-                scale: scale.clone(),
+                scale: None,
                 class: class.clone(),
                 shape,
                 groups: String::new(),
@@ -62,5 +61,7 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
         let class = if index % 2 == 1 { class + " dashed" } else { class };
         plot.lines.push(Line { path: through(&places), class, shape, label: line.name.clone() });
     }
+    let is_many = lines.iter().any(|line| line.points.len() > MANY);
+    rings(&mut plot.marks, if is_many { 0.5 } else { 1.0 });
     plot
 }
