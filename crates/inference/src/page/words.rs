@@ -55,20 +55,20 @@ pub(super) fn camera(design: &Design) -> String {
     )
 }
 
-fn mode(summary: &Summary) -> &'static str {
-    match summary.mode.split_once(['=', ' ']).map_or(&summary.mode[..], |(mode, _)| mode) {
-        "dense" => "everything is computed for every frame",
-        "exact" => "every value whose window holds a changed pixel is computed again",
-        "compare" => {
-            "values are computed again whose window holds a change; a value that came out as before is none"
+fn mode(summary: &Summary) -> String {
+    let (mode, limit) = summary.mode.split_once('=').unwrap_or((&summary.mode, ""));
+    let again = "every value is computed again whose window holds";
+    match mode {
+        "dense" => "everything is computed for every frame".to_owned(),
+        "exact" => format!("{again} a changed pixel"),
+        "compare" => format!("{again} a change, and a value that came out as before is none"),
+        "truncate" => format!("{again} a change of more than {limit}"),
+        "fixed" => {
+            "in every layer the positions under changed regions are computed again".to_owned()
         }
-        "truncate" => {
-            "values are computed again whose window holds a change; a small change is none"
-        }
-        "fixed" => "in every layer the positions under changed regions are computed again",
-        _ => {
-            "the limit of every layer, up to which a change is none, was chosen on the first half of the frames"
-        }
+        _ => format!(
+            "{again} a change above the limit of its layer, which was chosen on the first half of the frames"
+        ),
     }
 }
 
