@@ -127,17 +127,23 @@ pub(crate) trait Number:
     fn of(values: &Values) -> &[Self];
     fn of_mut(values: &mut Values) -> &mut [Self];
 
-    /// Whether it has the same bits.
-    fn is_same(self, other: Self) -> bool;
-
     /// By how many steps it differs from another.
     fn distance(self, other: Self) -> f32;
 
-    /// Whether it is more than another; a value that is no number is more than any.
-    fn is_more(self, than: Self) -> bool;
-
     /// The value in floating point.
     fn float(self) -> f32;
+
+    /// Whether it has the same bits.
+    #[inline(always)]
+    fn is_same(self, other: Self) -> bool {
+        self == other
+    }
+
+    /// Whether it is more than another; a value that is no number is more than any.
+    #[inline(always)]
+    fn is_more(self, than: Self) -> bool {
+        self > than
+    }
 }
 
 /// A value of 8 bits.
@@ -149,70 +155,92 @@ pub(crate) trait Byte: Number + Into<i32> + Into<f32> {
     fn index(self) -> usize;
 }
 
-macro_rules! number {
-    ($number:ty, $variant:ident, $lowest:expr, $is_same:expr, $is_more:expr, $distance:expr, $float:expr) => {
-        impl Number for $number {
-            const LOWEST: Self = $lowest;
-
-            fn of(values: &Values) -> &[Self] {
-                match values {
-                    Values::$variant(values) => values,
-                    _ => unreachable!("a network's encodings are checked when it is read"),
-                }
+/// Where values of a type are stored.
+macro_rules! stored {
+    ($variant:ident) => {
+        fn of(values: &Values) -> &[Self] {
+            match values {
+                Values::$variant(values) => values,
+                _ => unreachable!("a network's encodings are checked when it is read"),
             }
+        }
 
-            fn of_mut(values: &mut Values) -> &mut [Self] {
-                match values {
-                    Values::$variant(values) => values,
-                    _ => unreachable!("a network's encodings are checked when it is read"),
-                }
-            }
-
-            #[inline(always)]
-            fn is_same(self, other: Self) -> bool {
-                $is_same(self, other)
-            }
-
-            #[inline(always)]
-            fn distance(self, other: Self) -> f32 {
-                $distance(self, other)
-            }
-
-            #[inline(always)]
-            fn is_more(self, than: Self) -> bool {
-                $is_more(self, than)
-            }
-
-            #[inline(always)]
-            fn float(self) -> f32 {
-                $float(self)
+        fn of_mut(values: &mut Values) -> &mut [Self] {
+            match values {
+                Values::$variant(values) => values,
+                _ => unreachable!("a network's encodings are checked when it is read"),
             }
         }
     };
 }
 
+impl Number for f32 {
+    const LOWEST: Self = Self::NEG_INFINITY;
+    stored!(F32);
+
+    #[inline(always)]
+    fn distance(self, other: Self) -> f32 {
+        (self - other).abs()
+    }
+
+    #[inline(always)]
+    fn float(self) -> f32 {
+        self
+    }
+
+    #[inline(always)]
+    fn is_same(self, other: Self) -> bool {
+        self.to_bits() == other.to_bits()
+    }
+
+    #[inline(always)]
+    fn is_more(self, than: Self) -> bool {
+        self > than || self.is_nan()
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a distance, and what ONNX calls a cast")]
+impl Number for i32 {
+    const LOWEST: Self = Self::MIN;
+    stored!(I32);
+
+    #[inline(always)]
+    fn distance(self, other: Self) -> f32 {
+        self.abs_diff(other) as f32
+    }
+
+    #[inline(always)]
+    fn float(self) -> f32 {
+        self as f32
+    }
+}
+
 macro_rules! byte {
     ($number:ident, $variant:ident) => {
-        number!(
-            $number,
-            $variant,
-            $number::MIN,
-            |a, b| a == b,
-            |a, b| a > b,
-            |a: $number, b: $number| f32::from(a.abs_diff(b)),
-            f32::from
-        );
+        impl Number for $number {
+            const LOWEST: Self = Self::MIN;
+            stored!($variant);
+
+            #[inline(always)]
+            fn distance(self, other: Self) -> f32 {
+                self.abs_diff(other).into()
+            }
+
+            #[inline(always)]
+            fn float(self) -> f32 {
+                self.into()
+            }
+        }
 
         impl Byte for $number {
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "it has been clamped"
+            )]
             #[inline(always)]
             fn saturated(value: i32) -> Self {
-                #[allow(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "it has been clamped"
-                )]
-                let value = value.clamp(Self::MIN.into(), Self::MAX.into()) as Self;
-                value
+                value.clamp(Self::MIN.into(), Self::MAX.into()) as Self
             }
 
             #[inline(always)]
@@ -222,28 +250,5 @@ macro_rules! byte {
         }
     };
 }
-
-number!(
-    f32,
-    F32,
-    f32::NEG_INFINITY,
-    |a: f32, b: f32| a.to_bits() == b.to_bits(),
-    |a: f32, b: f32| a > b || a.is_nan(),
-    |a: f32, b: f32| (a - b).abs(),
-    |a| a
-);
 byte!(u8, U8);
 byte!(i8, I8);
-#[allow(clippy::cast_precision_loss, reason = "a distance, and what ONNX calls a cast")]
-mod sums {
-    use super::{Number, Values};
-    number!(
-        i32,
-        I32,
-        i32::MIN,
-        |a, b| a == b,
-        |a, b| a > b,
-        |a: i32, b: i32| a.abs_diff(b) as f32,
-        |a| a as f32
-    );
-}

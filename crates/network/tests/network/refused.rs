@@ -336,17 +336,31 @@ fn valid() -> Vec<u8> {
     model.bytes()
 }
 
+/// The same of 8-bit integers.
+fn quantized() -> Vec<u8> {
+    let mut model = Model::new(&[1, 1, 8, 8]);
+    let (scale, zero) = (model.floats(&[], &[0.5]), model.typed(data_type::UINT8, &[], &[3]));
+    let one = model.node("QuantizeLinear", &["picture", &scale, &zero], &[]);
+    let weights = model.typed(data_type::UINT8, &[2, 1, 1, 1], &[1, 2]);
+    let conv = [&one, &scale, &zero, &weights, &scale, &zero, &scale, &zero];
+    let two = model.node("QLinearConv", &conv.map(String::as_str), &[]);
+    let sum = [&two, &scale, &zero, &two, &scale, &zero, &scale, &zero];
+    let three = model.node("com.microsoft.QLinearAdd", &sum.map(String::as_str), &[]);
+    let four = model.node("DequantizeLinear", &[&three, &scale, &zero], &[]);
+    model.output(&four);
+    model.bytes()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
     /// Truncated and changed bytes never panic, and never take more memory than the limits allow.
     #[test]
-    fn damaged_bytes_do_not_panic(cut in 0..400usize, edits in prop::collection::vec((0..400usize, any::<u8>()), 0..4)) {
-        let mut bytes = valid();
+    fn damaged_bytes_do_not_panic(cut in 0..400usize, edits in prop::collection::vec((0..700usize, any::<u8>()), 0..4), is_quantized in any::<bool>()) {
+        let mut bytes = if is_quantized { quantized() } else { valid() };
+        let length = bytes.len();
         for (at, byte) in edits {
-            if let Some(place) = bytes.get_mut(at) {
-                *place = byte;
-            }
+            bytes[at % length] = byte;
         }
         bytes.truncate(bytes.len().saturating_sub(cut / 20));
         let _ = Network::parse(&bytes, Path::new("test.onnx"), FrameSize { width: 8, height: 8 });
@@ -354,10 +368,10 @@ proptest! {
 }
 
 #[test]
-fn the_network_that_is_damaged_is_valid() {
-    let bytes = valid();
-    assert!(bytes.len() < 400);
-    assert!(
-        Network::parse(&bytes, Path::new("test.onnx"), FrameSize { width: 8, height: 8 }).is_ok()
-    );
+fn the_networks_that_are_damaged_are_valid() {
+    for bytes in [valid(), quantized()] {
+        assert!(bytes.len() < 700, "{}", bytes.len());
+        let size = FrameSize { width: 8, height: 8 };
+        assert!(Network::parse(&bytes, Path::new("test.onnx"), size).is_ok());
+    }
 }
