@@ -8,15 +8,20 @@ use crate::common::{fail_in, files_below, succeed_in};
 use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
+const QUANTIZED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser-int8.onnx");
 
 fn summary(folder: &Path, more: &[&str]) -> Value {
     summary_of(folder, "5", more)
 }
 
 fn summary_of(folder: &Path, frames: &str, more: &[&str]) -> Value {
+    run(folder, DENOISER, frames, more)
+}
+
+fn run(folder: &Path, network: &str, frames: &str, more: &[&str]) -> Value {
     let args = [
         "infer",
-        DENOISER,
+        network,
         "scene:street",
         "-o",
         "out",
@@ -66,6 +71,20 @@ fn exact_modes_are_exact_and_save_most_of_the_work() {
         "{layers}"
     );
     assert_eq!(fs::read_to_string(dir.path().join("out/frames.csv")).unwrap().lines().count(), 6);
+}
+
+/// A network of 8-bit integers is as exact, keeps bytes, and rounds changes away.
+#[test]
+fn quantized_networks_keep_bytes() {
+    let dir = tempfile::tempdir().unwrap();
+    let needed = |mode| {
+        let found = run(dir.path(), QUANTIZED, "5", &["--mode", mode, "--reference"]);
+        assert_eq!(found["error"]["different_frames"], 0);
+        // The picture, four layers of 8 bits behind their input, and two tensors of floating-point values.
+        assert_eq!(found["kept_bytes"], 224 * 224 * (4 + 1 + 3 * 12 + 1 + 4 + 4));
+        found["macs"]["needed"].as_f64().unwrap()
+    };
+    assert!(needed("compare") < needed("exact"));
 }
 
 #[test]
