@@ -101,13 +101,14 @@ impl<'a> Recording<'a> {
     pub(crate) fn push(&mut self, executor: &Executor<'_>) -> Result<(), InferenceError> {
         for output in &mut self.outputs {
             let tensor = executor.value(output.value);
+            let values = tensor.reals();
             if let Some(array) = &mut output.array {
-                array.push(tensor.values().iter().map(|value| value.to_bits().into()));
+                array.push(values.iter().map(|value| value.to_bits().into()));
                 array.write_out(false)?;
             }
             if let Some(pictures) = &output.told.pictures {
                 let name = format!("{pictures}/{:06}.png", self.frames);
-                self.staging.write(&name, &png(tensor.form(), tensor.values()))?;
+                self.staging.write(&name, &png(tensor.form(), &values))?;
             }
         }
         self.frames += 1;
