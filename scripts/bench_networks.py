@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Times `foveate infer` beside onnxruntime, in one run.
+"""Times `foveate infer` beside onnxruntime and tract, in one run.
 
-    bench_networks.py FOLDER [NAME...] [--input INPUT] [--frames N] [--rounds N] [--threads N...]
+    bench_networks.py FOLDER [NAME...] [--inputs INPUT...] [--frames N] [--rounds N] [--threads N...] [--tract PROGRAM]
 
 FOLDER holds ONNX files, as scripts/networks.py makes them. The programs take turns, and the best of the rounds counts: other work on the
-machine only makes a time longer. Needs `foveate` on the path (or its path in FOVEATE), and onnxruntime.
+machine only makes a time longer. Needs `foveate` on the path (or its path in FOVEATE), and onnxruntime. PROGRAM is what
+`cargo build --release --manifest-path scripts/tract_dense/Cargo.toml` makes; tract computes on one thread.
 """
 import argparse
 import glob
@@ -19,13 +20,12 @@ import numpy as np
 import onnxruntime
 
 
-def infer(path, size, mode, threads, options):
+def infer(path, clip, size, mode, threads, options):
     """The summary of a run."""
     width, height = size
-    is_scene = options.input.startswith("scene:")
-    fit = ["--set", f"frame={{width={width},height={height}}}"] if is_scene else ["--resize", f"{width}x{height}"]
+    fit = ["--set", f"frame={{width={width},height={height}}}"] if clip.startswith("scene:") else ["--resize", f"{width}x{height}"]
     with tempfile.TemporaryDirectory() as folder:
-        command = [os.environ.get("FOVEATE", "foveate"), "infer", path, options.input, "-o", os.path.join(folder, "out"),
+        command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"),
                    "--mode", mode, "--json", "--max-frames", str(options.frames), *fit]
         env = dict(os.environ, RAYON_NUM_THREADS=str(threads))
         return json.loads(subprocess.run(command, env=env, check=True, capture_output=True, text=True).stdout)
@@ -49,40 +49,65 @@ def dense_time(runner, shape):
     return min(times)
 
 
+def shape_of(runner):
+    """The shape of the pictures; networks for any size see 640x360."""
+    shape = runner.get_inputs()[0].shape
+    return shape if all(isinstance(length, int) for length in shape) else [1, shape[1], 360, 640]
+
+
+def tract_time(program, path, shape):
+    """Seconds of a picture in tract, the best of some."""
+    command = [program, path, *map(str, shape)]
+    return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def row(path, clip, threads, options):
+    """Times of a network on a clip, as a row of the table."""
+    runner = session(path, threads)
+    shape = shape_of(runner)
+    size = shape[3], shape[2]
+    theirs, tract, dense, exact = [], [], [], []
+    for _ in range(options.rounds):
+        theirs.append(dense_time(runner, shape))
+        if options.tract and threads == 1:
+            tract.append(tract_time(options.tract, path, shape))
+        dense.append(infer(path, clip, size, "dense", threads, options)["seconds_per_frame"])
+        exact.append(infer(path, clip, size, "exact", threads, options))
+    masks = min(run["overhead_seconds_per_frame"] for run in exact)
+    found = exact[0]
+    exact = [run["seconds_per_frame"] for run in exact]
+    shown = [f"{1e3 * min(times):.1f} ms" if times else "" for times in (theirs, tract, dense, exact, [masks])]
+    if not options.tract:
+        del shown[1]
+    ratios = [f"{min(theirs) / min(times):.2f}x" for times in (dense, exact)]
+    # Of the blocks of a whole frame, and how time follows them.
+    blocks = found["macs"]["scheduled"] / found["macs"]["whole"]
+    shares = [f"{100 * found['changed_share']:.1f} %", f"{100 * blocks:.0f} %", f"{100 * min(exact) / min(dense):.0f} %"]
+    name = os.path.splitext(os.path.basename(path))[0]
+    label = os.path.basename(clip).rsplit(".", 1)[0]
+    return [name, f"{size[0]}x{size[1]}", label, str(threads), *shown, *ratios, *shares]
+
+
 def main():
-    parser = argparse.ArgumentParser(prog="bench_networks.py", description="Times `foveate infer` beside onnxruntime.")
+    parser = argparse.ArgumentParser(prog="bench_networks.py", description="Times `foveate infer` beside onnxruntime and tract.")
     parser.add_argument("folder")
     parser.add_argument("names", nargs="*", metavar="NAME", help="files without .onnx; by default all")
-    parser.add_argument("--input", default="scene:street", help="a clip (%(default)s)")
+    parser.add_argument("--inputs", nargs="+", default=["scene:street"], help="clips (scene:street)")
     parser.add_argument("--frames", type=int, default=12)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--threads", type=int, nargs="+", default=[1])
+    parser.add_argument("--tract", metavar="PROGRAM", help="what scripts/tract_dense makes")
     options = parser.parse_args()
     paths = [os.path.join(options.folder, f"{name}.onnx") for name in options.names] or sorted(glob.glob(os.path.join(options.folder, "*.onnx")))
-    print(f"onnxruntime {onnxruntime.__version__}, {options.input}, {options.frames} frames\n")
-    print("| network | size | threads | onnxruntime | dense | exact | dense / onnxruntime | exact / onnxruntime | changed | MACs computed |")
-    print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    print(f"onnxruntime {onnxruntime.__version__}, {options.frames} frames\n")
+    programs = ["onnxruntime", *(["tract"] if options.tract else []), "dense", "exact", "masks"]
+    heads = ["network", "size", "clip", "threads", *programs, "dense / onnxruntime", "exact / onnxruntime", "changed", "blocks", "time"]
+    print("| " + " | ".join(heads) + " |")
+    print("| --- | --- | --- |" + " ---: |" * (len(heads) - 3))
     for path in paths:
-        for threads in options.threads:
-            runner = session(path, threads)
-            shape = runner.get_inputs()[0].shape
-            size = [shape[3], shape[2]]
-            if not all(isinstance(length, int) for length in shape):
-                size = [640, 360]
-                shape = [1, shape[1], 360, 640]
-            theirs, dense, exact = [], [], []
-            for _ in range(options.rounds):
-                theirs.append(dense_time(runner, shape))
-                dense.append(infer(path, size, "dense", threads, options))
-                exact.append(infer(path, size, "exact", threads, options))
-            milliseconds = [1e3 * min(theirs), *(1e3 * min(run["seconds_per_frame"] for run in runs) for runs in (dense, exact))]
-            found = exact[0]
-            share = found["macs"]["scheduled"] / found["macs"]["dense"]
-            name = os.path.splitext(os.path.basename(path))[0]
-            times = " | ".join(f"{value:.1f} ms" for value in milliseconds)
-            ratios = " | ".join(f"{milliseconds[0] / value:.2f}x" for value in milliseconds[1:])
-            shares = f"{100 * found['changed_share']:.1f} % | {100 * share:.0f} %"
-            print(f"| {name} | {size[0]}x{size[1]} | {threads} | {times} | {ratios} | {shares} |", flush=True)
+        for clip in options.inputs:
+            for threads in options.threads:
+                print("| " + " | ".join(row(path, clip, threads, options)) + " |", flush=True)
 
 
 if __name__ == "__main__":

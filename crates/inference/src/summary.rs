@@ -273,15 +273,16 @@ pub(crate) fn ratio(part: u64, all: u64) -> f64 {
 }
 
 impl Summary {
-    /// The share of the MACs of a whole computation, both in blocks, at which this run would have been as slow as the whole computation beside it: below it, parts are
-    /// faster. Nothing without a whole computation, where nothing was computed, or where everything was.
+    /// The share of the MACs of a whole computation, both in blocks, up to which parts are at least faster than the whole: that at which this run
+    /// would have been as slow if each further block took as long as its own. It takes less, because more blocks are neighbors. Nothing without a
+    /// whole computation, where nothing was computed, or where everything was.
     #[must_use]
     pub fn break_even_share(&self) -> Option<f64> {
         let dense = self.error?.dense_seconds_per_frame;
         let computing = self.seconds_per_frame - self.overhead_seconds_per_frame;
         let per_share = computing * self.macs.whole / self.macs.scheduled;
         let share = (dense - self.overhead_seconds_per_frame) / per_share;
-        (share.is_finite() && self.macs.scheduled < self.macs.whole).then_some(share)
+        (share.is_finite() && self.macs.scheduled < self.macs.whole).then_some(share.min(1.0))
     }
 
     /// A row per layer.

@@ -127,7 +127,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
     if let Some(error) = &summary.error {
         let _ = write!(text, "; whole {:.2} ms", 1e3 * error.dense_seconds_per_frame);
         if let Some(share) = summary.break_even_share() {
-            let _ = write!(text, "; as slow at {} of the blocks", percent(share));
+            let _ = write!(text, "; faster up to {} of the blocks or more", percent(share));
         }
         text.push('\n');
         let _ = writeln!(

@@ -145,7 +145,7 @@ fn time(summary: &Summary) -> String {
     }
     if let Some(blocks) = summary.break_even_share() {
         text += &format!(
-            ", as long as this run would at {} of the blocks of a whole frame",
+            ", as long as this run would at {} of the blocks of a whole frame or more",
             share(blocks)
         );
     }

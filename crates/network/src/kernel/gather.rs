@@ -176,14 +176,26 @@ fn take<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
     }
 }
 
-/// Copies a little more than some whole registers: by whole registers, of which the last two overlap.
+/// Copies with two accesses that may overlap as long as that is enough: most stretches are short.
 #[inline(always)]
 fn copy<T: Copy>(from: &[T], to: &mut [T]) {
-    let (registers, _) = from.as_chunks::<CHUNK>();
-    let (places, _) = to.as_chunks_mut::<CHUNK>();
-    places.iter_mut().zip(registers).for_each(|(to, from)| *to = *from);
-    match (from.last_chunk::<CHUNK>(), to.last_chunk_mut::<CHUNK>()) {
-        (Some(from), Some(to)) => *to = *from,
-        _ => to.copy_from_slice(from),
+    match to.len() {
+        length if length < CHUNK => to.copy_from_slice(from),
+        length if length <= 2 * CHUNK => copy_ends::<_, CHUNK>(from, to),
+        length if length <= 4 * CHUNK => copy_ends::<_, { 2 * CHUNK }>(from, to),
+        _ => {
+            let (whole, _) = to.as_chunks_mut::<{ 2 * CHUNK }>();
+            whole.iter_mut().zip(from.as_chunks().0).for_each(|(to, from)| *to = *from);
+            copy_ends::<_, { 2 * CHUNK }>(from, to);
+        }
     }
+}
+
+/// Copies the first `N` values and the last.
+#[inline(always)]
+fn copy_ends<T: Copy, const N: usize>(from: &[T], to: &mut [T]) {
+    let ends = (from.first_chunk::<N>(), from.last_chunk::<N>());
+    let (Some(&first), Some(&last)) = ends else { unreachable!("there are {N} values") };
+    *to.first_chunk_mut().expect("as many") = first;
+    *to.last_chunk_mut().expect("as many") = last;
 }
