@@ -133,7 +133,7 @@ def main():
         found = [value.numpy() for value in (found if isinstance(found, tuple) else (found,))]
         session = onnxruntime.InferenceSession(base + ".onnx", providers=["CPUExecutionProvider"])
         theirs = session.run(None, {"picture": picture.numpy()})
-        apart = max(float(np.abs(a - b).max()) for a, b in zip(found, theirs))
+        apart = max(float(np.abs(a - b).max()) for a, b in zip(found, theirs, strict=True))
         print(f"{name}: {len(found)} outputs, torch and onnxruntime differ by at most {apart:.1e}")
         if apart > 1e-6:
             raise SystemExit("golden_networks: that is too much for rounding")
