@@ -19,6 +19,7 @@ mod recording;
 mod run;
 mod summary;
 mod tally;
+mod traffic;
 mod tune;
 
 pub use closeness::Goal;
@@ -28,3 +29,4 @@ pub use inference::{Computed, Inference, Options};
 pub use picture::Mapping;
 pub use recording::{Record, Recorded};
 pub use summary::{Error, Layer, Macs, Outputs, Summary, Tried, Tuning};
+pub use traffic::FrameTraffic;

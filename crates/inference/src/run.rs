@@ -5,8 +5,9 @@ use crate::camera::Seen;
 use crate::charts::Counted;
 use crate::cost::Costs;
 use crate::player::Player;
-use crate::summary::{Summary, Tuning, error, layers, macs, ratio};
+use crate::summary::{Summary, Tuning, error, layers, macs, mask_bytes, ratio};
 use crate::tally::{NotFinite, Positions, Reference};
+use crate::traffic::Traffic;
 use crate::{Goal, Mapping, Recorded};
 use foveate_design::Design;
 use foveate_network::{Executor, Network};
@@ -44,6 +45,7 @@ pub(crate) struct Run<'a> {
     reference: Option<Reference<'a>>,
     costs: Option<Costs<'a>>,
     sums: Vec<Positions>,
+    traffic: Vec<Traffic>,
     rows: Vec<Cells>,
     counted: Vec<Counted>,
     active: u64,
@@ -68,6 +70,7 @@ impl<'a> Run<'a> {
             reference: reference.then(|| Reference::new(network)),
             costs,
             sums: vec![Positions::default(); network.nodes().len()],
+            traffic: vec![Traffic::default(); network.nodes().len()],
             rows: Vec::new(),
             counted: Vec::new(),
             active: 0,
@@ -89,11 +92,15 @@ impl<'a> Run<'a> {
         };
         let close = self.reference.as_mut().map(judge);
         let mut own = vec![Positions::default(); work.len()];
+        let mut traffic = Traffic::default();
         for (node, work) in work.iter().enumerate() {
             let places = self.network.form(node + 1).places();
             own[node].add(work, places);
+            let moved = Traffic::of(self.network, self.player.executor(), node);
+            traffic += moved;
             if is_counted {
                 self.sums[node].add(work, places);
+                self.traffic[node] += moved;
             }
         }
         if is_counted {
@@ -105,7 +112,7 @@ impl<'a> Run<'a> {
             }
             self.overhead += self.player.executor().overhead().as_secs_f64();
         }
-        let macs = macs(self.network, &own);
+        let (macs, traffic) = (macs(self.network, &own), traffic.mean(1));
         let share = |count| ratio(count, u64::from(self.design.regions()));
         let real = |value: f64| Cell::Real(Some(value));
         if is_counted {
@@ -129,6 +136,9 @@ impl<'a> Run<'a> {
                 ("macs_dense", real(macs.dense)),
                 ("macs_needed", real(macs.needed)),
                 ("macs_scheduled", real(macs.scheduled)),
+                ("read_bytes", real(traffic.read_bytes)),
+                ("halo_bytes", real(traffic.halo_bytes)),
+                ("written_bytes", real(traffic.written_bytes)),
                 ("seconds", real(seconds)),
                 ("relative_rms", Cell::Real(close.map(|close| close.distance.relative()))),
             ]
@@ -144,14 +154,17 @@ impl<'a> Run<'a> {
     /// What is to be written.
     pub(crate) fn end(self, told: Told) -> Ended {
         let executor = self.player.executor();
+        let counted_frames = self.counted.len() as u64;
+        let traffic: Vec<_> = self.traffic.iter().map(|sum| sum.mean(counted_frames)).collect();
         let layers = layers(
             self.network,
-            &self.sums,
+            (&self.sums, &traffic),
             executor,
             self.reference.as_ref(),
             self.costs.as_ref(),
         );
-        let counted_frames = self.counted.len() as u64;
+        let mut all = Traffic::default();
+        self.traffic.iter().for_each(|sum| all += *sum);
         let counted_regions = counted_frames * u64::from(self.design.regions());
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
@@ -181,7 +194,8 @@ impl<'a> Run<'a> {
             macs: macs(self.network, &self.sums),
             weight_bytes: layers.iter().map(|layer| layer.weight_bytes).sum(),
             kept_bytes: self.network.kept_bytes(),
-            mask_bytes: forms().map(|form| form.places().div_ceil(8) as u64).sum(),
+            mask_bytes: forms().map(mask_bytes).sum(),
+            traffic: all.mean(counted_frames),
             seconds_per_frame: self.seconds / counted,
             overhead_seconds_per_frame: self.overhead / counted,
             accelerator: self

@@ -5,8 +5,9 @@ use crate::charts::tried;
 use crate::closeness::Closeness;
 use crate::cost::{Accelerated, Costs, FrameCost};
 use crate::tally::{Positions, Reference};
+use crate::traffic::FrameTraffic;
 use crate::{Mapping, Recorded};
-use foveate_network::{Executor, Mode, Network};
+use foveate_network::{Executor, Form, Mode, Network};
 use foveate_tables::{Cell, Cells, Table};
 use serde::Serialize;
 
@@ -51,6 +52,8 @@ pub struct Summary {
     pub kept_bytes: u64,
     /// Bytes of the masks of all tensors, a bit per position.
     pub mask_bytes: u64,
+    /// What all layers read and write for a frame.
+    pub traffic: FrameTraffic,
     /// Mean time of a frame in this run in seconds.
     pub seconds_per_frame: f64,
     /// Of it the time beside operators: for masks, comparisons and copies.
@@ -187,6 +190,11 @@ pub struct Layer {
     pub weight_bytes: u64,
     /// Bytes of its output.
     pub output_bytes: u64,
+    /// Bytes of the mask of its output, a bit per position.
+    pub mask_bytes: u64,
+    /// What it reads and writes for a frame.
+    #[serde(flatten)]
+    pub traffic: FrameTraffic,
     /// What it would cost on the accelerator, if one is named: computed whole.
     pub whole_cost: Option<FrameCost>,
     /// The same where the masks say.
@@ -211,7 +219,7 @@ pub(crate) fn mode_name(mode: Mode) -> String {
 /// The layers from their sums.
 pub(crate) fn layers(
     network: &Network,
-    sums: &[Positions],
+    (sums, traffic): (&[Positions], &[FrameTraffic]),
     executor: &Executor<'_>,
     reference: Option<&Reference<'_>>,
     costs: Option<&Costs<'_>>,
@@ -230,6 +238,8 @@ pub(crate) fn layers(
             changed_share: share(sums.changed),
             weight_bytes: place.weight_bytes(),
             output_bytes: form.bytes(),
+            mask_bytes: mask_bytes(form),
+            traffic: traffic[node],
             limit: executor.limit(node + 1),
             whole_cost: cost.map(|(whole, _)| whole),
             masked_cost: cost.map(|(_, masked)| masked),
@@ -237,6 +247,11 @@ pub(crate) fn layers(
         }
     };
     sums.iter().enumerate().map(layer).collect()
+}
+
+/// Bytes of a mask.
+pub(crate) fn mask_bytes(form: &Form) -> u64 {
+    form.places().div_ceil(8) as u64
 }
 
 /// The sums over all layers.
@@ -305,6 +320,11 @@ impl Summary {
                 ("changed_share", real(layer.changed_share)),
                 ("weight_bytes", count(layer.weight_bytes)),
                 ("output_bytes", count(layer.output_bytes)),
+                ("mask_bytes", count(layer.mask_bytes)),
+                ("read_bytes", real(layer.traffic.read_bytes)),
+                ("halo_bytes", real(layer.traffic.halo_bytes)),
+                ("written_bytes", real(layer.traffic.written_bytes)),
+                ("seconds", real(layer.traffic.seconds)),
                 ("whole_cycles", of(layer.whole_cost, |cost| cost.cycles)),
                 ("cycles", of(layer.masked_cost, |cost| cost.cycles)),
                 ("whole_energy_mj", of(layer.whole_cost, |cost| cost.energy_mj)),

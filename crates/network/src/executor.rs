@@ -53,8 +53,8 @@ pub struct Executor<'a> {
     /// Where a node computes whose output is compared, for each kind of value.
     fresh: [Values; Element::ALL.len()],
     has_begun: bool,
-    /// Of the last step: time in operators, and in all else.
-    computing: Duration,
+    /// Of the last step: time in the operator of each node, and in all else.
+    computing: Vec<Duration>,
     overhead: Duration,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Executor<'a> {
             work: vec![Work::default(); network.nodes().len()],
             fresh: Element::ALL.map(fresh),
             has_begun: false,
-            computing: Duration::ZERO,
+            computing: vec![Duration::ZERO; network.nodes().len()],
             overhead: Duration::ZERO,
         }
     }
@@ -119,13 +119,12 @@ impl<'a> Executor<'a> {
             "a bit per position"
         );
         let start = Instant::now();
-        self.computing = Duration::ZERO;
         self.accept(picture, changed);
         for node in 0..self.work.len() {
             self.run(node, changed);
         }
         self.has_begun = true;
-        self.overhead = start.elapsed().saturating_sub(self.computing);
+        self.overhead = start.elapsed().saturating_sub(self.computing.iter().sum());
         &self.work
     }
 
@@ -133,6 +132,21 @@ impl<'a> Executor<'a> {
     #[must_use]
     pub fn overhead(&self) -> Duration {
         self.overhead
+    }
+
+    /// Time that the last step took in the operator of a node.
+    #[must_use]
+    pub fn time(&self, node: usize) -> Duration {
+        self.computing[node]
+    }
+
+    /// The positions of each input of a node that its outputs saw which were needed for the last picture.
+    pub fn seen(&self, node: usize) -> impl Iterator<Item = (usize, Mask)> {
+        let place = &self.network.nodes()[node];
+        place.inputs().iter().map(move |&value| {
+            let form = self.network.form(value);
+            (value, place.operator.seen(&self.wanted[node], form))
+        })
     }
 
     /// A value as it was passed on.
@@ -189,7 +203,7 @@ impl<'a> Executor<'a> {
         }
         // Rows that have become one, or none, lie under no part of the picture.
         if self.mode == Mode::Fixed && form.axes().len() == 2 {
-            return under(camera, form.height(), form.width());
+            return camera.under(form.height(), form.width());
         }
         let source = |&value: &usize| (self.network.form(value), &self.masks[value]);
         node.operator.spread(&node.inputs().iter().map(source).collect::<Vec<_>>(), form)
@@ -204,13 +218,13 @@ impl<'a> Executor<'a> {
         let (before, rest) = self.kept.split_at_mut(node + 1);
         let inputs: Vec<&Tensor> = place.inputs().iter().map(|&value| &before[value]).collect();
         let kept = &mut rest[0];
-        let computing = &mut self.computing;
+        let computing = &mut self.computing[node];
         let mut compute = |output: &mut Values| {
             let start = Instant::now();
             if !at.is_empty() {
                 place.operator.compute(Job { inputs: &inputs, form, output, at: &at });
             }
-            *computing += start.elapsed();
+            *computing = start.elapsed();
         };
         // Beside the positions that are wanted an operator writes what a whole computation would. In place that is what stands there,
         // unless an input is not what it was.
@@ -270,17 +284,6 @@ fn moved<T: Number>(form: &Form, kept: &[T], fresh: &[T], at: &Mask, limit: f32)
 /// Copies the values of some positions.
 fn copy<T: Number>(form: &Form, from: &[T], to: &mut [T], at: &Mask) {
     for_each_run(form, at, |run| to[run.clone()].copy_from_slice(&from[run]));
-}
-
-/// The positions of a smaller or larger tensor that lie under the positions of a mask.
-fn under(mask: &Mask, height: usize, width: usize) -> Mask {
-    let range = |outputs: usize, inputs: usize| -> Vec<(usize, usize)> {
-        let first = |at: usize| (at * inputs / outputs).min(inputs - 1);
-        (0..outputs)
-            .map(|at| (first(at), ((at + 1) * inputs).div_ceil(outputs).max(first(at) + 1) - 1))
-            .collect()
-    };
-    mask.between(&range(height, mask.height()), &range(width, mask.width()))
 }
 
 #[cfg(test)]

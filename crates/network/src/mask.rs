@@ -175,6 +175,49 @@ impl Mask {
         seen
     }
 
+    /// The positions of `height` x `width` inputs that an output at a position of this mask sees through a window.
+    #[must_use]
+    pub fn seen(&self, rows: Window, columns: Window, height: usize, width: usize) -> Self {
+        let mut seen = Self::empty(height, width);
+        let mut line = Self::empty(1, width);
+        for y in (0..self.height).filter(|&y| self.row(y).iter().any(|&word| word != 0)) {
+            line.words.fill(0);
+            for (x, count) in self.runs(y) {
+                (x..x + count).for_each(|x| line.see_inputs(x, columns));
+            }
+            for input in (0..rows.kernel).filter_map(|tap| rows.input(y, tap, height)) {
+                let row = &mut seen.words[input * seen.pitch..][..seen.pitch];
+                row.iter_mut().zip(&line.words).for_each(|(row, word)| *row |= word);
+            }
+        }
+        seen
+    }
+
+    /// Adds to the only row the inputs that output `x` sees.
+    fn see_inputs(&mut self, x: usize, columns: Window) {
+        let inputs = (0..columns.kernel).filter_map(|tap| columns.input(x, tap, self.width));
+        inputs.for_each(|input| self.words[input / 64] |= 1 << (input % 64));
+    }
+
+    /// How many positions are not in another mask of the same size.
+    #[must_use]
+    pub fn count_outside(&self, other: &Self) -> usize {
+        let words = self.words.iter().zip(&other.words);
+        words.map(|(own, other)| (own & !other).count_ones() as usize).sum()
+    }
+
+    /// The positions of a smaller or larger tensor that lie under the positions of this mask.
+    #[must_use]
+    pub fn under(&self, height: usize, width: usize) -> Self {
+        let range = |outputs: usize, inputs: usize| -> Vec<(usize, usize)> {
+            let first = |at: usize| (at * inputs / outputs).min(inputs - 1);
+            (0..outputs)
+                .map(|at| (first(at), ((at + 1) * inputs).div_ceil(outputs).max(first(at) + 1) - 1))
+                .collect()
+        };
+        self.between(&range(height, self.height), &range(width, self.width))
+    }
+
     /// As [`Mask::through`], where an output sees the inputs from a first to a last one of each axis.
     #[must_use]
     pub fn between(&self, rows: &[(usize, usize)], columns: &[(usize, usize)]) -> Self {
@@ -285,6 +328,19 @@ mod tests {
                 })
             });
             prop_assert_eq!(seen, naive);
+            // The other way round, the mask is one of outputs.
+            let (in_height, in_width) = (height * rows.stride + 2, width * columns.stride + 3);
+            let inputs = mask.seen(rows, columns, in_height, in_width);
+            let mut naive = Mask::empty(in_height, in_width);
+            for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| is(x, y)) {
+                for y in (0..rows.kernel).filter_map(|tap| rows.input(y, tap, in_height)) {
+                    for x in (0..columns.kernel).filter_map(|tap| columns.input(x, tap, in_width)) {
+                        naive.insert(x, y);
+                    }
+                }
+            }
+            prop_assert_eq!(inputs.count_outside(&naive) + naive.count_outside(&inputs), 0);
+            prop_assert_eq!(inputs.count_outside(&Mask::empty(in_height, in_width)), naive.count());
         }
 
         #[test]

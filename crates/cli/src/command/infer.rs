@@ -104,6 +104,13 @@ fn text(folder: &Path, summary: &Summary) -> String {
         megabytes(summary.kept_bytes),
         megabytes(summary.mask_bytes)
     );
+    let _ = writeln!(
+        text,
+        "traffic    tensors read {:.2} MB per frame, {:.2} MB of it unchanged (halo), and written {:.2} MB",
+        summary.traffic.read_bytes / 1e6,
+        summary.traffic.halo_bytes / 1e6,
+        summary.traffic.written_bytes / 1e6
+    );
     if let Some(accelerator) = &summary.accelerator {
         let (whole, masked) = (&accelerator.whole, &accelerator.masked);
         let _ = writeln!(

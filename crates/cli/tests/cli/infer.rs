@@ -75,6 +75,34 @@ fn exact_modes_are_exact_and_save_most_of_the_work() {
 
 /// A network of 8-bit integers is as exact, keeps bytes, and rounds changes away.
 #[test]
+fn layers_say_what_they_read_and_write() {
+    let dir = tempfile::tempdir().unwrap();
+    // A tensor of one channel.
+    let plane = 4.0 * 224.0 * 224.0;
+    let channels = [1.0, 12.0, 12.0, 12.0, 1.0];
+    for mode in ["dense", "exact"] {
+        let found = summary(dir.path(), &["--mode", mode]);
+        let layers = found["layers"].as_array().unwrap();
+        let convolutions = layers.iter().filter(|layer| layer["macs"] != 0);
+        for (layer, channels) in convolutions.zip(channels.windows(2)) {
+            let of = |name: &str| layer[name].as_f64().unwrap();
+            let (input, output) = (plane * channels[0], plane * channels[1]);
+            assert!((of("written_bytes") - of("needed_share") * output).abs() < 1.0, "{layer}");
+            if mode == "dense" {
+                assert_eq!((of("read_bytes"), of("halo_bytes")), (input, 0.0), "{layer}");
+            } else {
+                // What is read is what is needed and one position around it; of it at least that ring has not changed.
+                let seen = of("read_bytes") / input;
+                let halo = of("halo_bytes") / input;
+                assert!(of("needed_share") < seen && seen < 1.5 * of("needed_share"), "{layer}");
+                assert!(seen - of("needed_share") <= halo && halo < seen, "{layer}");
+            }
+        }
+        assert_eq!(layers[0]["mask_bytes"], 224 * 224 / 8);
+    }
+}
+
+#[test]
 fn quantized_networks_keep_bytes() {
     let dir = tempfile::tempdir().unwrap();
     let needed = |mode| {

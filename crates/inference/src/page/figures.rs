@@ -38,6 +38,16 @@ pub(super) fn bytes(count: u64) -> String {
     }
 }
 
+/// A mean number of bytes.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a mean of bytes is one"
+)]
+pub(super) fn mean_bytes(count: f64) -> String {
+    bytes(count.round() as u64)
+}
+
 /// Many of something, with a unit.
 pub(super) fn many(count: f64) -> String {
     match count {

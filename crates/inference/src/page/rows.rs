@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Layers, frames and what tuning tried, as rows of tables and as what a mark says.
 
-use super::figures::{bytes, decibels, error, many, millijoules, milliseconds, share};
+use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
 use crate::charts::{self, Counted, frame_id, layer_id};
 use crate::{FrameCost, Layer, Summary};
 use foveate_page::number::real;
@@ -69,6 +69,7 @@ pub(super) fn layers(summary: &Summary) -> Rows {
         ("passed on", "%", "positions that were passed on as changed", true),
         ("weights", "bytes", "bytes of the weights", true),
         ("output", "bytes", "bytes of the output, which stays from frame to frame", true),
+        ("time", "ms", "per frame, on this computer", true),
     ];
     if costs {
         headings.extend([
@@ -104,6 +105,8 @@ pub(super) fn layers(summary: &Summary) -> Rows {
             Cell::count(layer.weight_bytes),
             Cell::count(layer.output_bytes),
         ];
+        let milliseconds = 1e3 * layer.traffic.seconds;
+        cells.push(counted(Cell::number(real(milliseconds, 3), Some(milliseconds))));
         if costs {
             let of = |cost: Option<FrameCost>, value: fn(&FrameCost) -> f64, digits: usize| {
                 let value = cost.as_ref().map(value);
@@ -129,8 +132,9 @@ pub(super) fn layers(summary: &Summary) -> Rows {
 }
 
 fn layer_title(number: usize, layer: &Layer) -> String {
+    let traffic = layer.traffic;
     let mut title = format!(
-        "Layer {number}: {} ({}), {}\n{} needed, {} computed, {} passed on\n{} MACs, weights {}, output {}",
+        "Layer {number}: {} ({}), {}\n{} needed, {} computed, {} passed on\n{} MACs, weights {}, output {}\nread {}, of it halo {}, written {}",
         layer.name,
         layer.operator,
         shape(layer),
@@ -139,7 +143,10 @@ fn layer_title(number: usize, layer: &Layer) -> String {
         share(layer.changed_share),
         many(real_of(layer.macs)),
         bytes(layer.weight_bytes),
-        bytes(layer.output_bytes)
+        bytes(layer.output_bytes),
+        mean_bytes(traffic.read_bytes),
+        mean_bytes(traffic.halo_bytes),
+        mean_bytes(traffic.written_bytes)
     );
     if let Some((masked, whole)) = layer.masked_cost.zip(layer.whole_cost) {
         title += &format!(

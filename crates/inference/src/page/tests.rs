@@ -2,7 +2,7 @@
 use super::*;
 use crate::cost::{Accelerated, FrameCost};
 use crate::summary::{Error, Macs, Outputs, Tried, Tuning};
-use crate::{Layer, Mapping, Recorded};
+use crate::{FrameTraffic, Layer, Mapping, Recorded};
 use foveate_design::Config;
 use foveate_page::browser::{Tip, chromium, probe};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -48,6 +48,13 @@ fn layer(number: u32) -> Layer {
         changed_share: 0.9 * part,
         weight_bytes: 480,
         output_bytes: 2_408_448,
+        mask_bytes: 6_272,
+        traffic: FrameTraffic {
+            read_bytes: 5e5 * part,
+            halo_bytes: 1e5 * part,
+            written_bytes: 4e5 * part,
+            seconds: 1e-3 * part,
+        },
         whole_cost: Some(cost(1.0)),
         masked_cost: Some(cost(part)),
         limit: Some(0.05),
@@ -91,6 +98,12 @@ fn sample(frames: u32) -> Sample {
         changed_share: 0.067,
         macs,
         weight_bytes: 12_000,
+        traffic: FrameTraffic {
+            read_bytes: 2e6,
+            halo_bytes: 5e5,
+            written_bytes: 1.5e6,
+            seconds: 2e-3,
+        },
         kept_bytes: 7_800_000,
         mask_bytes: 25_000,
         seconds_per_frame: 0.0012,
@@ -191,6 +204,7 @@ fn every_figure_is_there() {
         expected.push(layer.macs.to_string());
         expected.extend(shares.map(|share| share.to_string()));
         expected.extend([layer.weight_bytes, layer.output_bytes].map(|bytes| bytes.to_string()));
+        expected.push((1e3 * layer.traffic.seconds).to_string());
         let (masked, whole) = (layer.masked_cost.unwrap(), layer.whole_cost.unwrap());
         expected.extend(
             [masked.cycles, whole.cycles, masked.energy_mj, whole.energy_mj]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What was run and what came out, in sentences.
 
-use super::figures::{bytes, decibels, error, many, millijoules, milliseconds, share};
+use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
 use crate::{Summary, Tuning};
 use foveate_design::Design;
 use foveate_page::number::{grouped, things};
@@ -115,12 +115,23 @@ pub(super) fn findings(summary: &Summary) -> Vec<String> {
             share(macs.share(macs.whole))
         ),
         memory,
+        moved(summary),
         time(summary),
     ];
     found.extend(accelerated(summary));
     found.extend(compared(summary));
     found.extend(summary.tuning.as_ref().map(tuned));
     found
+}
+
+fn moved(summary: &Summary) -> String {
+    let traffic = &summary.traffic;
+    format!(
+        "The layers read {} of tensors per frame, of them {} that had not changed (the halo around changes), and wrote {}.",
+        mean_bytes(traffic.read_bytes),
+        mean_bytes(traffic.halo_bytes),
+        mean_bytes(traffic.written_bytes)
+    )
 }
 
 fn needed(summary: &Summary) -> String {

@@ -109,6 +109,24 @@ pub(crate) trait Operator: Debug + Send + Sync {
         Products::None
     }
 
+    /// The windows through which outputs see inputs; nothing where they see what lies at their own place, or everything.
+    fn windows(&self) -> Option<[Window; 2]> {
+        match self.products() {
+            Products::Convolution { rows, columns, .. } => Some([rows, columns]),
+            _ => None,
+        }
+    }
+
+    /// The positions of an input that the outputs at some positions see.
+    fn seen(&self, at: &Mask, input: &Form) -> Mask {
+        let (height, width) = (input.height(), input.width());
+        match self.windows() {
+            Some([rows, columns]) => at.seen(rows, columns, height, width),
+            None if (at.height(), at.width()) == (height, width) => at.clone(),
+            None => at.under(height, width),
+        }
+    }
+
     /// Positions that are computed where those of a mask are wanted.
     fn scheduled(&self, at: &Mask) -> usize {
         at.count()

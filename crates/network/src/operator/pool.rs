@@ -151,6 +151,10 @@ impl Operator for Pool {
         inputs[0].1.through(self.rows, self.columns, output.height(), output.width())
     }
 
+    fn windows(&self) -> Option<[Window; 2]> {
+        Some([self.rows, self.columns])
+    }
+
     fn compute(&self, job: Job<'_>) {
         match self.kind {
             PoolKind::Max => typed!(job.form.encoding().element, T => self.largest::<T>(job)),

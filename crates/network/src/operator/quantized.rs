@@ -6,7 +6,7 @@ use super::{Arithmetic, Binary, Concat, Job, Operator, Pool, Table, of_bytes, on
 use super::{everything, wanted};
 use crate::element::{Byte, Encoding, typed_byte};
 use crate::form::Form;
-use crate::mask::Mask;
+use crate::mask::{Mask, Window};
 
 /// The sum or the product of two tensors.
 #[derive(Clone, Debug)]
@@ -93,6 +93,10 @@ impl Operator for QuantizedPool {
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         self.pool.spread(inputs, output)
+    }
+
+    fn windows(&self) -> Option<[Window; 2]> {
+        self.pool.windows()
     }
 
     fn compute(&self, job: Job<'_>) {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the layers read and write for a frame, and the time that they take.
+
+use foveate_network::{Executor, Form, Network};
+use serde::Serialize;
+use std::ops::AddAssign;
+
+/// Sums over frames.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Traffic {
+    read: u64,
+    halo: u64,
+    written: u64,
+    seconds: f64,
+}
+
+/// What a frame, or a layer of it, reads and writes beside weights, as a mean over the counted frames. Blocks that are computed beyond what is needed are
+/// not counted.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct FrameTraffic {
+    /// Bytes of the inputs that the needed outputs see, each once.
+    pub read_bytes: f64,
+    /// Of them those that have not changed: the halo around changes.
+    pub halo_bytes: f64,
+    /// Bytes of the needed outputs.
+    pub written_bytes: f64,
+    /// Time in the operators in seconds.
+    pub seconds: f64,
+}
+
+impl Traffic {
+    /// What a node did for the last frame.
+    pub(crate) fn of(network: &Network, executor: &Executor<'_>, node: usize) -> Self {
+        let bytes =
+            |form: &Form, positions: usize| form.bytes() / form.places() as u64 * positions as u64;
+        let mut found = Self {
+            written: bytes(network.form(node + 1), executor.wanted(node).count()),
+            seconds: executor.time(node).as_secs_f64(),
+            ..Self::default()
+        };
+        for (value, seen) in executor.seen(node) {
+            let form = network.form(value);
+            found.read += bytes(form, seen.count());
+            found.halo += bytes(form, seen.count_outside(executor.mask(value)));
+        }
+        found
+    }
+
+    /// The mean of so many frames.
+    #[allow(clippy::cast_precision_loss, reason = "means")]
+    pub(crate) fn mean(&self, frames: u64) -> FrameTraffic {
+        let frames = frames.max(1) as f64;
+        FrameTraffic {
+            read_bytes: self.read as f64 / frames,
+            halo_bytes: self.halo as f64 / frames,
+            written_bytes: self.written as f64 / frames,
+            seconds: self.seconds / frames,
+        }
+    }
+}
+
+impl AddAssign for Traffic {
+    fn add_assign(&mut self, other: Self) {
+        self.read += other.read;
+        self.halo += other.halo;
+        self.written += other.written;
+        self.seconds += other.seconds;
+    }
+}
