@@ -6,6 +6,7 @@ use super::fold;
 use super::input::{FrameSize, input_form, name_of};
 use super::node::NodeReader;
 use super::operators::{self, Made};
+use super::pointwise;
 use crate::error::NetworkError;
 use crate::network::Network;
 use crate::onnx::{GraphProto, NodeProto};
@@ -129,7 +130,7 @@ impl Reading<'_> {
                         None => self.network.push(
                             &name,
                             &kind,
-                            operators::pointwise(activation),
+                            pointwise::pointwise(activation),
                             vec![value],
                         )?,
                     })

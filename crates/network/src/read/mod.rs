@@ -5,11 +5,14 @@ mod constant;
 mod fold;
 mod graph;
 mod input;
+mod moves;
 mod node;
 mod operators;
+mod pointwise;
 mod quantized;
 mod rearrange;
 mod scales;
+mod sums;
 
 use crate::error::NetworkError;
 use crate::network::Network;

@@ -4,8 +4,9 @@
 use super::constant::{Constant, Values};
 use super::graph::Known;
 use super::node::NodeReader;
-use super::operators::{Made, one, pool};
+use super::operators::{Made, one};
 use super::scales::{bytes, row_major};
+use super::sums::pool;
 use crate::element::{Element, Encoding};
 use crate::form::Form;
 use crate::operator::{

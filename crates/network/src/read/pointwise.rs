@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Operators of ONNX in which every value has its own: activations, arithmetic and scales.
+
+use super::constant::Constant;
+use super::graph::Known;
+use super::node::NodeReader;
+use super::operators::{Made, one};
+use crate::element::Element;
+use crate::form::Form;
+use crate::operator::{
+    Activation, Arithmetic, Binary, Dequantize, Operator, Pointwise, Scale, Scales, Table,
+};
+use crate::tensor::Tensor;
+use std::sync::Arc;
+
+/// An activation as a node of its own.
+pub(super) fn pointwise(activation: Activation) -> Arc<dyn Operator> {
+    Arc::new(Pointwise(activation))
+}
+
+pub(super) fn finish(node: &NodeReader<'_>, activation: Activation) -> Result<Vec<Made>, String> {
+    Ok(vec![Made::Finish(activation, node.value(0)?)])
+}
+
+pub(super) fn relu(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let value = node.value(0)?;
+    // ONNX knows it for integers with sign.
+    match (node.forms)(value).encoding().element {
+        Element::I8 => one(Table::of_stored(Element::I8, |stored| stored.max(0)), vec![value]),
+        _ => finish(node, Activation::Relu),
+    }
+}
+
+pub(super) fn same(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    Ok(vec![Made::Same(node.input(0).ok_or("it has no input")?.clone())])
+}
+
+pub(super) fn dropout(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let training = node.constant(2, "training_mode")?;
+    if training
+        .is_some_and(|training| training.as_integers().is_ok_and(|values| values.contains(&1)))
+    {
+        return Err("it is in training mode".to_owned());
+    }
+    same(node)
+}
+
+pub(super) fn cast(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let element = |value: usize| (node.forms)(value).encoding().element;
+    match node.int("to", 1) {
+        1 => match node.input(0) {
+            Some(&Known::Value(value)) if element(value) != Element::F32 => {
+                one(Dequantize(Scales::one(1.0, 0)), vec![value])
+            }
+            _ => same(node),
+        },
+        other => Err(format!(
+            "a cast to type {other} is not supported, only one to 1, floating-point values of 32 bits"
+        )),
+    }
+}
+
+pub(super) fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made>, String> {
+    let tensor = |constant: &Constant| -> Result<Tensor, String> {
+        Ok(Tensor::new(Form::whole(constant.shape.clone()), constant.as_weights()?.to_vec()))
+    };
+    match (node.input(0), node.input(1), node.input(2)) {
+        (Some(&Known::Value(a)), Some(&Known::Value(b)), None) => {
+            one(Binary { kind, constant: None, finish: Activation::Identity }, vec![a, b])
+        }
+        (Some(Known::Constant(a)), Some(&Known::Value(b)), None) => one(
+            Binary { kind, constant: Some((tensor(a)?, true)), finish: Activation::Identity },
+            vec![b],
+        ),
+        (Some(&Known::Value(a)), Some(Known::Constant(b)), None) => one(
+            Binary { kind, constant: Some((tensor(b)?, false)), finish: Activation::Identity },
+            vec![a],
+        ),
+        _ => Err("it takes two tensors, not both constant".to_owned()),
+    }
+}
+
+pub(super) fn clip(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let value = node.value(0)?;
+    let element = (node.forms)(value).encoding().element;
+    if element.is_byte() {
+        let (min, max) = (node.stored(1, "min", element)?, node.stored(2, "max", element)?);
+        let within = |stored: i32| {
+            let stored = min.map_or(stored, |min| stored.max(min));
+            max.map_or(stored, |max| stored.min(max))
+        };
+        return one(Table::of_stored(element, within), vec![value]);
+    }
+    let bound = |attribute: &str, input: usize, default: f32| -> Result<f32, String> {
+        match node.constant(input, attribute)? {
+            Some(constant) => constant
+                .as_floats()?
+                .first()
+                .copied()
+                .ok_or_else(|| format!("its {attribute} is empty")),
+            None => Ok(node.float(attribute, default)),
+        }
+    };
+    let (min, max) = (bound("min", 1, f32::NEG_INFINITY)?, bound("max", 2, f32::INFINITY)?);
+    finish(node, Activation::Clip { min, max })
+}
+
+pub(super) fn normalization(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    if node.int("training_mode", 0) != 0 {
+        return Err("it is in training mode".to_owned());
+    }
+    let of = |at, what| node.wanted(at, what).and_then(Constant::as_weights);
+    let epsilon = node.float("epsilon", 1e-5);
+    let scale = Scale::normalization(
+        of(1, "scale")?,
+        of(2, "bias")?,
+        of(3, "mean")?,
+        of(4, "variance")?,
+        epsilon,
+    )?;
+    one(scale, vec![node.value(0)?])
+}
