@@ -46,7 +46,8 @@ def given(folder, seed=1):
         pixels = chance.integers(0, 256, (96, 128, 3), numpy.uint8)
         Image.fromarray(pixels).save(folder / "photos" / label / name)
     (folder / "networks").mkdir()
-    (folder / "networks/denoiser.onnx").write_bytes(pathlib.Path("networks/denoiser.onnx").read_bytes())
+    for network in pathlib.Path("networks").glob("*.onnx"):
+        (folder / network).write_bytes(network.read_bytes())
     (folder / "clips").mkdir()
     command = [FOVEATE, "simulate", "scene:street", "-o", "made", "--frames", "6", "--rendered", "mp4", "--quiet"]
     subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
