@@ -127,3 +127,13 @@ pub(super) fn one(
 ) -> Result<Vec<Made>, String> {
     Ok(vec![Made::Operator(Arc::new(operator), inputs)])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn operators_stand_in_order() {
+        assert!(OPERATORS.is_sorted_by_key(|&(name, _)| name));
+    }
+}
