@@ -54,10 +54,6 @@ impl Operator for Conv {
         self.geometry.form(inputs)
     }
 
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        self.geometry.spread(inputs, output)
-    }
-
     fn compute(&self, job: Job<'_>) {
         let chunks = chunks(job.at);
         if chunks.is_empty() {

@@ -3,7 +3,7 @@
 
 use super::{Products, features, only};
 use crate::form::Form;
-use crate::mask::{Mask, Window};
+use crate::mask::Window;
 
 /// What a convolution sees, and what it makes.
 #[derive(Clone, Copy, Debug)]
@@ -67,11 +67,6 @@ impl Geometry {
         }
         let (height, width) = (outputs(self.rows, height)?, outputs(self.columns, width)?);
         Ok(Form::features(vec![1, self.channels, height, width]))
-    }
-
-    /// The outputs that see a change.
-    pub(crate) fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        inputs[0].1.through(self.rows, self.columns, output.height(), output.width())
     }
 
     pub(crate) fn products(&self) -> Products {

@@ -126,10 +126,6 @@ impl Operator for IntegerConv {
         of_bytes(inputs, self.sums.to)
     }
 
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        self.geometry.spread(inputs, output)
-    }
-
     fn compute(&self, job: Job<'_>) {
         typed_byte!(job.inputs[0].form().encoding().element, X => {
             match self.sums.to.element {

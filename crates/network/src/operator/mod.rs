@@ -96,9 +96,15 @@ pub(crate) trait Operator: Debug + Send + Sync {
         }
     }
 
-    /// The positions of the output that depend on a changed position of an input. By default each depends on its own position.
+    /// The positions of the output that depend on a changed position of an input. By default each depends on what its window sees, or on its
+    /// own position.
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        same_position(inputs, output)
+        match self.windows() {
+            Some([rows, columns]) => {
+                inputs[0].1.through(rows, columns, output.height(), output.width())
+            }
+            None => same_position(inputs, output),
+        }
     }
 
     /// Computes the output, at least at the positions of the job. What it writes elsewhere is what a whole computation would write there.
@@ -109,7 +115,7 @@ pub(crate) trait Operator: Debug + Send + Sync {
         Products::None
     }
 
-    /// The windows through which outputs see inputs; nothing where they see what lies at their own place, or everything.
+    /// The windows through which outputs see the only input; nothing where they see what lies at their own place, or everything.
     fn windows(&self) -> Option<[Window; 2]> {
         match self.products() {
             Products::Convolution { rows, columns, .. } => Some([rows, columns]),

@@ -5,7 +5,7 @@ use super::geometry::outputs;
 use super::{Job, Operator, features, moved, only, values_of, wanted};
 use crate::element::{Element, Encoding, Number, typed};
 use crate::form::Form;
-use crate::mask::{Mask, Window};
+use crate::mask::Window;
 use rayon::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,10 +145,6 @@ impl Operator for Pool {
             }
             (_, encoding) => Ok(encoding),
         }
-    }
-
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        inputs[0].1.through(self.rows, self.columns, output.height(), output.width())
     }
 
     fn windows(&self) -> Option<[Window; 2]> {

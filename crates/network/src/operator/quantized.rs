@@ -91,10 +91,6 @@ impl Operator for QuantizedPool {
         of_bytes(inputs, self.to)
     }
 
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        self.pool.spread(inputs, output)
-    }
-
     fn windows(&self) -> Option<[Window; 2]> {
         self.pool.windows()
     }
