@@ -2,7 +2,6 @@
 //! Why a command ended, and with which exit code.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use foveate_bench::BenchError;
 use foveate_cosim::CosimError;
@@ -69,8 +68,8 @@ impl CliError {
         move |source| Self::Io { action, path, source }
     }
 
-    pub(crate) fn exit_code(&self) -> ExitCode {
-        ExitCode::from(match self {
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
             Self::Study(error) => match error.as_ref() {
                 StudyError::Cancelled => interrupt::exit_code(),
                 StudyError::Footage(error) => footage_code(error),
@@ -104,7 +103,7 @@ impl CliError {
             Self::Estimate(error) => estimate_code(error),
             Self::Simulator(error) => simulator_code(error),
             _ => INPUT,
-        })
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 
 mod cells;
 mod compare;
+mod core;
 mod diagram;
 mod error;
 mod field;
@@ -35,6 +36,7 @@ mod summary;
 mod testing;
 mod timed;
 
+pub use self::core::{WrittenCore, write_core};
 pub use cells::cell_models;
 pub use compare::Difference;
 pub use diagram::timing_diagram;

@@ -7,6 +7,7 @@
 //! floating-point camera of [`foveate_ideal`], and the figures are those of [`foveate_fidelity`].
 //! The library never prints: progress and cancellation go through [`Hooks`].
 
+mod compare;
 mod cost;
 mod error;
 mod exploration;
@@ -25,6 +26,7 @@ mod space;
 mod store;
 mod table;
 
+pub use compare::{Compared, compare};
 pub use cost::{Silicon, Synthesizer};
 pub use error::ExploreError;
 pub use exploration::{ClipRow, Exploration};

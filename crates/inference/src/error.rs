@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What can go wrong. Every message names the thing and says what to do.
 
+use std::io;
+use std::path::PathBuf;
+
 use foveate_accelerator::AcceleratorError;
 use foveate_chart::ChartError;
 use foveate_design::DesignError;
@@ -18,6 +21,20 @@ pub enum InferenceError {
     /// The network cannot be read.
     #[error(transparent)]
     Network(#[from] NetworkError),
+    /// A file that was named cannot be read.
+    #[error("cannot read `{}`: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// What was chosen does not exist.
+    #[error("{problem}")]
+    Choice {
+        /// What was chosen, and what there is.
+        problem: String,
+    },
     /// An input cannot be read.
     #[error(transparent)]
     Footage(#[from] FootageError),
@@ -50,7 +67,7 @@ pub enum InferenceError {
         /// The file.
         name: &'static str,
         /// Why.
-        source: std::io::Error,
+        source: io::Error,
     },
     /// The mapping has another number of channels than the network.
     #[error(

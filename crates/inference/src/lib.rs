@@ -8,6 +8,7 @@
 mod album;
 mod camera;
 mod charts;
+mod choices;
 mod closeness;
 mod cost;
 mod error;
@@ -22,6 +23,7 @@ mod tally;
 mod traffic;
 mod tune;
 
+pub use choices::{parse_goal, parse_mode, read_accelerator};
 pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};
 pub use error::InferenceError;

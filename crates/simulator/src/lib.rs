@@ -17,7 +17,8 @@ pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
 pub use foveate_footage::{Hooks, Progress, Silent};
 pub use output::{
-    Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, PixelCamera, PixelEvent,
-    PixelEvents, Range, RunOptions, Summary, Traffic, pixels_forwarded, region_bits,
+    Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES,
+    PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, pixels_forwarded,
+    region_bits,
 };
 pub use simulation::Simulation;

@@ -35,6 +35,7 @@ mod video;
 
 pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic, pixels_forwarded, region_bits};
 pub use data_set::DataSet;
+pub use events::{EventTable, Moment};
 pub use options::{EventTables, Medium, PixelEvents, RunOptions};
 pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::{DISK_FULL, INTERRUPTED, Recorder};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate infer`: a network behind the camera, and what the camera's masks save it.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -12,7 +13,7 @@ use crate::args::{InferArgs, warn_of};
 use crate::error::CliError;
 use crate::output;
 
-pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
+pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
     let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
     warn_of(&args.inputs, &input);
     let source = open(&args.inputs, &config, &input)?;
@@ -23,7 +24,7 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
         mapping: args.mapping(),
         reference: args.has_reference(),
         record: args.record(),
-        command: command(),
+        command: command(words),
         overwrite: args.force,
     };
     let mut hooks = Terminal::new(args.quiet)?;
@@ -40,8 +41,8 @@ pub(crate) fn run(args: &InferArgs) -> Result<(), CliError> {
 }
 
 /// The words of the command line, for the page.
-fn command() -> Vec<String> {
-    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+fn command(words: &[OsString]) -> Vec<String> {
+    let words = words.iter().skip(1).map(|word| word.to_string_lossy().into_owned());
     std::iter::once("foveate".to_owned()).chain(words).collect()
 }
 

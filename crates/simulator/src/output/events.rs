@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::Design;
+use foveate_engine::Outcome;
 use foveate_tables::{Column, Kind, Value};
 
 use super::EventTables;
@@ -42,14 +43,14 @@ impl Field {
         }
     }
 
-    fn of(self, step: &Step<'_>, region: usize) -> Value<'static> {
-        let (columns, side) = (step.design.columns() as usize, step.design.region_size() as usize);
+    fn of(self, moment: &Moment<'_>, region: usize) -> Value<'static> {
+        let Moment { design, number, time_us, outcome } = *moment;
+        let (columns, side) = (design.columns() as usize, design.region_size() as usize);
         let (column, row) = (region % columns, region / columns);
-        let outcome = step.outcome;
         match self {
-            Self::Frame => long(step.number),
+            Self::Frame => long(number),
             // A damaged clip may claim any time; beyond 292,000 years all are the same.
-            Self::Time => Value::Long(step.source.time_us.try_into().unwrap_or(i64::MAX)),
+            Self::Time => Value::Long(time_us.try_into().unwrap_or(i64::MAX)),
             Self::Column => int(column),
             Self::Row => int(row),
             Self::Left => int(column * side),
@@ -92,10 +93,58 @@ fn columns(design: &Design) -> Vec<(Column, Field)> {
     all.map(|(name, field)| (Column { name, kind: field.kind(), optional: false }, field)).collect()
 }
 
-/// One file of the table, open.
-struct EventTable {
+/// One frame of a run, with what came of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// Number of the frame in the run.
+    pub number: u64,
+    /// Time since the first frame in microseconds.
+    pub time_us: u64,
+    /// What came of it.
+    pub outcome: &'a Outcome,
+}
+
+/// The table of regions of a design.
+#[derive(Clone, Debug)]
+pub struct EventTable {
+    columns: Vec<Column>,
     fields: Vec<Field>,
     only_active: bool,
+}
+
+impl EventTable {
+    /// The table with a row per region and frame, or only with those of active regions.
+    #[must_use]
+    pub fn new(design: &Design, only_active: bool) -> Self {
+        let (columns, fields) = columns(design).into_iter().unzip();
+        Self { columns, fields, only_active }
+    }
+
+    /// The columns, in order.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Gives the rows of a frame of this design, region by region, a value for each column.
+    pub fn rows(
+        &self,
+        moment: &Moment<'_>,
+        mut row: impl FnMut(&mut dyn Iterator<Item = Value<'static>>),
+    ) {
+        for (region, &active) in moment.outcome.active.iter().enumerate() {
+            if active || !self.only_active {
+                row(&mut self.fields.iter().map(|field| field.of(moment, region)));
+            }
+        }
+    }
+}
+
+/// One file of the table, open.
+struct EventFile {
+    table: EventTable,
     writer: Box<dyn RowWriter>,
 }
 
@@ -105,28 +154,26 @@ pub(super) fn sinks(
     design: &Design,
     tables: EventTables,
 ) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
-    let (columns, fields): (Vec<Column>, Vec<Field>) = columns(design).into_iter().unzip();
+    let table = EventTable::new(design, tables.only_active);
+    let columns = table.columns();
     let mut writers: Vec<Box<dyn RowWriter>> = Vec::new();
     if tables.csv {
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         writers.push(Box::new(Csv::create(&folder.join("events.csv"), &names.join(","))?));
     }
     if tables.parquet {
-        writers.push(Box::new(ParquetTable::create(&folder.join("events.parquet"), &columns)?));
+        writers.push(Box::new(ParquetTable::create(&folder.join("events.parquet"), columns)?));
     }
-    let table = |writer| -> Box<dyn Sink> {
-        Box::new(EventTable { fields: fields.clone(), only_active: tables.only_active, writer })
-    };
-    Ok(writers.into_iter().map(table).collect())
+    let file = |writer| -> Box<dyn Sink> { Box::new(EventFile { table: table.clone(), writer }) };
+    Ok(writers.into_iter().map(file).collect())
 }
 
-impl Sink for EventTable {
+impl Sink for EventFile {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        for (region, &active) in step.outcome.active.iter().enumerate() {
-            if active || !self.only_active {
-                self.writer.row(&mut self.fields.iter().map(|field| field.of(step, region)));
-            }
-        }
+        let Step { design, number, outcome, .. } = *step;
+        let moment = Moment { design, number, time_us: step.source.time_us, outcome };
+        let Self { table, writer } = self;
+        table.rows(&moment, |values| writer.row(values));
         Ok(())
     }
 

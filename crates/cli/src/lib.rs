@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The `foveate` command, for its program and for the Python package, which brings the same command along.
+//! The only crate that prints.
+//!
+//! Exit codes: 0 fine, 1 a mismatch or a failed check, 2 bad usage or input, 3 a tool is missing or
+//! failed, 128 and the number of the signal when it was told to stop: 130 after Ctrl-C, 143 after SIGTERM.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate is the one that prints")]
+
+mod args;
+mod command;
+mod error;
+mod hint;
+mod interrupt;
+mod output;
+mod progress;
+
+use std::ffi::OsString;
+
+use args::{Cli, Command};
+use clap::Parser;
+
+/// Runs the command with these words, of which the first is its name. Returns its exit code. Listens for
+/// signals from then on, so it is for processes that do nothing else.
+#[must_use]
+pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().collect();
+    let cli = match Cli::try_parse_from(&words) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let error = hint::with_hint(error);
+            // Help goes to standard output, which may be closed.
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).expect("clap ends with 0 or 2");
+        }
+    };
+    match run_command(&cli, &words) {
+        Ok(()) => 0,
+        Err(error) => {
+            eprintln!("foveate: {error}");
+            error.exit_code()
+        }
+    }
+}
+
+fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
+    match &cli.command {
+        Command::Check(args) => command::check::run(args),
+        Command::Generate(args) => command::generate::run(args),
+        Command::Cosim(args) => command::cosim::run(args),
+        Command::Estimate(args) => command::estimate::run(args),
+        Command::Simulate(args) => command::simulate::run(args),
+        Command::Dataset(args) => command::dataset::run(args),
+        Command::Explain(args) => command::explain::run(args),
+        Command::Analyze(args) => command::analyze::run(args),
+        Command::Explore(args) => command::explore::run(args),
+        Command::Fit(args) => command::fit::run(args),
+        Command::Infer(args) => command::infer::run(args, words),
+        Command::Link(args) => command::link::run(args),
+        Command::Stress(args) => command::stress::run(args),
+        Command::Bench(args) => command::bench::run(args),
+        Command::Presets(args) => command::presets::run(args),
+        Command::Completions(args) => command::completions::run(args),
+    }
+}

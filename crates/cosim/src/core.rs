@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The core of a design as a folder: its Verilog with what is around it, its benches with their vectors, and
+//! its timing diagram.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use foveate_design::Design;
+use foveate_emit::Top;
+use foveate_staging::{Kind, StagedFolder};
+
+use crate::{CosimError, ShippedBench, timing_diagram};
+
+/// What is written, and what may be replaced.
+const CORE: Kind = Kind {
+    what: "a generated core (its foveate_rcm.core)",
+    is: |folder| folder.join("foveate_rcm.core").is_file(),
+    listed: true,
+};
+
+/// A core that has been written.
+#[derive(Debug)]
+pub struct WrittenCore {
+    /// Its files, relative to the folder.
+    pub files: Vec<String>,
+    /// The bench of one RPU or lane, and that of the array.
+    pub benches: Vec<ShippedBench>,
+}
+
+impl WrittenCore {
+    /// Says which benches will not pass, and why.
+    pub fn warnings(&self) -> impl Iterator<Item = String> {
+        self.benches.iter().filter_map(|bench| {
+            let (top, shortcoming) = (bench.top.module(), bench.shortcoming.as_ref()?);
+            Some(format!(
+                "tb/{top}_replay.v does not test all of `{top}`, so it never says PASS: {shortcoming}"
+            ))
+        })
+    }
+}
+
+/// Writes the core of a design to a folder, which appears when it is complete. `overwrite` replaces an
+/// earlier core.
+///
+/// # Errors
+/// When the folder cannot be written or holds something else, and when `cancel` is set.
+pub fn write_core(
+    design: &Design,
+    folder: &Path,
+    overwrite: bool,
+    cancel: &AtomicBool,
+) -> Result<WrittenCore, CosimError> {
+    let staged = StagedFolder::new(folder, CORE, overwrite)?;
+    let mut files = foveate_emit::core(design);
+    let bench = |top| ShippedBench::new(design, top, cancel);
+    let benches = [Top::Rpu, Top::Rcm].into_iter().map(bench).collect::<Result<Vec<_>, _>>()?;
+    files.extend(benches.iter().flat_map(|bench| bench.files.iter().cloned()));
+    files.extend(timing_diagram(design, cancel)?);
+    for file in &files {
+        staged.write(&file.path, file.contents.as_bytes())?;
+    }
+    staged.commit()?;
+    Ok(WrittenCore { files: files.into_iter().map(|file| file.path).collect(), benches })
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One design beside an ideal camera, over one clip or set: no folder, no front.
+
+use std::path::PathBuf;
+
+use foveate_design::{Config, Design};
+use foveate_fidelity::Figures;
+use foveate_footage::{InputOptions, Subject, open};
+
+use crate::ExploreError;
+use crate::measure::{Clip, Measured};
+
+/// The errors of a design over a clip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// The errors.
+    pub figures: Figures,
+    /// Why the clip ended before its end, if it did.
+    pub problem: Option<String>,
+}
+
+/// Compares the camera `config` with the ideal camera of `ideal`. `go_on` is asked after every frame.
+///
+/// # Errors
+/// When the clip cannot be read, a configuration is not a valid design for its frames, or `go_on` says no.
+pub fn compare(
+    inputs: &[PathBuf],
+    input: &InputOptions,
+    config: &Config,
+    ideal: &Config,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Result<Compared, ExploreError> {
+    let design = fitted(inputs, input, config)?;
+    let subject = Subject { name: String::new(), inputs: inputs.to_vec() };
+    let whole = 0..u64::MAX;
+    let clip = Clip {
+        subject: &subject,
+        input,
+        ideal,
+        parts: std::slice::from_ref(&whole),
+        boxes: None,
+        go_on,
+    };
+    let measured = clip.measure(&[design])?.pop().and_then(|mut parts| parts.pop());
+    let Measured { tally, problem, .. } = measured.expect("one design and one part are measured");
+    Ok(Compared { figures: tally.figures(), problem })
+}
+
+/// The design for the frames of the clip.
+fn fitted(
+    inputs: &[PathBuf],
+    input: &InputOptions,
+    config: &Config,
+) -> Result<Design, ExploreError> {
+    let (width, height) = open(inputs, config, input)?.size();
+    let mut config = config.clone();
+    config.fit_frame(width, height)?;
+    Ok(config.validate()?)
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is chosen for a run, as people write it.
+
+use std::fs;
+use std::path::Path;
+
+use foveate_accelerator::Accelerator;
+use foveate_network::Mode;
+
+use crate::{Goal, InferenceError};
+
+/// A mode as people write it: `dense`, `exact`, `compare`, `truncate=0.25` or `fixed`.
+///
+/// # Errors
+/// When the text is none; the error says what would be right.
+pub fn parse_mode(text: &str) -> Result<Mode, String> {
+    let wrong =
+        || "expected dense, exact, compare, truncate=T with T of at least 0, or fixed".to_owned();
+    Ok(match text.split_once('=') {
+        None => match text {
+            "dense" => Mode::Dense,
+            "exact" => Mode::Exact,
+            "compare" => Mode::Compare,
+            "fixed" => Mode::Fixed,
+            _ => return Err(wrong()),
+        },
+        Some(("truncate", limit)) => {
+            let limit = limit.parse().ok().filter(|limit: &f32| limit.is_finite() && *limit >= 0.0);
+            Mode::Truncate(limit.ok_or_else(wrong)?)
+        }
+        Some(_) => return Err(wrong()),
+    })
+}
+
+/// A goal as people write it: `agreement=99%`, `cosine=0.999`, `psnr=40` or `variation=10%`.
+///
+/// # Errors
+/// When the text is none; the error says what would be right.
+pub fn parse_goal(text: &str) -> Result<Goal, String> {
+    let number = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite());
+    let goal = match text.split_once('=') {
+        Some(("agreement", share)) => share
+            .strip_suffix('%')
+            .and_then(number)
+            .filter(|percent| (0.0..=100.0).contains(percent))
+            .map(|percent| Goal::Agreement(percent / 100.0)),
+        Some(("cosine", cosine)) => {
+            number(cosine).filter(|cosine| (-1.0..=1.0).contains(cosine)).map(Goal::Cosine)
+        }
+        Some(("psnr", decibels)) => number(decibels).map(Goal::Psnr),
+        Some(("variation", share)) => share
+            .strip_suffix('%')
+            .and_then(number)
+            .filter(|&percent| percent >= 0.0)
+            .map(|percent| Goal::Variation(percent / 100.0)),
+        _ => None,
+    };
+    goal.ok_or_else(|| {
+        "expected agreement=P% with P from 0 to 100, cosine=C with C from -1 to 1, psnr=D in decibels, or variation=P%".to_owned()
+    })
+}
+
+/// The accelerator of that name, with the name: what ends in .toml is a file.
+///
+/// # Errors
+/// When the file cannot be read or describes none, and when there is no accelerator of that name.
+pub fn read_accelerator(name: &str) -> Result<(String, Accelerator), InferenceError> {
+    let path = Path::new(name);
+    let accelerator = if path.extension().is_some_and(|extension| extension == "toml") {
+        let text = fs::read_to_string(path)
+            .map_err(|source| InferenceError::Read { path: path.to_owned(), source })?;
+        Accelerator::from_toml(&text)
+            .map_err(|error| InferenceError::Choice { problem: format!("`{name}`: {error}") })?
+    } else {
+        Accelerator::preset(name)
+            .map_err(|error| InferenceError::Choice { problem: error.to_string() })?
+    };
+    Ok((name.to_owned(), accelerator))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goals_are_those_of_the_summary() {
+        for text in ["agreement=99%", "cosine=0.999", "psnr=40", "variation=10%"] {
+            assert_eq!(parse_goal(text).unwrap().to_string(), text);
+        }
+        for wrong in [
+            "",
+            "agreement",
+            "agreement=99",
+            "agreement=101%",
+            "cosine=2",
+            "psnr=high",
+            "psnr=nan",
+            "ssim=1",
+        ] {
+            assert!(parse_goal(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn modes_are_those_of_the_summary() {
+        assert_eq!(parse_mode("truncate=0.25"), Ok(Mode::Truncate(0.25)));
+        assert_eq!(parse_mode("compare"), Ok(Mode::Compare));
+        for wrong in
+            ["", "sparse", "truncate", "truncate=", "truncate=-1", "truncate=nan", "exact=1"]
+        {
+            assert!(parse_mode(wrong).is_err(), "{wrong}");
+        }
+    }
+}
