@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Region-based event cameras for Python: the engine of the command ``foveate``, on arrays.
+
+>>> import foveate as fv
+>>> camera = fv.Camera("paper", region={"size": 16})
+>>> outcome = camera.step(frame)            # a 2-D array of uint8
+>>> outcome.active                          # bool, rows x columns of regions
+>>> for outcome in fv.simulate("street.mp4", camera, max_frames=100): ...
+>>> fv.events(outcomes)                     # a table of region events
+
+Every number is computed by the same code as that of the command line, so the bits are the same.
+"""
+from foveate._foveate import (
+    Camera,
+    Design,
+    Outcome,
+    Run,
+    ToolError,
+    __version__,
+    luma,
+    presets,
+    simulate,
+)
+from foveate._results import Estimate, Explanation, Fidelity, Inference
+from foveate._tables import events
+from foveate._work import estimate, explain, fidelity, generate, infer
+
+#: Names of the values of ``Outcome.action``: what becomes of a region on the screen.
+ACTIONS = ("blank", "hold", "forward")
+
+
+__all__ = [
+    "ACTIONS",
+    "Camera",
+    "Design",
+    "Estimate",
+    "Explanation",
+    "Fidelity",
+    "Inference",
+    "Outcome",
+    "Run",
+    "ToolError",
+    "__version__",
+    "estimate",
+    "events",
+    "explain",
+    "fidelity",
+    "generate",
+    "infer",
+    "luma",
+    "presets",
+    "simulate",
+]

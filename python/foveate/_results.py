@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Results that are a dict of the command line's JSON, and show themselves as its text."""
+from __future__ import annotations
+
+from html import escape
+from pathlib import Path
+from typing import Any, Dict, Optional
+
+import numpy as np
+
+
+class _Report(Dict[str, Any]):
+    """The JSON of the command line as a dict. ``print`` shows its text."""
+
+    _text: str
+
+    def __init__(self, values: Dict[str, Any], text: str) -> None:
+        super().__init__(values)
+        self._text = text
+
+    def __str__(self) -> str:
+        return self._text
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(self._text)}</pre>"
+
+
+class Explanation(_Report):
+    """Why a region was sent or dropped: pixels, scores, thresholds, votes and the rule, as ``foveate explain --json`` has them."""
+
+
+class Estimate(_Report):
+    """Area and logic levels, as ``foveate estimate --json`` has them."""
+
+
+class Fidelity(Dict[str, Any]):
+    """Errors of a design against the ideal camera, by the names of ``foveate explore``.
+
+    Attributes
+    ----------
+    problem : str or None
+        Why the footage ended before its end, if it did.
+    """
+
+    problem: Optional[str]
+
+    def __init__(self, values: Dict[str, Any], problem: Optional[str]) -> None:
+        super().__init__(values)
+        self.problem = problem
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in self.items())
+        return f"<table>{rows}</table>"
+
+
+class Inference:
+    """A network behind the camera: what was saved, and its outputs.
+
+    Attributes
+    ----------
+    folder : pathlib.Path
+        What ``foveate infer`` writes: tables, charts and ``report.html``.
+    summary : dict
+        ``summary.json``.
+    """
+
+    folder: Path
+    summary: Dict[str, Any]
+
+    def __init__(self, folder: Path, summary: Dict[str, Any], keep: object = None) -> None:
+        self.folder, self.summary = folder, summary
+        # A temporary folder lives as long as the result.
+        self._keep = keep
+
+    @property
+    def outputs(self) -> Dict[str, np.ndarray[Any, Any]]:
+        """Outputs by name, each an array [frames, ...shape], read when asked for."""
+        files = self.summary.get("outputs") or []
+        return {entry["name"]: np.load(self.folder / entry["file"]) for entry in files if entry.get("file")}
+
+    def table(self, name: str) -> np.ndarray[Any, Any]:
+        """Read a table of the folder, ``layers`` or ``frames``, as a structured array."""
+        path = self.folder / f"{name}.csv"
+        if not path.is_file():
+            tables = ", ".join(sorted(path.stem for path in self.folder.glob("*.csv")))
+            raise KeyError(f"there is no table {name!r}; there are {tables}")
+        return np.genfromtxt(path, delimiter=",", names=True, dtype=None, encoding="utf-8", comments=None)
+
+    def __repr__(self) -> str:
+        summary = self.summary
+        return f"<foveate.Inference of {summary['frames']} frames, mode {summary['mode']}, in {self.folder}>"

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Region events as the tables that people work with."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable, Literal, overload
+
+import numpy as np
+
+from foveate._foveate import Outcome, event_columns
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+
+
+@overload
+def events(outcomes: Iterable[Outcome], *, only_active: bool = ..., kind: Literal["numpy"] = ...) -> np.ndarray[Any, Any]: ...
+@overload
+def events(outcomes: Iterable[Outcome], *, only_active: bool = ..., kind: Literal["pandas"]) -> pandas.DataFrame: ...
+@overload
+def events(outcomes: Iterable[Outcome], *, only_active: bool = ..., kind: Literal["pyarrow"]) -> pyarrow.Table: ...
+def events(outcomes: Iterable[Outcome], *, only_active: bool = False, kind: str = "numpy") -> Any:
+    """Make the table of region events, one row per region and frame.
+
+    The columns are those of ``events.parquet`` of the command line, with the same values.
+
+    Parameters
+    ----------
+    outcomes : iterable of Outcome
+        What ``Camera.step`` or ``simulate`` gave, all of one design. A generator is read to its end.
+    only_active : bool, default False
+        Only the rows of active regions: the events that the camera sends.
+    kind : {"numpy", "pandas", "pyarrow"}
+        A structured array, a data frame, or a table of Arrow. Pandas and PyArrow must be installed.
+
+    Returns
+    -------
+    numpy.ndarray, pandas.DataFrame or pyarrow.Table
+        Columns ``frame``, ``t_us`` (int64, microseconds), ``x``, ``y`` (column and row of the region, int32), ``x0``, ``y0``
+        (its first pixel), ``srs``, ``trs`` (bool), ``score_<feature>`` (int64), ``t_count`` (changed pixels, int32) and
+        ``action`` (``forward``, ``hold`` or ``blank``). Rows are in the order of frame, y, x.
+
+    Raises
+    ------
+    ValueError
+        If there are no outcomes, or they are of different designs.
+    """
+    if kind not in ("numpy", "pandas", "pyarrow"):
+        raise ValueError(f"kind = {kind!r}: expected 'numpy', 'pandas' or 'pyarrow'")
+    columns = event_columns(outcomes, only_active)
+    codes, texts = columns.pop("action")
+    if kind == "pandas":
+        import pandas
+
+        action = pandas.Categorical.from_codes(codes.astype(np.int8), categories=list(texts))
+        return pandas.DataFrame({**columns, "action": action})
+    if kind == "pyarrow":
+        import pyarrow
+
+        action = pyarrow.DictionaryArray.from_arrays(codes.astype(np.int8), list(texts))
+        return pyarrow.table({**columns, "action": action.dictionary_decode()})
+    names = np.array(texts if texts else ("",), dtype="U7")
+    dtype = [(name, values.dtype) for name, values in columns.items()] + [("action", "U7")]
+    table = np.empty(len(codes), dtype=dtype)
+    for name, values in columns.items():
+        table[name] = values
+    table["action"] = names[codes]
+    return table

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Data sets and transforms of PyTorch: what a receiver of a region camera would learn from.
+
+Every image is a first frame, so every TRS is 1 and SRS alone decides, as in ``foveate dataset``. Needs ``torch``.
+"""
+from __future__ import annotations
+
+import threading
+from typing import Any, Dict, Generic, Protocol, Sized, Tuple, TypeVar, cast
+
+import numpy as np
+import torch
+from torch.utils.data import Dataset
+
+from foveate._foveate import Camera, Design, Outcome, luma
+
+__all__ = ["RegionDataset", "RegionTransform"]
+
+_T = TypeVar("_T")
+
+
+class _Indexed(Protocol):
+    def __getitem__(self, index: int, /) -> Tuple[Any, Any]: ...
+    def __len__(self) -> int: ...
+
+
+class RegionTransform(Generic[_T]):
+    """Show every image to a camera, and return what the receiver's screen shows.
+
+    For ``torchvision.transforms.Compose``, before ``ToTensor``. It can be pickled, copied, and called from several threads.
+
+    Parameters
+    ----------
+    camera : Camera, Design, preset, file or dict
+        The camera. Its own state is neither used nor changed.
+
+    Notes
+    -----
+    Takes and returns a picture of PIL, an array (height, width) of uint8 or uint16, or a tensor of uint8 with the shape
+    (height, width) or (1, height, width). Colour pictures of PIL and arrays (height, width, 3) become grey first, by
+    ``foveate.luma``. Regions that are not active are black.
+    """
+
+    def __init__(self, camera: Any) -> None:
+        # Never steps, so that it can be pickled; every thread has a camera of its own.
+        self._camera = Camera(camera)
+        self._local = threading.local()
+
+    @property
+    def design(self) -> Design:
+        """The design of the camera."""
+        return self._camera.design
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {"_camera": self._camera}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._local = threading.local()
+
+    def outcome(self, image: Any) -> Outcome:
+        """Show an image to the camera as a first frame.
+
+        Parameters
+        ----------
+        image : PIL.Image.Image, array or tensor
+
+        Returns
+        -------
+        Outcome
+            With its rendered frame kept.
+        """
+        camera = getattr(self._local, "camera", None)
+        if camera is None:
+            camera = self._local.camera = Camera(self._camera)
+        camera.reset()
+        return cast(Outcome, camera.step(_grey(image), keep=True))
+
+    def __call__(self, image: _T) -> _T:
+        """Return the rendered frame of an image, in the type of the image."""
+        return cast(_T, _like(image, self.outcome(image).rendered))
+
+    def __repr__(self) -> str:
+        return f"RegionTransform({self.design!r})"
+
+
+class RegionDataset(Dataset[Any]):
+    """A data set whose images are what a receiver of the camera sees.
+
+    Parameters
+    ----------
+    dataset : sequence of (image, target)
+        Any data set of torchvision's kind, whose images are pictures of PIL, arrays or tensors of uint8, see
+        ``RegionTransform``: give it no ``ToTensor``.
+    camera : Camera, Design, preset, file or dict
+        The camera. Its own state is neither used nor changed.
+    transform : callable, optional
+        Applied to the rendered image, for example ``torchvision.transforms.ToTensor()``.
+    tags : bool, default False
+        Give ``(image, tags, target)`` instead of ``(image, target)``: ``tags`` is a tensor of bool, (rows, columns), true where the
+        region is active.
+
+    Examples
+    --------
+    >>> regions = RegionDataset(torchvision.datasets.MNIST("data"), Camera("paper", region={"size": 7}), transform=ToTensor())
+    >>> loader = torch.utils.data.DataLoader(regions, batch_size=64, num_workers=2)
+    """
+
+    def __init__(self, dataset: _Indexed, camera: Any, *, transform: Any = None, tags: bool = False) -> None:
+        self.dataset, self.transform, self.tags = dataset, transform, tags
+        self.regions: RegionTransform[Any] = RegionTransform(camera)
+
+    def __len__(self) -> int:
+        return len(cast(Sized, self.dataset))
+
+    def __getitem__(self, index: int) -> Any:
+        image, target = self.dataset[index]
+        outcome = self.regions.outcome(image)
+        seen = _like(image, outcome.rendered)
+        if self.transform is not None:
+            seen = self.transform(seen)
+        return (seen, torch.from_numpy(outcome.active), target) if self.tags else (seen, target)
+
+
+def _grey(image: Any) -> Any:
+    """The pixels of an image as a grey array."""
+    if isinstance(image, torch.Tensor):
+        if image.is_floating_point():
+            raise TypeError(f"the tensor has dtype {image.dtype}; a camera takes pixels of uint8, so put it before ToTensor")
+        image = image.detach().cpu()
+        return (image[0] if image.ndim == 3 and image.shape[0] == 1 else image).numpy()
+    if hasattr(image, "getbands"):
+        bands = image.getbands()
+        if len(bands) > 1 or image.mode == "P":
+            return luma(np.asarray(image.convert("RGB")))
+        return np.asarray(image.convert("L") if image.mode == "1" else image)
+    array = np.asarray(image)
+    return luma(array) if array.ndim == 3 and array.shape[2] == 3 and array.dtype == np.uint8 else array
+
+
+def _like(image: Any, rendered: Any) -> Any:
+    """The rendered frame in the type of an image."""
+    if isinstance(image, torch.Tensor):
+        tensor = torch.from_numpy(rendered)
+        return tensor[None] if image.ndim == 3 else tensor
+    if hasattr(image, "getbands"):
+        from PIL import Image
+
+        return Image.fromarray(rendered)
+    return rendered

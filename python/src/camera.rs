@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A camera that takes frames one by one.
+
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+
+use foveate_design::Config;
+use foveate_engine::{Engine, Options};
+use foveate_footage::FrameRate;
+use foveate_frame::Plane;
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::config;
+use crate::design::{Design, in_words};
+use crate::error::raise;
+use crate::frame::{Grey, rows};
+use crate::outcome::{Outcome, Screen, Taken};
+
+/// A camera that takes frames one by one.
+///
+/// Parameters
+/// ----------
+/// config : str, path, dict, Design or Camera, optional
+///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or something that has a
+///     configuration. Without it the paper's design.
+/// threads : int, default 1
+///     Threads of a step; 0 takes one per processor. The bits do not depend on it.
+/// frame, region, denoise, decision, temporal, render, hardware : dict, optional
+///     Keys to change, as in the file: `region={"size": 16}`.
+/// spatial : str, dict or list of these, optional
+///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.
+///
+/// Attributes
+/// ----------
+/// design : Design
+///     The design. Where the configuration names no size of a frame, it has that of the first frame.
+/// frames : int
+///     Frames since the camera was made or reset.
+///
+/// Notes
+/// -----
+/// A camera belongs to one thread at a time: another that calls it in the meantime gets a RuntimeError. `step` does
+/// not hold the interpreter, so cameras of several threads run side by side. A camera can be pickled before its
+/// first frame; afterwards pickle `camera.design`. After a fork, a camera of one thread goes on where it was.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If it is no valid design. The message names the key, the value and what would be right.
+/// FileNotFoundError
+///     If there is no such file.
+///
+/// Examples
+/// --------
+/// >>> camera = Camera("paper", region={"size": 16}, temporal={"reference": "last-sent"})
+/// >>> outcome = camera.step(numpy.zeros((480, 640), "uint8"))
+#[pyclass(frozen, module = "foveate")]
+pub(crate) struct Camera {
+    config: Config,
+    threads: usize,
+    seen: Mutex<Seen>,
+}
+
+/// What a camera has seen.
+struct Seen {
+    /// Of the size of the first frame; kept when the camera forgets, for frames of the same size.
+    engine: Option<Engine>,
+    /// Frames since the camera has seen nothing.
+    frames: u64,
+    /// Frames ever: which outcome the screen belongs to.
+    steps: u64,
+    /// The process that the threads belong to.
+    process: u32,
+    bytes: Vec<u8>,
+    words: Vec<u16>,
+}
+
+impl Camera {
+    /// A camera that has seen nothing.
+    fn of(config: Config, threads: usize) -> Self {
+        let seen = Seen {
+            engine: None,
+            frames: 0,
+            steps: 0,
+            process: std::process::id(),
+            bytes: Vec::new(),
+            words: Vec::new(),
+        };
+        Self { config, threads, seen: Mutex::new(seen) }
+    }
+
+    pub(crate) fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// What the camera has seen, for one thread at a time.
+    fn seen(&self) -> PyResult<MutexGuard<'_, Seen>> {
+        match self.seen.try_lock() {
+            Ok(seen) => Ok(seen),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "another thread is using this camera; give each thread a camera of its own, Camera(camera.design)",
+            )),
+        }
+    }
+
+    /// The screen after a step, if there was none since.
+    pub(crate) fn screen(&self, py: Python<'_>, step: u64) -> PyResult<Screen> {
+        let seen = self.seen()?;
+        match &seen.engine {
+            Some(engine) if seen.steps == step => Ok(Screen::of(py, engine)),
+            _ => Err(PyRuntimeError::new_err(
+                "this outcome's rendered frame is gone, because the camera has taken another frame or was reset; \
+                 read outcome.rendered before the next step, or keep it with step(frame, keep=True)",
+            )),
+        }
+    }
+}
+
+#[pymethods]
+impl Camera {
+    #[new]
+    #[pyo3(signature = (config=None, /, *, threads=1, **sections))]
+    fn new(
+        config: Option<&Bound<'_, PyAny>>,
+        threads: usize,
+        sections: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let config = config::read(config, sections)?;
+        config.validate().map_err(raise)?;
+        Ok(Self::of(config, threads))
+    }
+
+    /// The design: with the size of the first frame, once there was one.
+    #[getter]
+    fn design(&self) -> PyResult<Design> {
+        let seen = self.seen()?;
+        match &seen.engine {
+            Some(engine) if seen.frames > 0 => Ok(engine.design().clone().into()),
+            _ => Design::new(self.config.clone()),
+        }
+    }
+
+    /// Frames since the camera was made or reset.
+    #[getter]
+    fn frames(&self) -> PyResult<u64> {
+        Ok(self.seen()?.frames)
+    }
+
+    /// Forget every frame. The next one is a first frame, and may have another size.
+    fn reset(&self) -> PyResult<()> {
+        let mut seen = self.seen()?;
+        seen.frames = 0;
+        seen.steps += 1;
+        if let Some(engine) = &mut seen.engine {
+            engine.reset();
+        }
+        Ok(())
+    }
+
+    /// Take the next frame.
+    ///
+    /// Parameters
+    /// ----------
+    /// frame : array of shape (height, width)
+    ///     Grey pixels: uint8, or uint16 for designs of more than 8 bits per pixel, with values of the design's
+    ///     bits. Any strides; it is not copied if the pixels of a row are adjacent. What is no array is converted by
+    ///     `numpy.asarray`.
+    /// time_us : int, optional
+    ///     Time of the frame in microseconds, for tables; by default that of 30 frames per second.
+    /// keep : bool, default False
+    ///     Copy the rendered frame at once. Without it `outcome.rendered` must be read before the next step.
+    ///
+    /// Returns
+    /// -------
+    /// Outcome
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the frame has another shape than the first one, or a pixel that does not fit into the design's bits.
+    /// TypeError
+    ///     If it has another dtype.
+    /// RuntimeError
+    ///     If another thread is using the camera.
+    #[pyo3(signature = (frame, /, *, time_us=None, keep=false))]
+    fn step(
+        slf: &Bound<'_, Self>,
+        frame: &Bound<'_, PyAny>,
+        time_us: Option<u64>,
+        keep: bool,
+    ) -> PyResult<Outcome> {
+        let (py, camera) = (slf.py(), slf.get());
+        let grey = Grey::of(frame)?;
+        let mut guard = camera.seen()?;
+        let seen = &mut *guard;
+        seen.fit(&camera.config, camera.threads, &grey)?;
+        let number = seen.frames;
+        match &grey {
+            Grey::Bytes(array) => {
+                let view = array.as_array();
+                py.detach(|| seen.take_bytes(&view))
+            }
+            Grey::Words(array) => {
+                let view = array.as_array();
+                py.detach(|| seen.take_words(&view))
+            }
+        }
+        .map_err(raise)?;
+        let engine = seen.engine.as_ref().expect("it has taken a frame");
+        let taken = Taken {
+            design: Arc::new(engine.design().clone()),
+            result: engine.outcome().clone(),
+            number,
+            time_us: time_us.unwrap_or_else(|| FrameRate::default().time_us(number)),
+            name: None,
+            label: None,
+        };
+        let screen = keep.then(|| Screen::of(py, engine));
+        let step = seen.steps;
+        drop(guard);
+        Ok(Outcome::of_camera(py, taken, slf.clone().unbind(), step, screen))
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let design = in_words(self.design()?.inner());
+        Ok(format!("<foveate.Camera {design}, {} frames seen>", self.frames()?))
+    }
+
+    /// Shows it in a notebook.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("foveate._show")?.call_method1("design_card", (slf.get().design()?,))
+    }
+
+    /// Writes the Verilog of the design to a folder; see `foveate.generate`.
+    #[pyo3(signature = (folder, *, force=false))]
+    fn generate<'py>(
+        slf: &Bound<'py, Self>,
+        folder: &Bound<'py, PyAny>,
+        force: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = PyDict::new(slf.py());
+        options.set_item("force", force)?;
+        slf.py().import("foveate._work")?.call_method("generate", (slf, folder), Some(&options))
+    }
+
+    /// Area and logic levels of the design; see `foveate.estimate`.
+    fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("foveate._work")?.call_method1("estimate", (slf,))
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let camera = slf.get();
+        let frames = camera.frames()?;
+        if frames > 0 {
+            return Err(PyTypeError::new_err(format!(
+                "this camera has seen {frames} frames, which a copy would not have; copy camera.design, or reset the \
+                 camera first"
+            )));
+        }
+        let arguments = (camera.config.to_toml(), camera.threads).into_pyobject(slf.py())?;
+        Ok((slf.get_type().getattr("_from_toml")?, arguments))
+    }
+
+    #[staticmethod]
+    fn _from_toml(text: &str, threads: usize) -> PyResult<Self> {
+        let config = Config::from_toml(text).map_err(raise)?;
+        Ok(Self::of(config, threads))
+    }
+}
+
+impl Seen {
+    /// Makes ready for a frame, or refuses it.
+    fn fit(&mut self, config: &Config, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
+        let (width, height) = frame.size();
+        let own_size = |engine: &Engine| {
+            let design = engine.design();
+            (design.width() as usize, design.height() as usize)
+        };
+        if self.frames > 0 {
+            if threads != 1 && self.process != std::process::id() {
+                return Err(PyRuntimeError::new_err(
+                    "this camera has threads, which do not live on after a fork; make the camera in the new process",
+                ));
+            }
+            let (own_width, own_height) =
+                self.engine.as_ref().map(own_size).expect("it has seen a frame");
+            if (own_width, own_height) != (width, height) {
+                return Err(PyValueError::new_err(format!(
+                    "the frame has {width}x{height} pixels, but this camera has taken frames of \
+                     {own_width}x{own_height}; make a camera for each size, or call reset() before the first frame \
+                     of another size"
+                )));
+            }
+        } else if self.engine.as_ref().map(own_size) != Some((width, height))
+            || self.process != std::process::id()
+        {
+            let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+            let mut config = config.clone();
+            config.fit_frame(side(width), side(height)).map_err(raise)?;
+            let design = config.validate().map_err(raise)?;
+            let options = Options { threads, ..Options::default() };
+            self.engine = Some(Engine::with_options(&design, options).map_err(raise)?);
+            self.process = std::process::id();
+        }
+        let bits = config.frame.pixel_bits;
+        match (frame, bits) {
+            (Grey::Bytes(_), 9..) => Err(PyTypeError::new_err(format!(
+                "the frame has dtype uint8, but the design has {bits} bits per pixel; give a frame of uint16 with \
+                 values of {bits} bits, or set frame={{\"pixel_bits\": 8}}"
+            ))),
+            (Grey::Words(_), ..=8) => Err(PyTypeError::new_err(format!(
+                "the frame has dtype uint16, but the design has {bits} bits per pixel; give a frame of uint8, or \
+                 set frame={{\"pixel_bits\": 16}}"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    fn take_bytes(
+        &mut self,
+        view: &numpy::ndarray::ArrayView2<'_, u8>,
+    ) -> Result<(), foveate_engine::EngineError> {
+        let Self { engine, bytes, .. } = self;
+        let (pixels, stride) = rows(view, bytes);
+        engine.as_mut().expect("made ready").step_u8(pixels, stride)?;
+        self.count();
+        Ok(())
+    }
+
+    fn take_words(
+        &mut self,
+        view: &numpy::ndarray::ArrayView2<'_, u16>,
+    ) -> Result<(), foveate_engine::EngineError> {
+        let Self { engine, words, .. } = self;
+        let (pixels, stride) = rows(view, words);
+        engine.as_mut().expect("made ready").step_u16(pixels, stride)?;
+        self.count();
+        Ok(())
+    }
+
+    fn count(&mut self) {
+        self.frames += 1;
+        self.steps += 1;
+    }
+}
+
+impl Screen {
+    /// What is on the screen of an engine, as an array that owns its memory.
+    pub(crate) fn of(py: Python<'_>, engine: &Engine) -> Self {
+        let design = engine.design();
+        let size = [design.height() as usize, design.width() as usize];
+        match engine.rendered() {
+            Plane::Bytes(pixels) => Self::bytes(py, pixels, size),
+            Plane::Words(pixels) => Self::words(py, pixels, size),
+        }
+    }
+}

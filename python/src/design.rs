@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A design, immutable.
+
+use foveate_design::{Config, PRESETS};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple, PyType};
+
+use crate::config;
+use crate::error::raise;
+
+/// A validated configuration with the numbers that follow from it. Immutable, hashable, and can be pickled.
+///
+/// Parameters
+/// ----------
+/// config : str, path, dict, Design or Camera, optional
+///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or something that has a
+///     configuration. Without it the paper's design.
+/// frame, region, denoise, decision, temporal, render, hardware : dict, optional
+///     Keys to change, as in the file: `region={"size": 16}`.
+/// spatial : str, dict or list of these, optional
+///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.
+///
+/// Attributes
+/// ----------
+/// width, height : int
+///     Size of a frame in pixels.
+/// pixel_bits : int
+///     Bits per pixel, 1 to 16.
+/// region_size : int
+///     Side of a region in pixels, 2 to 64.
+/// columns, rows, regions : int
+///     Regions side by side, one below the other, and in all.
+/// features : tuple of str
+///     Names of the spatial features.
+/// organization : str
+///     Structure of the array.
+/// cycles_per_frame : int
+///     Clocks from one frame to the next.
+/// fingerprint : str
+///     16 hexadecimal digits, equal for equal configurations.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If it is no valid design. The message names the key, the value and what would be right.
+/// FileNotFoundError
+///     If there is no such file.
+#[pyclass(frozen, eq, hash, module = "foveate")]
+#[derive(Clone, Debug)]
+pub(crate) struct Design {
+    inner: foveate_design::Design,
+    /// As it was given: where it names no size of a frame, a camera takes that of its frames.
+    written: Config,
+}
+
+impl PartialEq for Design {
+    fn eq(&self, other: &Self) -> bool {
+        self.inner == other.inner
+    }
+}
+
+impl std::hash::Hash for Design {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.inner.fingerprint().hash(state);
+    }
+}
+
+impl From<foveate_design::Design> for Design {
+    fn from(inner: foveate_design::Design) -> Self {
+        Self { written: inner.config().clone(), inner }
+    }
+}
+
+impl Design {
+    pub(crate) fn new(written: Config) -> PyResult<Self> {
+        Ok(Self { inner: written.validate().map_err(raise)?, written })
+    }
+
+    /// The configuration as it was given.
+    pub(crate) fn config(&self) -> &Config {
+        &self.written
+    }
+
+    pub(crate) fn inner(&self) -> &foveate_design::Design {
+        &self.inner
+    }
+}
+
+#[pymethods]
+impl Design {
+    #[new]
+    #[pyo3(signature = (config=None, /, **sections))]
+    fn made(
+        config: Option<&Bound<'_, PyAny>>,
+        sections: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        Self::new(config::read(config, sections)?)
+    }
+
+    /// Width of a frame in pixels.
+    #[getter]
+    fn width(&self) -> u32 {
+        self.inner.width()
+    }
+
+    /// Height of a frame in pixels.
+    #[getter]
+    fn height(&self) -> u32 {
+        self.inner.height()
+    }
+
+    /// Bits per pixel.
+    #[getter]
+    fn pixel_bits(&self) -> u32 {
+        self.inner.pixel_bits()
+    }
+
+    /// Side of a region in pixels.
+    #[getter]
+    fn region_size(&self) -> u32 {
+        self.inner.region_size()
+    }
+
+    /// Regions side by side.
+    #[getter]
+    fn columns(&self) -> u32 {
+        self.inner.columns()
+    }
+
+    /// Regions one below the other.
+    #[getter]
+    fn rows(&self) -> u32 {
+        self.inner.rows()
+    }
+
+    /// Regions of a frame.
+    #[getter]
+    fn regions(&self) -> u32 {
+        self.inner.regions()
+    }
+
+    /// Names of the spatial features.
+    #[getter]
+    fn features<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let names = self.inner.features().iter().map(|feature| feature.kind().to_string());
+        PyTuple::new(py, names.collect::<Vec<_>>())
+    }
+
+    /// Structure of the array.
+    #[getter]
+    fn organization(&self) -> &'static str {
+        self.inner.organization().name()
+    }
+
+    /// Clocks from one frame to the next.
+    #[getter]
+    fn cycles_per_frame(&self) -> u64 {
+        self.inner.timing().clocks_per_frame()
+    }
+
+    /// 16 hexadecimal digits, equal for equal configurations.
+    #[getter]
+    fn fingerprint(&self) -> String {
+        self.inner.fingerprint()
+    }
+
+    /// The configuration as a TOML file, every key filled in.
+    fn toml(&self) -> String {
+        self.inner.config().to_toml()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<foveate.Design {}>", in_words(&self.inner))
+    }
+
+    /// Shows it in a notebook.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("foveate._show")?.call_method1("design_card", (slf,))
+    }
+
+    /// Writes the Verilog of the design to a folder; see `foveate.generate`.
+    #[pyo3(signature = (folder, *, force=false))]
+    fn generate<'py>(
+        slf: &Bound<'py, Self>,
+        folder: &Bound<'py, PyAny>,
+        force: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = PyDict::new(slf.py());
+        options.set_item("force", force)?;
+        slf.py().import("foveate._work")?.call_method("generate", (slf, folder), Some(&options))
+    }
+
+    /// Area and logic levels of the design; see `foveate.estimate`.
+    fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("foveate._work")?.call_method1("estimate", (slf,))
+    }
+
+    #[classmethod]
+    fn _from_toml(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
+        Self::new(Config::from_toml(text).map_err(raise)?)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((slf.get_type().getattr("_from_toml")?, (slf.get().written.to_toml(),)))
+    }
+}
+
+/// Names of the presets, and what each is for.
+#[pyfunction]
+pub(crate) fn presets(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let found = PyDict::new(py);
+    for preset in PRESETS {
+        found.set_item(preset.name, preset.summary)?;
+    }
+    Ok(found)
+}
+
+/// The design in one line.
+pub(crate) fn in_words(design: &foveate_design::Design) -> String {
+    let features: Vec<String> =
+        design.features().iter().map(|feature| feature.kind().to_string()).collect();
+    format!(
+        "{} {}x{} pixels of {} bits, {}x{} regions of {n}x{n}, {}, reference {}, {}",
+        design.fingerprint(),
+        design.width(),
+        design.height(),
+        design.pixel_bits(),
+        design.columns(),
+        design.rows(),
+        features.join(" + "),
+        design.temporal().reference.name(),
+        design.config().hardware.in_words(),
+        n = design.region_size(),
+    )
+}

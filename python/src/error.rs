@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which exception says what. The messages are those of the command line.
+
+use foveate_cosim::CosimError;
+use foveate_design::DesignError;
+use foveate_engine::EngineError;
+use foveate_estimate::EstimateError;
+use foveate_explore::ExploreError;
+use foveate_footage::FootageError;
+use foveate_inference::InferenceError;
+use foveate_simulator::SimulatorError;
+use foveate_staging::StagingError;
+use foveate_toolchain::ToolError as Tool;
+use pyo3::exceptions::{
+    PyFileExistsError, PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyRuntimeError,
+    PyValueError,
+};
+use pyo3::{PyErr, create_exception};
+
+create_exception!(
+    foveate,
+    ToolError,
+    PyRuntimeError,
+    "An external tool, such as Yosys or ffmpeg, is missing, too old, or has failed."
+);
+
+/// An error of a crate as Python's exception.
+pub(crate) trait Raise {
+    fn raise(self) -> PyErr;
+}
+
+/// For `map_err`.
+pub(crate) fn raise(error: impl Raise) -> PyErr {
+    error.raise()
+}
+
+/// For `map_err` of what is wrong with a value.
+pub(crate) fn value_error(problem: impl ToString) -> PyErr {
+    PyValueError::new_err(problem.to_string())
+}
+
+/// An error of the operating system: the exception of its kind, with our message.
+pub(crate) fn os_error(source: &std::io::Error, message: String) -> PyErr {
+    match source.kind() {
+        std::io::ErrorKind::NotFound => PyFileNotFoundError::new_err(message),
+        std::io::ErrorKind::AlreadyExists => PyFileExistsError::new_err(message),
+        _ => PyOSError::new_err(message),
+    }
+}
+
+impl Raise for DesignError {
+    fn raise(self) -> PyErr {
+        value_error(self)
+    }
+}
+
+impl Raise for EngineError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Threads { .. } => PyRuntimeError::new_err(self.to_string()),
+            _ => value_error(self),
+        }
+    }
+}
+
+impl Raise for Tool {
+    fn raise(self) -> PyErr {
+        match self {
+            _ if self.is_interrupted() => PyKeyboardInterrupt::new_err(()),
+            _ => ToolError::new_err(self.to_string()),
+        }
+    }
+}
+
+impl Raise for FootageError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Missing { .. } => PyFileNotFoundError::new_err(self.to_string()),
+            Self::Tool(error) => error.raise(),
+            _ => value_error(self),
+        }
+    }
+}
+
+impl Raise for StagingError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Write { .. } => PyOSError::new_err(self.to_string()),
+            // The option of the command line is an argument here.
+            _ => PyFileExistsError::new_err(self.to_string().replace("--force", "force=True")),
+        }
+    }
+}
+
+impl Raise for SimulatorError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Cancelled => PyKeyboardInterrupt::new_err(()),
+            Self::Footage(error) => error.raise(),
+            Self::Output(error) => error.raise(),
+            Self::Tool(error) => error.raise(),
+            Self::NoSuchRegion { .. } | Self::NoSuchFrame { .. } => {
+                pyo3::exceptions::PyIndexError::new_err(self.to_string())
+            }
+            _ => value_error(self),
+        }
+    }
+}
+
+impl Raise for ExploreError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Cancelled => PyKeyboardInterrupt::new_err(()),
+            Self::Footage(error) => error.raise(),
+            _ => value_error(self),
+        }
+    }
+}
+
+impl Raise for InferenceError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Cancelled => PyKeyboardInterrupt::new_err(()),
+            Self::Footage(error) => error.raise(),
+            Self::Output(error) => error.raise(),
+            Self::Read { ref source, .. } => os_error(source, self.to_string()),
+            _ => value_error(self),
+        }
+    }
+}
+
+impl Raise for CosimError {
+    fn raise(self) -> PyErr {
+        match self {
+            _ if self.is_interrupted() => PyKeyboardInterrupt::new_err(()),
+            Self::Tool(error) => error.raise(),
+            Self::Output(error) => error.raise(),
+            Self::Io { ref source, .. } => os_error(source, self.to_string()),
+            _ => value_error(self),
+        }
+    }
+}
+
+impl Raise for EstimateError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Tool(error) => error.raise(),
+            _ => ToolError::new_err(self.to_string()),
+        }
+    }
+}

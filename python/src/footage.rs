@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Footage of the command line, frame by frame through a camera of its own.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use foveate_design::Config;
+use foveate_engine::Engine;
+use foveate_footage::{
+    Crop, FrameRate, ImagesAs, InputOptions, Kind, Plan, Source, open, parse_time, plan,
+};
+use numpy::ndarray::Axis;
+use numpy::{PyArray2, PyReadonlyArray3, ToPyArray};
+use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::config;
+use crate::design::{Design, in_words};
+use crate::error::{raise, value_error};
+use crate::outcome::{Outcome, Screen, Taken};
+
+/// Inputs as paths: one, or a list of these.
+pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
+    if let Ok(path) = inputs.extract::<PathBuf>() {
+        return Ok(vec![path]);
+    }
+    inputs.extract::<Vec<PathBuf>>().map_err(|_| {
+        PyTypeError::new_err(
+            "inputs are a path, a pattern or scene:NAME, or a list of these; arrays go to Camera.step",
+        )
+    })
+}
+
+/// The options of inputs by their names on the command line.
+pub(crate) fn input_options(options: Option<&Bound<'_, PyDict>>) -> PyResult<InputOptions> {
+    let mut found = InputOptions::default();
+    let Some(options) = options else { return Ok(found) };
+    for (name, value) in options.iter() {
+        if value.is_none() {
+            continue;
+        }
+        let name: String = name.extract()?;
+        let text = || -> PyResult<String> { Ok(value.str()?.to_string()) };
+        let wrong = |problem: String| PyValueError::new_err(format!("{name} = {value}: {problem}"));
+        match name.as_str() {
+            "max_frames" => {
+                let frames = value.extract().ok().filter(|&frames: &u32| frames > 0);
+                found.frames =
+                    Some(frames.ok_or_else(|| wrong("expected a number from 1 on".into()))?);
+            }
+            "rate" => found.frame_rate = FrameRate::parse(&text()?).map_err(wrong)?,
+            "input_fps" => {
+                found.selection.rate = Some(FrameRate::parse(&text()?).map_err(wrong)?);
+            }
+            "start" => found.selection.start_us = Some(parse_time(&text()?).map_err(wrong)?),
+            "end" => found.selection.end_us = Some(parse_time(&text()?).map_err(wrong)?),
+            "crop" => {
+                let (width, height, x, y) = value
+                    .extract()
+                    .map_err(|_| wrong("expected (width, height, x, y) in pixels".into()))?;
+                found.crop = Some(Crop { size: (width, height), at: (x, y) });
+            }
+            "resize" => {
+                let size = value.extract().ok().filter(|&(width, height): &(u32, u32)| {
+                    let sides = 1..=foveate_footage::MAX_SIDE;
+                    sides.contains(&width) && sides.contains(&height)
+                });
+                found.resize = Some(size.ok_or_else(|| {
+                    wrong(format!(
+                        "expected (width, height), each 1 to {}",
+                        foveate_footage::MAX_SIDE
+                    ))
+                })?);
+            }
+            "images" => {
+                found.images = match text()?.as_str() {
+                    "clip" => ImagesAs::Clip,
+                    "set" => ImagesAs::Set,
+                    "cifar-sheet" => ImagesAs::CifarSheet,
+                    _ => return Err(wrong("expected \"clip\", \"set\" or \"cifar-sheet\"".into())),
+                };
+            }
+            "labels" => found.labels = Some(value.extract()?),
+            _ => {
+                return Err(PyTypeError::new_err(format!(
+                    "unexpected argument {name}; inputs have max_frames, input_fps, rate, start, end, crop, resize, \
+                     images and labels"
+                )));
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// A run over footage, made by `simulate`: an iterator of outcomes that holds one frame at a time.
+///
+/// Attributes
+/// ----------
+/// design : Design
+///     The design, with the size of the frames.
+/// total : int or None
+///     Frames in all, where that is known. A damaged video may promise more than it has.
+/// problem : str or None
+///     Why the footage ended before its end. The end then also gives a UserWarning.
+#[pyclass(frozen, module = "foveate")]
+pub(crate) struct Run {
+    design: Arc<foveate_design::Design>,
+    total: Option<u64>,
+    state: Mutex<State>,
+}
+
+struct State {
+    source: Box<dyn Source>,
+    engine: Engine,
+    number: u64,
+    ended: bool,
+}
+
+impl Run {
+    /// A run belongs to one thread at a time; another waits for its frame without holding the interpreter.
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// The design, with the size of the frames.
+    #[getter]
+    fn design(&self) -> Design {
+        foveate_design::Design::clone(&self.design).into()
+    }
+
+    /// Frames in all; None where that is not known. A video may promise more than it has.
+    #[getter]
+    fn total(&self) -> Option<u64> {
+        self.total
+    }
+
+    /// Why the footage ended before its end; None if it did not.
+    #[getter]
+    fn problem(&self, py: Python<'_>) -> Option<String> {
+        py.detach(|| self.state().source.problem())
+    }
+
+    fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Outcome>> {
+        py.check_signals()?;
+        let design = Arc::clone(&self.design);
+        let next = py.detach(|| self.state().next(design)).map_err(raise)?;
+        let Some((taken, raster, screen)) = next else {
+            let problem = self.problem(py);
+            if let Some(problem) = problem {
+                let text = std::ffi::CString::new(problem).unwrap_or_default();
+                PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+            }
+            return Ok(None);
+        };
+        let frame = Screen::of_raster(py, &raster);
+        Ok(Some(Outcome::of_run(py, taken, frame, Screen::of_raster(py, &screen))))
+    }
+
+    fn __repr__(&self) -> String {
+        let total = self.total.map_or("?".to_owned(), |total| total.to_string());
+        format!("<foveate.Run of {total} frames: {}>", in_words(&self.design))
+    }
+}
+
+impl State {
+    /// The next frame, what came of it, and the screen after it.
+    #[allow(clippy::type_complexity, reason = "said in the line above, and used once")]
+    fn next(
+        &mut self,
+        design: Arc<foveate_design::Design>,
+    ) -> Result<
+        Option<(Taken, foveate_frame::Raster, foveate_frame::Raster)>,
+        foveate_simulator::SimulatorError,
+    > {
+        if self.ended {
+            return Ok(None);
+        }
+        let next = self.source.next_frame();
+        self.ended = !matches!(next, Ok(Some(_)));
+        let Some(current) = next? else { return Ok(None) };
+        if self.source.kind() == Kind::Set {
+            self.engine.reset();
+        }
+        self.engine.step_raster(&current.frame)?;
+        let taken = Taken {
+            result: self.engine.outcome().clone(),
+            number: self.number,
+            time_us: current.time_us,
+            name: Some(current.name),
+            label: current.label,
+            design,
+        };
+        self.number += 1;
+        let (width, height, bits) =
+            (current.frame.width(), current.frame.height(), current.frame.bits());
+        let screen = match self.engine.rendered() {
+            foveate_frame::Plane::Bytes(pixels) => {
+                foveate_frame::Raster::from_bytes(width, height, bits, pixels.to_vec())?
+            }
+            foveate_frame::Plane::Words(pixels) => {
+                foveate_frame::Raster::from_words(width, height, bits, pixels.to_vec())?
+            }
+        };
+        Ok(Some((taken, current.frame, screen)))
+    }
+}
+
+/// Opens inputs for a camera.
+pub(crate) fn opened(
+    inputs: &[PathBuf],
+    config: &Config,
+    options: &InputOptions,
+) -> Result<Box<dyn Source>, foveate_footage::FootageError> {
+    open(inputs, config, options)
+}
+
+/// Run a camera over footage, frame by frame.
+///
+/// Parameters
+/// ----------
+/// inputs : path, pattern, "scene:NAME" or a list of these
+///     What the command line takes: a video, images, a set, a scene. Videos need ffmpeg.
+/// camera : Camera, Design, preset, file or dict, optional
+///     The camera. The run has one of its own that has seen nothing; what `camera` has seen does not matter and
+///     does not change.
+/// max_frames : int, optional
+///     At most this many frames; a scene has exactly this many.
+/// input_fps, rate : float or str, optional
+///     Take at most so many frames per second; frame rate of images, which have no times (30).
+/// start, end : float or str, optional
+///     Take frames from this time and before this time: seconds, or "HH:MM:SS".
+/// crop : (int, int, int, int), optional
+///     Take this part of every frame: width, height, and its left and upper edge.
+/// resize : (int, int), optional
+///     Scale every frame by area to this width and height, after cropping.
+/// images : {"clip", "set", "cifar-sheet"}, optional
+///     What image files are: frames of a clip (default), unrelated images, or sheets with an image per row.
+/// labels : path, optional
+///     Labels of an IDX file, if they are not beside it.
+///
+/// Returns
+/// -------
+/// Run
+///     An iterator of `Outcome`, each with its `frame` and `rendered`. Ctrl-C ends it between two frames.
+///
+/// Raises
+/// ------
+/// FileNotFoundError, ValueError
+///     If an input cannot be read, or does not go with the configuration.
+/// ToolError
+///     If ffmpeg is needed and missing.
+///
+/// Examples
+/// --------
+/// >>> active = numpy.stack([outcome.active for outcome in simulate("scene:street", "paper", max_frames=8)])
+#[pyfunction]
+#[pyo3(signature = (inputs, camera=None, **options))]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    inputs: &Bound<'_, PyAny>,
+    camera: Option<&Bound<'_, PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Run> {
+    let (inputs, options) = (paths(inputs)?, input_options(options)?);
+    let config = config::read(camera, None)?;
+    py.detach(|| -> PyResult<Run> {
+        if let Plan::Batch(clips) = plan(&inputs, &options).map_err(raise)? {
+            return Err(value_error(format!(
+                "the inputs are {} clips; simulate them one after the other",
+                clips.len()
+            )));
+        }
+        let source = opened(&inputs, &config, &options).map_err(raise)?;
+        let (width, height) = source.size();
+        let mut config = config;
+        config.fit_frame(width, height).map_err(raise)?;
+        let design = config.validate().map_err(raise)?;
+        let (total, engine) = (source.frames(), Engine::new(&design));
+        let state = State { source, engine, number: 0, ended: false };
+        Ok(Run { design: Arc::new(design), total, state: Mutex::new(state) })
+    })
+}
+
+/// Make a grey frame of red, green and blue, as footage is read: (77 R + 150 G + 29 B + 128) >> 8.
+///
+/// Parameters
+/// ----------
+/// frame : array of uint8, shape (height, width, 3)
+///
+/// Returns
+/// -------
+/// array of uint8, shape (height, width)
+#[pyfunction]
+pub(crate) fn luma<'py>(
+    py: Python<'py>,
+    frame: PyReadonlyArray3<'py, u8>,
+) -> PyResult<Bound<'py, PyArray2<u8>>> {
+    let view = frame.as_array();
+    if view.len_of(Axis(2)) != 3 {
+        return Err(PyValueError::new_err(format!(
+            "a frame of red, green and blue has shape (height, width, 3), not {:?}",
+            view.shape()
+        )));
+    }
+    let grey = py.detach(|| {
+        view.map_axis(Axis(2), |colour| {
+            let grey = foveate_footage::luma(colour[0].into(), colour[1].into(), colour[2].into());
+            u8::try_from(grey).expect("the weights sum to 256")
+        })
+    });
+    Ok(grey.to_pyarray(py))
+}

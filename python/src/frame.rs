@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A frame as Python holds it: an array of any layout. Rows whose pixels are adjacent are read where they lie.
+
+use numpy::ndarray::ArrayView2;
+use numpy::{
+    Element, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray2, PyUntypedArray,
+    PyUntypedArrayMethods,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// An array that is known to be a grey frame.
+pub(crate) enum Grey<'py> {
+    Bytes(PyReadonlyArray2<'py, u8>),
+    Words(PyReadonlyArray2<'py, u16>),
+}
+
+impl<'py> Grey<'py> {
+    /// The frame, if it is a two-dimensional array of `uint8` or `uint16`. What is no array is asked for one, as
+    /// NumPy does.
+    pub(crate) fn of(frame: &Bound<'py, PyAny>) -> PyResult<Self> {
+        let array = untyped(frame)?;
+        let shape = array.shape().to_vec();
+        if shape.len() != 2 {
+            return Err(PyValueError::new_err(format!(
+                "a frame is a 2-D array of grey pixels (height, width), not one of shape {}{}",
+                array.getattr("shape")?,
+                hint(&shape)
+            )));
+        }
+        if shape.contains(&0) {
+            return Err(PyValueError::new_err(format!(
+                "the frame has no pixels: its shape is {}",
+                array.getattr("shape")?
+            )));
+        }
+        let (py, dtype) = (frame.py(), array.dtype());
+        if dtype.is_equiv_to(&u8::get_dtype(py)) {
+            return Ok(Self::Bytes(array.cast::<numpy::PyArray2<u8>>()?.try_readonly()?));
+        }
+        if dtype.is_equiv_to(&u16::get_dtype(py)) {
+            let array = if array.getattr("flags")?.getattr("aligned")?.extract()? {
+                array
+            } else {
+                array.call_method0("copy")?.cast_into::<PyUntypedArray>()?
+            };
+            return Ok(Self::Words(array.cast::<numpy::PyArray2<u16>>()?.try_readonly()?));
+        }
+        Err(PyTypeError::new_err(format!(
+            "a frame has dtype uint8, or uint16 above 8 bits per pixel, not {}; convert it, for example with \
+             frame.astype(\"{}\")",
+            dtype.str()?,
+            if dtype.kind() == b'u' && dtype.itemsize() == 2 { "uint16" } else { "uint8" },
+        )))
+    }
+
+    /// The pixels row by row, copied.
+    pub(crate) fn values(&self) -> Vec<u16> {
+        match self {
+            Self::Bytes(array) => array.as_array().iter().map(|&value| value.into()).collect(),
+            Self::Words(array) => array.as_array().iter().copied().collect(),
+        }
+    }
+
+    /// Width and height.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        let shape = match self {
+            Self::Bytes(array) => array.shape(),
+            Self::Words(array) => array.shape(),
+        };
+        (shape[1], shape[0])
+    }
+}
+
+fn untyped<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
+    if let Ok(array) = frame.cast::<PyUntypedArray>() {
+        return Ok(array.clone());
+    }
+    let asked = frame.py().import("numpy")?.call_method1("asarray", (frame,))?;
+    Ok(asked.cast_into::<PyUntypedArray>()?)
+}
+
+/// What would make a frame of what is none.
+fn hint(shape: &[usize]) -> &'static str {
+    match shape {
+        [_, _, 1] => "; take frame[:, :, 0]",
+        [_, _, 3] => "; foveate.luma(frame) makes a grey frame of red, green and blue",
+        [1, _, _] => "; take frame[0]",
+        [_, _, _] => "; give the frames one by one",
+        _ => "",
+    }
+}
+
+/// The pixels with the distance of their rows: where they lie, or copied into `scratch` if the pixels of a row
+/// are not adjacent, or rows overlap or run upwards.
+pub(crate) fn rows<'a, T: Copy>(
+    view: &'a ArrayView2<'_, T>,
+    scratch: &'a mut Vec<T>,
+) -> (&'a [T], usize) {
+    let (height, width) = view.dim();
+    let [down, across] = *view.strides() else { unreachable!("two dimensions have two strides") };
+    let stride = usize::try_from(down).ok().filter(|&stride| stride >= width || height == 1);
+    if let (Some(stride), true) = (stride, across == 1 || width == 1) {
+        let stride = stride.max(width);
+        let len = (height - 1) * stride + width;
+        // SAFETY: the view holds its first and its last pixel, which is `len - 1` behind the first, as both
+        // strides are positive. NumPy arrays lie in one allocation, so all between is readable. It is `u8` or
+        // `u16`, for which every bit pattern is valid. The borrow that made the view outlives the slice.
+        #[allow(unsafe_code, reason = "ndarray gives no slice of rows with gaps")]
+        let values = unsafe { std::slice::from_raw_parts(view.as_ptr(), len) };
+        return (values, stride);
+    }
+    scratch.clear();
+    scratch.reserve(width * height);
+    for row in view.rows() {
+        scratch.extend(row.iter().copied());
+    }
+    (scratch, width)
+}

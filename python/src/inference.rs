@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Networks behind the camera.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use foveate_footage::{Hooks, Progress};
+use foveate_inference::{
+    Computed, Inference, Mapping, Options, Record, parse_goal, parse_mode, read_accelerator,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::config;
+use crate::error::raise;
+use crate::footage::{input_options, opened, paths};
+use crate::study::json;
+use crate::work::interruptible;
+
+/// Stops when the flag is set.
+struct Flag(Arc<AtomicBool>);
+
+impl Hooks for Flag {
+    fn progress(&mut self, _progress: Progress) {}
+
+    fn cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// What is chosen of a run, by its names on the command line: taken out of `options`, which keeps those of
+/// inputs.
+fn chosen(options: &Bound<'_, PyDict>) -> PyResult<Options> {
+    let text = |name: &str| -> PyResult<Option<String>> {
+        let value = take(options, name)?;
+        Ok(value.map(|value| value.str()).transpose()?.map(|text| text.to_string()))
+    };
+    let wrong = |name: &'static str, value: String| {
+        move |problem: String| PyValueError::new_err(format!("{name} = {value:?}: {problem}"))
+    };
+    let (mode, goal) = (text("mode")?, text("tune")?);
+    if mode.is_some() && goal.is_some() {
+        return Err(PyTypeError::new_err(
+            "give mode or tune, not both: tune chooses limits itself",
+        ));
+    }
+    let mode = mode.unwrap_or_else(|| "exact".to_owned());
+    let approximate = mode.starts_with("truncate") || mode == "fixed";
+    let computed = match goal {
+        Some(goal) => Computed::Tuned(parse_goal(&goal).map_err(wrong("tune", goal))?),
+        None => Computed::Mode(parse_mode(&mode).map_err(wrong("mode", mode))?),
+    };
+    let accelerator = text("accelerator")?;
+    let accelerator = accelerator.as_deref().map(read_accelerator).transpose().map_err(raise)?;
+    let flag = |name: &str| -> PyResult<bool> {
+        take(options, name)?.map_or(Ok(false), |value| value.extract())
+    };
+    let values = |name: &'static str, default: f32| -> PyResult<Vec<f32>> {
+        let Some(value) = take(options, name)? else { return Ok(vec![default]) };
+        value.extract::<f32>().map(|one| vec![one]).or_else(|_| {
+            value.extract().map_err(|_| {
+                PyTypeError::new_err(format!(
+                    "{name} = {value}: expected a number, or one for each channel"
+                ))
+            })
+        })
+    };
+    let mapping = Mapping { mean: values("mean", 0.0)?, scale: values("scale", 1.0)? };
+    if let Some(wrong) = mapping.scale.iter().find(|&&value| !(value > 0.0 && value.is_finite())) {
+        return Err(PyValueError::new_err(format!("scale = {wrong}: expected numbers above 0")));
+    }
+    if let Some(wrong) = mapping.mean.iter().find(|value| !value.is_finite()) {
+        return Err(PyValueError::new_err(format!("mean = {wrong}: expected finite numbers")));
+    }
+    Ok(Options {
+        computed,
+        mapping,
+        accelerator,
+        reference: flag("reference")? || approximate,
+        record: Record { arrays: true, pictures: flag("pictures")? },
+        command: Vec::new(),
+        overwrite: flag("force")?,
+    })
+}
+
+/// A value that is given, taken out.
+fn take<'py>(options: &Bound<'py, PyDict>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(value) = options.get_item(name)? else { return Ok(None) };
+    options.del_item(name)?;
+    Ok(Some(value).filter(|value| !value.is_none()))
+}
+
+/// Runs a network on what a camera sends, into a folder; returns the summary as JSON.
+#[pyfunction]
+#[pyo3(signature = (network, inputs, camera, output, **options))]
+pub(crate) fn infer(
+    py: Python<'_>,
+    network: PathBuf,
+    inputs: &Bound<'_, PyAny>,
+    camera: Option<&Bound<'_, PyAny>>,
+    output: PathBuf,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<String> {
+    let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
+    let chosen = chosen(&options)?;
+    let (inputs, input) = (paths(inputs)?, input_options(Some(&options))?);
+    let config = config::read(camera, None)?;
+    let summary = interruptible(py, |cancel| {
+        let source = opened(&inputs, &config, &input).map_err(raise)?;
+        let inference = Inference::new(&config, &network, source).map_err(raise)?;
+        inference.run(&output, &chosen, &mut Flag(cancel)).map_err(raise)
+    })??;
+    json(&summary)
+}

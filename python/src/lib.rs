@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The compiled part of the Python package `foveate`: the camera, its footage, its hardware and its networks.
+//!
+//! Nothing is computed here. Every function takes Python's values apart, calls the crate that does the work
+//! without holding the interpreter, and makes Python's values of the result. What needs no Rust, such as
+//! tables of pandas, is in the Python files beside.
+
+mod camera;
+mod config;
+mod design;
+mod error;
+mod footage;
+mod frame;
+mod inference;
+mod outcome;
+mod picture;
+mod study;
+mod table;
+mod tools;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The compiled part of `foveate`.
+#[pymodule]
+mod _foveate {
+    use std::ffi::OsString;
+
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::camera::Camera;
+    #[pymodule_export]
+    use crate::design::{Design, presets};
+    #[pymodule_export]
+    use crate::error::ToolError;
+    #[pymodule_export]
+    use crate::footage::{Run, luma, simulate};
+    #[pymodule_export]
+    use crate::inference::infer;
+    #[pymodule_export]
+    use crate::outcome::Outcome;
+    #[pymodule_export]
+    use crate::picture::{decisions_png, grey_png};
+    #[pymodule_export]
+    use crate::study::{explain, fidelity};
+    #[pymodule_export]
+    use crate::table::event_columns;
+    #[pymodule_export]
+    use crate::tools::{estimate, generate};
+
+    /// Runs the command `foveate` with these words, of which the first is its name; returns its exit code.
+    #[pyfunction]
+    fn main(py: Python<'_>, words: Vec<OsString>) -> u8 {
+        py.detach(|| foveate_cli::run(words))
+    }
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What came of one frame. Arrays own their memory, and are made when they are first read.
+
+use std::sync::Arc;
+
+use foveate_design::Action;
+use foveate_engine::Outcome as Result;
+use foveate_frame::{Plane, Raster};
+use numpy::{Element, PyArray2, PyArrayMethods, PyUntypedArray};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
+
+use crate::camera::Camera;
+use crate::design::Design;
+
+/// A frame and what came of it, as numbers.
+pub(crate) struct Taken {
+    pub(crate) design: Arc<foveate_design::Design>,
+    pub(crate) result: Result,
+    pub(crate) number: u64,
+    pub(crate) time_us: u64,
+    pub(crate) name: Option<String>,
+    pub(crate) label: Option<String>,
+}
+
+/// A frame of pixels as an array that owns its memory.
+pub(crate) struct Screen(Py<PyUntypedArray>);
+
+impl Screen {
+    pub(crate) fn bytes(py: Python<'_>, pixels: &[u8], size: [usize; 2]) -> Self {
+        Self(untyped(py, pixels, size))
+    }
+
+    pub(crate) fn words(py: Python<'_>, pixels: &[u16], size: [usize; 2]) -> Self {
+        Self(untyped(py, pixels, size))
+    }
+
+    pub(crate) fn of_raster(py: Python<'_>, raster: &Raster) -> Self {
+        let size = [raster.height() as usize, raster.width() as usize];
+        match raster.plane() {
+            Plane::Bytes(pixels) => Self::bytes(py, pixels, size),
+            Plane::Words(pixels) => Self::words(py, pixels, size),
+        }
+    }
+}
+
+fn untyped<T: Element + Copy>(
+    py: Python<'_>,
+    pixels: &[T],
+    size: [usize; 2],
+) -> Py<PyUntypedArray> {
+    let array = numpy::PyArray1::from_slice(py, pixels).reshape(size);
+    array
+        .expect("a pixel for every place")
+        .into_any()
+        .cast_into()
+        .expect("an array is one")
+        .unbind()
+}
+
+/// What came of one frame. Its arrays own their memory.
+///
+/// Attributes
+/// ----------
+/// srs, trs, active : array of bool, shape (rows, columns)
+///     Spatial relevance, temporal relevance, and both: the region's pixels are forwarded.
+/// action : array of uint8, shape (rows, columns)
+///     What becomes of a region on the screen: an index into `foveate.ACTIONS`.
+/// changed : array of int64, shape (rows, columns)
+///     Changed pixels of a region; all of them where there was no reference.
+/// scores : dict of str to array of int64, shape (rows, columns)
+///     Scores by feature, in the units of the contract: hits for `edge` and `corner`; the others have fraction bits.
+/// rendered : array of uint8 or uint16, shape (height, width)
+///     What the receiver's screen shows. An outcome of `Camera.step` reads it from the camera when it is asked for
+///     first, and raises a RuntimeError if the camera has taken another frame since, unless it was kept.
+/// frame : array of uint8 or uint16, shape (height, width), or None
+///     The frame as the camera saw it; None for `Camera.step`, where it is the caller's.
+/// number : int
+///     Number of the frame, from 0.
+/// time_us : int
+///     Time since the first frame in microseconds.
+/// name, label : str or None
+///     Name of the frame and class of the image, where it has one.
+/// design : Design
+///     The design that the frame was shown to.
+#[pyclass(frozen, module = "foveate")]
+pub(crate) struct Outcome {
+    taken: Taken,
+    /// The frame itself, where it was read from footage.
+    frame: Option<Screen>,
+    /// Whose screen shows the rendered frame, and after which step.
+    camera: Option<(Py<Camera>, u64)>,
+    rendered: PyOnceLock<Screen>,
+    srs: PyOnceLock<Py<PyArray2<bool>>>,
+    trs: PyOnceLock<Py<PyArray2<bool>>>,
+    active: PyOnceLock<Py<PyArray2<bool>>>,
+    action: PyOnceLock<Py<PyArray2<u8>>>,
+    changed: PyOnceLock<Py<PyArray2<i64>>>,
+    scores: PyOnceLock<Py<PyDict>>,
+}
+
+impl Outcome {
+    fn new(
+        py: Python<'_>,
+        taken: Taken,
+        frame: Option<Screen>,
+        camera: Option<(Py<Camera>, u64)>,
+        screen: Option<Screen>,
+    ) -> Self {
+        let rendered = PyOnceLock::new();
+        if let Some(screen) = screen {
+            rendered.get_or_init(py, || screen);
+        }
+        Self {
+            taken,
+            frame,
+            camera,
+            rendered,
+            srs: PyOnceLock::new(),
+            trs: PyOnceLock::new(),
+            active: PyOnceLock::new(),
+            action: PyOnceLock::new(),
+            changed: PyOnceLock::new(),
+            scores: PyOnceLock::new(),
+        }
+    }
+
+    /// Of a camera, which still has the rendered frame if it is not kept.
+    pub(crate) fn of_camera(
+        py: Python<'_>,
+        taken: Taken,
+        camera: Py<Camera>,
+        step: u64,
+        screen: Option<Screen>,
+    ) -> Self {
+        Self::new(py, taken, None, Some((camera, step)), screen)
+    }
+
+    /// Of a run, with everything.
+    pub(crate) fn of_run(py: Python<'_>, taken: Taken, frame: Screen, screen: Screen) -> Self {
+        Self::new(py, taken, Some(frame), None, Some(screen))
+    }
+
+    pub(crate) fn taken(&self) -> &Taken {
+        &self.taken
+    }
+
+    fn size(&self) -> [usize; 2] {
+        [self.taken.design.rows() as usize, self.taken.design.columns() as usize]
+    }
+
+    /// An array of regions, made once.
+    fn once<T: Element>(
+        &self,
+        py: Python<'_>,
+        held: &PyOnceLock<Py<PyArray2<T>>>,
+        values: impl ExactSizeIterator<Item = T>,
+    ) -> Py<PyArray2<T>> {
+        held.get_or_init(py, || array(py, values, self.size()).unbind()).clone_ref(py)
+    }
+}
+
+#[pymethods]
+impl Outcome {
+    /// The design that the frame was shown to.
+    #[getter]
+    fn design(&self) -> Design {
+        foveate_design::Design::clone(&self.taken.design).into()
+    }
+
+    /// Number of the frame, from 0.
+    #[getter]
+    fn number(&self) -> u64 {
+        self.taken.number
+    }
+
+    /// Time of the frame in microseconds since the first.
+    #[getter]
+    fn time_us(&self) -> u64 {
+        self.taken.time_us
+    }
+
+    /// Name of the frame; None where it was an array.
+    #[getter]
+    fn name(&self) -> Option<&str> {
+        self.taken.name.as_deref()
+    }
+
+    /// Class of the image; None where there is none.
+    #[getter]
+    fn label(&self) -> Option<&str> {
+        self.taken.label.as_deref()
+    }
+
+    #[getter]
+    fn srs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
+        self.once(py, &self.srs, self.taken.result.srs.iter().copied())
+    }
+
+    #[getter]
+    fn trs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
+        self.once(py, &self.trs, self.taken.result.trs.iter().copied())
+    }
+
+    #[getter]
+    fn active(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
+        self.once(py, &self.active, self.taken.result.active.iter().copied())
+    }
+
+    #[getter]
+    fn action(&self, py: Python<'_>) -> Py<PyArray2<u8>> {
+        self.once(py, &self.action, self.taken.result.actions.iter().map(|&action| code(action)))
+    }
+
+    #[getter]
+    fn changed(&self, py: Python<'_>) -> Py<PyArray2<i64>> {
+        let counts = self.taken.result.temporal_count.iter();
+        self.once(py, &self.changed, counts.map(|&count| count.into()))
+    }
+
+    #[getter]
+    fn scores(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
+        let make = || -> PyResult<Py<PyDict>> {
+            let found = PyDict::new(py);
+            let features = self.taken.design.features().iter();
+            for (feature, scores) in features.zip(&self.taken.result.scores) {
+                let signed = |&score: &u64| i64::try_from(score).expect("scores are below 2^54");
+                let scores = array(py, scores.iter().map(signed), self.size());
+                found.set_item(feature.kind().to_string(), scores)?;
+            }
+            Ok(found.unbind())
+        };
+        Ok(self.scores.get_or_try_init(py, make)?.clone_ref(py))
+    }
+
+    /// The frame as the camera saw it; None where it was an array, which is the caller's.
+    #[getter]
+    fn frame(&self, py: Python<'_>) -> Option<Py<PyUntypedArray>> {
+        self.frame.as_ref().map(|frame| frame.0.clone_ref(py))
+    }
+
+    #[getter]
+    fn rendered(&self, py: Python<'_>) -> PyResult<Py<PyUntypedArray>> {
+        let read = || {
+            let (camera, step) = self.camera.as_ref().expect("what no camera has is kept");
+            camera.get().screen(py, *step)
+        };
+        Ok(self.rendered.get_or_try_init(py, read)?.0.clone_ref(py))
+    }
+
+    fn __repr__(&self) -> String {
+        let Taken { result, number, .. } = &self.taken;
+        let [rows, columns] = self.size();
+        let active = result.active.iter().filter(|&&active| active).count();
+        format!("<foveate.Outcome of frame {number}: {active} of {columns}x{rows} regions active>")
+    }
+
+    /// Shows it in a notebook.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("foveate._show")?.call_method1("outcome_card", (slf,))
+    }
+
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(PyTypeError::new_err(
+            "an outcome cannot be pickled; pickle its arrays, or the table that foveate.events makes",
+        ))
+    }
+}
+
+/// The number of an action, its place in `foveate.ACTIONS`.
+fn code(action: Action) -> u8 {
+    match action {
+        Action::Blank => 0,
+        Action::Hold => 1,
+        Action::Forward => 2,
+    }
+}
+
+/// Values row by row.
+fn array<T: Element>(
+    py: Python<'_>,
+    values: impl ExactSizeIterator<Item = T>,
+    size: [usize; 2],
+) -> Bound<'_, PyArray2<T>> {
+    numpy::PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
+}

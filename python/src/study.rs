@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What one asks of a design over footage: why a region was sent, and how far it is from the ideal camera.
+
+use std::sync::atomic::Ordering;
+
+use foveate_explore::compare;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::config;
+use crate::error::{raise, value_error};
+use crate::footage::{input_options, opened, paths};
+use crate::work::interruptible;
+
+/// A value as JSON, from which Python makes its own.
+pub(crate) fn json(value: &impl serde::Serialize) -> PyResult<String> {
+    serde_json::to_string(value).map_err(value_error)
+}
+
+/// Why a region was sent or dropped: JSON and text.
+#[pyfunction]
+#[pyo3(signature = (inputs, camera=None, *, frame=0, region=(0, 0), **options))]
+pub(crate) fn explain(
+    py: Python<'_>,
+    inputs: &Bound<'_, PyAny>,
+    camera: Option<&Bound<'_, PyAny>>,
+    frame: u64,
+    region: (u32, u32),
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<(String, String)> {
+    let (inputs, options) = (paths(inputs)?, input_options(options)?);
+    let config = config::read(camera, None)?;
+    let explanation = py.detach(|| {
+        let source = opened(&inputs, &config, &options).map_err(raise)?;
+        foveate_simulator::explain(&config, source, frame, region).map_err(raise)
+    })?;
+    Ok((json(&explanation)?, explanation.to_string()))
+}
+
+/// Errors of a design against the ideal camera: JSON, and why the footage ended early.
+#[pyfunction]
+#[pyo3(signature = (inputs, camera=None, *, ideal=None, **options))]
+pub(crate) fn fidelity(
+    py: Python<'_>,
+    inputs: &Bound<'_, PyAny>,
+    camera: Option<&Bound<'_, PyAny>>,
+    ideal: Option<&Bound<'_, PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<(String, Option<String>)> {
+    let (inputs, options) = (paths(inputs)?, input_options(options)?);
+    let config = config::read(camera, None)?;
+    let ideal =
+        ideal.map_or_else(|| Ok(config.clone()), |ideal| config::read(Some(ideal), None))?;
+    let compared = interruptible(py, |cancel| {
+        let go_on = || !cancel.load(Ordering::Relaxed);
+        compare(&inputs, &options, &config, &ideal, &go_on)
+    })?
+    .map_err(raise)?;
+    Ok((json(&compared.figures)?, compared.problem))
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The table of region events, column by column, as `events.parquet` has it.
+
+use std::sync::Arc;
+
+use foveate_simulator::{EventTable, Moment};
+use foveate_tables::{Kind, Value};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::outcome::{Outcome, Taken};
+
+/// The values of a column.
+enum Values {
+    Long(Vec<i64>),
+    Int(Vec<i32>),
+    Flag(Vec<bool>),
+    /// Numbers of texts, and the texts.
+    Text(Vec<u8>, Vec<&'static str>),
+}
+
+impl Values {
+    fn of(kind: Kind) -> Self {
+        match kind {
+            Kind::Long => Self::Long(Vec::new()),
+            Kind::Int => Self::Int(Vec::new()),
+            Kind::Flag => Self::Flag(Vec::new()),
+            Kind::Text => Self::Text(Vec::new(), Vec::new()),
+            Kind::Real => unreachable!("the table of regions has no real numbers"),
+        }
+    }
+
+    fn push(&mut self, value: Value<'static>) {
+        match (self, value) {
+            (Self::Long(values), Value::Long(value)) => values.push(value),
+            (Self::Int(values), Value::Int(value)) => values.push(value),
+            (Self::Flag(values), Value::Flag(value)) => values.push(value),
+            (Self::Text(values, texts), Value::Text(value)) => {
+                let known = texts.iter().position(|&text| text == value);
+                let number = known.unwrap_or_else(|| {
+                    texts.push(value);
+                    texts.len() - 1
+                });
+                values.push(u8::try_from(number).expect("there are three actions"));
+            }
+            (_, value) => unreachable!("{value:?} is not of its column's kind"),
+        }
+    }
+
+    /// An array; of texts the numbers and the texts.
+    fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        Ok(match self {
+            Self::Long(values) => values.into_pyarray(py).into_any(),
+            Self::Int(values) => values.into_pyarray(py).into_any(),
+            Self::Flag(values) => PyArray1::from_vec(py, values).into_any(),
+            Self::Text(values, texts) => {
+                let parts =
+                    [values.into_pyarray(py).into_any(), PyTuple::new(py, texts)?.into_any()];
+                PyTuple::new(py, parts)?.into_any()
+            }
+        })
+    }
+}
+
+/// The columns of the table by name.
+#[pyfunction]
+pub(crate) fn event_columns<'py>(
+    outcomes: &Bound<'py, PyAny>,
+    only_active: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let py = outcomes.py();
+    let mut table: Option<(Arc<foveate_design::Design>, EventTable, Vec<Values>)> = None;
+    for outcome in outcomes.try_iter()? {
+        let outcome = outcome?;
+        let outcome = outcome.cast::<Outcome>().map_err(|_| {
+            PyTypeError::new_err("events are made of outcomes, those of Camera.step or simulate")
+        })?;
+        let taken = outcome.get().taken();
+        let (design, rows, values) = table.get_or_insert_with(|| {
+            let rows = EventTable::new(&taken.design, only_active);
+            let values = rows.columns().iter().map(|column| Values::of(column.kind)).collect();
+            (Arc::clone(&taken.design), rows, values)
+        });
+        if **design != *taken.design {
+            return Err(PyValueError::new_err(format!(
+                "the outcomes are of two designs, {} and {}; make a table of each",
+                design.fingerprint(),
+                taken.design.fingerprint()
+            )));
+        }
+        let Taken { result: outcome, number, time_us, .. } = taken;
+        let moment =
+            Moment { design: design.as_ref(), number: *number, time_us: *time_us, outcome };
+        rows.rows(&moment, |row| {
+            values.iter_mut().zip(row).for_each(|(own, value)| own.push(value));
+        });
+    }
+    let Some((_, rows, values)) = table else {
+        return Err(PyValueError::new_err(
+            "there are no outcomes; a table needs at least one, to know its columns",
+        ));
+    };
+    let found = PyDict::new(py);
+    for (column, values) in rows.columns().iter().zip(values) {
+        found.set_item(&column.name, values.into_python(py)?)?;
+    }
+    Ok(found)
+}

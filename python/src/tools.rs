@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Hardware of a design: its core, and its area.
+
+use std::path::PathBuf;
+
+use foveate_cosim::write_core;
+use foveate_emit::Top;
+use foveate_estimate::{EstimateJob, render_text};
+use foveate_toolchain::{Cache, Toolchain};
+use pyo3::exceptions::PyUserWarning;
+use pyo3::prelude::*;
+
+use crate::config;
+use crate::error::raise;
+use crate::study::json;
+use crate::work::interruptible;
+
+/// Columns of a report.
+const WIDTH: usize = 100;
+
+/// The design of a camera or a configuration.
+fn design(camera: &Bound<'_, PyAny>) -> PyResult<foveate_design::Design> {
+    config::read(Some(camera), None)?.validate().map_err(raise)
+}
+
+/// Writes the core of a design; returns its files.
+#[pyfunction]
+pub(crate) fn generate(
+    py: Python<'_>,
+    camera: &Bound<'_, PyAny>,
+    folder: PathBuf,
+    force: bool,
+) -> PyResult<Vec<String>> {
+    let design = design(camera)?;
+    let core = interruptible(py, |cancel| write_core(&design, &folder, force, &cancel))?;
+    let core = core.map_err(raise)?;
+    for warning in core.warnings() {
+        let text = std::ffi::CString::new(warning).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)?;
+    }
+    Ok(core.files)
+}
+
+/// Area and logic levels from Yosys: JSON and text.
+#[pyfunction]
+pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(String, String)> {
+    let design = design(camera)?;
+    let report = interruptible(py, |cancel| {
+        let toolchain = Toolchain::system().cancelled_by(cancel);
+        let job = EstimateJob {
+            leaves_of: Some(design.unit().split.to_owned()),
+            ..EstimateJob::of(&design, Top::Rcm)
+        };
+        let cache = Cache::from_env().map_err(raise)?;
+        foveate_estimate::estimate(&toolchain, &cache, &job).map_err(raise)
+    })??;
+    Ok((json(&report)?, render_text(&report, WIDTH)))
+}
