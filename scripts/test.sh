@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs every check: format, clippy, documentation, the book, unit, property, golden, command line, RTL lint, co-simulation, a
+# Runs every check: format, clippy, documentation, the book, the Python package, unit, property, golden, command line, RTL lint, co-simulation, a
 # sample of proofs and of mutants. Installs what is missing.
 #
 # A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used where FOVEATE_DATA names their folder.
@@ -12,6 +12,13 @@ step() { printf '\n== %s\n' "$*"; }
 step "tools"
 scripts/install_tools.sh
 export FOVEATE_REQUIRE_TOOLS=1
+# PyTorch is large: it comes while the processors build.
+packages=$(mktemp)
+log=$(mktemp)
+beside=$(mktemp)
+trap 'rm -f "$packages" "$log" "$beside"' EXIT
+scripts/python_tools.sh --package >"$packages" 2>&1 &
+installed=$!
 step "format"
 cargo fmt --all --check
 step "places that know which variant it is"
@@ -28,12 +35,12 @@ step "build of the tests"
 cargo test --workspace --locked --quiet --no-run
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
+step "Python package"
+wait "$installed" || { cat "$packages" && exit 1; }
+scripts/python.sh --test
 step "Python of the documents"
 scripts/snippets.sh
 step "samples of proofs, lint matrix and mutants (scripts/formal.sh, lint.sh and mutation.sh are the whole)"
-beside=$(mktemp)
-log=$(mktemp)
-trap 'rm -f "$beside" "$log"' EXIT
 # One of two processors for each.
 (JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick) >"$beside" 2>&1 &
 JOBS=1 scripts/mutation.sh --sample 8

@@ -61,22 +61,19 @@ class Inference:
     folder : pathlib.Path
         What ``foveate infer`` writes: tables, charts and ``report.html``.
     summary : dict
-        ``summary.json``.
+        ``inference.json``.
     """
 
     folder: Path
     summary: Dict[str, Any]
 
-    def __init__(self, folder: Path, summary: Dict[str, Any], keep: object = None) -> None:
+    def __init__(self, folder: Path, summary: Dict[str, Any]) -> None:
         self.folder, self.summary = folder, summary
-        # A temporary folder lives as long as the result.
-        self._keep = keep
 
     @property
     def outputs(self) -> Dict[str, np.ndarray[Any, Any]]:
         """Outputs by name, each an array [frames, ...shape], read when asked for."""
-        files = self.summary.get("outputs") or []
-        return {entry["name"]: np.load(self.folder / entry["file"]) for entry in files if entry.get("file")}
+        return {entry["name"]: np.load(self.folder / entry["array"]) for entry in self.summary["outputs"]}
 
     def table(self, name: str) -> np.ndarray[Any, Any]:
         """Read a table of the folder, ``layers`` or ``frames``, as a structured array."""
@@ -84,7 +81,10 @@ class Inference:
         if not path.is_file():
             tables = ", ".join(sorted(path.stem for path in self.folder.glob("*.csv")))
             raise KeyError(f"there is no table {name!r}; there are {tables}")
-        return np.genfromtxt(path, delimiter=",", names=True, dtype=None, encoding="utf-8", comments=None)
+        # NumPy's types do not know that comments may be None.
+        read: Any = np.genfromtxt
+        table: np.ndarray[Any, Any] = read(path, delimiter=",", names=True, dtype=None, encoding="utf-8", comments=None)
+        return table
 
     def __repr__(self) -> str:
         summary = self.summary

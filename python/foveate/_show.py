@@ -42,7 +42,7 @@ def outcome_card(outcome: Outcome) -> str:
         pass
     pictures.append(("active green, SRS alone orange, TRS alone blue", decisions_png(outcome)))
     figures = "".join(
-        f"<figure style='display:inline-block;margin:4px'><img alt='{escape(name)}' width='{width}'"
+        f"<figure style='display:inline-block;vertical-align:top;margin:4px;width:{width}px'><img alt='{escape(name)}' width='{width}'"
         f" style='image-rendering:pixelated' src='data:image/png;base64,{b64encode(png).decode()}'>"
         f"<figcaption>{escape(name)}</figcaption></figure>"
         for name, png in pictures

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import tempfile
+import weakref
 from pathlib import Path
 from typing import Any, List, Optional, Sequence, Tuple, Union
 
@@ -139,9 +141,14 @@ def infer(network: PathLike, inputs: Inputs, camera: Any = None, output: Optiona
     Inference
         Its ``summary``, ``outputs`` and tables.
     """
-    keep = None
-    if output is None:
-        keep = tempfile.TemporaryDirectory(prefix="foveate-")
-        output = Path(keep.name) / "inference"
-    summary = _foveate.infer(network, inputs, camera, output, **options)
-    return Inference(Path(output), json.loads(summary), keep)
+    if output is not None:
+        return Inference(Path(output), json.loads(_foveate.infer(network, inputs, camera, output, **options)))
+    temporary = Path(tempfile.mkdtemp(prefix="foveate-"))
+    try:
+        summary = _foveate.infer(network, inputs, camera, temporary / "inference", **options)
+    except BaseException:
+        shutil.rmtree(temporary)
+        raise
+    found = Inference(temporary / "inference", json.loads(summary))
+    weakref.finalize(found, shutil.rmtree, temporary, ignore_errors=True)
+    return found

@@ -141,7 +141,11 @@ impl Run {
     /// Why the footage ended before its end; None if it did not.
     #[getter]
     fn problem(&self, py: Python<'_>) -> Option<String> {
-        py.detach(|| self.state().source.problem())
+        py.detach(|| {
+            let state = self.state();
+            let problem = state.source.problem()?;
+            Some(format!("{}: {problem}", state.source.inputs().join(", ")))
+        })
     }
 
     fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {

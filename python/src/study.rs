@@ -19,7 +19,7 @@ pub(crate) fn json(value: &impl serde::Serialize) -> PyResult<String> {
 
 /// Why a region was sent or dropped: JSON and text.
 #[pyfunction]
-#[pyo3(signature = (inputs, camera=None, *, frame=0, region=(0, 0), **options))]
+#[pyo3(signature = (inputs, camera=None, *, frame, region, **options))]
 pub(crate) fn explain(
     py: Python<'_>,
     inputs: &Bound<'_, PyAny>,

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What the tests share: the command line of this machine, which the package must equal."""
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def command():
+    """Runs the program `foveate` that the environment variable FOVEATE names, else the one of the package."""
+    program = [os.environ["FOVEATE"]] if "FOVEATE" in os.environ else [sys.executable, "-m", "foveate"]
+
+    def run(*words):
+        return subprocess.run([*program, *map(str, words)], check=True, capture_output=True, text=True).stdout
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def frames():
+    """A clip of which a part changes, 12 frames of 60 x 83 pixels: no multiple of a region."""
+    chance = np.random.default_rng(7)
+    still = chance.integers(0, 256, (60, 83), np.uint8)
+    clip = np.repeat(still[None], 12, axis=0)
+    for number in range(1, 12):
+        clip[number, 10:30, 3 * number : 3 * number + 25] = chance.integers(0, 256, (20, 25), np.uint8)
+    return clip
+
+
+def equal(one, other):
+    """Whether two outcomes are equal in everything but the frame itself."""
+    names = ("srs", "trs", "active", "action", "changed", "rendered")
+    same = all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
+    return same and all(np.array_equal(one.scores[name], other.scores[name]) for name in one.scores)

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What a camera is, remembers and refuses."""
+import copy
+import pickle
+import tomllib
+
+import numpy as np
+import pytest
+from conftest import equal
+
+import foveate as fv
+
+
+def test_a_configuration_is_a_preset_a_file_a_dict_a_design_or_a_camera(tmp_path):
+    expected = fv.Design("paper", region={"size": 16}, temporal={"reference": "last-sent"})
+    (tmp_path / "camera.toml").write_text('[region]\nsize = 16\n[temporal]\nreference = "last-sent"\n')
+    values = {"region": {"size": np.int64(16)}, "temporal": {"reference": "last-sent"}}
+    for given in (tmp_path / "camera.toml", str(tmp_path / "camera.toml"), values, expected, fv.Camera(expected)):
+        assert fv.Design(given) == expected == fv.Camera(given).design
+        assert hash(fv.Design(given)) == hash(expected)
+    assert expected != fv.Design() and fv.Design("paper") == fv.Design() == fv.Design({})
+    assert tomllib.loads(expected.toml())["region"]["size"] == 16
+    assert set(fv.presets()) >= {"paper", "bare", "steady", "serial"}
+
+
+def test_features_are_names_dicts_or_lists():
+    assert fv.Design(spatial="mad").features == ("mad",)
+    assert fv.Design(spatial={"feature": "edge", "level": 50}).features == ("edge",)
+    both = fv.Design(spatial=["edge", {"feature": "variance", "min_score": 2.5}], decision={"combine": "all"})
+    assert both.features == ("edge", "variance")
+    assert tomllib.loads(both.toml())["spatial"][1]["min_score"] == 2.5
+
+
+def test_a_depth_scales_the_thresholds_of_a_preset_as_the_command_line_does(command):
+    design = fv.Design("corner", frame={"pixel_bits": 12})
+    import json
+
+    checked = json.loads(command("check", "-p", "corner", "--set", "frame.pixel_bits=12", "--json"))
+    assert checked["fingerprint"] == design.fingerprint
+
+
+WRONG = [
+    (("papier",), {}, ValueError, "unknown preset `papier`; presets are paper"),
+    (("nothing.toml",), {}, FileNotFoundError, "cannot read the configuration `nothing.toml`"),
+    ((3,), {}, TypeError, "the name of a preset .* not int"),
+    ((), {"region": {"size": 99}}, ValueError, r"`region.size` = 99 is out of range; the valid range is 2..=64"),
+    ((), {"region": {"sice": 9}}, ValueError, "sice.*size"),
+    ((), {"region": 8}, TypeError, "region takes a dict"),
+    ((), {"regions": {"size": 8}}, ValueError, "regions"),
+    ((), {"region": {"size": 2**70}}, ValueError, "beyond the range"),
+    ((), {"region": {"size": [1]}}, ValueError, "region.size"),
+    ((), {"region": {"size": "8\n[hardware]"}}, ValueError, "region.size"),
+    ((), {"region": {"size": object()}}, TypeError, "region.size takes a number"),
+    (({"region": {"size": 8.5}},), {}, ValueError, "region.size"),
+    ((), {"spatial": 3}, TypeError, "not iterable"),
+    ((), {"spatial": []}, ValueError, "spatial"),
+]
+
+
+@pytest.mark.parametrize("arguments, keys, error, message", WRONG, ids=[message for *_, message in WRONG])
+def test_what_is_no_configuration_is_refused_by_name(arguments, keys, error, message):
+    for made in (fv.Camera, fv.Design):
+        with pytest.raises(error, match=message):
+            made(*arguments, **keys)
+
+
+def test_the_size_is_that_of_the_first_frame_until_a_reset(frames):
+    camera = fv.Camera()
+    assert (camera.design.width, camera.design.height) == (224, 224)
+    first = camera.step(frames[0])
+    assert (camera.design.width, camera.design.height) == (83, 60)
+    assert first.active.shape == (8, 11) == (camera.design.rows, camera.design.columns)
+    with pytest.raises(ValueError, match="30x20 pixels, but this camera has taken frames of 83x60"):
+        camera.step(np.zeros((20, 30), np.uint8))
+    assert camera.frames == 1
+    camera.reset()
+    assert camera.frames == 0 and camera.design.width == 224
+    assert camera.step(np.zeros((20, 30), np.uint8)).active.shape == (3, 4)
+    with pytest.raises(ValueError, match="frame.width"):
+        fv.Camera(frame={"width": 40, "height": 20}).step(np.zeros((20, 30), np.uint8))
+
+
+def test_a_reset_camera_has_seen_nothing(frames):
+    camera = fv.Camera("steady")
+    fresh = [camera.step(frame, keep=True) for frame in frames]
+    camera.reset()
+    for frame, expected in zip(frames, fresh, strict=True):
+        assert equal(camera.step(frame), expected)
+
+
+def test_a_rendered_frame_is_there_until_the_next_step_or_kept(frames):
+    camera = fv.Camera()
+    first = camera.step(frames[0])
+    second = camera.step(frames[1])
+    with pytest.raises(RuntimeError, match="read outcome.rendered before the next step"):
+        first.rendered
+    read = second.rendered
+    kept = camera.step(frames[2], keep=True)
+    camera.step(frames[3])
+    assert second.rendered is read
+    other = fv.Camera()
+    for frame in frames[:3]:
+        last = other.step(frame)
+    assert np.array_equal(kept.rendered, last.rendered)
+    last_of_reset = other.step(frames[3])
+    other.reset()
+    with pytest.raises(RuntimeError, match="was reset"):
+        last_of_reset.rendered
+
+
+def test_arrays_outlive_everything(frames):
+    camera = fv.Camera()
+    outcome = camera.step(frames[0])
+    arrays = [outcome.srs, outcome.rendered, outcome.scores["edge"], outcome.changed]
+    copies = [array.copy() for array in arrays]
+    assert outcome.srs is outcome.srs and outcome.scores is outcome.scores
+    for frame in frames[1:]:
+        camera.step(frame)
+    del outcome, camera
+    for array, expected in zip(arrays, copies, strict=True):
+        assert np.array_equal(array, expected) and array.flags.writeable
+
+
+def test_outcomes_agree_with_themselves(frames):
+    camera = fv.Camera()
+    for frame in frames:
+        outcome = camera.step(frame)
+        assert np.array_equal(outcome.active, outcome.srs & outcome.trs)
+        assert np.array_equal(outcome.action == fv.ACTIONS.index("forward"), outcome.active)
+        assert outcome.changed.max() <= 64 and outcome.scores["edge"].dtype == np.int64
+    assert outcome.design == camera.design and outcome.frame is None and outcome.name is None
+
+
+def test_times_of_steps(frames):
+    camera = fv.Camera()
+    assert [camera.step(frames[0]).time_us, camera.step(frames[1]).time_us] == [0, 33_333]
+    assert camera.step(frames[2], time_us=5).time_us == 5
+    with pytest.raises((OverflowError, TypeError)):
+        camera.step(frames[2], time_us=-1)
+
+
+def test_a_camera_is_copied_before_its_first_frame_only(frames):
+    camera = fv.Camera("steady", threads=2, region={"size": 4})
+    for made in (pickle.loads(pickle.dumps(camera)), copy.deepcopy(camera)):
+        assert made.design == camera.design
+    assert equal(made.step(frames[0]), camera.step(frames[0]))
+    for how in (pickle.dumps, copy.copy, copy.deepcopy):
+        with pytest.raises(TypeError, match="has seen 1 frames, which a copy would not have"):
+            how(camera)
+    design = pickle.loads(pickle.dumps(camera.design))
+    assert design == camera.design and copy.copy(design) == design
+    # A design that leaves the size open leaves it open after pickling, too.
+    free = pickle.loads(pickle.dumps(fv.Design("steady")))
+    assert fv.Camera(free).step(frames[0]).active.shape == (8, 11)
+    with pytest.raises(TypeError, match="cannot be pickled"):
+        pickle.dumps(camera.step(frames[1]))
+
+
+def test_threads_change_no_bit():
+    chance = np.random.default_rng(5)
+    clip = chance.integers(0, 256, (3, 400, 600), np.uint8)
+    one, four = fv.Camera("seamless"), fv.Camera("seamless", threads=4)
+    for frame in clip:
+        assert equal(one.step(frame), four.step(frame))
+
+
+def test_everything_shows_itself(frames):
+    camera = fv.Camera(region={"size": 16})
+    assert repr(camera).startswith("<foveate.Camera ") and "0 frames seen" in repr(camera)
+    outcome = camera.step(frames[0])
+    assert repr(outcome) == "<foveate.Outcome of frame 0: 24 of 6x4 regions active>"
+    assert "6 x 4 = 24" in camera._repr_html_() and camera.design.fingerprint in camera.design._repr_html_()
+    assert outcome._repr_html_().count("data:image/png;base64") == 2
+    camera.step(frames[1])
+    # The rendered frame is gone; the decisions are not.
+    assert camera.step(frames[2])._repr_html_().count("rendered") == 2
+    late = camera.step(frames[3])
+    camera.step(frames[4])
+    assert late._repr_html_().count("rendered") == 0 and "active green" in late._repr_html_()
+    run = fv.simulate("scene:street", max_frames=2)
+    assert repr(run).startswith("<foveate.Run of 2 frames")
+    assert next(run)._repr_html_().count("data:image/png") == 3
+
+
+def test_footage_that_cannot_be_read_is_refused_as_on_the_command_line(tmp_path):
+    with pytest.raises(FileNotFoundError, match="input `nothing.mp4` does not exist; check the path"):
+        fv.simulate("nothing.mp4")
+    (tmp_path / "text.mp4").write_text("no video")
+    with pytest.raises(ValueError, match="text.mp4"):
+        fv.simulate(tmp_path / "text.mp4")
+    with pytest.raises(ValueError, match="unknown scene|scene"):
+        fv.simulate("scene:moon")
+    with pytest.raises(TypeError, match="arrays go to Camera.step"):
+        fv.simulate(np.zeros((3, 4, 4), np.uint8))
+    for options, message in [
+        ({"max_frames": 0}, "max_frames = 0"),
+        ({"resize": (0, 5)}, "resize"),
+        ({"crop": (4, 4)}, "crop"),
+        ({"start": "soon"}, "start = soon"),
+        ({"images": "many"}, "images = many"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            fv.simulate("scene:street", **options)
+    with pytest.raises(TypeError, match="unexpected argument frame_count; inputs have max_frames"):
+        fv.simulate("scene:street", frame_count=3)
+    with pytest.raises(IndexError):
+        fv.explain("scene:street", frame=0, region=(99, 0))
+    with pytest.raises(ValueError, match="no outcomes"):
+        fv.events([])
+    with pytest.raises(TypeError, match="made of outcomes"):
+        fv.events([3])
+    with pytest.raises(ValueError, match="two designs"):
+        fv.events([*fv.simulate("scene:street", max_frames=1), *fv.simulate("scene:street", "mad", max_frames=1)])
+
+
+def test_a_damaged_video_gives_what_there_is_and_warns(frames, tmp_path):
+    path = tmp_path / "clip.y4m"
+    header = b"YUV4MPEG2 W83 H60 F30:1 Cmono\n"
+    whole = header + b"".join(b"FRAME\n" + frame.tobytes() for frame in frames)
+    path.write_bytes(whole[:-100])
+    run = fv.simulate(path)
+    with pytest.warns(UserWarning, match="clip.y4m"):
+        outcomes = list(run)
+    assert len(outcomes) == len(frames) - 1 and run.problem

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Threads, forks, signals and the end of the interpreter."""
+import multiprocessing
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from conftest import equal
+
+import foveate as fv
+
+
+def large(seed=0):
+    return np.random.default_rng(seed).integers(0, 256, (1500, 2000), np.uint8)
+
+
+def test_a_step_does_not_hold_the_interpreter():
+    frame, camera, ended = large(), fv.Camera(), threading.Event()
+
+    def work():
+        for _ in range(40):
+            camera.step(frame)
+            # Without skipping: regions that are as before cost nothing.
+            camera.reset()
+        ended.set()
+
+    before = sys.getswitchinterval()
+    # A thread that holds the interpreter through its steps would not give it back before its end.
+    sys.setswitchinterval(100)
+    try:
+        thread = threading.Thread(target=work)
+        thread.start()
+        turns = 0
+        while not ended.is_set():
+            turns += 1
+            time.sleep(0)
+        thread.join()
+    finally:
+        sys.setswitchinterval(before)
+    assert turns > 5
+
+
+def test_cameras_of_many_threads_give_the_bits_of_one():
+    clip = [large(seed)[:200, :300] for seed in range(6)]
+
+    def run(_):
+        camera = fv.Camera("steady")
+        return [camera.step(frame, keep=True) for frame in clip]
+
+    expected = run(None)
+    with ThreadPoolExecutor(4) as pool:
+        for outcomes in pool.map(run, range(8)):
+            assert all(equal(one, other) for one, other in zip(outcomes, expected, strict=True))
+
+
+def test_a_camera_in_two_threads_is_refused_or_right():
+    frame, camera = large(), fv.Camera()
+    camera.step(frame)
+    refused = []
+
+    def work():
+        for _ in range(20):
+            try:
+                camera.step(frame)
+            except RuntimeError as error:
+                refused.append(str(error))
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert camera.frames == 1 + 80 - len(refused)
+    assert all("another thread is using this camera" in text for text in refused)
+
+
+def test_a_run_can_be_shared_by_threads():
+    run = fv.simulate("scene:street", max_frames=40)
+    with ThreadPoolExecutor(4) as pool:
+        numbers = [number for part in pool.map(lambda _: [outcome.number for outcome in run], range(4)) for number in part]
+    assert sorted(numbers) == list(range(40))
+
+
+def seen_in_a_process(camera):
+    frame = large(1)[:100, :100]
+    return camera.step(frame).scores["edge"].tolist()
+
+
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+@pytest.mark.parametrize("method", ["fork", "spawn", "forkserver"])
+def test_cameras_work_in_other_processes(method):
+    context = multiprocessing.get_context(method)
+    with context.Pool(2) as pool:
+        found = pool.map(seen_in_a_process, [fv.Camera("seamless"), fv.Camera("seamless", threads=2)])
+    assert found[0] == found[1] == seen_in_a_process(fv.Camera("seamless"))
+
+
+FORKED = """
+import os, sys, numpy as np, foveate as fv
+frame = np.arange(6400, dtype=np.uint8).reshape(80, 80)
+one, many = fv.Camera(), fv.Camera(threads=2)
+one.step(frame); many.step(frame)
+child = os.fork()
+if child == 0:
+    assert one.step(frame).number == 1
+    try:
+        many.step(frame)
+    except RuntimeError as error:
+        assert "do not live on after a fork" in str(error)
+        many.reset()
+        assert many.step(frame).number == 0
+        os._exit(7)
+    os._exit(1)
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
+"""
+
+
+def test_a_camera_goes_on_after_a_fork_or_says_why_not():
+    subprocess.run([sys.executable, "-W", "ignore", "-c", FORKED], check=True, timeout=60)
+
+
+SHUTDOWN = """
+import threading, time, numpy as np, foveate as fv
+frame = np.random.default_rng(0).integers(0, 256, (2000, 3000), np.uint8)
+def work():
+    camera = fv.Camera()
+    while True:
+        camera.step(frame)
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+run = fv.simulate("scene:street", max_frames=100000)
+next(run)
+time.sleep(0.3)
+"""
+
+
+def test_the_interpreter_ends_with_frames_under_way():
+    ended = subprocess.run([sys.executable, "-c", SHUTDOWN], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stderr) == (0, "")
+
+
+LONG = {
+    "simulate": "for _ in fv.simulate('scene:street', max_frames=1000000): pass",
+    "fidelity": "fv.fidelity('scene:street', max_frames=1000000)",
+    "events": "fv.events(fv.simulate('scene:street', max_frames=1000000))",
+    "command": "import foveate.__main__, sys; sys.argv[1:] = ['simulate', 'scene:street', '-o', sys.argv[1], '--frames', '1000000', "
+    "'--quiet']; foveate.__main__.main()",
+}
+
+
+@pytest.mark.parametrize("what", LONG)
+def test_ctrl_c_ends_long_work_at_once(what, tmp_path):
+    code = f"import foveate as fv; print('go', flush=True)\n{LONG[what]}"
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, str(tmp_path / "out")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "go\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    began = time.monotonic()
+    _, errors = process.communicate(timeout=30)
+    assert time.monotonic() - began < 5
+    if what == "command":
+        assert process.returncode == 130 and "interrupted; the results so far are in" in errors
+    else:
+        assert process.returncode == -signal.SIGINT and errors.rstrip().endswith("KeyboardInterrupt")
+
+
+def test_the_command_is_there():
+    shown = subprocess.run([sys.executable, "-m", "foveate", "--version"], capture_output=True, text=True, check=True)
+    assert shown.stdout == f"foveate {fv.__version__}\n"
+    wrong = subprocess.run([sys.executable, "-m", "foveate", "chekc"], capture_output=True, text=True)
+    assert wrong.returncode == 2 and "check" in wrong.stderr
+    missing = subprocess.run([sys.executable, "-m", "foveate", "simulate", "no.mp4", "-o", "x"], capture_output=True, text=True)
+    assert missing.returncode == 2 and missing.stderr.startswith("foveate: input `no.mp4` does not exist")

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The types hold, the stubs say what is there, and everything public is documented."""
+import inspect
+import subprocess
+import sys
+
+import foveate as fv
+from conftest import ROOT
+
+USE = """
+import numpy as np
+import foveate as fv
+
+camera = fv.Camera("paper", region={"size": 16}, spatial=["edge", {"feature": "mad"}])
+outcome = camera.step(np.zeros((8, 8), np.uint8), keep=True)
+active: int = int(outcome.active.sum())
+scores: np.ndarray = outcome.scores["edge"]
+for outcome in fv.simulate(["a.png", "b.png"], camera, max_frames=3, resize=(64, 48)):
+    number: int = outcome.number
+rows: np.ndarray = fv.events([outcome])
+"""
+WRONG = {
+    "fv.Camera(size=3)": "size",
+    "fv.Camera().step()": "step",
+    "fv.simulate('a.mp4', frame_count=3)": "frame_count",
+    "x: str = fv.Design().columns": "columns|str",
+    "fv.Design().width = 3": "read-only|width",
+}
+
+
+def mypy(*words, cwd=ROOT):
+    return subprocess.run([sys.executable, "-m", *words], cwd=cwd, capture_output=True, text=True)
+
+
+def test_the_package_is_typed():
+    checked = mypy("mypy", "--config-file", "pyproject.toml", "python/foveate")
+    assert checked.returncode == 0, checked.stdout
+
+
+def test_the_stubs_are_those_of_the_compiled_part(tmp_path):
+    # `main` and the like are not for users; what PyO3 adds to classes is not in stubs.
+    checked = mypy("mypy.stubtest", "foveate._foveate", "--ignore-missing-stub", cwd=tmp_path)
+    assert checked.returncode == 0, checked.stdout
+
+
+def test_users_are_checked(tmp_path):
+    (tmp_path / "good.py").write_text(USE)
+    good = mypy("mypy", "--strict", "good.py", cwd=tmp_path)
+    assert good.returncode == 0, good.stdout
+    for number, line in enumerate(WRONG):
+        (tmp_path / f"wrong{number}.py").write_text(f"import foveate as fv\n\n{line}\n")
+    bad = mypy("mypy", *(f"wrong{number}.py" for number in range(len(WRONG))), cwd=tmp_path)
+    for number, line in enumerate(WRONG):
+        assert f"wrong{number}.py:3: error" in bad.stdout, line
+
+
+def test_everything_public_has_its_documentation():
+    for name in fv.__all__:
+        thing = getattr(fv, name)
+        if name in ("ACTIONS", "__version__"):
+            continue
+        assert inspect.getdoc(thing), name
+    for made, methods in {fv.Camera: ["step", "reset", "generate", "estimate"], fv.Design: ["toml", "generate", "estimate"]}.items():
+        for method in methods:
+            assert inspect.getdoc(getattr(made, method)), method
+    for thing in (fv.Camera, fv.Design, fv.Camera.step, fv.simulate, fv.events, fv.explain, fv.fidelity, fv.infer, fv.generate):
+        assert "Parameters\n----------" in inspect.getdoc(thing), thing

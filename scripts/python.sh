@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Builds the Python package as the tests are built, installs it into an environment of its own, and prints that environment's
+# folder of programs. What it needs comes from PyPI (python_tools.sh --package).
+#
+#   scripts/python.sh           build and install
+#   scripts/python.sh --test    and run its tests
+#
+# FOVEATE    an executable that the package must equal, instead of the debug build
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tools=$(scripts/python_tools.sh --package)
+wheels=${CARGO_TARGET_DIR:-target}/wheels
+rm -rf "$wheels"
+VIRTUAL_ENV=$(dirname "$tools") "$tools/maturin" build --profile dev --locked --quiet --out "$wheels" >&2
+"$tools/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl >&2
+echo "$tools"
+[ "${1:-}" = --test ] || exit 0
+FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(realpath "$FOVEATE")
+export FOVEATE
+# Not from here: the package of the sources has no compiled part.
+cd python/tests
+"$tools/python" -m pytest --config-file ../../pyproject.toml --rootdir ../.. -p no:cacheprovider .
