@@ -112,6 +112,10 @@ impl Reading<'_> {
             problem,
         })?;
         for (made, output) in made.into_iter().zip(&node.output) {
+            if !output.is_empty() && self.known.contains_key(output) {
+                let problem = format!("its output `{output}` has the name of another tensor");
+                return Err(NetworkError::Node { node: name, operator: kind, problem });
+            }
             let what = match made {
                 Made::Constant(constant) => Known::Constant(Arc::new(constant)),
                 Made::Same(what) => {

@@ -5,6 +5,7 @@ mod constant;
 mod fold;
 mod graph;
 mod input;
+mod memory;
 mod moves;
 mod node;
 mod operators;
@@ -28,8 +29,12 @@ pub use operators::operators;
 
 /// Bytes of the largest file.
 const MAX_FILE: u64 = 1 << 31;
+/// Bytes that the messages of a file take in memory.
+const MAX_MEMORY: u64 = 1 << 33;
 /// The oldest version of the operators that is read: later ones broadcast as they do today.
 const MIN_OPSET: i64 = 7;
+/// The newest one: what later ones change is not known.
+const MAX_OPSET: i64 = 28;
 
 impl Network {
     /// Reads a network for frames of a size.
@@ -59,13 +64,21 @@ impl Network {
     /// As [`Network::read`].
     pub fn parse(bytes: &[u8], path: &Path, frames: FrameSize) -> Result<Self, NetworkError> {
         let not_onnx = |problem| NetworkError::NotOnnx { path: path.to_owned(), problem };
+        let memory = memory::of_model(bytes);
+        if memory > MAX_MEMORY {
+            return Err(NetworkError::Network(format!(
+                "it may take {} MiB of memory to read; at most {} are supported",
+                memory >> 20,
+                MAX_MEMORY >> 20
+            )));
+        }
         let model = ModelProto::decode(bytes).map_err(|error| not_onnx(error.to_string()))?;
         let graph = model.graph.as_ref().ok_or_else(|| not_onnx("it has no graph".to_owned()))?;
         let own = model.opset_import.iter().find(|set| graph::is_standard(set.domain.as_deref()));
-        let opset = own.and_then(|set| set.version).unwrap_or(i64::MAX);
-        if opset < MIN_OPSET {
+        let opset = own.and_then(|set| set.version).unwrap_or(MAX_OPSET);
+        if !(MIN_OPSET..=MAX_OPSET).contains(&opset) {
             return Err(NetworkError::Network(format!(
-                "it uses version {opset} of the ONNX operators; version {MIN_OPSET} or later is supported"
+                "it uses version {opset} of the ONNX operators; versions {MIN_OPSET} to {MAX_OPSET} are supported"
             )));
         }
         graph::read(graph, &Folder::of(path), frames, opset)

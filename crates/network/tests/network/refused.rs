@@ -58,6 +58,13 @@ fn impossible_models_are_refused() {
     let mut kernel = Model::new(&[1, 1, 8, 8]);
     let weights = kernel.floats(&[1, 1, 9, 9], &[0.5; 81]);
     kernel.node("Conv", &["picture", &weights], &[]);
+    let mut twice = one_node("Relu", &[]);
+    let name = twice.node("Abs", &["value1"], &[]);
+    twice.graph.node[1].output = vec!["value1".to_owned()];
+    twice.output(&name);
+    let mut of_constant = one_node("Relu", &[]);
+    let constant = of_constant.floats(&[1], &[1.0]);
+    of_constant.graph.node[0].output = vec![constant];
     let two = {
         let mut model = one_node("Relu", &[]);
         let other = Model::new(&[1, 1, 8, 8]);
@@ -68,9 +75,11 @@ fn impossible_models_are_refused() {
         });
         model
     };
-    let cases: [(Model, &str); 11] = [
+    let cases: [(Model, &str); 13] = [
         (of_weights, "it has 4 values, but the shape [1, 1, 3, 3]"),
         (cycle, "its input `value2` is made by no node before it"),
+        (twice, "its output `value1` has the name of another tensor"),
+        (of_constant, "has the name of another tensor"),
         (huge, "values"),
         (claims, "has 0 values, but the shape"),
         (kernel, "its window of 9 is larger than its input, 8 with padding"),
@@ -304,7 +313,42 @@ fn operators_have_versions() {
     };
     assert_eq!((parse(13, 1), parse(11, 3)), (Ok(()), Ok(())));
     assert!(parse(11, 1).unwrap_err().contains("as before version 13"));
-    assert!(parse(6, 3).unwrap_err().contains("version 7 or later"));
+    for version in [6, 29] {
+        let says = format!("it uses version {version} of the ONNX operators; versions 7 to 28");
+        assert!(parse(version, 3).unwrap_err().contains(&says));
+    }
+}
+
+/// Messages without a field have two bytes in a file, and hundreds in memory.
+#[test]
+fn what_grows_in_memory_is_refused() {
+    let length = |length: usize| {
+        let mut bytes = Vec::new();
+        prost::encode_length_delimiter(length, &mut bytes).unwrap();
+        bytes
+    };
+    let nested =
+        |tag: u8, content: &[u8]| [&[tag << 3 | 2][..], &length(content.len()), content].concat();
+    let read = |graph: &[u8]| {
+        let size = FrameSize { width: 8, height: 8 };
+        let bytes = nested(7, graph);
+        Network::parse(&bytes, Path::new("test.onnx"), size).unwrap_err().to_string()
+    };
+    let many = |tag: u8, count: usize| [tag << 3 | 2, 0].repeat(count);
+    // Nodes, constants, inputs; names and attributes of a node; values of a constant.
+    let graphs = [
+        many(1, 9 << 20),
+        many(5, 9 << 20),
+        many(11, 9 << 20),
+        nested(1, &many(1, 9 << 20)),
+        nested(1, &many(5, 9 << 20)),
+        nested(5, &nested(7, &vec![1; 400 << 20])),
+    ];
+    for graph in graphs {
+        let says = read(&graph);
+        assert!(says.contains("MiB of memory to read; at most 8192 are supported"), "{says}");
+    }
+    assert!(read(&many(1, 1000)).contains("it must have one input"));
 }
 
 #[test]
