@@ -422,6 +422,15 @@ fn of_very_many_frames_the_peaks_are_shown() {
 }
 
 #[test]
+fn how_pixels_become_inputs_is_told() {
+    let mut sample = sample(3);
+    assert!(rendered(&sample).contains("the same in all channels.</p>"));
+    sample.0.mapping = Mapping { mean: vec![0.485, -0.5, 0.0], scale: vec![0.25] };
+    let told = "in all channels, less the mean (0.485, -0.5, 0) and divided by the scale (0.25) of the channel.";
+    assert!(rendered(&sample).contains(told));
+}
+
+#[test]
 fn pages_are_the_same_every_time() {
     let sample = sample(29);
     assert_eq!(rendered(&sample), rendered(&sample));

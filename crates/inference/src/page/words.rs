@@ -2,7 +2,7 @@
 //! What was run and what came out, in sentences.
 
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
-use crate::{Summary, Tuning};
+use crate::{Mapping, Summary, Tuning};
 use foveate_design::Design;
 use foveate_page::number::{grouped, things};
 use std::path::Path;
@@ -27,13 +27,28 @@ fn inputs(summary: &Summary) -> String {
 pub(super) fn run(summary: &Summary, design: &Design) -> String {
     let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
     format!(
-        "The network {} ran on {} of {}, as a camera with {} shows them, in mode {}: {}.",
+        "The network {} ran on {} of {}, as a camera with {} shows them, in mode {}: {}. {}",
         summary.network,
         things(frames, "frame"),
         inputs(summary),
         camera(design),
         summary.mode,
-        mode(summary)
+        mode(summary),
+        mapped(&summary.mapping)
+    )
+}
+
+/// How pixels become inputs of the network.
+fn mapped(mapping: &Mapping) -> String {
+    let pixels = "Its inputs are the pixels, from 0 (black) to 1 (white), the same in all channels";
+    if *mapping == (Mapping { mean: vec![0.0], scale: vec![1.0] }) {
+        return format!("{pixels}.");
+    }
+    let list = |values: &[f32]| values.iter().map(f32::to_string).collect::<Vec<_>>().join(", ");
+    format!(
+        "{pixels}, less the mean ({}) and divided by the scale ({}) of the channel.",
+        list(&mapping.mean),
+        list(&mapping.scale)
     )
 }
 
