@@ -122,8 +122,12 @@ impl Boxes {
             Entries::Names(images) => images.keys().min().map(|name| format!("`{name}`")),
             Entries::Folder => None,
         };
-        let first = first.unwrap_or_else(|| "no entry for them".to_owned());
-        BoxError::NoneFit { path: self.path.clone(), clip: clip.to_owned(), first }
+        let holds = match (&self.entries, first) {
+            (_, Some(first)) => format!("begins with {first}"),
+            (Entries::Folder, _) => "needs a file for each, with its name and .txt".to_owned(),
+            _ => "has none at all".to_owned(),
+        };
+        BoxError::NoneFit { path: self.path.clone(), clip: clip.to_owned(), holds }
     }
 
     /// The number of a frame, from 1.

@@ -99,13 +99,13 @@ pub enum BoxError {
         image: PathBuf,
     },
     /// No frame of the clip is in the file.
-    #[error("no frame of the clip `{clip}` has an entry in `{}`, which begins with {first}; check that they belong together", path.display())]
+    #[error("no frame of the clip `{clip}` has an entry in `{}`, which {holds}; check that they belong together", path.display())]
     NoneFit {
         /// The file.
         path: PathBuf,
         /// The clip.
         clip: String,
-        /// The first entry.
-        first: String,
+        /// What it holds instead.
+        holds: String,
     },
 }
