@@ -55,7 +55,7 @@ pub(crate) struct InferArgs {
     #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = finite)]
     pub(crate) mean: Vec<f32>,
     /// Then divide by this: one value, or one per channel
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "1", value_parser = positive)]
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "1", allow_negative_numbers = true, value_parser = positive)]
     pub(crate) scale: Vec<f32>,
     /// Write the outputs of every frame: npy, an array [frames, ...shape] of each; png, pictures of those with 1
     /// or 3 channels and the size of the input, from 0 (black) to 1 (white); separate both with a comma

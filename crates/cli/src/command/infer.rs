@@ -7,6 +7,7 @@ use std::path::Path;
 
 use foveate_footage::{ImagesAs, open};
 use foveate_inference::{Inference, Options, Summary};
+use indicatif::DecimalBytes;
 
 use super::simulate::Terminal;
 use crate::args::{InferArgs, warn_of};
@@ -93,17 +94,12 @@ fn text(folder: &Path, summary: &Summary) -> String {
         percent(summary.macs.share(summary.macs.scheduled)),
         percent(summary.macs.share(summary.macs.whole))
     );
-    let megabytes = |bytes: u64| {
-        #[allow(clippy::cast_precision_loss, reason = "shown with one decimal")]
-        let bytes = bytes as f64;
-        format!("{:.1} MB", bytes / 1e6)
-    };
     let _ = writeln!(
         text,
         "memory     weights {}, kept tensors {}, masks {}",
-        megabytes(summary.weight_bytes),
-        megabytes(summary.kept_bytes),
-        megabytes(summary.mask_bytes)
+        DecimalBytes(summary.weight_bytes),
+        DecimalBytes(summary.kept_bytes),
+        DecimalBytes(summary.mask_bytes)
     );
     let _ = writeln!(
         text,

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, succeed_in};
+use crate::common::{fail_in, files_below, run_in, succeed_in};
 use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
@@ -214,6 +214,9 @@ fn what_does_not_fit_is_refused_with_what_would() {
     infer("text.onnx", &[], &["`text.onnx` is not an ONNX model"]);
     infer("none.onnx", &[], &["cannot read `none.onnx`"]);
     infer(DENOISER, &["--mean", "0.1,0.2"], &["--mean has 2 values", "1 channels"]);
+    let args = ["infer", DENOISER, "scene:zero", "-o", "out", "--scale", "-1"];
+    let usage = run_in(dir.path(), &args);
+    assert!(usage.code == 2 && usage.stderr.contains("expected a number above 0"));
     fs::create_dir(dir.path().join("out")).unwrap();
     fs::write(dir.path().join("out/mine"), "mine").unwrap();
     infer(DENOISER, &["--force"], &["out"]);
