@@ -335,13 +335,15 @@ fn what_grows_in_memory_is_refused() {
         Network::parse(&bytes, Path::new("test.onnx"), size).unwrap_err().to_string()
     };
     let many = |tag: u8, count: usize| [tag << 3 | 2, 0].repeat(count);
-    // Nodes, constants, inputs; names and attributes of a node; values of a constant.
+    // Nodes, constants, inputs; names and attributes of a node, and integers of one; axes of an input; values of a constant.
     let graphs = [
         many(1, 9 << 20),
         many(5, 9 << 20),
         many(11, 9 << 20),
         nested(1, &many(1, 9 << 20)),
         nested(1, &many(5, 9 << 20)),
+        nested(1, &nested(5, &[8 << 3, 1].repeat(9 << 20))),
+        nested(11, &nested(2, &nested(1, &nested(2, &many(1, 9 << 20))))),
         nested(5, &nested(7, &vec![1; 400 << 20])),
     ];
     for graph in graphs {
