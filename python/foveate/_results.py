@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from html import escape
 from pathlib import Path
-from typing import Any, Dict, Optional
+from typing import Any
 
 import numpy as np
 
 
-class _Report(Dict[str, Any]):
+class _Report(dict[str, Any]):
     """The JSON of the command line as a dict. ``print`` shows its text."""
 
     _text: str
 
-    def __init__(self, values: Dict[str, Any], text: str) -> None:
+    def __init__(self, values: dict[str, Any], text: str) -> None:
         super().__init__(values)
         self._text = text
 
@@ -33,7 +33,7 @@ class Estimate(_Report):
     """Area and logic levels, as ``foveate estimate --json`` has them."""
 
 
-class Fidelity(Dict[str, Any]):
+class Fidelity(dict[str, Any]):
     """Errors of a design against the ideal camera, by the names of ``foveate explore``.
 
     Attributes
@@ -42,9 +42,9 @@ class Fidelity(Dict[str, Any]):
         Why the footage ended before its end, if it did.
     """
 
-    problem: Optional[str]
+    problem: str | None
 
-    def __init__(self, values: Dict[str, Any], problem: Optional[str]) -> None:
+    def __init__(self, values: dict[str, Any], problem: str | None) -> None:
         super().__init__(values)
         self.problem = problem
 
@@ -65,13 +65,13 @@ class Inference:
     """
 
     folder: Path
-    summary: Dict[str, Any]
+    summary: dict[str, Any]
 
-    def __init__(self, folder: Path, summary: Dict[str, Any]) -> None:
+    def __init__(self, folder: Path, summary: dict[str, Any]) -> None:
         self.folder, self.summary = folder, summary
 
     @property
-    def outputs(self) -> Dict[str, np.ndarray[Any, Any]]:
+    def outputs(self) -> dict[str, np.ndarray[Any, Any]]:
         """Outputs by name, each an array [frames, ...shape], read when asked for."""
         return {entry["name"]: np.load(self.folder / entry["array"]) for entry in self.summary["outputs"]}
 

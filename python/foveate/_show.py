@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from html import escape
-from typing import TYPE_CHECKING, List, Tuple
+from typing import TYPE_CHECKING
 
 from foveate._foveate import decisions_png, grey_png
 
@@ -17,7 +17,7 @@ _WIDTH = 360
 
 def design_card(design: Design) -> str:
     """Make the table of a design, as HTML."""
-    rows: List[Tuple[str, str]] = [
+    rows: list[tuple[str, str]] = [
         ("frame", f"{design.width} x {design.height} pixels of {design.pixel_bits} bits"),
         ("regions", f"{design.columns} x {design.rows} = {design.regions}, of {design.region_size} x {design.region_size} pixels"),
         ("features", " + ".join(design.features)),

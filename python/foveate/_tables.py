@@ -2,7 +2,8 @@
 """Region events as the tables that people work with."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Literal, overload
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 

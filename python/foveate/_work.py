@@ -7,8 +7,9 @@ import os
 import shutil
 import tempfile
 import weakref
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, List, Optional, Sequence, Tuple, Union
+from typing import Any, Union
 
 from foveate import _foveate
 from foveate._results import Estimate, Explanation, Fidelity, Inference
@@ -17,7 +18,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 Inputs = Union[PathLike, Sequence[PathLike]]
 
 
-def explain(inputs: Inputs, camera: Any = None, *, frame: int = 0, region: Tuple[int, int] = (0, 0), **options: Any) -> Explanation:
+def explain(inputs: Inputs, camera: Any = None, *, frame: int = 0, region: tuple[int, int] = (0, 0), **options: Any) -> Explanation:
     """Explain why a region of a frame was sent or dropped.
 
     Parameters
@@ -71,7 +72,7 @@ def fidelity(inputs: Inputs, camera: Any = None, *, ideal: Any = None, **options
     return Fidelity(json.loads(values), problem)
 
 
-def generate(camera: Any, folder: PathLike, *, force: bool = False) -> List[Path]:
+def generate(camera: Any, folder: PathLike, *, force: bool = False) -> list[Path]:
     """Write the Verilog of a design, with file lists, constraints, benches and a README.
 
     Parameters
@@ -118,7 +119,7 @@ def estimate(camera: Any) -> Estimate:
     return Estimate(json.loads(values), text)
 
 
-def infer(network: PathLike, inputs: Inputs, camera: Any = None, output: Optional[PathLike] = None, **options: Any) -> Inference:
+def infer(network: PathLike, inputs: Inputs, camera: Any = None, output: PathLike | None = None, **options: Any) -> Inference:
     """Run a network on what a camera sends, and count what its masks save.
 
     Parameters

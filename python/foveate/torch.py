@@ -6,7 +6,8 @@ Every image is a first frame, so every TRS is 1 and SRS alone decides, as in ``f
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict, Generic, Protocol, Sized, Tuple, TypeVar, cast
+from collections.abc import Sized
+from typing import Any, Generic, Protocol, TypeVar, cast
 
 import numpy as np
 import torch
@@ -20,7 +21,7 @@ _T = TypeVar("_T")
 
 
 class _Indexed(Protocol):
-    def __getitem__(self, index: int, /) -> Tuple[Any, Any]: ...
+    def __getitem__(self, index: int, /) -> tuple[Any, Any]: ...
     def __len__(self) -> int: ...
 
 
@@ -51,10 +52,10 @@ class RegionTransform(Generic[_T]):
         """The design of the camera."""
         return self._camera.design
 
-    def __getstate__(self) -> Dict[str, Any]:
+    def __getstate__(self) -> dict[str, Any]:
         return {"_camera": self._camera}
 
-    def __setstate__(self, state: Dict[str, Any]) -> None:
+    def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._local = threading.local()
 

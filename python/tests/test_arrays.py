@@ -3,11 +3,11 @@
 import hypothesis.strategies as st
 import numpy as np
 import pytest
-from conftest import equal
 from hypothesis import given, settings
 from hypothesis.extra.numpy import arrays
 
 import foveate as fv
+from conftest import equal
 
 
 def spread(pixels):

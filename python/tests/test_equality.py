@@ -7,10 +7,10 @@ import numpy as np
 import pandas
 import pyarrow.parquet
 import pytest
-from conftest import ROOT
 from PIL import Image
 
 import foveate as fv
+from conftest import ROOT
 
 DESIGNS = {
     "paper": ({}, []),

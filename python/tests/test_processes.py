@@ -10,9 +10,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from conftest import equal
 
 import foveate as fv
+from conftest import equal
 
 
 def large(seed=0):
