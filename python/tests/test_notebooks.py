@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The notebooks run from an empty kernel, and hold what they print."""
+import nbclient
+import nbformat
+import pytest
+from conftest import ROOT
+
+NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))
+
+
+def texts(notebook):
+    """What a notebook prints, by cell; not its pictures, which differ from one matplotlib to another."""
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    return [[output.text for output in cell.outputs if output.output_type == "stream"] for cell in cells]
+
+
+def test_there_are_notebooks():
+    assert [path.stem for path in NOTEBOOKS] == ["regions", "thresholds", "training"]
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::RuntimeWarning")
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_runs(path, tmp_path):
+    written = nbformat.read(path, as_version=4)
+    run = nbformat.read(path, as_version=4)
+    nbclient.NotebookClient(run, timeout=300, kernel_name="python3", resources={"metadata": {"path": tmp_path}}).execute()
+    # The accuracies of trained networks differ in their last digits from one processor to another.
+    if path.stem != "training":
+        assert texts(run) == texts(written)
+    cells = [cell for cell in run.cells if cell.cell_type == "code"]
+    assert any(output.get("data", {}).get("image/png") for cell in cells for output in cell.outputs)
