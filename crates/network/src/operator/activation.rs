@@ -9,14 +9,42 @@ use crate::form::Form;
 pub(crate) enum Activation {
     Identity,
     Relu,
-    LeakyRelu { alpha: f32 },
-    Elu { alpha: f32 },
-    Clip { min: f32, max: f32 },
+    LeakyRelu {
+        alpha: f32,
+    },
+    ThresholdedRelu {
+        alpha: f32,
+    },
+    Elu {
+        alpha: f32,
+    },
+    Celu {
+        alpha: f32,
+    },
+    Selu {
+        alpha: f32,
+        gamma: f32,
+    },
+    Clip {
+        min: f32,
+        max: f32,
+    },
     Sigmoid,
-    HardSigmoid { alpha: f32, beta: f32 },
+    HardSigmoid {
+        alpha: f32,
+        beta: f32,
+    },
     HardSwish,
+    Swish {
+        alpha: f32,
+    },
+    Gelu,
+    /// With a hyperbolic tangent instead of the error function.
+    TanhGelu,
+    Mish,
     Tanh,
     Softplus,
+    Softsign,
     Exp,
     Log,
     Sqrt,
@@ -45,13 +73,22 @@ impl Activation {
                     x
                 }
             }
-            Self::Elu { alpha } => {
-                if x < 0.0 {
-                    alpha * x.exp_m1()
+            Self::ThresholdedRelu { alpha } => {
+                if x <= alpha {
+                    0.0
                 } else {
                     x
                 }
             }
+            Self::Elu { alpha } => elu(x, alpha),
+            Self::Celu { alpha } => {
+                if x < 0.0 {
+                    alpha * (x / alpha).exp_m1()
+                } else {
+                    x
+                }
+            }
+            Self::Selu { alpha, gamma } => gamma * elu(x, alpha),
             Self::Clip { min, max } => {
                 let x = if x < min { min } else { x };
                 if x > max { max } else { x }
@@ -59,14 +96,16 @@ impl Activation {
             Self::Sigmoid => sigmoid(x),
             Self::HardSigmoid { alpha, beta } => (alpha * x + beta).clamp(0.0, 1.0),
             Self::HardSwish => x * (x / 6.0 + 0.5).clamp(0.0, 1.0),
-            Self::Tanh => x.tanh(),
-            Self::Softplus => {
-                if x > 20.0 {
-                    x
-                } else {
-                    x.exp().ln_1p()
-                }
+            Self::Swish { alpha } => x * sigmoid(alpha * x),
+            Self::Gelu => 0.5 * x * (1.0 + erf(x * std::f32::consts::FRAC_1_SQRT_2)),
+            Self::TanhGelu => {
+                // The square root of 2 / pi.
+                0.5 * x * (1.0 + (0.797_884_6 * (x + 0.044_715 * x * x * x)).tanh())
             }
+            Self::Mish => x * softplus(x).tanh(),
+            Self::Tanh => x.tanh(),
+            Self::Softplus => softplus(x),
+            Self::Softsign => x / (1.0 + x.abs()),
             Self::Exp => x.exp(),
             Self::Log => x.ln(),
             Self::Sqrt => x.sqrt(),
@@ -75,6 +114,16 @@ impl Activation {
             Self::Erf => erf(x),
         }
     }
+}
+
+#[inline(always)]
+fn elu(x: f32, alpha: f32) -> f32 {
+    if x < 0.0 { alpha * x.exp_m1() } else { x }
+}
+
+#[inline(always)]
+fn softplus(x: f32) -> f32 {
+    if x > 20.0 { x } else { x.exp().ln_1p() }
 }
 
 #[inline(always)]

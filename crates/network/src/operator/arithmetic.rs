@@ -18,6 +18,8 @@ pub(crate) enum Arithmetic {
     Pow,
     Min,
     Max,
+    /// The first, times the second where it is negative: `PRelu`.
+    Slope,
 }
 
 impl Arithmetic {
@@ -39,6 +41,13 @@ impl Arithmetic {
             Self::Max => {
                 if b > a || b.is_nan() {
                     b
+                } else {
+                    a
+                }
+            }
+            Self::Slope => {
+                if a < 0.0 {
+                    a * b
                 } else {
                     a
                 }

@@ -30,6 +30,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     }),
     ("BatchNormalization", pointwise::normalization),
     ("Cast", pointwise::cast),
+    ("Celu", |node| pointwise::finish(node, Activation::Celu { alpha: node.float("alpha", 1.0) })),
     ("Clip", pointwise::clip),
     ("Concat", moves::concat),
     ("Constant", |_| Err("its value is of a kind that is not supported".to_owned())),
@@ -44,6 +45,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Exp", |node| pointwise::finish(node, Activation::Exp)),
     ("Flatten", moves::flatten),
     ("Gather", |_| Err("it is supported only for constants".to_owned())),
+    ("Gelu", pointwise::gelu),
     ("Gemm", sums::gemm),
     ("GlobalAveragePool", |node| sums::global(node, Reduction::Mean)),
     ("GlobalMaxPool", |node| sums::global(node, Reduction::Max)),
@@ -67,8 +69,10 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Max", |node| pointwise::binary(node, Arithmetic::Max)),
     ("MaxPool", |node| one(sums::pool(node, PoolKind::Max)?, vec![node.value(0)?])),
     ("Min", |node| pointwise::binary(node, Arithmetic::Min)),
+    ("Mish", |node| pointwise::finish(node, Activation::Mish)),
     ("Mul", |node| pointwise::binary(node, Arithmetic::Mul)),
     ("Neg", |node| pointwise::finish(node, Activation::Neg)),
+    ("PRelu", |node| pointwise::binary(node, Arithmetic::Slope)),
     ("Pad", moves::pad),
     ("Pow", |node| pointwise::binary(node, Arithmetic::Pow)),
     ("QLinearConv", quantized::conv),
@@ -78,16 +82,33 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Relu", pointwise::relu),
     ("Reshape", moves::reshape),
     ("Resize", moves::resize),
+    ("Selu", |node| {
+        pointwise::finish(
+            node,
+            Activation::Selu {
+                alpha: node.float("alpha", 1.673_263_2),
+                gamma: node.float("gamma", 1.050_701),
+            },
+        )
+    }),
     ("Shape", |_| Err("it has no input".to_owned())),
     ("Sigmoid", |node| pointwise::finish(node, Activation::Sigmoid)),
     ("Slice", moves::slice),
     ("Softmax", sums::softmax),
     ("Softplus", |node| pointwise::finish(node, Activation::Softplus)),
+    ("Softsign", |node| pointwise::finish(node, Activation::Softsign)),
     ("Split", moves::split),
     ("Sqrt", |node| pointwise::finish(node, Activation::Sqrt)),
     ("Squeeze", moves::squeeze),
     ("Sub", |node| pointwise::binary(node, Arithmetic::Sub)),
+    ("Sum", pointwise::sum),
+    ("Swish", |node| {
+        pointwise::finish(node, Activation::Swish { alpha: node.float("alpha", 1.0) })
+    }),
     ("Tanh", |node| pointwise::finish(node, Activation::Tanh)),
+    ("ThresholdedRelu", |node| {
+        pointwise::finish(node, Activation::ThresholdedRelu { alpha: node.float("alpha", 1.0) })
+    }),
     ("Transpose", moves::transpose),
     ("Unsqueeze", moves::unsqueeze),
     ("Upsample", moves::resize),

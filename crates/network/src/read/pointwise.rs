@@ -80,6 +80,18 @@ pub(super) fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made
     }
 }
 
+pub(super) fn sum(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    if node.input(1).is_none() { same(node) } else { binary(node, Arithmetic::Add) }
+}
+
+pub(super) fn gelu(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    match node.text("approximate", "none").as_str() {
+        "none" => finish(node, Activation::Gelu),
+        "tanh" => finish(node, Activation::TanhGelu),
+        other => Err(format!("approximate = {other} is unknown; it is none or tanh")),
+    }
+}
+
 pub(super) fn clip(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
     let element = (node.forms)(value).encoding().element;

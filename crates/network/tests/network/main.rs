@@ -2,6 +2,7 @@
 //! Networks from ONNX bytes, run in every mode.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod activations;
 mod documents;
 mod exact;
 mod golden;
