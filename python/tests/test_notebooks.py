@@ -3,6 +3,7 @@
 import nbclient
 import nbformat
 import pytest
+
 from conftest import ROOT
 
 NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))

@@ -4,8 +4,9 @@ import re
 import subprocess
 import sys
 import tarfile
-import tomllib
 from pathlib import Path
+
+import tomllib
 
 from conftest import ROOT
 
@@ -18,7 +19,7 @@ def embedded():
             for path in re.findall(r'include_(?:str|bytes)!\(\s*(?:concat!\()?"([^"]+)"', text):
                 found = (source.parent / path).resolve()
                 # Part of a name, which a macro completes.
-                yield from found.parent.glob("*.v") if path.endswith("/") else [found]
+                yield from found.glob("*.v") if path.endswith("/") else [found]
         settings = crate / "askama.toml"
         if settings.is_file():
             for folder in tomllib.loads(settings.read_text())["general"]["dirs"]:
