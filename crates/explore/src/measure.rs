@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
-use std::time::{Duration, Instant};
 
 use foveate_boxes::{Boxes, Rect};
 use foveate_design::{Config, Design};
@@ -23,7 +22,7 @@ use crate::objects::{Objects, objects};
 /// Frames that are ready before the engines ask for them.
 const AHEAD: usize = 2;
 
-/// What was seen of a design over a part of a clip.
+/// What was seen of a design over a part of a clip: the same wherever and whenever it was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Measured {
     /// Errors against the ideal.
@@ -31,8 +30,6 @@ pub(crate) struct Measured {
     /// What becomes of objects, where there are boxes.
     #[serde(default)]
     pub(crate) objects: Objects,
-    /// Time in the engine in nanoseconds, beside whatever else the machine did.
-    pub(crate) nanoseconds: u64,
     /// Why the clip ended before its end, if it did.
     pub(crate) problem: Option<String>,
 }
@@ -67,7 +64,6 @@ struct Candidate {
     /// One for each part.
     fidelity: Vec<Fidelity>,
     objects: Vec<Objects>,
-    time: Vec<Duration>,
 }
 
 impl Clip<'_> {
@@ -91,11 +87,10 @@ impl Clip<'_> {
             seen.and(problem)
         })?;
         let measured = |candidate: Candidate| {
-            let parts = candidate.fidelity.into_iter().zip(candidate.objects).zip(candidate.time);
-            let one = |((fidelity, objects), time): ((Fidelity, Objects), Duration)| Measured {
+            let parts = candidate.fidelity.into_iter().zip(candidate.objects);
+            let one = |(fidelity, objects): (Fidelity, Objects)| Measured {
                 tally: fidelity.tally().clone(),
                 objects,
-                nanoseconds: u64::try_from(time.as_nanos()).unwrap_or(u64::MAX),
                 problem: problem.clone(),
             };
             parts.map(one).collect()
@@ -163,7 +158,6 @@ impl Candidate {
             fidelity: fidelity.collect::<Result<_, _>>()?,
             objects: vec![Objects::default(); parts],
             design: design.clone(),
-            time: vec![Duration::ZERO; parts],
         })
     }
 
@@ -179,9 +173,7 @@ impl Candidate {
             self.fidelity[part].next_clip();
         }
         let frame = frames.get(&self.bits).unwrap_or(&judged.frame);
-        let began = Instant::now();
         self.engine.step_raster(frame)?;
-        self.time[part] += began.elapsed();
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
         self.objects[part].add(&self.design, &judged.objects, &outcome.active);
         Ok(self.fidelity[part].add(&judged.frame, &judged.ideal, outcome, screen)?)

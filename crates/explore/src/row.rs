@@ -30,8 +30,6 @@ pub struct Row {
     pub frames_per_second: u64,
     /// Area, if it was asked for.
     pub silicon: Option<Silicon>,
-    /// Frames per second of the engine on one thread, as it ran here.
-    pub simulated_per_second: f64,
     /// The fronts that it is on.
     pub front: Fronts,
 }
@@ -58,7 +56,6 @@ impl Row {
     ) -> Option<Self> {
         let figures = together(measured)?.figures();
         let (clocks_per_frame, frames_per_second) = speed(design, clock_mhz);
-        let nanoseconds: u64 = measured.iter().map(|part| part.nanoseconds).sum();
         Some(Self {
             number,
             settings,
@@ -68,7 +65,6 @@ impl Row {
             clocks_per_frame,
             frames_per_second,
             silicon,
-            simulated_per_second: real(figures.frames) * 1e9 / real(nanoseconds.max(1)),
             figures,
             front: Fronts::default(),
         })

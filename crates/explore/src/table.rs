@@ -30,7 +30,6 @@ pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
             ("ramb36", Cell::Real(area.map(|area| real(area.array.bram18) / 2.0))),
             ("dsp", of(|area| area.array.dsp)),
             ("logic_levels", of(|area| area.levels.into())),
-            ("simulated_per_second", Cell::Real(Some(row.simulated_per_second))),
             ("front_speed", Cell::Flag(row.front.speed)),
             ("front_area", Cell::Flag(row.front.area)),
             ("front", Cell::Flag(row.front.all)),

@@ -48,10 +48,6 @@ impl Card {
                 ),
             ),
             ("Clocks per frame", grouped(row.clocks_per_frame)),
-            (
-                "Engine",
-                format!("{} frames/s on one thread here", real(row.simulated_per_second, 1)),
-            ),
         ];
         if let Some(silicon) = &row.silicon {
             let array = &silicon.array;

@@ -59,7 +59,6 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
                 array: area(1.0),
                 levels: 9,
             }),
-            simulated_per_second: 812.3,
             front: Fronts::default(),
         });
     }

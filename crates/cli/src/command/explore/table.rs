@@ -10,7 +10,7 @@ use foveate_explore::{Exploration, Row};
 /// A column: its name, and what stands in it.
 type Column = (&'static str, fn(&Row) -> String);
 
-const COLUMNS: [Column; 16] = [
+const COLUMNS: [Column; 15] = [
     ("flips %", |row| percent(row.figures.action_flips)),
     ("SRS %", |row| percent(row.figures.srs_flips)),
     ("TRS %", |row| percent(row.figures.trs_flips)),
@@ -29,7 +29,6 @@ const COLUMNS: [Column; 16] = [
     ("frames/s", |row| row.frames_per_second.to_string()),
     ("LUT/FF/mem", unit),
     ("array LUT", array),
-    ("simulated/s", |row| format!("{:.0}", row.simulated_per_second)),
 ];
 
 fn percent(share: f64) -> String {
@@ -76,8 +75,7 @@ const NOTE: &str = "flips, SRS, TRS: regions that decide otherwise than the idea
      areas. score errors: largest, mean, RMS; edge, corner and temporal as share of a region's pixels, mad and \
      variance in grey levels and their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a row that a \
-     region was stale. LUT/FF/mem: one RPU or lane. simulated/s: frames per second of \
-     the engine on one thread, as it ran here.";
+     region was stale. LUT/FF/mem: one RPU or lane.";
 
 pub(super) fn markdown(found: &Exploration) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
