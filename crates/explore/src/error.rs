@@ -90,6 +90,22 @@ pub enum ExploreError {
         /// The folder.
         path: PathBuf,
     },
+    /// A unit that the exploration does not have.
+    #[error(
+        "there is no unit `{unit}`: the space, the clips or the options are other than when it was planned; plan again"
+    )]
+    NoUnit {
+        /// The name as given.
+        unit: String,
+    },
+    /// A clip of a unit that ended before its end.
+    #[error("`{clip}` is not complete: {problem}")]
+    Broken {
+        /// The clip.
+        clip: String,
+        /// Why it ended.
+        problem: String,
+    },
     /// A file of the exploration cannot be written or read.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {

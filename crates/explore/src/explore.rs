@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! From a space and clips to a folder of tables, fronts, configurations and one page.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use foveate_design::{Config, Design};
+use foveate_design::Design;
 use foveate_footage::InputOptions;
 use foveate_staging::write_file;
 use foveate_tables::Table;
 
 use crate::cost::Silicon;
-use crate::footage::Footage;
+use crate::folder::{UNFINISHED, claim, mark};
 use crate::measure::Measured;
 use crate::objective::mark_fronts;
 use crate::row::Row;
-use crate::store::{Store, functional};
+use crate::store::Store;
 use crate::table::{errors, point};
-use crate::{ClipRow, Exploration, ExploreError, Hooks, Point, Refused, Space, Synthesizer};
+use crate::work::Work;
+use crate::{ClipRow, Exploration, ExploreError, Hooks, Space, Synthesizer};
 
 /// What is explored.
 #[derive(Clone, Debug)]
@@ -32,9 +32,6 @@ pub struct Request<'a> {
     pub synthesizer: Option<&'a Synthesizer>,
 }
 
-/// The file that marks a folder as an exploration and describes it.
-const MARK: &str = "exploration.json";
-
 /// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
 /// can continue.
 ///
@@ -47,19 +44,12 @@ pub fn explore(
     hooks: &dyn Hooks,
 ) -> Result<Exploration, ExploreError> {
     let space = request.space;
-    let footage = Footage::new(request.inputs, request.input, &space.ideal, hooks)?;
-    let (width, height) = footage.size;
-    let (points, refused) = space.points(width, height);
-    if points.is_empty() {
-        let first = refused.into_iter().next().expect("a space has a combination");
-        let Refused { settings, reason } = first;
-        return Err(ExploreError::NoPoints { settings, reason });
-    }
+    let Work { footage, points, refused, looks, look_of } = Work::new(request, hooks)?;
     claim(output)?;
+    mark(output, UNFINISHED)?;
     let store = Store::open(output)?;
     let designs =
         points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
-    let (looks, look_of) = looks(&points)?;
     let measured = footage.measure(&looks, &store)?;
     let (silicon, failed) = silicon(request.synthesizer, &designs, hooks)?;
     let mut rows = Vec::new();
@@ -81,7 +71,7 @@ pub fn explore(
         problem.map(|problem| format!("{}: {problem}", subject.name))
     };
     let exploration = Exploration {
-        format_version: 2,
+        format_version: 3,
         program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
         clips: footage.subjects.iter().zip(&measured).map(of_clip).collect(),
         size: footage.size,
@@ -100,32 +90,6 @@ pub fn explore(
     };
     write(&exploration, &measured, &look_of, output)?;
     Ok(exploration)
-}
-
-/// Makes the folder an exploration, unless it is something else.
-fn claim(output: &Path) -> Result<(), ExploreError> {
-    let occupied = fs::read_dir(output).is_ok_and(|mut entries| entries.next().is_some());
-    if occupied && !output.join(MARK).is_file() || output.is_file() {
-        return Err(ExploreError::Occupied { path: output.to_owned() });
-    }
-    fs::create_dir_all(output).map_err(ExploreError::io("make the folder", output))?;
-    Ok(write_file(&output.join(MARK), b"{ \"finished\": false }\n")?)
-}
-
-/// The designs that look different to a camera, and for each point which of them it is: how an array
-/// is built does not change what it computes.
-fn looks(points: &[Point]) -> Result<(Vec<Design>, Vec<usize>), ExploreError> {
-    let (mut looks, mut numbers, mut of_point) = (Vec::new(), BTreeMap::new(), Vec::new());
-    for point in points {
-        let functional: Config = functional(&point.config);
-        let next = numbers.len();
-        let number = *numbers.entry(functional.to_toml()).or_insert(next);
-        if number == next {
-            looks.push(functional.validate()?);
-        }
-        of_point.push(number);
-    }
-    Ok((looks, of_point))
 }
 
 /// The area of every design, and what Yosys said of those without one: one of many that fails does not
@@ -187,5 +151,5 @@ fn write(
     let json = serde_json::to_string_pretty(exploration)
         .expect("it has no map with other keys than text")
         + "\n";
-    Ok(write_file(&output.join(MARK), json.as_bytes())?)
+    mark(output, &json)
 }

@@ -18,7 +18,27 @@ use crate::{ExploreError, Hooks, Progress};
 
 /// Designs that see a clip together. Many share the work of decoding and of the ideal camera; few lose
 /// less when interrupted.
-const TOGETHER: usize = 16;
+pub(crate) const TOGETHER: usize = 16;
+
+/// Counts the pairs of a clip and a design that are done.
+pub(crate) struct Count {
+    done: AtomicUsize,
+    all: usize,
+}
+
+impl Count {
+    pub(crate) fn of(all: usize) -> Self {
+        Self { done: AtomicUsize::new(0), all }
+    }
+
+    fn add(&self, more: usize) {
+        self.done.fetch_add(more, Ordering::Relaxed);
+    }
+
+    fn progress(&self) -> Progress {
+        Progress::Measuring { done: self.done.load(Ordering::Relaxed), all: self.all }
+    }
+}
 
 /// Clips of one size.
 pub(crate) struct Footage<'a> {
@@ -89,40 +109,45 @@ impl<'a> Footage<'a> {
         designs: &[Design],
         store: &Store,
     ) -> Result<Vec<Vec<Measured>>, ExploreError> {
-        let all = self.subjects.len() * designs.len();
-        let done = AtomicUsize::new(0);
-        let mut results = Vec::new();
-        for (clip_number, subject) in self.subjects.iter().enumerate() {
-            let clip = identity(subject, self.input);
-            let keys: Vec<String> =
-                designs.iter().map(|design| key(&clip, self.ideal, design.config())).collect();
-            let mut found: Vec<Option<Measured>> = keys.iter().map(|key| store.get(key)).collect();
-            done.fetch_add(found.iter().flatten().count(), Ordering::Relaxed);
-            let missing: Vec<usize> =
-                (0..designs.len()).filter(|&index| found[index].is_none()).collect();
-            for some in missing.chunks(TOGETHER) {
-                let tell = || Progress::Measuring { done: done.load(Ordering::Relaxed), all };
-                let together: Vec<Design> =
-                    some.iter().map(|&index| designs[index].clone()).collect();
-                let measured = self.parts(
-                    clip_number,
-                    &together,
-                    std::slice::from_ref(&(0..u64::MAX)),
-                    &tell,
-                )?;
-                for (&index, mut parts) in some.iter().zip(measured) {
-                    let Some(measured) = parts.pop() else { continue };
-                    // A clip that broke off may be whole the next time.
-                    if measured.problem.is_none() {
-                        store.put(&keys[index], &measured)?;
-                    }
-                    found[index] = Some(measured);
-                    done.fetch_add(1, Ordering::Relaxed);
+        let count = Count::of(self.subjects.len() * designs.len());
+        let clips = 0..self.subjects.len();
+        clips.map(|clip| self.measure_clip(clip, designs, store, &count)).collect()
+    }
+
+    /// For every design what was seen of it over one clip, by its number.
+    pub(crate) fn measure_clip(
+        &self,
+        clip: usize,
+        designs: &[Design],
+        store: &Store,
+        count: &Count,
+    ) -> Result<Vec<Measured>, ExploreError> {
+        let keys = self.keys(clip, designs);
+        let mut found: Vec<Option<Measured>> = keys.iter().map(|key| store.get(key)).collect();
+        count.add(found.iter().flatten().count());
+        let missing: Vec<usize> =
+            (0..designs.len()).filter(|&index| found[index].is_none()).collect();
+        for some in missing.chunks(TOGETHER) {
+            let together: Vec<Design> = some.iter().map(|&index| designs[index].clone()).collect();
+            let whole = std::slice::from_ref(&(0..u64::MAX));
+            let measured = self.parts(clip, &together, whole, &|| count.progress())?;
+            for (&index, mut parts) in some.iter().zip(measured) {
+                let Some(measured) = parts.pop() else { continue };
+                // A clip that broke off may be whole the next time.
+                if measured.problem.is_none() {
+                    store.put(&keys[index], &measured)?;
                 }
+                found[index] = Some(measured);
+                count.add(1);
             }
-            results.push(found.into_iter().flatten().collect());
         }
-        Ok(results)
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// The names of the measurements of some designs over one clip, by its number.
+    pub(crate) fn keys(&self, clip: usize, designs: &[Design]) -> Vec<String> {
+        let clip = identity(&self.subjects[clip], self.input);
+        designs.iter().map(|design| key(&clip, self.ideal, design.config())).collect()
     }
 
     /// A clip from its beginning.

@@ -3,7 +3,8 @@
 //! speed; and the cheapest design that a scene needs.
 //!
 //! [`explore`] runs a [`Space`] of designs over clips and writes a folder of tables, Pareto fronts,
-//! configurations and one page. It continues an interrupted run. The reference is the whole-frame
+//! configurations and one page. It continues an interrupted run. [`plan`] and [`measure_unit`] spread the
+//! measurements over machines. The reference is the whole-frame
 //! floating-point camera of [`foveate_ideal`], and the figures are those of [`foveate_fidelity`].
 //! The library never prints: progress and cancellation go through [`Hooks`].
 
@@ -13,6 +14,7 @@ mod error;
 mod exploration;
 mod explore;
 mod fit;
+mod folder;
 mod footage;
 mod front;
 mod measure;
@@ -25,6 +27,8 @@ mod row;
 mod space;
 mod store;
 mod table;
+mod unit;
+mod work;
 
 pub use compare::{Compared, compare};
 pub use cost::{Silicon, Synthesizer};
@@ -37,6 +41,7 @@ pub use method::{Axis, Method};
 pub use point::{Point, Refused};
 pub use row::{Fronts, Row};
 pub use space::{BUILT_IN, BuiltIn, Space};
+pub use unit::{Unit, measure_unit, plan};
 
 /// Progress of an exploration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

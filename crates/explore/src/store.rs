@@ -16,9 +16,9 @@ use crate::ExploreError;
 use crate::measure::Measured;
 
 /// Grows when figures change their meaning, so that older ones are not taken for new ones.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// Hexadecimal digits of a name: 96 bits.
-const KEY_DIGITS: usize = 24;
+pub(crate) const KEY_DIGITS: usize = 24;
 const FOLDER: &str = "measured";
 
 /// Finished measurements.

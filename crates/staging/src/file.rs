@@ -7,6 +7,9 @@ use std::path::Path;
 
 use crate::StagingError;
 
+/// How the names of files begin that [`write_file`] has not finished. A process that is killed leaves them.
+pub const TEMPORARY: &str = ".foveate-";
+
 /// Writes `contents` beside `path` and renames it into place; a file that is there is replaced. A
 /// link keeps pointing where it points; what is no file, such as `/dev/stdout`, is written to.
 ///
@@ -41,10 +44,8 @@ fn folder_of(path: &Path) -> &Path {
 fn replace(place: &Path, contents: &[u8]) -> io::Result<()> {
     // The error of a temporary file names that file, which nobody has asked for.
     let plain = |error: io::Error| io::Error::from(error.kind());
-    let mut beside = tempfile::Builder::new()
-        .prefix(".foveate-")
-        .tempfile_in(folder_of(place))
-        .map_err(plain)?;
+    let mut beside =
+        tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder_of(place)).map_err(plain)?;
     beside.write_all(contents).map_err(plain)?;
     readable_by_all(beside.as_file()).map_err(plain)?;
     beside.persist(place).map(drop).map_err(|error| plain(error.error))

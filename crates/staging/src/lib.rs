@@ -13,7 +13,7 @@ mod list;
 mod reserve;
 
 pub use error::StagingError;
-pub use file::{check_file, write_file};
+pub use file::{TEMPORARY, check_file, write_file};
 pub use folder::{Kind, StagedFolder};
 pub use growing::GrowingFile;
 pub use reserve::Reserve;

@@ -16,6 +16,7 @@ use super::input::InputArgs;
 #[command(after_help = "Examples: foveate explore approximations scene:street -o out
           foveate explore space.toml street.mp4 bus.mp4 -o out --resize 640x360
           foveate explore designs street.mp4 -o out --max-frames 60 --no-area
+          foveate explore space.toml street.mp4 -o out --plan > plan.jsonl
           foveate explore --list
           foveate explore approximations --print > space.toml")]
 pub(crate) struct ExploreArgs {
@@ -31,13 +32,21 @@ pub(crate) struct ExploreArgs {
     /// Skip synthesis; Yosys is then not needed
     #[arg(long)]
     pub(crate) no_area: bool,
+    /// Print the units of work as JSON lines, for machines that share the folder, and measure nothing: a name,
+    /// the inputs, and the file that says that the unit is done
+    #[arg(long, conflicts_with_all = ["only", "list", "print", "json", "markdown"])]
+    pub(crate) plan: bool,
+    /// Do one unit of --plan; the inputs of the unit are enough. Without --only, the command does what is
+    /// missing and writes the tables
+    #[arg(long, value_name = "UNIT", conflicts_with_all = ["list", "print", "markdown"])]
+    pub(crate) only: Option<String>,
     /// List the spaces that come with the program
     #[arg(long, conflicts_with_all = ["space", "print"])]
     pub(crate) list: bool,
     /// Print the file of a space that comes with the program
     #[arg(long, requires = "space")]
     pub(crate) print: bool,
-    /// Print all points as JSON
+    /// Print all points as JSON; with --only the unit
     #[arg(long, conflicts_with = "markdown")]
     pub(crate) json: bool,
     /// Print all points as a Markdown table

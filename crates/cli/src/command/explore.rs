@@ -2,6 +2,7 @@
 //! `foveate explore`: a space of designs over clips, as tables and a page.
 
 mod table;
+mod units;
 
 use std::fs;
 use std::path::Path;
@@ -36,13 +37,16 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     let input = args.input.options(ImagesAs::Clip);
     warn_of(&args.inputs, &input);
     let terminal = Terminal::new(args.quiet)?;
+    let mut request =
+        Request { space: &space, inputs: &args.inputs, input: &input, synthesizer: None };
+    if args.plan {
+        return units::print_plan(&request, folder, &terminal);
+    }
+    if let Some(unit) = &args.only {
+        return units::measure(args, &request, unit, folder, &terminal);
+    }
     let synthesizer = if args.no_area { None } else { Some(terminal.synthesizer()?) };
-    let request = Request {
-        space: &space,
-        inputs: &args.inputs,
-        input: &input,
-        synthesizer: synthesizer.as_ref(),
-    };
+    request.synthesizer = synthesizer.as_ref();
     let found = explore(&request, folder, &terminal);
     terminal.shown.finish();
     let found = match found {

@@ -14,7 +14,7 @@ use serde_json::Value;
 
 /// Runs a command on a file system of so many KiB, and copies to `copy` what is there afterwards; none
 /// where no file system can be mounted.
-fn run_within(kib: u32, folder: &Path, args: &str) -> Option<(Output, PathBuf)> {
+pub(crate) fn run_within(kib: u32, folder: &Path, args: &str) -> Option<(Output, PathBuf)> {
     let (place, copy) = (folder.join("small"), folder.join(format!("copy of {kib}")));
     fs::create_dir_all(&place).unwrap();
     let foveate = assert_cmd::cargo::cargo_bin("foveate");

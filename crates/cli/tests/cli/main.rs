@@ -25,3 +25,4 @@ mod signals;
 mod simulation;
 mod stress;
 mod studies;
+mod units;

@@ -10,18 +10,18 @@ use foveate_footage::InputOptions;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-const SPACE: &str = "method = 'each'\n[design]\nframe.width = 48\nframe.height = 32\nregion.neighborhood = 'shared'\n\
+pub(crate) const SPACE: &str = "method = 'each'\n[design]\nframe.width = 48\nframe.height = 32\nregion.neighborhood = 'shared'\n\
      temporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [8, 6, 3]\nregion.size = [16]\n\
      temporal.reference = ['previous']\ntemporal.min_count = [5, 10]\nhardware.organization = ['serial']\n";
 
 /// Counts frames, and cancels after so many.
-struct Watch {
-    frames: AtomicUsize,
+pub(crate) struct Watch {
+    pub(crate) frames: AtomicUsize,
     most: usize,
 }
 
 impl Watch {
-    fn new(most: usize) -> Self {
+    pub(crate) fn new(most: usize) -> Self {
         Self { frames: AtomicUsize::new(0), most }
     }
 }
@@ -36,7 +36,7 @@ impl Hooks for Watch {
     }
 }
 
-fn run(
+pub(crate) fn run(
     text: &str,
     inputs: &[&str],
     output: &Path,
@@ -134,7 +134,6 @@ fn a_rerun_does_only_what_is_missing() {
     let again = Watch::new(0);
     let same = run(SPACE, &["scene:street"], &output, &again).unwrap();
     assert_eq!(again.frames.load(Ordering::Relaxed), 0);
-    // The speed of the engine is kept with the rest.
     assert_eq!(serde_json::to_string(&same).unwrap(), serde_json::to_string(&whole).unwrap());
     let larger = SPACE.replace("[8, 6, 3]", "[8, 7, 6, 3]");
     let more = Watch::new(usize::MAX);

@@ -5,3 +5,4 @@
 mod explore;
 mod fit;
 mod space;
+mod unit;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An exploration in units of work that machines do apart: a clip, and the designs that see it together.
+//!
+//! A unit adds the results that are missing to the store of the folder, and then writes a file that says so. Both
+//! have the same bytes wherever the unit is done, so it may be done twice, and at the same time.
+
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+
+use foveate_staging::write_file;
+use foveate_toolchain::sha256_hex;
+use serde::Serialize;
+
+use crate::folder::{check, claim};
+use crate::footage::{Count, TOGETHER};
+use crate::store::{KEY_DIGITS, Store};
+use crate::work::Work;
+use crate::{ExploreError, Hooks, Request};
+
+/// The folder of the files that say what is done.
+const FOLDER: &str = "units";
+
+/// A unit of work.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Unit {
+    /// Its name: a hash of all that its results depend on.
+    pub unit: String,
+    /// The name of its clip.
+    pub clip: String,
+    /// What the clip is read from. The unit is the same with these inputs alone.
+    pub inputs: Vec<String>,
+    /// How many designs see the clip.
+    pub designs: usize,
+    /// The file that is written when all its results are there.
+    pub file: String,
+}
+
+/// What the file of a unit holds.
+#[derive(Serialize)]
+struct Receipt<'a> {
+    /// The names of its results in the store.
+    measured: &'a [String],
+}
+
+/// A unit, and what it is of the work.
+struct Part {
+    unit: Unit,
+    /// The number of the clip.
+    clip: usize,
+    looks: Range<usize>,
+    keys: Vec<String>,
+}
+
+/// The units of an exploration into `output`, finished or not. Writes nothing.
+///
+/// # Errors
+/// When an input cannot be read, no point is a valid design, or the folder holds something else.
+pub fn plan(
+    request: &Request<'_>,
+    output: &Path,
+    hooks: &dyn Hooks,
+) -> Result<Vec<Unit>, ExploreError> {
+    check(output)?;
+    let work = Work::new(request, hooks)?;
+    Ok(parts(&work, output).map(|part| part.unit).collect())
+}
+
+/// Does one unit of an exploration into `output`.
+///
+/// # Errors
+/// When the exploration has no unit of that name, its clip cannot be read or ends before its end, the folder
+/// holds something else or cannot be written, or `hooks` cancels.
+pub fn measure_unit(
+    request: &Request<'_>,
+    name: &str,
+    output: &Path,
+    hooks: &dyn Hooks,
+) -> Result<Unit, ExploreError> {
+    let work = Work::new(request, hooks)?;
+    let part = parts(&work, output).find(|part| part.unit.unit == name);
+    let part = part.ok_or_else(|| ExploreError::NoUnit { unit: name.to_owned() })?;
+    claim(output)?;
+    let store = Store::open(output)?;
+    let looks = &work.looks[part.looks.clone()];
+    let measured = work.footage.measure_clip(part.clip, looks, &store, &Count::of(looks.len()))?;
+    if let Some(problem) = measured.into_iter().find_map(|one| one.problem) {
+        return Err(ExploreError::Broken { clip: part.unit.clip, problem });
+    }
+    let folder = output.join(FOLDER);
+    fs::create_dir_all(&folder).map_err(ExploreError::io("make the folder", &folder))?;
+    let receipt = Receipt { measured: &part.keys };
+    // Plain data with text keys: this cannot fail.
+    let text = serde_json::to_string(&receipt).expect("it has no map") + "\n";
+    write_file(Path::new(&part.unit.file), text.as_bytes())?;
+    Ok(part.unit)
+}
+
+/// Clip by clip, as many designs together as one run takes.
+fn parts<'a>(work: &'a Work<'_>, output: &'a Path) -> impl Iterator<Item = Part> + 'a {
+    let clips = work.footage.subjects.iter().enumerate();
+    clips.flat_map(move |(clip, subject)| {
+        let keys = work.footage.keys(clip, &work.looks);
+        let starts = (0..keys.len()).step_by(TOGETHER);
+        starts.map(move |start| {
+            let looks = start..(start + TOGETHER).min(keys.len());
+            let keys = keys[looks.clone()].to_vec();
+            let unit = sha256_hex(keys.join("\n"))[..KEY_DIGITS].to_owned();
+            let file = output.join(FOLDER).join(format!("{unit}.json"));
+            let unit = Unit {
+                unit,
+                clip: subject.name.clone(),
+                inputs: subject.inputs.iter().map(|path| path.display().to_string()).collect(),
+                designs: looks.len(),
+                file: file.display().to_string(),
+            };
+            Part { unit, clip, looks, keys }
+        })
+    })
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What an exploration has to measure: the clips, and the designs that look different to a camera.
+
+use std::collections::BTreeMap;
+
+use foveate_design::{Config, Design};
+
+use crate::footage::Footage;
+use crate::store::functional;
+use crate::{ExploreError, Hooks, Point, Refused, Request};
+
+/// Clips, points, and what is to be seen of them.
+pub(crate) struct Work<'a> {
+    pub(crate) footage: Footage<'a>,
+    pub(crate) points: Vec<Point>,
+    pub(crate) refused: Vec<Refused>,
+    /// The designs that look different: how an array is built does not change what it computes.
+    pub(crate) looks: Vec<Design>,
+    /// For each point which of them it is.
+    pub(crate) look_of: Vec<usize>,
+}
+
+impl<'a> Work<'a> {
+    /// Looks at the clips and tries every point of the space.
+    ///
+    /// # Errors
+    /// When an input cannot be read or no point is a valid design.
+    pub(crate) fn new(request: &Request<'a>, hooks: &'a dyn Hooks) -> Result<Self, ExploreError> {
+        let space = request.space;
+        let footage = Footage::new(request.inputs, request.input, &space.ideal, hooks)?;
+        let (width, height) = footage.size;
+        let (points, refused) = space.points(width, height);
+        if points.is_empty() {
+            let first = refused.into_iter().next().expect("a space has a combination");
+            let Refused { settings, reason } = first;
+            return Err(ExploreError::NoPoints { settings, reason });
+        }
+        let (looks, look_of) = looks(&points)?;
+        Ok(Self { footage, points, refused, looks, look_of })
+    }
+}
+
+fn looks(points: &[Point]) -> Result<(Vec<Design>, Vec<usize>), ExploreError> {
+    let (mut looks, mut numbers, mut of_point) = (Vec::new(), BTreeMap::new(), Vec::new());
+    for point in points {
+        let functional: Config = functional(&point.config);
+        let next = numbers.len();
+        let number = *numbers.entry(functional.to_toml()).or_insert(next);
+        if number == next {
+            looks.push(functional.validate()?);
+        }
+        of_point.push(number);
+    }
+    Ok((looks, of_point))
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Explorations in units: together they are the exploration, byte for byte, in any order and more than once.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use foveate_explore::{ExploreError, Request, Space, Unit, measure_unit, plan};
+use foveate_footage::InputOptions;
+
+use crate::explore::{SPACE, Watch, run};
+
+const CLIPS: [&str; 2] = ["scene:street", "scene:shake"];
+
+/// More designs than see a clip together, of which some look the same.
+fn large() -> String {
+    let counts: Vec<String> = (1..=20).map(|count| count.to_string()).collect();
+    format!(
+        "[design]\nframe.width = 48\nframe.height = 32\n[vary]\ntemporal.min_count = [{}]\n\
+         hardware.organization = ['pipelined', 'serial']\n",
+        counts.join(", ")
+    )
+}
+
+fn with<T>(space: &str, inputs: &[&str], then: impl FnOnce(&Request<'_>) -> T) -> T {
+    let space = Space::from_toml(space).unwrap();
+    let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
+    let input = InputOptions { frames: Some(12), ..InputOptions::default() };
+    then(&Request { space: &space, inputs: &inputs, input: &input, synthesizer: None })
+}
+
+fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<Unit> {
+    with(space, inputs, |request| plan(request, output, &Watch::new(usize::MAX))).unwrap()
+}
+
+fn only(
+    space: &str,
+    inputs: &[&str],
+    unit: &str,
+    output: &Path,
+    watch: &Watch,
+) -> Result<Unit, ExploreError> {
+    with(space, inputs, |request| measure_unit(request, unit, output, watch))
+}
+
+/// Every file of a folder by its name, sorted.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let file = |entry: fs::DirEntry| {
+        (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
+    };
+    let mut found: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(Result::unwrap)
+        .filter(|e| e.path().is_file())
+        .map(file)
+        .collect();
+    found.sort();
+    found
+}
+
+#[test]
+fn a_plan_has_every_clip_and_design_once_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let found = units(&large(), &CLIPS, &output);
+    assert!(!output.exists());
+    let seen: Vec<_> = found.iter().map(|unit| (unit.clip.as_str(), unit.designs)).collect();
+    // 20 designs look different; arrays do not change what they see.
+    assert_eq!(seen, [("street", 16), ("street", 4), ("shake", 16), ("shake", 4)]);
+    for unit in &found {
+        assert_eq!(unit.inputs, [format!("scene:{}", unit.clip)]);
+        assert!(unit.file.ends_with(&format!("units/{}.json", unit.unit)), "{unit:?}");
+    }
+    assert_eq!(units(&large(), &CLIPS, &output), found);
+    // A unit does not depend on the other clips.
+    assert_eq!(units(&large(), &CLIPS[1..], &output), found[2..]);
+}
+
+#[test]
+fn units_in_any_order_are_the_whole_run_byte_for_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, apart) = (folder.path().join("whole"), folder.path().join("apart"));
+    let never_ends = || Watch::new(usize::MAX);
+    run(&large(), &CLIPS, &whole, &never_ends()).unwrap();
+    for unit in units(&large(), &CLIPS, &apart).iter().rev() {
+        let inputs: Vec<&str> = unit.inputs.iter().map(String::as_str).collect();
+        let done = only(&large(), &inputs, &unit.unit, &apart, &never_ends()).unwrap();
+        assert!(Path::new(&done.file).is_file());
+    }
+    let collecting = never_ends();
+    run(&large(), &CLIPS, &apart, &collecting).unwrap();
+    assert_eq!(collecting.frames.load(Ordering::Relaxed), 0, "nothing is measured again");
+    for below in ["", "measured", "designs"] {
+        let (whole, apart) = (files(&whole.join(below)), files(&apart.join(below)));
+        assert!(whole.len() > 5 && whole == apart, "{below}");
+    }
+}
+
+#[test]
+fn a_unit_is_done_by_many_at_once_and_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let unit = units(SPACE, &CLIPS, &output).remove(0);
+    std::thread::scope(|scope| {
+        let work = || only(SPACE, &CLIPS, &unit.unit, &output, &Watch::new(usize::MAX)).unwrap();
+        let all: Vec<_> = (0..8).map(|_| scope.spawn(work)).collect();
+        all.into_iter().for_each(|one| drop(one.join().unwrap()));
+    });
+    let measured = files(&output.join("measured"));
+    assert_eq!((measured.len(), files(&output.join("units")).len()), (unit.designs, 1));
+    let again = Watch::new(0);
+    only(SPACE, &CLIPS, &unit.unit, &output, &again).unwrap();
+    assert_eq!(again.frames.load(Ordering::Relaxed), 0);
+    assert_eq!(files(&output.join("measured")), measured);
+}
+
+#[test]
+fn a_stopped_unit_is_not_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let unit = units(SPACE, &CLIPS, &output).remove(0);
+    let stopped = only(SPACE, &CLIPS, &unit.unit, &output, &Watch::new(3));
+    assert!(matches!(stopped, Err(ExploreError::Cancelled)), "{stopped:?}");
+    assert!(files(&output.join("measured")).is_empty() && !output.join("units").exists());
+}
+
+#[test]
+fn a_unit_of_another_plan_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let unit = units(SPACE, &CLIPS, &output).remove(0);
+    let other = SPACE.replace("[8, 6, 3]", "[8, 6, 2]");
+    let refused = only(&other, &CLIPS, &unit.unit, &output, &Watch::new(0)).unwrap_err();
+    let message = refused.to_string();
+    assert!(message.contains(&unit.unit) && message.contains("plan again"), "{message}");
+    assert!(!output.exists());
+}
+
+#[test]
+fn a_folder_of_something_else_is_refused_also_by_a_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("mine");
+    let unit = units(SPACE, &CLIPS, &output).remove(0);
+    fs::create_dir(&output).unwrap();
+    // What a killed worker left of the first file of the folder is no obstacle.
+    fs::write(output.join(".foveate-killed"), "{").unwrap();
+    assert_eq!(units(SPACE, &CLIPS, &output)[0], unit);
+    fs::write(output.join("notes.txt"), "mine").unwrap();
+    let planned = with(SPACE, &CLIPS, |request| plan(request, &output, &Watch::new(0)));
+    let done = only(SPACE, &CLIPS, &unit.unit, &output, &Watch::new(0));
+    for error in [planned.unwrap_err(), done.unwrap_err()] {
+        assert!(matches!(error, ExploreError::Occupied { .. }), "{error}");
+    }
+}
