@@ -44,7 +44,7 @@ pub fn explore(
     hooks: &dyn Hooks,
 ) -> Result<Exploration, ExploreError> {
     let space = request.space;
-    let Work { footage, points, refused, looks, look_of } = Work::new(request, hooks)?;
+    let Work { footage, points, refused, looks, look_of } = Work::new(request, None, hooks)?;
     claim(output)?;
     mark(output, UNFINISHED)?;
     let store = Store::open(output)?;

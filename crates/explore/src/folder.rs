@@ -10,12 +10,18 @@ use crate::ExploreError;
 
 /// The file that marks a folder as an exploration and describes it.
 const MARK: &str = "exploration.json";
-/// What it holds until all is there.
+/// What the mark holds until all is there.
 pub(crate) const UNFINISHED: &str = "{ \"finished\": false }\n";
+/// The folder of the files that say which units are done.
+pub(crate) const UNITS: &str = "units";
 
 /// Refuses a folder that holds something else.
 pub(crate) fn check(output: &Path) -> Result<(), ExploreError> {
-    let foreign = |entry: fs::DirEntry| !entry.file_name().to_string_lossy().starts_with(TEMPORARY);
+    // A workflow makes the folder of the files that it waits for.
+    let foreign = |entry: fs::DirEntry| {
+        let name = entry.file_name();
+        name != UNITS && !name.to_string_lossy().starts_with(TEMPORARY)
+    };
     let occupied = fs::read_dir(output).is_ok_and(|entries| entries.flatten().any(foreign));
     // Who else makes the folder writes the mark first, so it is there if anything was seen.
     if occupied && !output.join(MARK).is_file() || output.is_file() {

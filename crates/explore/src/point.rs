@@ -16,6 +16,8 @@ pub struct Point {
     pub settings: Vec<String>,
     /// Its configuration.
     pub config: Config,
+    /// The number of its combination, from 0.
+    pub combination: usize,
 }
 
 /// A combination that is not a valid design.
@@ -32,8 +34,21 @@ impl Space {
     /// valid designs.
     #[must_use]
     pub fn points(&self, width: u32, height: u32) -> (Vec<Point>, Vec<Refused>) {
+        self.points_of(None, width, height)
+    }
+
+    /// The same of some combinations alone, or of all.
+    pub(crate) fn points_of(
+        &self,
+        some: Option<&[usize]>,
+        width: u32,
+        height: u32,
+    ) -> (Vec<Point>, Vec<Refused>) {
         let (mut points, mut refused, mut seen) = (Vec::new(), Vec::new(), BTreeSet::new());
-        for combination in self.method.combinations(&self.axes) {
+        let all = self.method.combinations(&self.axes).into_iter().enumerate();
+        for (number, combination) in
+            all.filter(|(number, _)| some.is_none_or(|some| some.contains(number)))
+        {
             let values: Vec<Option<&Value>> = std::iter::zip(&self.axes, combination)
                 .map(|(axis, index)| index.and_then(|index| axis.values.get(index)))
                 .collect();
@@ -43,7 +58,7 @@ impl Space {
                 Ok(config) => {
                     // Of designs that are equal the first has the fewest settings.
                     if seen.insert(config.to_toml()) {
-                        points.push(Point { settings, config });
+                        points.push(Point { settings, config, combination: number });
                     }
                 }
                 Err(reason) => {

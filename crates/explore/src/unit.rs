@@ -10,19 +10,16 @@ use std::path::Path;
 
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::folder::{check, claim};
+use crate::folder::{UNITS, check, claim};
 use crate::footage::{Count, TOGETHER};
 use crate::store::{KEY_DIGITS, Store};
 use crate::work::Work;
 use crate::{ExploreError, Hooks, Request};
 
-/// The folder of the files that say what is done.
-const FOLDER: &str = "units";
-
 /// A unit of work.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unit {
     /// Its name: a hash of all that its results depend on.
     pub unit: String,
@@ -30,8 +27,8 @@ pub struct Unit {
     pub clip: String,
     /// What the clip is read from. The unit is the same with these inputs alone.
     pub inputs: Vec<String>,
-    /// How many designs see the clip.
-    pub designs: usize,
+    /// The designs that see the clip, by the numbers of their combinations.
+    pub combinations: Vec<usize>,
     /// The file that is written when all its results are there.
     pub file: String,
 }
@@ -62,22 +59,27 @@ pub fn plan(
     hooks: &dyn Hooks,
 ) -> Result<Vec<Unit>, ExploreError> {
     check(output)?;
-    let work = Work::new(request, hooks)?;
+    let work = Work::new(request, None, hooks)?;
     Ok(parts(&work, output).map(|part| part.unit).collect())
 }
 
-/// Does one unit of an exploration into `output`.
+/// Does one unit of an exploration into `output`: that of a name, or of a whole line of the plan, which is sooner found.
 ///
 /// # Errors
 /// When the exploration has no unit of that name, its clip cannot be read or ends before its end, the folder
 /// holds something else or cannot be written, or `hooks` cancels.
 pub fn measure_unit(
     request: &Request<'_>,
-    name: &str,
+    unit: &str,
     output: &Path,
     hooks: &dyn Hooks,
 ) -> Result<Unit, ExploreError> {
-    let work = Work::new(request, hooks)?;
+    let line: Option<Unit> = serde_json::from_str(unit).ok();
+    let (name, some) = match &line {
+        Some(line) => (line.unit.as_str(), Some(line.combinations.as_slice())),
+        None => (unit, None),
+    };
+    let work = Work::new(request, some, hooks)?;
     let part = parts(&work, output).find(|part| part.unit.unit == name);
     let part = part.ok_or_else(|| ExploreError::NoUnit { unit: name.to_owned() })?;
     claim(output)?;
@@ -87,7 +89,7 @@ pub fn measure_unit(
     if let Some(problem) = measured.into_iter().find_map(|one| one.problem) {
         return Err(ExploreError::Broken { clip: part.unit.clip, problem });
     }
-    let folder = output.join(FOLDER);
+    let folder = output.join(UNITS);
     fs::create_dir_all(&folder).map_err(ExploreError::io("make the folder", &folder))?;
     let receipt = Receipt { measured: &part.keys };
     // Plain data with text keys: this cannot fail.
@@ -99,19 +101,21 @@ pub fn measure_unit(
 /// Clip by clip, as many designs together as one run takes.
 fn parts<'a>(work: &'a Work<'_>, output: &'a Path) -> impl Iterator<Item = Part> + 'a {
     let clips = work.footage.subjects.iter().enumerate();
+    let points = work.first_points();
     clips.flat_map(move |(clip, subject)| {
+        let points = points.clone();
         let keys = work.footage.keys(clip, &work.looks);
         let starts = (0..keys.len()).step_by(TOGETHER);
         starts.map(move |start| {
             let looks = start..(start + TOGETHER).min(keys.len());
             let keys = keys[looks.clone()].to_vec();
             let unit = sha256_hex(keys.join("\n"))[..KEY_DIGITS].to_owned();
-            let file = output.join(FOLDER).join(format!("{unit}.json"));
+            let file = output.join(UNITS).join(format!("{unit}.json"));
             let unit = Unit {
                 unit,
                 clip: subject.name.clone(),
                 inputs: subject.inputs.iter().map(|path| path.display().to_string()).collect(),
-                designs: looks.len(),
+                combinations: points[looks.clone()].iter().map(|point| point.combination).collect(),
                 file: file.display().to_string(),
             };
             Part { unit, clip, looks, keys }

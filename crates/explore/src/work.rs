@@ -10,6 +10,8 @@ use crate::store::functional;
 use crate::{ExploreError, Hooks, Point, Refused, Request};
 
 /// Clips, points, and what is to be seen of them.
+///
+/// Of a unit only its own combinations are tried: a space may have many more.
 pub(crate) struct Work<'a> {
     pub(crate) footage: Footage<'a>,
     pub(crate) points: Vec<Point>,
@@ -21,15 +23,19 @@ pub(crate) struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// Looks at the clips and tries every point of the space.
+    /// Looks at the clips and tries the combinations of the space, some of them or all.
     ///
     /// # Errors
     /// When an input cannot be read or no point is a valid design.
-    pub(crate) fn new(request: &Request<'a>, hooks: &'a dyn Hooks) -> Result<Self, ExploreError> {
+    pub(crate) fn new(
+        request: &Request<'a>,
+        some: Option<&[usize]>,
+        hooks: &'a dyn Hooks,
+    ) -> Result<Self, ExploreError> {
         let space = request.space;
         let footage = Footage::new(request.inputs, request.input, &space.ideal, hooks)?;
         let (width, height) = footage.size;
-        let (points, refused) = space.points(width, height);
+        let (points, refused) = space.points_of(some, width, height);
         if points.is_empty() {
             let first = refused.into_iter().next().expect("a space has a combination");
             let Refused { settings, reason } = first;
@@ -37,6 +43,17 @@ impl<'a> Work<'a> {
         }
         let (looks, look_of) = looks(&points)?;
         Ok(Self { footage, points, refused, looks, look_of })
+    }
+
+    /// For each of the designs that look different the first point that is it.
+    pub(crate) fn first_points(&self) -> Vec<&Point> {
+        let mut found = Vec::with_capacity(self.looks.len());
+        for (point, &look) in self.points.iter().zip(&self.look_of) {
+            if look == found.len() {
+                found.push(point);
+            }
+        }
+        found
     }
 }
 

@@ -36,8 +36,8 @@ pub(crate) struct ExploreArgs {
     /// the inputs, and the file that says that the unit is done
     #[arg(long, conflicts_with_all = ["only", "list", "print", "json", "markdown"])]
     pub(crate) plan: bool,
-    /// Do one unit of --plan; the inputs of the unit are enough. Without --only, the command does what is
-    /// missing and writes the tables
+    /// Do one unit of --plan, by its name or its whole line; the inputs of the unit are enough. Without --only,
+    /// the command does what is missing and writes the tables
     #[arg(long, value_name = "UNIT", conflicts_with_all = ["list", "print", "markdown"])]
     pub(crate) only: Option<String>,
     /// List the spaces that come with the program

@@ -64,7 +64,8 @@ fn a_plan_has_every_clip_and_design_once_and_writes_nothing() {
     let output = folder.path().join("out");
     let found = units(&large(), &CLIPS, &output);
     assert!(!output.exists());
-    let seen: Vec<_> = found.iter().map(|unit| (unit.clip.as_str(), unit.designs)).collect();
+    let seen: Vec<_> =
+        found.iter().map(|unit| (unit.clip.as_str(), unit.combinations.len())).collect();
     // 20 designs look different; arrays do not change what they see.
     assert_eq!(seen, [("street", 16), ("street", 4), ("shake", 16), ("shake", 4)]);
     for unit in &found {
@@ -84,7 +85,11 @@ fn units_in_any_order_are_the_whole_run_byte_for_byte() {
     run(&large(), &CLIPS, &whole, &never_ends()).unwrap();
     for unit in units(&large(), &CLIPS, &apart).iter().rev() {
         let inputs: Vec<&str> = unit.inputs.iter().map(String::as_str).collect();
-        let done = only(&large(), &inputs, &unit.unit, &apart, &never_ends()).unwrap();
+        // By its name or by its line.
+        let line = serde_json::to_string(unit).unwrap();
+        let which = if unit.clip == "street" { &unit.unit } else { &line };
+        let done = only(&large(), &inputs, which, &apart, &never_ends()).unwrap();
+        assert_eq!(&done, unit);
         assert!(Path::new(&done.file).is_file());
     }
     let collecting = never_ends();
@@ -107,7 +112,7 @@ fn a_unit_is_done_by_many_at_once_and_again() {
         all.into_iter().for_each(|one| drop(one.join().unwrap()));
     });
     let measured = files(&output.join("measured"));
-    assert_eq!((measured.len(), files(&output.join("units")).len()), (unit.designs, 1));
+    assert_eq!((measured.len(), files(&output.join("units")).len()), (unit.combinations.len(), 1));
     let again = Watch::new(0);
     only(SPACE, &CLIPS, &unit.unit, &output, &again).unwrap();
     assert_eq!(again.frames.load(Ordering::Relaxed), 0);
@@ -130,9 +135,18 @@ fn a_unit_of_another_plan_is_refused() {
     let output = folder.path().join("out");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
     let other = SPACE.replace("[8, 6, 3]", "[8, 6, 2]");
-    let refused = only(&other, &CLIPS, &unit.unit, &output, &Watch::new(0)).unwrap_err();
-    let message = refused.to_string();
-    assert!(message.contains(&unit.unit) && message.contains("plan again"), "{message}");
+    let line = serde_json::to_string(&unit).unwrap();
+    let mut beyond = unit.clone();
+    beyond.combinations.push(100);
+    beyond.combinations.remove(0);
+    let beyond = serde_json::to_string(&beyond).unwrap();
+    for (space, which) in
+        [(other.as_str(), &unit.unit), (&other, &line), (SPACE, &beyond), (SPACE, &"{}".to_owned())]
+    {
+        let refused = only(space, &CLIPS, which, &output, &Watch::new(0)).unwrap_err();
+        assert!(matches!(refused, ExploreError::NoUnit { .. }), "{refused}");
+        assert!(refused.to_string().contains("plan again"), "{refused}");
+    }
     assert!(!output.exists());
 }
 
@@ -142,8 +156,9 @@ fn a_folder_of_something_else_is_refused_also_by_a_plan() {
     let output = folder.path().join("mine");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
     fs::create_dir(&output).unwrap();
-    // What a killed worker left of the first file of the folder is no obstacle.
+    // Nor is what a killed worker left of the first file, and a folder that waits for the files of the units.
     fs::write(output.join(".foveate-killed"), "{").unwrap();
+    fs::create_dir(output.join("units")).unwrap();
     assert_eq!(units(SPACE, &CLIPS, &output)[0], unit);
     fs::write(output.join("notes.txt"), "mine").unwrap();
     let planned = with(SPACE, &CLIPS, |request| plan(request, &output, &Watch::new(0)));

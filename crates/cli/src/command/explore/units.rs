@@ -47,6 +47,11 @@ pub(super) fn measure(
     } else if args.quiet {
         Ok(())
     } else {
-        output::text(&format!("{}: {} designs over {}\n", done.file, done.designs, done.clip))
+        output::text(&format!(
+            "{}: {} designs over {}\n",
+            done.file,
+            done.combinations.len(),
+            done.clip
+        ))
     }
 }
