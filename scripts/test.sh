@@ -40,6 +40,8 @@ wait "$installed" || { cat "$packages" && exit 1; }
 scripts/python.sh --test
 step "Python of the documents"
 scripts/snippets.sh
+step "workflow on this machine"
+scripts/workflow.sh
 step "samples of proofs, lint matrix and mutants (scripts/formal.sh, lint.sh and mutation.sh are the whole)"
 # One of two processors for each.
 (JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick) >"$beside" 2>&1 &
