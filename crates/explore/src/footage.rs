@@ -147,7 +147,8 @@ impl<'a> Footage<'a> {
     /// The names of the measurements of some designs over one clip, by its number.
     pub(crate) fn keys(&self, clip: usize, designs: &[Design]) -> Vec<String> {
         let clip = identity(&self.subjects[clip], self.input);
-        designs.iter().map(|design| key(&clip, self.ideal, design.config())).collect()
+        let ideal = self.ideal.to_toml();
+        designs.iter().map(|design| key(&clip, &ideal, design.config())).collect()
     }
 
     /// A clip from its beginning.

@@ -56,9 +56,9 @@ pub(crate) fn functional(config: &Config) -> Config {
     Config { hardware: HardwareConfig::default(), ..config.clone() }
 }
 
-/// The name of a measurement.
-pub(crate) fn key(clip: &str, ideal: &Config, functional: &Config) -> String {
-    let text = format!("{VERSION}\n{clip}\n{}\n{}", ideal.to_toml(), functional.to_toml());
+/// The name of a measurement; the ideal is its TOML.
+pub(crate) fn key(clip: &str, ideal: &str, functional: &Config) -> String {
+    let text = format!("{VERSION}\n{clip}\n{ideal}\n{}", functional.to_toml());
     sha256_hex(text)[..KEY_DIGITS].to_owned()
 }
 
