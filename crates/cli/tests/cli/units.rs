@@ -113,6 +113,23 @@ fn a_clip_that_changed_since_the_plan_is_refused() {
     fail_in(dir.path(), 2, &only, &["no unit", "the clips", "plan again"]);
 }
 
+#[test]
+fn a_unit_of_a_clip_that_breaks_off_is_not_done() {
+    let dir = folder_with_space();
+    let frame = [&b"FRAME\n"[..], &[7; 64 * 48]].concat();
+    let mut clip = b"YUV4MPEG2 W64 H48 F30:1 Cmono\n".to_vec();
+    (0..3).for_each(|_| clip.extend(&frame));
+    clip.truncate(clip.len() - 100);
+    fs::write(dir.path().join("cut.y4m"), clip).unwrap();
+    let run = ["explore", "space.toml", "cut.y4m", "-o", "out", "--no-area"];
+    let plan = succeed_in(dir.path(), &[&run[..], &["--plan"]].concat());
+    let line = plan.lines().next().unwrap();
+    let only = [&run[..], &["--only", line]].concat();
+    fail_in(dir.path(), 1, &only, &["`cut` is not complete"]);
+    let there = files_below(&dir.path().join("out"));
+    assert_eq!(there.len(), 1, "only the mark of the folder: {there:?}");
+}
+
 /// The process is killed as a job system or a lack of memory kills it: it cannot tidy up.
 #[cfg(unix)]
 #[test]
