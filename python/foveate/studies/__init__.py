@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Studies that train networks: what a network loses when it sees regions instead of whole images.
+
+``python -m foveate.studies accuracy`` repeats the paper's study of accuracy, ``python -m foveate.studies savings`` compares accuracy
+with bytes and MACs. Needs ``torch``; figures need ``matplotlib``, large networks ``torchvision``, counts of MACs ``onnx``.
+"""

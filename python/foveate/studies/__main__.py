@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""``python -m foveate.studies``: the studies as commands."""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foveate.studies.data import SETS, StudyError
+
+if TYPE_CHECKING:
+    from foveate.studies.runs import Bench
+
+
+def main(words: list[str] | None = None) -> int:
+    """Run a study with the words of a command line; returns the exit code."""
+    options = _parser().parse_args(words)
+    try:
+        _checked(options)
+        return _run(options)
+    except StudyError as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(f"interrupted: the runs below {options.output / 'runs'} are whole; the same command goes on from there", file=sys.stderr)
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m foveate.studies", description="Studies that train networks on what region cameras send.")
+    studies = parser.add_subparsers(dest="study", required=True)
+    accuracy = studies.add_parser("accuracy", help="accuracy of networks that learn from regions, beside originals")
+    savings = studies.add_parser("savings", help="accuracy against bytes and MACs, over thresholds and region sizes")
+    for one in (accuracy, savings):
+        one.add_argument("-o", "--output", type=Path, required=True, help="folder of runs, tables and figures; a second start goes on")
+        one.add_argument("--data", type=Path, default=os.environ.get("FOVEATE_DATA"),
+                         help="folder of the sets: IDX files or torchvision's layout; default $FOVEATE_DATA; nothing is downloaded")
+        one.add_argument("--sets", nargs="+", default=list(SETS), help=f"{', '.join(SETS)} or pictures (DATA/train/CLASS/*, DATA/test/CLASS/*)")
+        one.add_argument("--epochs", type=int, default=3)
+        one.add_argument("--batch", type=int, default=64)
+        one.add_argument("--rate", type=float, default=0.001, help="rate of Adam at the start; it falls to 0 (default 0.001)")
+        one.add_argument("--validation", type=int, default=5000, help="images at the end of the training images, to choose thresholds (default 5000)")
+        one.add_argument("--limit", type=float, default=1.0, help="share of every part of the sets, 0 to 1")
+        one.add_argument("--jobs", type=int, default=1, help="runs side by side, each on one thread")
+    accuracy.add_argument("--thresholds", type=int, nargs="+", default=list(range(1, 11)), help="min_score of edge (default 1 to 10)")
+    accuracy.add_argument("--seeds", type=int, default=10, help="seeds of the originals and of the chosen threshold (default 10)")
+    accuracy.add_argument("--figure-seeds", type=int, default=3, help="seeds of every threshold (default 3)")
+    accuracy.add_argument("--margin", type=float, default=0.2,
+                          help="points of validation accuracy that the chosen threshold may lose (default 0.2)")
+    accuracy.add_argument("--model", default="lenet5", help="lenet5, resnet18, resnet50 or vgg16")
+    accuracy.add_argument("--size", type=int, help="scale images to this width and height")
+    accuracy.add_argument("--weights", type=Path, help="state_dict of torchvision's network to start from")
+    accuracy.add_argument("--device", default="cpu", help="cpu or cuda")
+    savings.add_argument("--sizes", type=int, nargs="+", default=[4, 7, 8, 14], help="sizes of regions")
+    savings.add_argument("--thresholds", type=int, nargs="+", default=[1, 2, 5, 10], help="min_score of edge")
+    savings.add_argument("--seeds", type=int, default=3, help="networks that learn from originals and are tested on every camera (default 3)")
+    savings.add_argument("--learned", type=int, default=1, help="of these seeds, how many also learn from the regions of every camera (default 1)")
+    savings.add_argument("--images", type=int, default=1000, help="test images on which MACs are counted (default 1000)")
+    return parser
+
+
+def _checked(options: argparse.Namespace) -> None:
+    """Refuse values that no study can use."""
+    if options.data is None:
+        raise StudyError("--data is missing: give the folder of the sets, or name it in FOVEATE_DATA")
+    for name in ("epochs", "batch", "validation", "jobs", "seeds", "figure_seeds", "size"):
+        value = getattr(options, name, None)
+        if value is not None and value < 1:
+            raise StudyError(f"--{name.replace('_', '-')} {value}: expected 1 or more")
+    if not 0 < options.limit <= 1:
+        raise StudyError(f"--limit {options.limit}: expected a share above 0 and up to 1")
+    if options.rate <= 0:
+        raise StudyError(f"--rate {options.rate}: expected a number above 0")
+    if min(options.thresholds) < 1:
+        raise StudyError(f"--thresholds {min(options.thresholds)}: expected 1 or more")
+
+
+def _run(options: argparse.Namespace) -> int:
+    # Torch takes seconds to load, and --help must not.
+    from foveate.studies.runs import Bench, Settings
+
+    chosen = {name: getattr(options, name, None) for name in ("model", "size", "device")}
+    weights = getattr(options, "weights", None)
+    settings = Settings(
+        epochs=options.epochs, batch=options.batch, rate=options.rate, validation=options.validation, limit=options.limit,
+        weights=None if weights is None else str(weights), **{name: value for name, value in chosen.items() if value is not None})
+    bench = Bench(options.output, options.data, settings, alone=len(options.sets) == 1)
+    return _accuracy(bench, options) if options.study == "accuracy" else _savings(bench, options)
+
+
+def _accuracy(bench: Bench, options: argparse.Namespace) -> int:
+    from foveate.studies import plots, tables
+    from foveate.studies.accuracy import Plan, runs_of, study
+
+    plan = Plan(options.sets, sorted(set(options.thresholds)), options.seeds, options.figure_seeds, options.margin / 100)
+    summary = study(bench, plan, jobs=options.jobs, report=_say)
+    tables.write_csv(options.output / "accuracy.csv", runs_of(bench, plan, summary))
+    tables.write_json(options.output / "accuracy.json", summary)
+    text = tables.accuracy_markdown(summary)
+    tables.write_text(options.output / "accuracy.md", text)
+    plots.accuracy(summary, options.output)
+    print(text, end="")
+    return 0
+
+
+def _savings(bench: Bench, options: argparse.Namespace) -> int:
+    from foveate.studies import plots, tables
+    from foveate.studies.savings import Plan, study
+
+    plan = Plan(options.sets, options.sizes, sorted(set(options.thresholds)), options.seeds, options.learned, options.images)
+    summary = study(bench, plan, jobs=options.jobs, report=_say)
+    tables.write_csv(options.output / "savings.csv", summary["rows"])
+    tables.write_json(options.output / "savings.json", summary)
+    text = tables.savings_markdown(summary)
+    tables.write_text(options.output / "savings.md", text)
+    plots.savings(summary, options.output)
+    print(text, end="")
+    return 0
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

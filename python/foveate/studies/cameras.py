@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The cameras that a study compares, and what a receiver sees of a whole set."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foveate._foveate import Camera
+
+__all__ = ["Regions", "Seen", "name_of", "seen"]
+
+
+@dataclass(frozen=True, order=True)
+class Regions:
+    """A camera: the preset ``paper``, whose feature is ``edge``, with these choices."""
+
+    min_score: int = 5
+    size: int = 8
+    neighborhood: str = "isolated"
+    filter: str = "median3x3"
+
+    @property
+    def name(self) -> str:
+        """Names all choices, for files and tables; those of the preset are left out."""
+        return f"n{self.size}-edge{self.min_score}" + ("-shared" if self.neighborhood == "shared" else "") + (
+            "-unfiltered" if self.filter == "none" else "")
+
+    def camera(self) -> Camera:
+        """The camera that it names."""
+        return Camera("paper", region={"size": self.size, "neighborhood": self.neighborhood}, denoise={"filter": self.filter},
+                      spatial={"feature": "edge", "level": 100, "min_score": self.min_score})
+
+
+def name_of(regions: Regions | None) -> str:
+    """The name of a camera; without one, images are the originals."""
+    return "original" if regions is None else regions.name
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a receiver sees of a set.
+
+    Attributes
+    ----------
+    images : array (count, height, width) of uint8
+    active : float
+        The share of regions that were sent.
+    sent : float
+        Bytes that were sent, as a share of the bytes of the originals: pixels of active regions without padding, and two bits
+        for every region, as in ``summary.json`` of ``foveate simulate``.
+    """
+
+    images: NDArray[np.uint8]
+    active: float
+    sent: float
+
+
+def seen(images: NDArray[np.uint8], regions: Regions | None) -> Seen:
+    """Show every image to a camera as a first frame, as ``foveate dataset`` does."""
+    if regions is None:
+        return Seen(images, 1.0, 1.0)
+    camera = regions.camera()
+    rendered = np.empty_like(images)
+    counts: NDArray[np.int64] | None = None
+    for image, place in zip(images, rendered, strict=True):
+        camera.reset()
+        outcome = camera.step(image)
+        place[...] = outcome.rendered
+        counts = outcome.active.astype(np.int64) if counts is None else counts + outcome.active
+    assert counts is not None, "a part of a set has an image"
+    pixels = int((counts * _pixels(counts.shape, images.shape[1:], regions.size)).sum())
+    tags = -(-2 * counts.size * len(images) // 8)
+    return Seen(rendered, float(counts.sum() / (counts.size * len(images))), (pixels + tags) / images.size)
+
+
+def _pixels(grid: tuple[int, ...], frame: tuple[int, ...], size: int) -> NDArray[np.int64]:
+    """The pixels of each region that are not padding."""
+    rows, columns = (np.minimum(size, side - size * np.arange(count)) for count, side in zip(grid, frame, strict=True))
+    return np.asarray(np.outer(rows, columns), np.int64)

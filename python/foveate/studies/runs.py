@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Runs of a study, each a file that appears whole and is named by its parameters, so that a second start goes on.
+
+A run trains a network on what one camera sends and tests it on the same, or tests a trained network on what another camera sends.
+"""
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import nn
+
+from foveate.studies import data, training
+from foveate.studies.cameras import Regions, Seen, name_of, seen
+from foveate.studies.data import DataSet, StudyError
+from foveate.studies.models import make
+
+__all__ = ["Bench", "Result", "Run", "Settings", "complete", "write_whole"]
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What all runs of a study share. Where it is kept is no part of it."""
+
+    model: str = "lenet5"
+    epochs: int = 3
+    batch: int = 64
+    rate: float = 0.001
+    validation: int = 5000
+    limit: float = 1.0
+    size: int | None = None
+    weights: str | None = None
+    device: str = "cpu"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One network on one set. Cameras are None for the originals."""
+
+    set: str
+    trained: Regions | None
+    tested: Regions | None
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """The name of its file."""
+        return f"{name_of(self.trained)}@{name_of(self.tested)}.s{self.seed:02}"
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run came to."""
+
+    values: dict[str, Any]
+
+    @property
+    def correct(self) -> NDArray[np.bool_]:
+        """Which test images were right."""
+        bits = np.unpackbits(np.frombuffer(bytes.fromhex(self.values["correct"]), np.uint8))
+        return bits[:self.values["test_images"]].astype(bool)
+
+    @property
+    def test(self) -> float:
+        """Accuracy on the test images, 0 to 1."""
+        return float(self.values["test_accuracy"])
+
+    @property
+    def validation(self) -> float:
+        """Accuracy on the validation images, 0 to 1."""
+        return float(self.values["validation_accuracy"])
+
+
+class Bench:
+    """Makes results, and keeps them in a folder."""
+
+    def __init__(self, folder: Path, source: Path, settings: Settings, *, alone: bool = False) -> None:
+        self.folder, self.source, self.settings, self.alone = folder, source, settings, alone
+        self.set = lru_cache(maxsize=2)(self._set)
+        self.seen = lru_cache(maxsize=8)(self._seen)
+        self.home = lru_cache(maxsize=2)(self._home)
+
+    def __reduce__(self) -> Any:
+        return _bench, (self.folder, self.source, self.settings, self.alone)
+
+    def _set(self, name: str) -> DataSet:
+        settings = self.settings
+        return data.read(name, self.source, alone=self.alone, validation=settings.validation, limit=settings.limit, size=settings.size)
+
+    def _seen(self, name: str, regions: Regions | None, part: str) -> Seen:
+        split: data.Split = getattr(self.set(name), part)
+        return seen(split.images, regions)
+
+    def _home(self, name: str) -> Path:
+        """The folder of a set's runs, which names everything that they share: settings, images, version of torch."""
+        parts = self.set(name)
+        shared = hashlib.sha256(json.dumps([asdict(self.settings), torch.__version__], sort_keys=True).encode())
+        for part in (parts.train, parts.validation, parts.test):
+            shared.update(part.images.tobytes())
+            shared.update(part.labels.tobytes())
+        if self.settings.weights is not None:
+            shared.update(Path(self.settings.weights).read_bytes())
+        return self.folder / "runs" / f"{name}.{self.settings.model}.{shared.hexdigest()[:8]}"
+
+    def path(self, run: Run) -> Path:
+        """The file of a run."""
+        return self.home(run.set) / f"{run.name}.json"
+
+    def result(self, run: Run) -> Result | None:
+        """What a run came to, if it was made."""
+        path = self.path(run)
+        if not path.is_file():
+            return None
+        try:
+            return Result(json.loads(path.read_text()))
+        except ValueError as problem:
+            raise StudyError(f"{path}: is no result of a run ({problem}); delete it, and the run is made again") from None
+
+    def network(self, name: str, trained: Regions | None, seed: int, *, fresh: bool = False) -> nn.Module:
+        """A network with its initial weights, or as a run has trained it."""
+        parts, settings = self.set(name), self.settings
+        weights = None if settings.weights is None else Path(settings.weights)
+        model = training.initial(lambda: make(settings.model, parts.classes, parts.train.images.shape[1], weights), seed)
+        if not fresh:
+            model.load_state_dict(torch.load(self._weights(name, trained, seed), map_location="cpu", weights_only=True))
+        return model
+
+    def make(self, run: Run) -> None:
+        """Make the result of a run and write it."""
+        settings, parts = self.settings, self.set(run.set)
+        if run.trained == run.tested:
+            model = self.network(run.set, run.trained, run.seed, fresh=True)
+            begun = training.digest(model)
+            split = data.Split(self.seen(run.set, run.trained, "train").images, parts.train.labels)
+            training.train(model, split, epochs=settings.epochs, batch=settings.batch, rate=settings.rate, seed=run.seed, device=settings.device)
+            target = self._weights(run.set, run.trained, run.seed)
+            write_whole(target, lambda path: torch.save({key: value.cpu() for key, value in model.state_dict().items()}, path))
+        else:
+            model, begun = self.network(run.set, run.trained, run.seed), None
+        test = self.seen(run.set, run.tested, "test")
+        known = self.seen(run.set, run.tested, "validation").images
+        validation = training.predict(model, known, settings.device) == parts.validation.labels
+        correct = training.predict(model, test.images, settings.device) == parts.test.labels
+        values = {
+            "set": run.set, "model": settings.model, "trained": name_of(run.trained), "tested": name_of(run.tested), "seed": run.seed,
+            "settings": asdict(settings), "torch": torch.__version__, "initial_weights": begun, "trained_weights": training.digest(model),
+            "train_images": len(parts.train.labels), "validation_images": len(validation), "test_images": len(correct),
+            "active_share": test.active, "sent_share": test.sent,
+            "validation_accuracy": float(validation.mean()), "test_accuracy": float(correct.mean()),
+            "correct": np.packbits(correct).tobytes().hex(),
+        }
+        text = json.dumps(values, indent=1) + "\n"
+        write_whole(self.path(run), lambda path: path.write_text(text))
+
+    def _weights(self, name: str, trained: Regions | None, seed: int) -> Path:
+        return self.home(name) / f"{name_of(trained)}.s{seed:02}.pt"
+
+
+def _bench(folder: Path, source: Path, settings: Settings, alone: bool) -> Bench:
+    return Bench(folder, source, settings, alone=alone)
+
+
+def write_whole(target: Path, write: Callable[[Path], Any]) -> None:
+    """Write a file by ``write(path)`` so that it appears whole or not at all."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    partial = target.with_name(f".{target.name}.{os.getpid()}")
+    try:
+        write(partial)
+        os.replace(partial, target)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def complete(bench: Bench, runs: Iterable[Run], *, jobs: int = 1, report: Callable[[str], None]) -> None:
+    """Make the results that are missing. Networks are trained before they are tested on other cameras."""
+    missing = [run for run in dict.fromkeys(runs) if bench.result(run) is None]
+    for stage in ([run for run in missing if run.trained == run.tested], [run for run in missing if run.trained != run.tested]):
+        _stage(bench, stage, jobs, report)
+
+
+def _stage(bench: Bench, runs: list[Run], jobs: int, report: Callable[[str], None]) -> None:
+    if jobs == 1 or len(runs) < 2:
+        _one_thread()
+        for number, run in enumerate(runs):
+            bench.make(run)
+            report(f"{number + 1} of {len(runs)}: {run.set} {run.name}")
+        return
+    from concurrent.futures import ProcessPoolExecutor, as_completed
+    from multiprocessing import get_context
+
+    with ProcessPoolExecutor(jobs, get_context("spawn"), _worker, (bench,)) as workers:
+        futures = {workers.submit(_make, run): run for run in runs}
+        try:
+            for number, future in enumerate(as_completed(futures)):
+                future.result()
+                report(f"{number + 1} of {len(runs)}: {futures[future].set} {futures[future].name}")
+        except BaseException:
+            workers.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+_WORKER: list[Bench] = []
+
+
+def _worker(bench: Bench) -> None:
+    import signal
+
+    # Ctrl-C is the business of the process that waits.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _one_thread()
+    _WORKER[:] = [bench]
+
+
+def _make(run: Run) -> None:
+    _WORKER[0].make(run)
+
+
+def _one_thread() -> None:
+    """Sums of several threads may have other bits, and processes side by side are faster for small networks."""
+    torch.set_num_threads(1)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Accuracy against what is saved: bytes of the camera and MACs of the network, over thresholds, sizes of regions and windows.
+
+Every image is a first frame. Its changes are what differs from a black picture, so MACs are needed where a window holds a pixel of an
+active region; the activations of a black picture are kept for the rest.
+"""
+from __future__ import annotations
+
+import tempfile
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foveate._work import infer
+from foveate.studies.cameras import Regions
+from foveate.studies.data import StudyError, write_idx
+from foveate.studies.runs import Bench, Run, complete
+
+__all__ = ["Plan", "study"]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is run: ``seeds`` networks that learn from originals are tested on every camera, ``learned`` learn from its regions.
+
+    MACs are counted on the first ``images`` of the test images.
+    """
+
+    sets: Sequence[str] = ("mnist", "fashion-mnist")
+    sizes: Sequence[int] = (4, 7, 8, 14)
+    thresholds: Sequence[int] = (1, 2, 5, 10)
+    seeds: int = 3
+    learned: int = 1
+    images: int = 1000
+
+    def cameras(self) -> dict[str, list[Regions]]:
+        """Cameras by what they have in common. Organizations give the same bits, so they are not among them."""
+        kinds = {f"N = {size}": [Regions(score, size) for score in self.thresholds] for size in self.sizes}
+        kinds["N = 8, windows of neighbors"] = [Regions(score, neighborhood="shared") for score in self.thresholds]
+        kinds["N = 8, no median"] = [Regions(score, filter="none") for score in self.thresholds]
+        return kinds
+
+
+def study(bench: Bench, plan: Plan, *, jobs: int = 1, report: Callable[[str], None]) -> dict[str, Any]:
+    """Make all runs that are missing, count MACs, and summarize: a dict that JSON can hold."""
+    every, learned = range(plan.seeds), range(min(plan.learned, plan.seeds))
+    cameras = [camera for kind in plan.cameras().values() for camera in kind]
+    runs = [Run(name, None, None, seed) for name in plan.sets for seed in every]
+    for name in plan.sets:
+        runs += [Run(name, camera, camera, seed) for camera in cameras for seed in learned]
+        runs += [Run(name, None, camera, seed) for camera in cameras for seed in every]
+    complete(bench, runs, jobs=jobs, report=report)
+    rows = []
+    for name in plan.sets:
+        macs = _macs(bench, name, cameras, plan.images, report)
+        for kind, members in plan.cameras().items():
+            rows += [_row(bench, name, kind, camera, macs[camera], every, learned) for camera in members]
+    return {"settings": asdict(bench.settings), "seeds": plan.seeds, "learned": plan.learned, "images": plan.images, "rows": rows}
+
+
+def _row(bench: Bench, name: str, kind: str, camera: Regions, macs: float, every: range, learned: range) -> dict[str, Any]:
+    known = _values(bench, Run(name, None, camera, 0))
+    return {
+        "set": name, "kind": kind, "camera": camera.name, "region": camera.size, "min_score": camera.min_score,
+        "neighborhood": camera.neighborhood, "filter": camera.filter,
+        "active_share": known["active_share"], "sent_share": known["sent_share"], "macs_share": macs,
+        "original_difference": _difference(bench, name, None, camera, every),
+        "regions_difference": _difference(bench, name, camera, camera, learned),
+    }
+
+
+def _difference(bench: Bench, name: str, trained: Regions | None, tested: Regions, seeds: range) -> float | None:
+    """Mean accuracy less that of the originals, seed by seed."""
+    if not seeds:
+        return None
+    return float(np.mean([_values(bench, Run(name, trained, tested, seed))["test_accuracy"]
+                          - _values(bench, Run(name, None, None, seed))["test_accuracy"] for seed in seeds]))
+
+
+def _values(bench: Bench, run: Run) -> dict[str, Any]:
+    result = bench.result(run)
+    assert result is not None, "it was completed"
+    return result.values
+
+
+def _macs(bench: Bench, name: str, cameras: Sequence[Regions], images: int, report: Callable[[str], None]) -> dict[Regions, float]:
+    """The share of MACs that each camera needs. It depends on masks alone, so one network serves for all."""
+    test = bench.set(name).test.images[:images]
+    with tempfile.TemporaryDirectory(prefix="foveate-") as temporary:
+        network, pictures = Path(temporary) / "network.onnx", Path(temporary) / "test-images-idx3-ubyte"
+        export(bench, name, network)
+        write_idx(pictures, test)
+        shares = {}
+        for number, camera in enumerate(cameras):
+            macs = infer(network, pictures, camera.camera(), mode="exact").summary["macs"]
+            shares[camera] = float(macs["needed"] / macs["dense"])
+            report(f"{number + 1} of {len(cameras)}: MACs of {name} {camera.name}")
+    return shares
+
+
+def export(bench: Bench, name: str, path: Path) -> None:
+    """Write the network of seed 0 that has learned from originals as ONNX."""
+    import torch
+
+    side = bench.set(name).test.images.shape[1]
+    with warnings.catch_warnings():
+        # The older exporter needs no further package, and says that it is older.
+        warnings.simplefilter("ignore")
+        try:
+            torch.onnx.export(bench.network(name, None, 0).eval(), (torch.zeros(1, 1, side, side),), str(path), opset_version=17,
+                              dynamo=False, input_names=["picture"], output_names=["scores"])
+        except ImportError:
+            raise StudyError("counts of MACs need onnx: pip install onnx") from None

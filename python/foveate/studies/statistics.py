@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""How far a difference between two ways of training can be believed.
+
+Three questions are asked. Would other seeds change it: a t interval over paired seeds. Would other test images change it: a bootstrap
+over images. Could one pair of networks differ by chance: McNemar's test.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["bootstrap", "mcnemar", "t_interval", "t_quantile"]
+
+#: The 97.5 % quantiles of Student's t for 1 to 30 degrees of freedom.
+_QUANTILES = (
+    12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281, 2.2010, 2.1788, 2.1604, 2.1448, 2.1314,
+    2.1199, 2.1098, 2.1009, 2.0930, 2.0860, 2.0796, 2.0739, 2.0687, 2.0639, 2.0595, 2.0555, 2.0518, 2.0484, 2.0452, 2.0423,
+)
+#: That of the normal distribution.
+_NORMAL = 1.959964
+
+
+def t_quantile(freedom: int) -> float:
+    """The 97.5 % quantile of Student's t, exact to 4 digits.
+
+    Above 30 degrees of freedom the first terms of its expansion at the normal distribution are enough (Abramowitz and Stegun 26.7.5).
+    """
+    if freedom < 1:
+        raise ValueError(f"freedom = {freedom}: expected 1 or more")
+    if freedom <= len(_QUANTILES):
+        return _QUANTILES[freedom - 1]
+    z = _NORMAL
+    return z + (z**3 + z) / (4 * freedom) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * freedom * freedom)
+
+
+def t_interval(differences: Sequence[float]) -> tuple[float, float, float]:
+    """The mean of differences of paired runs, and its 95 % interval. One difference alone has no interval: nan."""
+    values = np.asarray(differences, float)
+    mean = float(values.mean())
+    if len(values) < 2:
+        return mean, float("nan"), float("nan")
+    half = t_quantile(len(values) - 1) * float(values.std(ddof=1)) / math.sqrt(len(values))
+    return mean, mean - half, mean + half
+
+
+def mcnemar(only_first: int, only_second: int) -> float:
+    """The exact two-sided p of McNemar's test.
+
+    Parameters
+    ----------
+    only_first, only_second : int
+        Images that only the first network, and only the second one, gets right.
+
+    Returns
+    -------
+    float
+        The probability of a split at least as uneven, if each of these images were as likely to fall to either network.
+    """
+    count, few = only_first + only_second, min(only_first, only_second)
+    ways = term = 1
+    for taken in range(few):
+        term = term * (count - taken) // (taken + 1)
+        ways += term
+    return min(1.0, 2 * ways / (1 << count))
+
+
+def bootstrap(first: NDArray[Any], second: NDArray[Any], *, rounds: int = 2000, seed: int = 0) -> tuple[float, float]:
+    """The 95 % interval of the difference of accuracy, ``second`` minus ``first``, over draws of test images with replacement.
+
+    Parameters
+    ----------
+    first, second : arrays (seeds, images) of bool
+        Which images the networks get right. Networks stay; images are drawn, the same for all networks.
+    """
+    per_image = second.mean(axis=0) - first.mean(axis=0)
+    draws = np.random.default_rng(seed)
+    means = [per_image[draws.integers(0, len(per_image), len(per_image))].mean() for _ in range(rounds)]
+    low, high = np.quantile(means, (0.025, 0.975))
+    return float(low), float(high)

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Training with a fixed budget. Runs of one seed are paired: they start from the same weights and see images in the same order."""
+from __future__ import annotations
+
+import hashlib
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor, nn
+
+from foveate.studies.data import Split
+
+__all__ = ["digest", "initial", "order", "predict", "train"]
+
+#: Images of a forward pass without training.
+_MANY = 250
+
+
+def initial(make: Any, seed: int) -> nn.Module:
+    """Make a network by ``make()`` whose initial weights depend on the seed alone."""
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        model: nn.Module = make()
+    return model
+
+
+def order(count: int, epoch: int, seed: int) -> Tensor:
+    """The order of the images of an epoch, which depends on the seed alone."""
+    return torch.from_numpy(np.random.default_rng((seed, epoch)).permutation(count))
+
+
+def train(model: nn.Module, split: Split, *, epochs: int, batch: int, rate: float, seed: int, device: str = "cpu") -> None:
+    """Train a network by Adam, with a rate that falls to 0 over the run.
+
+    The last weights are taken. Nothing is chosen on the way, so no part of the data but ``split`` has any influence.
+    """
+    torch.use_deterministic_algorithms(True)
+    model.to(device).train()
+    images = torch.from_numpy(np.array(split.images)).to(device)[:, None]
+    labels = torch.from_numpy(split.labels).to(device)
+    optimizer = torch.optim.Adam(model.parameters(), rate, fused=True)
+    steps, done = epochs * -(-len(labels) // batch), 0
+    # For networks with dropout.
+    torch.manual_seed(seed)
+    for epoch in range(epochs):
+        shuffled = order(len(labels), epoch, seed).to(device)
+        for start in range(0, len(labels), batch):
+            chosen = shuffled[start:start + batch]
+            optimizer.param_groups[0]["lr"] = rate * (1 - done / steps)
+            optimizer.zero_grad(set_to_none=True)
+            torch.autograd.backward(nn.functional.cross_entropy(model(images[chosen].float() / 255), labels[chosen]))
+            optimizer.step()
+            done += 1
+
+
+def predict(model: nn.Module, images: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.int64]:
+    """The class of every image."""
+    model.to(device).eval()
+    parts = []
+    with torch.inference_mode():
+        for start in range(0, len(images), _MANY):
+            some = torch.from_numpy(np.array(images[start:start + _MANY])).to(device)[:, None]
+            parts.append(model(some.float() / 255).argmax(1).cpu().numpy())
+    return np.concatenate(parts)
+
+
+def digest(model: nn.Module, *, length: int | None = 16) -> str:
+    """A digest of all weights, to see whether two networks are the same."""
+    state = hashlib.sha256()
+    for name, tensor in model.state_dict().items():
+        state.update(name.encode())
+        state.update(tensor.detach().cpu().contiguous().numpy().tobytes())
+    return state.hexdigest()[:length]
