@@ -96,7 +96,7 @@ def _macs(bench: Bench, name: str, cameras: Sequence[Regions], images: int, repo
         write_idx(pictures, test)
         shares = {}
         for number, camera in enumerate(cameras):
-            macs = infer(network, pictures, camera.camera(), mode="exact").summary["macs"]
+            macs = infer(network, pictures, camera.camera(), Path(temporary) / camera.name, mode="exact").summary["macs"]
             shares[camera] = float(macs["needed"] / macs["dense"])
             report(f"{number + 1} of {len(cameras)}: MACs of {name} {camera.name}")
     return shares
