@@ -280,6 +280,8 @@ def test_pictures_and_a_larger_network(tmp_path: Path) -> None:
     (["--data", "DATA", "--sets", "cifar"], "error: --sets cifar: there is no such set"),
     (["--data", "DATA", "--sets", "pictures", "--size", "32"], "error: DATA: has no folders train and test"),
     (["--data", "DATA", "--validation", "100", "--model", "alexnet", "--size", "28"], "error: --model alexnet: there is no such network"),
+    (["--data", "DATA", "--device", "abacus"], "error: --device abacus: torch cannot use it: "),
+    (["--data", "DATA", "--validation", "100", "--thresholds", "100"], "error: camera n8-edge100: "),
     (["--data", "DATA", "--validation", "100", "--size", "96"], "error: lenet5 takes images of 28 x 28 pixels"),
 ])
 def test_what_cannot_be_done_is_said_in_one_line(words: list[str], message: str, sets: Path, tmp_path: Path,

@@ -20,7 +20,7 @@ def main(words: list[str] | None = None) -> int:
     try:
         _checked(options)
         return _run(options)
-    except StudyError as problem:
+    except (StudyError, OSError) as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
@@ -43,7 +43,7 @@ def _parser() -> argparse.ArgumentParser:
         one.add_argument("--rate", type=float, default=0.001, help="rate of Adam at the start; it falls to 0 (default 0.001)")
         one.add_argument("--validation", type=int, default=5000, help="images at the end of the training images, to choose thresholds (default 5000)")
         one.add_argument("--limit", type=float, default=1.0, help="share of every part of the sets, 0 to 1")
-        one.add_argument("--jobs", type=int, default=1, help="runs side by side, each on one thread")
+        one.add_argument("--jobs", type=int, default=1, help="runs side by side, each on one thread; Ctrl-C lets those that have begun end")
     accuracy.add_argument("--thresholds", type=int, nargs="+", default=list(range(1, 11)), help="min_score of edge (default 1 to 10)")
     accuracy.add_argument("--seeds", type=int, default=10, help="seeds of the originals and of the chosen threshold (default 10)")
     accuracy.add_argument("--figure-seeds", type=int, default=3, help="seeds of every threshold (default 3)")
@@ -80,7 +80,9 @@ def _checked(options: argparse.Namespace) -> None:
 def _run(options: argparse.Namespace) -> int:
     # Torch takes seconds to load, and --help must not.
     from foveate.studies.runs import Bench, Settings
+    from foveate.studies.training import check_device
 
+    check_device(getattr(options, "device", "cpu"))
     chosen = {name: getattr(options, name, None) for name in ("model", "size", "device")}
     weights = getattr(options, "weights", None)
     settings = Settings(

@@ -110,8 +110,8 @@ def _row(bench: Bench, name: str, trained: Regions | None, tested: Regions, seed
     before = [_result(bench, Run(name, None, None, seed)) for seed in seeds]
     after = [_result(bench, Run(name, trained, tested, seed)) for seed in seeds]
     images = bootstrap(np.stack([one.correct for one in before]), np.stack([one.correct for one in after]))
-    difference = _interval([two.test - one.test for one, two in zip(before, after, strict=True)])
-    pairs = [_pair(seed, one, two) for seed, one, two in zip(seeds, before, after, strict=True)]
+    difference = _interval([two.test - one.test for one, two in zip(before, after)])
+    pairs = [_pair(seed, one, two) for seed, one, two in zip(seeds, before, after)]
     ends = [abs(end) for end in (*images, difference["low"], difference["high"]) if end is not None]
     return {
         "trained": name_of(trained), "tested": tested.name, "min_score": tested.min_score, "seeds": len(seeds),

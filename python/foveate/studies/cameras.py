@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foveate._foveate import Camera
+from foveate.studies.data import StudyError
 
 __all__ = ["Regions", "Seen", "name_of", "seen"]
 
@@ -29,8 +30,11 @@ class Regions:
 
     def camera(self) -> Camera:
         """The camera that it names."""
-        return Camera("paper", region={"size": self.size, "neighborhood": self.neighborhood}, denoise={"filter": self.filter},
-                      spatial={"feature": "edge", "level": 100, "min_score": self.min_score})
+        try:
+            return Camera("paper", region={"size": self.size, "neighborhood": self.neighborhood}, denoise={"filter": self.filter},
+                          spatial={"feature": "edge", "level": 100, "min_score": self.min_score})
+        except ValueError as problem:
+            raise StudyError(f"camera {self.name}: {problem}") from None
 
 
 def name_of(regions: Regions | None) -> str:
@@ -64,7 +68,7 @@ def seen(images: NDArray[np.uint8], regions: Regions | None) -> Seen:
     camera = regions.camera()
     rendered = np.empty_like(images)
     counts: NDArray[np.int64] | None = None
-    for image, place in zip(images, rendered, strict=True):
+    for image, place in zip(images, rendered):
         camera.reset()
         outcome = camera.step(image)
         place[...] = outcome.rendered
@@ -77,5 +81,5 @@ def seen(images: NDArray[np.uint8], regions: Regions | None) -> Seen:
 
 def _pixels(grid: tuple[int, ...], frame: tuple[int, ...], size: int) -> NDArray[np.int64]:
     """The pixels of each region that are not padding."""
-    rows, columns = (np.minimum(size, side - size * np.arange(count)) for count, side in zip(grid, frame, strict=True))
+    rows, columns = (np.minimum(size, side - size * np.arange(count)) for count, side in zip(grid, frame))
     return np.asarray(np.outer(rows, columns), np.int64)

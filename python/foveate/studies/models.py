@@ -84,4 +84,4 @@ def _load(body: nn.Module, weights: Path) -> None:
     fitting = {key: value for key, value in given.items() if key in own and own[key].shape == value.shape} if isinstance(given, dict) else {}
     if len(fitting) < len(own) // 2:
         raise StudyError(f"--weights {weights}: has {len(fitting)} of {len(own)} tensors of this network; expected torchvision's state_dict of it")
-    body.load_state_dict(fitting, strict=False)
+    body.load_state_dict(fitting)

@@ -182,6 +182,11 @@ def write_whole(target: Path, write: Callable[[Path], Any]) -> None:
 
 def complete(bench: Bench, runs: Iterable[Run], *, jobs: int = 1, report: Callable[[str], None]) -> None:
     """Make the results that are missing. Networks are trained before they are tested on other cameras."""
+    runs = list(runs)
+    for regions in dict.fromkeys(run.tested for run in runs):
+        # A camera that cannot be is refused before any network is trained.
+        if regions is not None:
+            regions.camera()
     missing = [run for run in dict.fromkeys(runs) if bench.result(run) is None]
     for stage in ([run for run in missing if run.trained == run.tested], [run for run in missing if run.trained != run.tested]):
         _stage(bench, stage, jobs, report)

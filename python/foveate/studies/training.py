@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from typing import Any
 
 import numpy as np
@@ -10,9 +11,9 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from foveate.studies.data import Split
+from foveate.studies.data import Split, StudyError
 
-__all__ = ["digest", "initial", "order", "predict", "train"]
+__all__ = ["check_device", "digest", "initial", "order", "predict", "train"]
 
 #: Images of a forward pass without training.
 _MANY = 250
@@ -36,7 +37,8 @@ def train(model: nn.Module, split: Split, *, epochs: int, batch: int, rate: floa
 
     The last weights are taken. Nothing is chosen on the way, so no part of the data but ``split`` has any influence.
     """
-    torch.use_deterministic_algorithms(True)
+    # Some layers of large networks have no deterministic form on GPUs; there torch warns, and runs are paired all the same.
+    torch.use_deterministic_algorithms(True, warn_only=device != "cpu")
     model.to(device).train()
     images = torch.from_numpy(np.array(split.images)).to(device)[:, None]
     labels = torch.from_numpy(split.labels).to(device)
@@ -53,6 +55,16 @@ def train(model: nn.Module, split: Split, *, epochs: int, batch: int, rate: floa
             torch.autograd.backward(nn.functional.cross_entropy(model(images[chosen].float() / 255), labels[chosen]))
             optimizer.step()
             done += 1
+
+
+def check_device(device: str) -> None:
+    """Refuse a device that this machine does not have."""
+    # Products of matrices on GPUs are deterministic only with this, which is read when the device is first used.
+    os.environ.setdefault("CUBLAS_WORKSPACE_CONFIG", ":4096:8")
+    try:
+        torch.empty(1, device=device)
+    except (RuntimeError, AssertionError) as problem:
+        raise StudyError(f"--device {device}: torch cannot use it: {str(problem).splitlines()[0]}") from None
 
 
 def predict(model: nn.Module, images: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.int64]:
