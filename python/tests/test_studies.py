@@ -5,8 +5,6 @@ from __future__ import annotations
 import gzip
 import json
 import os
-import subprocess
-import sys
 from fractions import Fraction
 from math import comb
 from pathlib import Path
@@ -145,13 +143,12 @@ def test_ctrl_c_ends_in_one_line(sets: Path, tmp_path: Path, monkeypatch: pytest
     assert capsys.readouterr().err.startswith("interrupted: the runs below ")
 
 
-def test_images_are_those_of_the_command_bit_for_bit(tmp_path: Path) -> None:
+def test_images_are_those_of_the_command_bit_for_bit(tmp_path: Path, command: Any) -> None:
     source = tmp_path / "t10k-images-idx3-ubyte"
     # Every image twice: the second one must not be a frame without changes.
     write_idx(source, np.repeat(half(50, 4)[0], 2, axis=0))
     keys = ["--set", "spatial=[{feature='edge', level=100, min_score=3}]", "--set", "denoise.filter='none'", "--set", "region.size=7"]
-    command = [sys.executable, "-m", "foveate", "dataset", str(source), "-o", str(tmp_path / "out"), *keys]
-    subprocess.run(command, check=True, capture_output=True)
+    command("dataset", source, "-o", tmp_path / "out", *keys)
     ours = seen(read_idx(source), Regions(3, 7, filter="none"))
     assert np.array_equal(ours.images, read_idx(tmp_path / "out" / source.name))
     theirs = np.load(tmp_path / "out" / "active.npy")
