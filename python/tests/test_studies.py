@@ -76,6 +76,8 @@ def test_a_study_writes_its_runs_tables_and_figure(done: Path) -> None:
         # Half of what is not validated; half of the test images.
         assert entry["train_images"] == {"mnist": 550, "fashion-mnist": 300}[entry["set"]] and entry["test_images"] == 100
         assert [row["tested"] for row in entry["figure"]] == ["n8-edge1", "n8-edge1", "n8-edge12", "n8-edge12"]
+        for row in entry["figure"]:
+            assert row["difference"]["mean"] == pytest.approx(row["accuracy"]["mean"] - entry["figure_original"])
         assert entry["figure"][0]["sent_share"] >= entry["figure"][2]["sent_share"]
         for row in entry["table"]:
             assert row["seeds"] == 2 and len(row["tests"]) == 2

@@ -101,7 +101,9 @@ def _summary(bench: Bench, name: str, cameras: Sequence[Regions], chosen: Region
     return {
         "set": name, "model": first["model"], "settings": first["settings"], "torch": first["torch"],
         "train_images": first["train_images"], "validation_images": first["validation_images"], "test_images": first["test_images"],
-        "original": _interval(originals), "chosen": chosen.name, "margin": plan.margin, "table": table, "figure": figure,
+        "original": _interval(originals), "chosen": chosen.name, "margin": plan.margin, "table": table,
+        # Of the seeds of the figure, so that its lines are of pairs.
+        "figure_original": float(np.mean(originals[:len(few)])), "figure": figure,
     }
 
 

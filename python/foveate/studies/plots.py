@@ -27,7 +27,7 @@ def accuracy(summary: Mapping[str, Any], folder: Path) -> None:
     for column, entry in enumerate(summary["sets"]):
         upper, lower = axes[0][column], axes[1][column]
         rows = entry["figure"]
-        upper.axhline(100 * entry["original"]["mean"], color=_COLOURS[3], linewidth=1, linestyle="--", label="originals")
+        upper.axhline(100 * entry["figure_original"], color=_COLOURS[3], linewidth=1, linestyle="--", label="originals")
         for learned, colour, label in ((True, _COLOURS[4], "trained on regions"), (False, _COLOURS[1], "trained on originals")):
             own = [row for row in rows if (row["trained"] != "original") == learned]
             upper.plot([row["min_score"] for row in own], [100 * row["accuracy"]["mean"] for row in own], color=colour, label=label)
