@@ -66,15 +66,16 @@ def savings(summary: Mapping[str, Any], folder: Path) -> None:
             if number == len(sets) - 1:
                 one.set_xlabel(label)
         axes[number][0].set_ylabel(f"{_title(name)}: accuracy, points")
-    _legend(axes[0][0])
+    _legend(axes[0][0], learned=any(row["regions_difference"] is not None for row in summary["rows"]))
     _save(figure, folder, "savings")
 
 
-def _legend(axes: Any) -> None:
+def _legend(axes: Any, *, learned: bool) -> None:
     """Kinds by colour, and what networks learned from by how a mark is filled."""
-    grey = {"color": "#5a5a5a", "marker": "o", "markersize": 4, "linewidth": 1}
-    axes.plot([], [], label="filled: trained on originals", **grey)
-    axes.plot([], [], label="hollow: trained on regions", linestyle=":", markerfacecolor="none", **grey)
+    if learned:
+        grey = {"color": "#5a5a5a", "marker": "o", "markersize": 4, "linewidth": 1}
+        axes.plot([], [], label="filled: trained on originals", **grey)
+        axes.plot([], [], label="hollow: trained on regions", linestyle=":", markerfacecolor="none", **grey)
     axes.legend(frameon=False, fontsize=7)
 
 
