@@ -12,7 +12,8 @@ NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))
 def texts(notebook):
     """What a notebook prints, by cell; not its pictures, which differ from one matplotlib to another."""
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
-    return [[output.text for output in cell.outputs if output.output_type == "stream"] for cell in cells]
+    # What is printed at once may come in several pieces.
+    return ["".join(output.text for output in cell.outputs if output.output_type == "stream") for cell in cells]
 
 
 def test_there_are_notebooks():
