@@ -33,7 +33,8 @@ work=$(mktemp -d)
 declare -A daemons=()
 stop() {
     [ -z "${snakemake:-}" ] || kill -KILL "$snakemake" 2>/dev/null || true
-    scancel --full --user root 2>/dev/null || true
+    # Without our controller it would be another one that is asked.
+    [ -z "${daemons[slurmctld]:-}" ] || scancel --full --user root 2>/dev/null || true
     for daemon in slurmd slurmctld munged; do
         [ -z "${daemons[$daemon]:-}" ] || { kill "${daemons[$daemon]}" && wait "${daemons[$daemon]}"; } 2>/dev/null || true
     done
