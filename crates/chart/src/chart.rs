@@ -38,6 +38,8 @@ pub struct Chart {
 pub enum Shape {
     /// Lines over numbers.
     Lines(Vec<Line>),
+    /// Points over numbers, without lines.
+    Points(Vec<Line>),
     /// Lines over numbers above 0, on a logarithmic axis.
     LogLines(Vec<Line>),
     /// Groups of bars, one group per name, one bar per series.
@@ -49,12 +51,12 @@ pub enum Shape {
     },
 }
 
-/// A line.
+/// A line, or points of one kind.
 #[derive(Clone, Debug)]
 pub struct Line {
     /// Its name in the legend.
     pub name: String,
-    /// Its points, from one to the next.
+    /// Its points; a line goes from one to the next.
     pub points: Vec<(f64, f64)>,
 }
 

@@ -32,8 +32,14 @@ pub(crate) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shi
     caption.draw(&Text::new(chart.caption.clone(), (12, 4), small))?;
     match &chart.shape {
         Shape::Lines(lines) => {
-            draw_lines::<DB>(chart, lines, &plot)?;
+            let mut context = plain_axes(chart, lines, &plot)?;
+            draw_series(lines, &mut context)?;
             draw_names_of_lines::<DB>(lines, &legend)?;
+        }
+        Shape::Points(points) => {
+            let mut context = plain_axes(chart, points, &plot)?;
+            draw_points(points, &mut context)?;
+            draw_names_of_points::<DB>(points, &legend)?;
         }
         Shape::LogLines(lines) => {
             draw_log_lines::<DB>(chart, lines, &plot)?;
@@ -80,18 +86,19 @@ fn lines_on<'a, DB: DrawingBackend>(
     builder
 }
 
-fn draw_lines<DB: DrawingBackend>(
+/// Axes from 0 to the largest.
+fn plain_axes<'a, DB: DrawingBackend>(
     chart: &Chart,
     lines: &[Line],
-    area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
+    area: &'a DrawingArea<DB, Shift>,
+) -> std::result::Result<Plot<'a, DB, RangedCoordf64>, DrawingAreaErrorKind<DB::ErrorType>> {
     let points = || lines.iter().flat_map(|line| line.points.iter().copied());
     let last = points().map(|point| point.0).fold(0.0, f64::max);
     let last = if last > 0.0 { last } else { 1.0 };
     let height = top(points().map(|point| point.1));
     let mut context = lines_on(chart, area).build_cartesian_2d(0.0..last, 0.0..height)?;
     draw_mesh(chart, &mut context, None)?;
-    draw_series(lines, &mut context)
+    Ok(context)
 }
 
 fn draw_log_lines<DB: DrawingBackend>(
@@ -156,6 +163,17 @@ fn draw_series<DB: DrawingBackend, X: Ranged<ValueType = f64>>(
             let dot = |point| Circle::new(point, 3, colour(number).filled());
             context.draw_series(points.map(dot))?;
         }
+    }
+    Ok(())
+}
+
+fn draw_points<DB: DrawingBackend>(
+    series: &[Line],
+    context: &mut Plot<'_, DB, RangedCoordf64>,
+) -> Result<DB> {
+    for (number, points) in series.iter().enumerate() {
+        let dot = |&point: &(f64, f64)| Circle::new(point, 3, colour(number).filled());
+        context.draw_series(points.points.iter().map(dot))?;
     }
     Ok(())
 }
@@ -245,6 +263,17 @@ fn draw_names_of_lines<DB: DrawingBackend>(
             area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
         }
         draw_name::<DB>(&line.name, y, area)?;
+    }
+    Ok(())
+}
+
+fn draw_names_of_points<DB: DrawingBackend>(
+    series: &[Line],
+    area: &DrawingArea<DB, Shift>,
+) -> Result<DB> {
+    for (number, (points, y)) in series.iter().zip(rows()).enumerate() {
+        area.draw(&Circle::new((13, y), 4, colour(number).filled()))?;
+        draw_name::<DB>(&points.name, y, area)?;
     }
     Ok(())
 }
