@@ -127,7 +127,7 @@ def infer(network: PathLike, inputs: Inputs, camera: Any = None, output: PathLik
     network : path
         An ONNX file whose input is [1, channels, height, width], with 1 or 3 channels.
     inputs : path, pattern, "scene:NAME" or a list of these
-        Footage, as of ``simulate``.
+        Footage, as of ``simulate``. Images of a list are one clip; each other input is a clip of its own.
     camera : Camera, Design, preset, file or dict, optional
         The camera in front of the network.
     output : path, optional

@@ -15,7 +15,7 @@ use pyo3::types::PyDict;
 
 use crate::config;
 use crate::error::raise;
-use crate::footage::{input_options, opened, paths};
+use crate::footage::{input_options, paths};
 use crate::study::json;
 use crate::work::interruptible;
 
@@ -108,8 +108,7 @@ pub(crate) fn infer(
     let (inputs, input) = (paths(inputs)?, input_options(Some(&options))?);
     let config = config::read(camera, None)?;
     let summary = interruptible(py, |cancel| {
-        let source = opened(&inputs, &config, &input).map_err(raise)?;
-        let inference = Inference::new(&config, &network, source).map_err(raise)?;
+        let inference = Inference::new(&config, &network, &inputs, &input).map_err(raise)?;
         inference.run(&output, &chosen, &mut Flag(cancel)).map_err(raise)
     })??;
     json(&summary)

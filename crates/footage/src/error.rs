@@ -96,7 +96,7 @@ pub enum FootageError {
         path: PathBuf,
     },
     /// Scenes, cameras, streams and videos do not mix with other inputs in one clip.
-    #[error("`{input}` cannot be combined with other inputs; simulate it on its own")]
+    #[error("`{input}` cannot be combined with other inputs; give it on its own")]
     NotAlone {
         /// The input as given.
         input: String,

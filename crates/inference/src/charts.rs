@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The charts of a run: what is needed along the network's depth and over the frames, and what tuning could choose between.
+//! The charts of a run: what is needed along the network's depth and over the frames, what frames save, and what tuning could choose between.
 
 use crate::Layer;
 use crate::summary::{Macs, Summary, Tried, Tuning};
@@ -8,6 +8,10 @@ use foveate_chart::{Chart, Line, Shape};
 /// A counted frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Counted {
+    /// Its number among the frames of all clips, one after the other.
+    pub(crate) place: u64,
+    pub(crate) clip: String,
+    /// Its number in its clip.
     pub(crate) number: u64,
     pub(crate) name: String,
     /// Share of regions that were active.
@@ -26,18 +30,21 @@ pub(crate) struct Drawn {
 
 /// A line whose points belong to something.
 struct Series {
-    name: &'static str,
+    name: String,
     points: Vec<(String, (f64, f64))>,
 }
+
+/// Clips that a chart shows apart.
+const COLOURS: usize = 7;
 
 /// What a layer is called among the points.
 pub(crate) fn layer_id(layer: usize) -> String {
     format!("l{layer}")
 }
 
-/// What a frame is called among the points.
-pub(crate) fn frame_id(frame: u64) -> String {
-    format!("f{frame}")
+/// What a frame is called among the points, by its place.
+pub(crate) fn frame_id(place: u64) -> String {
+    format!("f{place}")
 }
 
 /// Everything that tuning tried in the order of its table, with its name among the points.
@@ -57,7 +64,7 @@ pub(crate) fn charts(summary: &Summary, frames: &[Counted]) -> Vec<Drawn> {
         summary.mode,
         summary.inputs.join(" ")
     );
-    let mut charts = vec![depth(summary), over_frames(frames)];
+    let mut charts = vec![depth(summary), over_frames(summary, frames), saved(summary, frames)];
     charts.extend(summary.tuning.as_ref().map(tuning));
     for drawn in &mut charts {
         drawn.chart.caption.clone_from(&caption);
@@ -68,8 +75,8 @@ pub(crate) fn charts(summary: &Summary, frames: &[Counted]) -> Vec<Drawn> {
 /// Where the halo of the windows eats what is saved.
 fn depth(summary: &Summary) -> Drawn {
     let layers = || summary.layers.iter().enumerate().filter(|(_, layer)| layer.macs > 0);
-    let line = |name, share: fn(&Layer) -> f64| Series {
-        name,
+    let line = |name: &str, share: fn(&Layer) -> f64| Series {
+        name: name.to_owned(),
         points: (1u32..)
             .zip(layers())
             .map(|(number, (at, layer))| (layer_id(at), (f64::from(number), 100.0 * share(layer))))
@@ -87,19 +94,19 @@ fn depth(summary: &Summary) -> Drawn {
     )
 }
 
-fn over_frames(frames: &[Counted]) -> Drawn {
-    let line = |name, share: fn(&Counted) -> f64| Series {
-        name,
+fn over_frames(summary: &Summary, frames: &[Counted]) -> Drawn {
+    let line = |name: &str, share: fn(&Counted) -> f64| Series {
+        name: name.to_owned(),
         #[allow(clippy::cast_precision_loss, reason = "a place in a chart")]
         points: frames
             .iter()
-            .map(|frame| (frame_id(frame.number), (frame.number as f64, 100.0 * share(frame))))
+            .map(|frame| (frame_id(frame.place), (frame.place as f64, 100.0 * share(frame))))
             .collect(),
     };
     chart(
         "frames",
         "What is needed over the frames",
-        "frame",
+        if summary.clips.len() > 1 { "frame, clip after clip" } else { "frame" },
         "share [%]",
         vec![
             line("MACs needed", |frame| frame.macs.share(frame.macs.needed)),
@@ -109,11 +116,45 @@ fn over_frames(frames: &[Counted]) -> Drawn {
     )
 }
 
+/// What each frame saves against what the camera sends of it.
+fn saved(summary: &Summary, frames: &[Counted]) -> Drawn {
+    let of = |name: &str, is_shown: &dyn Fn(&&Counted) -> bool| Series {
+        name: name.to_owned(),
+        points: frames
+            .iter()
+            .filter(is_shown)
+            .filter(|frame| frame.macs.dense > 0.0)
+            .map(|frame| {
+                let saved = 1.0 - frame.macs.share(frame.macs.needed);
+                (frame_id(frame.place), (100.0 * frame.active, 100.0 * saved))
+            })
+            .collect(),
+    };
+    // Colours tell so many clips apart.
+    let series = if (2..=COLOURS).contains(&summary.clips.len()) {
+        let clips = summary.clips.iter().map(|clip| &clip.name);
+        clips.map(|clip| of(clip, &|frame| frame.clip == *clip)).collect()
+    } else {
+        vec![of("a frame", &|_| true)]
+    };
+    let mut drawn = chart(
+        "saved",
+        "What is saved against what is active",
+        "regions active [%]",
+        "MACs saved [%]",
+        series,
+    );
+    if let Shape::Lines(points) = drawn.chart.shape {
+        drawn.chart.shape = Shape::Points(points);
+    }
+    drawn
+}
+
 /// The error of what was tried against what it needs, up to the error of outputs that never change.
 fn tuning(tuning: &Tuning) -> Drawn {
     let all = tried(tuning);
-    let line = |name, kinds: &[&str]| Series {
-        name,
+    let line = |name: &str, kinds: &[&str]| Series {
+        name: name.to_owned(),
         points: all
             .iter()
             .filter(|(_, limits, _)| kinds.contains(limits))
@@ -126,7 +167,7 @@ fn tuning(tuning: &Tuning) -> Drawn {
     };
     chart(
         "tuning",
-        &format!("Error against MACs on the first half of the frames, {}", tuning.goal),
+        &format!("Error against MACs on the first half, {}", tuning.goal),
         "MACs needed [%]",
         "RMS error of the outputs [% of their standard deviation]",
         vec![

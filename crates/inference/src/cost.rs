@@ -10,7 +10,9 @@ pub(crate) struct Costs<'a> {
     accelerator: &'a Accelerator,
     /// By node; nothing for one that only renames values.
     plans: Vec<Option<Plan<'a>>>,
-    /// By node: of all frames so far, where they were needed.
+    /// By node: of a frame that is computed whole.
+    whole: Vec<Cost>,
+    /// By node: of all counted frames so far, where they were needed.
     masked: Vec<Cost>,
     frames: u64,
 }
@@ -55,46 +57,55 @@ impl<'a> Costs<'a> {
             plan.map_err(|error| (network.nodes()[node].name().to_owned(), error))
         };
         let plans = (0..network.nodes().len()).map(plan).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { accelerator, masked: vec![Cost::default(); plans.len()], plans, frames: 0 })
+        let of = |plan: &Option<Plan<'_>>| plan.as_ref().map(Plan::whole).unwrap_or_default();
+        let whole: Vec<_> = plans.iter().map(of).collect();
+        let masked = vec![Cost::default(); plans.len()];
+        Ok(Self { accelerator, plans, whole, masked, frames: 0 })
     }
 
-    /// Counts a frame.
-    pub(crate) fn add(&mut self, executor: &Executor<'_>) {
-        self.frames += 1;
-        for (node, (plan, sum)) in self.plans.iter().zip(&mut self.masked).enumerate() {
-            let Some(plan) = plan else { continue };
-            let wanted = executor.wanted(node);
-            let shape = plan.layer().outputs();
-            let fits =
-                (shape.height, shape.width) == (wanted.height() as u64, wanted.width() as u64);
-            // Rows of a product that are no positions are all needed, or none.
-            *sum += if fits {
-                plan.masked(|x, y| wanted.contains(x, y))
-            } else {
-                plan.masked(|_, _| !wanted.is_empty())
-            };
+    /// The cost of a node for the last frame, where it was needed.
+    pub(crate) fn of_frame(&self, executor: &Executor<'_>, node: usize) -> Cost {
+        let Some(plan) = &self.plans[node] else { return Cost::default() };
+        let wanted = executor.wanted(node);
+        let shape = plan.layer().outputs();
+        let fits = (shape.height, shape.width) == (wanted.height() as u64, wanted.width() as u64);
+        // Rows of a product that are no positions are all needed, or none.
+        if fits {
+            plan.masked(|x, y| wanted.contains(x, y))
+        } else {
+            plan.masked(|_, _| !wanted.is_empty())
         }
+    }
+
+    /// Counts a frame by the costs of its nodes.
+    pub(crate) fn add(&mut self, nodes: impl Iterator<Item = Cost>) {
+        self.frames += 1;
+        self.masked.iter_mut().zip(nodes).for_each(|(sum, cost)| *sum += cost);
     }
 
     /// Whole and masked cost of a node.
     pub(crate) fn of_node(&self, node: usize) -> (FrameCost, FrameCost) {
-        let whole = self.plans[node].as_ref().map(Plan::whole).unwrap_or_default();
-        (self.mean(whole, 1), self.mean(self.masked[node], self.frames))
+        (self.mean(self.whole[node], 1), self.mean(self.masked[node], self.frames))
+    }
+
+    /// The cost of a frame that is computed whole.
+    pub(crate) fn whole(&self) -> FrameCost {
+        self.mean(self.whole.iter().copied().sum(), 1)
     }
 
     /// The sums over all nodes.
     pub(crate) fn summary(&self, name: &str) -> Accelerated {
-        let whole = self.plans.iter().flatten().map(Plan::whole).sum();
         let masked = self.masked.iter().copied().sum();
         Accelerated {
             name: name.to_owned(),
-            whole: self.mean(whole, 1),
+            whole: self.whole(),
             masked: self.mean(masked, self.frames),
         }
     }
 
+    /// The mean of so many frames that cost this together.
     #[allow(clippy::cast_precision_loss, reason = "means")]
-    fn mean(&self, sum: Cost, frames: u64) -> FrameCost {
+    pub(crate) fn mean(&self, sum: Cost, frames: u64) -> FrameCost {
         let frames = frames.max(1) as f64;
         FrameCost {
             cycles: sum.cycles as f64 / frames,

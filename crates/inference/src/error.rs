@@ -107,6 +107,37 @@ pub enum InferenceError {
         /// Frames that would do.
         least: usize,
     },
+    /// Clips without a frame that counts.
+    #[error(
+        "no frame of the {clips} counts, because a clip's first frame is computed whole; give clips of at least 2 frames"
+    )]
+    NothingCounts {
+        /// Which clips.
+        clips: &'static str,
+    },
+    /// Clips of different sizes.
+    #[error(
+        "all clips of a run must have one size, but `{first}` has {}x{} pixels and `{other}` has {}x{}; give --resize, or --crop",
+        first_size.0, first_size.1, other_size.0, other_size.1
+    )]
+    Sizes {
+        /// The first clip.
+        first: String,
+        /// Its width and height.
+        first_size: (u32, u32),
+        /// The first clip that differs.
+        other: String,
+        /// Its width and height.
+        other_size: (u32, u32),
+    },
+    /// An input of several that cannot be opened a second time.
+    #[error(
+        "`{input}` can be read only once, so it must be the only input; record it to a file, or give it on its own"
+    )]
+    ReadOnce {
+        /// The input.
+        input: String,
+    },
     /// The user stopped it before there was a result.
     #[error("interrupted; nothing was written")]
     Cancelled,

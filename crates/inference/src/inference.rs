@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One run: every frame of a source through a camera and a network, into one folder.
+//! One run: every frame of some clips through a camera and a network, into one folder.
 
 use crate::album::Album;
-use crate::camera::{Camera, Seen};
 use crate::charts::{Drawn, charts};
+use crate::clips::{Clips, Showing};
 use crate::cost::Costs;
+use crate::details::Details;
 use crate::page::page;
-use crate::player::Player;
+use crate::player::{Player, Way};
 use crate::recording::{Record, Recording};
-use crate::run::{Ended, Run, Told};
+use crate::run::{Ended, Files, Run, Told};
 use crate::summary::{Summary, mode_name};
 use crate::tune::{Tuned, tune};
 use crate::{Goal, InferenceError, Mapping};
 use foveate_accelerator::Accelerator;
 use foveate_design::{Config, Design};
-use foveate_footage::{FootageError, Hooks, Progress, Source, read_ahead};
-use foveate_network::{Executor, FrameSize, Mode, Network};
+use foveate_footage::{Hooks, InputOptions};
+use foveate_network::{FrameSize, Mode, Network};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 use std::path::{Path, PathBuf};
 
@@ -43,38 +44,43 @@ pub struct Options {
 pub enum Computed {
     /// What a mode says.
     Mode(Mode),
-    /// What differs by more than a limit, of each layer, that is chosen on the first half of the frames. The second half is reported.
+    /// What differs by more than a limit, of each layer, that is chosen on the first half of the clips, rounded up, or of the frames of the only
+    /// clip. The second half is reported.
     Tuned(Goal),
 }
 
-/// A camera, a network, and the frames to show them.
+/// A camera, a network, and the clips to show them.
 pub struct Inference {
     design: Design,
     network: Network,
     path: PathBuf,
-    source: Box<dyn Source>,
+    clips: Clips,
 }
 
 impl Inference {
-    /// Fits the configuration to the frames of the source, and reads the network for them.
+    /// Looks at the inputs, fits the configuration to their frames, and reads the network for them. Image files together are one clip,
+    /// every other input is a clip or set of its own; each begins with a camera and a network that have seen nothing.
     ///
     /// # Errors
-    /// When the configuration is not a valid design, or the network cannot be read or takes frames of another size.
+    /// When an input cannot be read, clips have different sizes, the configuration is not a valid design, or the network cannot be read or
+    /// takes frames of another size.
     pub fn new(
         config: &Config,
         network: &Path,
-        source: Box<dyn Source>,
+        inputs: &[PathBuf],
+        input: &InputOptions,
     ) -> Result<Self, InferenceError> {
+        let clips = Clips::new(inputs, config, input)?;
         let mut config = config.clone();
-        let (width, height) = source.size();
+        let (width, height) = clips.size;
         let network_for = FrameSize { width: width as usize, height: height as usize };
         let path = network.to_owned();
         let network = Network::read(network, network_for)?;
         config.fit_frame(width, height)?;
-        Ok(Self { design: config.validate()?, network, path, source })
+        Ok(Self { design: config.validate()?, network, path, clips })
     }
 
-    /// Runs to the end of the source, or until `hooks` cancels. The folder `output` appears when everything is written; on an error nothing is left.
+    /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when everything is written; on an error nothing is left.
     ///
     /// # Errors
     /// When a frame cannot be read, the folder cannot be written, or there is no frame.
@@ -84,38 +90,54 @@ impl Inference {
         options: &Options,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
-        let Self { design, network, path, mut source } = self;
-        options.mapping.check(network.input().shape()[1])?;
+        let Self { design, network, path, mut clips } = self;
+        let mapping = &options.mapping;
+        mapping.check(network.input().shape()[1])?;
         let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
-        let mut camera = Camera::new(&design, network.input(), &options.mapping, source.kind());
         let accelerator = options.accelerator.as_ref();
         let costs =
             accelerator.map(|(_, accelerator)| Costs::new(accelerator, &network)).transpose();
         let costs = costs.map_err(|(node, source)| InferenceError::Accelerator { node, source })?;
-        let mut recording = Recording::new(&staging, &network, options.record)?;
-        let run = |executor, camera: &Camera, reference| {
-            Run::new(&design, &network, Player::new(executor, camera.black()), reference, costs)
+        let files = Files {
+            outputs: Recording::new(&staging, &network, options.record)?,
+            details: Details::new(&staging)?,
         };
+        let (all, inputs) = (clips.count(), clips.inputs());
+        let input = network.input();
+        let mut showing = Showing { design: &design, input, mapping, clips: &mut clips, done: 0 };
+        let run =
+            |way, reference| Run::new(&design, Player::new(&network, way), reference, costs, files);
         let (run, problem, mode, tuning) = match options.computed {
             Computed::Mode(mode) => {
-                let mut run = run(Executor::new(&network, mode), &camera, options.reference);
-                let problem = watch(source.as_mut(), &mut camera, hooks, |seen| {
-                    run.step(seen);
-                    recording.push(run.executor())
-                })?;
+                let mut run = run(Way::Mode(mode), options.reference);
+                showing.show(0..all, hooks, &mut run)?;
+                let problem = problem(run.problems(), all, run.clips());
                 (run, problem, mode_name(mode), None)
             }
             Computed::Tuned(goal) => {
                 let mut album = Album::default();
-                let problem = watch(source.as_mut(), &mut camera, hooks, |seen| album.keep(seen))?;
-                let (first, second) = album.halves(source.kind())?;
-                let Tuned { limits, tuning } =
-                    tune(&network, goal, first, camera.black(), album.len(), hooks)?;
-                let mut run = run(Executor::truncating(&network, &limits), &camera, true);
-                for kept in second {
-                    run.step(kept.seen());
-                    recording.push(run.executor())?;
+                let tuned_on = all.div_ceil(2);
+                if !showing.show(0..tuned_on, hooks, &mut album)? {
+                    return Err(InferenceError::Cancelled);
                 }
+                let (parts, rest) = album.parts(all)?;
+                let Tuned { limits, tuning } = tune(&network, goal, &parts, album.frames(), hooks)?;
+                let mut run = run(Way::Limits(limits), true);
+                if let Some(rest) = rest {
+                    run.see(rest)?;
+                }
+                let is_whole = showing.show(tuned_on..all, hooks, &mut run)?;
+                match (run.counts(), is_whole) {
+                    (true, _) => {}
+                    (false, true) => {
+                        return Err(InferenceError::NothingCounts {
+                            clips: "clips that it reports",
+                        });
+                    }
+                    (false, false) => return Err(InferenceError::Cancelled),
+                }
+                let problems = [album.problems(), run.problems()].concat();
+                let problem = problem(problems, all, tuned_on.min(all - 1) + run.clips());
                 (run, problem, format!("tuned to {goal}"), Some((tuning, goal)))
             }
         };
@@ -125,10 +147,9 @@ impl Inference {
             tuning,
             problem,
             network: path.display().to_string(),
-            inputs: source.inputs().to_vec(),
-            mapping: options.mapping.clone(),
-            outputs: recording.finish()?,
-        });
+            inputs,
+            mapping: mapping.clone(),
+        })?;
         write(&staging, &ended)?;
         let page = page(&ended.summary, &ended.counted, &design, &options.command)?;
         staging.write("report.html", page.as_bytes())?;
@@ -137,32 +158,15 @@ impl Inference {
     }
 }
 
-/// Shows the camera every frame, until the end or `hooks` cancels. Returns why frames are missing, if some are.
-fn watch(
-    source: &mut dyn Source,
-    camera: &mut Camera,
-    hooks: &mut dyn Hooks,
-    mut visit: impl FnMut(Seen<'_>) -> Result<(), InferenceError>,
-) -> Result<Option<String>, InferenceError> {
-    let (mut done, total) = (0, source.frames());
-    let ended = read_ahead(source, |frames| {
-        while let Some(current) = frames.next()? {
-            if hooks.cancelled() {
-                return Ok::<_, InferenceError>(false);
-            }
-            visit(camera.see(&current)?)?;
-            frames.give_back(current);
-            done += 1;
-            hooks.progress(Progress { done, total });
-        }
-        Ok(true)
-    })?;
-    match (ended, done) {
-        (false, 0) => Err(InferenceError::Cancelled),
-        (true, 0) => Err(FootageError::NoFrames { inputs: source.inputs().join(", ") }.into()),
-        (false, _) => Ok(Some("it was interrupted".to_owned())),
-        (true, _) => Ok(source.problem()),
-    }
+/// Why frames are missing, if some are: the only clip needs no name.
+fn problem(clips: Vec<(String, String)>, all: usize, begun: usize) -> Option<String> {
+    let named = |(clip, problem): (String, String)| {
+        if all == 1 { problem } else { format!("`{clip}`: {problem}") }
+    };
+    let missing = all - begun;
+    let others = (missing > 0).then(|| format!("clips that were not begun: {missing}"));
+    let problems: Vec<_> = clips.into_iter().map(named).chain(others).collect();
+    (!problems.is_empty()).then(|| problems.join("; "))
 }
 
 impl std::fmt::Debug for Inference {

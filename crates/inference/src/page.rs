@@ -30,6 +30,7 @@ struct About {
     findings: Vec<String>,
     tuned: bool,
     counted: bool,
+    several: bool,
 }
 
 /// The sections.
@@ -37,6 +38,8 @@ struct About {
 #[template(path = "main.html")]
 struct Main<'a> {
     plots: Vec<Plot>,
+    /// Of several.
+    clips: Option<Table<'a>>,
     layers: Table<'a>,
     tried: Option<Table<'a>>,
     /// Counted frames, if there are any.
@@ -71,6 +74,7 @@ pub(crate) fn page(
     let is_counted = !frames.is_empty();
     let (layers, tried, rows) =
         (rows::layers(summary), rows::tried(summary), rows::frames(&shown, summary));
+    let clips = rows::clips(summary);
     let titles = [&layers, &tried, &rows].into_iter().flat_map(Rows::titles).collect();
     let charts = if is_counted { charts(summary, &shown) } else { Vec::new() };
     let note = if every > 1 { words::sampled(every) } else { String::new() };
@@ -82,9 +86,11 @@ pub(crate) fn page(
         findings: words::findings(summary),
         tuned: summary.tuning.is_some(),
         counted: is_counted,
+        several: summary.clips.len() > 1,
     };
     let main = Main {
         plots: charts.iter().map(|drawn| plots::plot(drawn, &titles, &note)).collect(),
+        clips: (summary.clips.len() > 1).then(|| clips.table("number of the clip")),
         layers: layers.table("number of the layer"),
         tried: summary.tuning.is_some().then(|| tried.table("number of the run")),
         frames: is_counted.then(|| rows.table("number of the frame")),
@@ -120,7 +126,7 @@ fn shown(frames: &[Counted], every: usize) -> Vec<Counted> {
     let most = |frames: &[Counted]| {
         let by_macs = |one: &&Counted, other: &&Counted| {
             // The first of equal ones.
-            one.macs.needed.total_cmp(&other.macs.needed).then(other.number.cmp(&one.number))
+            one.macs.needed.total_cmp(&other.macs.needed).then(other.place.cmp(&one.place))
         };
         frames.iter().max_by(by_macs).cloned()
     };

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A run under way: what every frame did, and the sums.
 
+use crate::album::Part;
 use crate::camera::Seen;
 use crate::charts::Counted;
+use crate::clips::Audience;
 use crate::cost::Costs;
+use crate::details::Details;
+use crate::frame::Frame;
 use crate::player::Player;
+use crate::recording::Recording;
 use crate::summary::{Summary, Tuning, error, layers, macs, mask_bytes, ratio};
-use crate::tally::{NotFinite, Positions, Reference};
+use crate::tally::{ClipSums, NotFinite, Positions, Reference};
 use crate::traffic::Traffic;
-use crate::{Goal, Mapping, Recorded};
+use crate::{Goal, InferenceError, Mapping};
 use foveate_design::Design;
-use foveate_network::{Executor, Network};
-use foveate_tables::{Cell, Cells, Table};
+use foveate_network::Network;
+use foveate_tables::{Cells, Table};
 use std::time::Instant;
 
 /// What a summary says that no frame says.
@@ -25,8 +30,6 @@ pub(crate) struct Told {
     pub(crate) network: String,
     pub(crate) inputs: Vec<String>,
     pub(crate) mapping: Mapping,
-    /// Files of the outputs.
-    pub(crate) outputs: Vec<Recorded>,
 }
 
 /// A run at its end.
@@ -37,6 +40,12 @@ pub(crate) struct Ended {
     pub(crate) counted: Vec<Counted>,
 }
 
+/// Where the frames go that are not kept in memory.
+pub(crate) struct Files<'a> {
+    pub(crate) outputs: Recording<'a>,
+    pub(crate) details: Details,
+}
+
 /// A run under way.
 pub(crate) struct Run<'a> {
     design: &'a Design,
@@ -44,115 +53,147 @@ pub(crate) struct Run<'a> {
     player: Player<'a>,
     reference: Option<Reference<'a>>,
     costs: Option<Costs<'a>>,
+    files: Files<'a>,
     sums: Vec<Positions>,
     traffic: Vec<Traffic>,
+    clips: Vec<ClipSums>,
+    /// Frames of the clips before this one, for the charts.
+    before: u64,
     rows: Vec<Cells>,
     counted: Vec<Counted>,
-    active: u64,
-    changed: u64,
     seconds: f64,
     overhead: f64,
     not_finite: NotFinite,
 }
 
+impl Audience for Run<'_> {
+    fn begin(&mut self, clip: &str, black: Option<&[f32]>) {
+        self.before = self.counted.last().map_or(0, |counted| counted.place + 1);
+        self.clips.push(ClipSums::new(clip));
+        self.player.begin(black);
+    }
+
+    fn look(&mut self, seen: Seen<'_>) -> Result<(), InferenceError> {
+        let frame = self.step(seen);
+        let clip = self.clips.last_mut().expect("a clip has begun");
+        self.rows.push(frame.row(&clip.name, seen, self.costs.as_ref()));
+        self.files.details.push(&clip.name, &frame, self.network, self.costs.as_ref())?;
+        clip.add(&frame);
+        if frame.is_counted {
+            self.counted.push(Counted {
+                place: self.before + frame.number,
+                clip: clip.name.clone(),
+                number: frame.number,
+                name: seen.name.to_owned(),
+                active: frame.active,
+                changed: frame.changed,
+                macs: frame.macs,
+                seconds: frame.seconds,
+                relative_rms: frame.relative_rms,
+            });
+        }
+        self.files.outputs.push(self.player.executor())
+    }
+
+    fn end(&mut self, problem: Option<String>) {
+        self.clips.last_mut().expect("a clip has begun").problem = problem;
+    }
+}
+
 impl<'a> Run<'a> {
     pub(crate) fn new(
         design: &'a Design,
-        network: &'a Network,
         player: Player<'a>,
         reference: bool,
         costs: Option<Costs<'a>>,
+        files: Files<'a>,
     ) -> Self {
+        let network = player.network();
         Self {
             design,
             network,
             player,
             reference: reference.then(|| Reference::new(network)),
             costs,
+            files,
             sums: vec![Positions::default(); network.nodes().len()],
             traffic: vec![Traffic::default(); network.nodes().len()],
+            clips: Vec::new(),
+            before: 0,
             rows: Vec::new(),
             counted: Vec::new(),
-            active: 0,
-            changed: 0,
             seconds: 0.0,
             overhead: 0.0,
             not_finite: NotFinite::default(),
         }
     }
 
-    pub(crate) fn step(&mut self, seen: Seen<'_>) {
+    /// Runs the network on a frame, and adds it to the sums if it counts.
+    fn step(&mut self, seen: Seen<'_>) -> Frame {
         let start = Instant::now();
         let work = self.player.step(seen).to_vec();
         let seconds = start.elapsed().as_secs_f64();
-        self.not_finite.look(seen.number, self.network, self.player.executor());
-        let is_counted = self.player.is_counted();
-        let judge = |reference: &mut Reference<'_>| {
-            reference.judge(seen.values, self.player.executor(), is_counted)
-        };
+        let (executor, is_counted) = (self.player.executor(), self.player.is_counted());
+        let clip = &self.clips.last().expect("a clip has begun").name;
+        self.not_finite.look((clip, seen.number), self.network, executor);
+        let judge =
+            |reference: &mut Reference<'_>| reference.judge(seen.values, executor, is_counted);
         let close = self.reference.as_mut().map(judge);
-        let mut own = vec![Positions::default(); work.len()];
-        let mut traffic = Traffic::default();
-        for (node, work) in work.iter().enumerate() {
-            let places = self.network.form(node + 1).places();
-            own[node].add(work, places);
-            let moved = Traffic::of(self.network, self.player.executor(), node);
-            traffic += moved;
-            if is_counted {
-                self.sums[node].add(work, places);
-                self.traffic[node] += moved;
-            }
-        }
+        let layers = Frame::layers(self.network, executor, &work, self.costs.as_ref());
         if is_counted {
-            self.active += seen.active_regions;
-            self.changed += seen.changed_regions;
-            self.seconds += seconds;
+            for (node, layer) in layers.iter().enumerate() {
+                self.sums[node] += layer.positions;
+                self.traffic[node] += layer.traffic;
+            }
             if let Some(costs) = &mut self.costs {
-                costs.add(self.player.executor());
+                costs.add(layers.iter().filter_map(|layer| layer.cost));
             }
-            self.overhead += self.player.executor().overhead().as_secs_f64();
+            self.seconds += seconds;
+            self.overhead += executor.overhead().as_secs_f64();
         }
-        let (macs, traffic) = (macs(self.network, &own), traffic.mean(1));
         let share = |count| ratio(count, u64::from(self.design.regions()));
-        let real = |value: f64| Cell::Real(Some(value));
-        if is_counted {
-            self.counted.push(Counted {
-                number: seen.number,
-                name: seen.name.to_owned(),
-                active: share(seen.active_regions),
-                changed: share(seen.changed_regions),
-                macs,
-                seconds,
-                relative_rms: close.as_ref().map(|close| close.distance.relative()),
-            });
+        Frame {
+            number: seen.number,
+            is_counted,
+            active: share(seen.active_regions),
+            changed: share(seen.changed_regions),
+            macs: Frame::macs(self.network, &layers),
+            seconds,
+            relative_rms: close.map(|close| close.distance.relative()),
+            layers,
         }
-        self.rows.push(
-            [
-                ("frame", Cell::Count(Some(seen.number))),
-                ("name", Cell::Text(seen.name.to_owned())),
-                ("t_us", Cell::Count(Some(seen.time_us))),
-                ("active_share", real(share(seen.active_regions))),
-                ("changed_share", real(share(seen.changed_regions))),
-                ("macs_dense", real(macs.dense)),
-                ("macs_needed", real(macs.needed)),
-                ("macs_scheduled", real(macs.scheduled)),
-                ("read_bytes", real(traffic.read_bytes)),
-                ("halo_bytes", real(traffic.halo_bytes)),
-                ("written_bytes", real(traffic.written_bytes)),
-                ("seconds", real(seconds)),
-                ("relative_rms", Cell::Real(close.map(|close| close.distance.relative()))),
-            ]
-            .map(|(name, cell)| (name.to_owned(), cell))
-            .into(),
-        );
     }
 
-    pub(crate) fn executor(&self) -> &Executor<'a> {
-        self.player.executor()
+    /// Looks at a part of a clip.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub(crate) fn see(&mut self, part: Part<'_>) -> Result<(), InferenceError> {
+        self.begin(part.clip, part.black);
+        part.frames.iter().try_for_each(|kept| self.look(kept.seen()))
     }
 
-    /// What is to be written.
-    pub(crate) fn end(self, told: Told) -> Ended {
+    /// Clips whose frames are missing, with the reasons.
+    pub(crate) fn problems(&self) -> Vec<(String, String)> {
+        let of = |clip: &ClipSums| Some((clip.name.clone(), clip.problem.clone()?));
+        self.clips.iter().filter_map(of).collect()
+    }
+
+    /// Whether a frame counted so far.
+    pub(crate) fn counts(&self) -> bool {
+        !self.counted.is_empty()
+    }
+
+    /// Clips so far.
+    pub(crate) fn clips(&self) -> usize {
+        self.clips.len()
+    }
+
+    /// What is to be written beside the files that grew.
+    ///
+    /// # Errors
+    /// When these cannot be completed.
+    pub(crate) fn end(self, told: Told) -> Result<Ended, InferenceError> {
         let executor = self.player.executor();
         let counted_frames = self.counted.len() as u64;
         let traffic: Vec<_> = self.traffic.iter().map(|sum| sum.mean(counted_frames)).collect();
@@ -165,16 +206,19 @@ impl<'a> Run<'a> {
         );
         let mut all = Traffic::default();
         self.traffic.iter().for_each(|sum| all += *sum);
-        let counted_regions = counted_frames * u64::from(self.design.regions());
+        let clips: Vec<_> = self.clips.iter().map(ClipSums::summary).collect();
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
         let counted = counted_frames.max(1) as f64;
+        let mean = |of: fn(&Counted) -> f64| self.counted.iter().map(of).sum::<f64>() / counted;
         let of_weights = self.network.not_finite().iter().map(|(name, count)| {
             format!(
                 "the weights `{name}` hold {count} infinite values, or such that are no numbers"
             )
         });
-        let warnings = of_weights.chain(self.not_finite.warning(self.network)).collect();
+        let is_one = clips.len() == 1;
+        let warnings = of_weights.chain(self.not_finite.warning(self.network, is_one)).collect();
+        self.files.details.finish()?;
         let summary = Summary {
             format_version: 1,
             foveate_version: env!("CARGO_PKG_VERSION"),
@@ -189,8 +233,8 @@ impl<'a> Run<'a> {
             height: self.design.height(),
             frames: self.rows.len() as u64,
             counted_frames,
-            active_share: ratio(self.active, counted_regions),
-            changed_share: ratio(self.changed, counted_regions),
+            active_share: mean(|counted| counted.active),
+            changed_share: mean(|counted| counted.changed),
             macs: macs(self.network, &self.sums),
             weight_bytes: layers.iter().map(|layer| layer.weight_bytes).sum(),
             kept_bytes: self.network.kept_bytes(),
@@ -208,9 +252,12 @@ impl<'a> Run<'a> {
                 let reference = self.reference.as_ref().expect("what is tuned is compared");
                 Tuning { holds: goal.holds(&reference.outputs), ..tuning }
             }),
-            outputs: told.outputs,
+            outputs: self.files.outputs.finish()?,
+            clips,
+            design: self.design.fingerprint(),
+            configuration: self.design.config().clone(),
             layers,
         };
-        Ended { summary, frames: Table::of(self.rows.into_iter()), counted: self.counted }
+        Ok(Ended { summary, frames: Table::of(self.rows.into_iter()), counted: self.counted })
     }
 }

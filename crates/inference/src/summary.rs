@@ -7,6 +7,7 @@ use crate::cost::{Accelerated, Costs, FrameCost};
 use crate::tally::{Positions, Reference};
 use crate::traffic::FrameTraffic;
 use crate::{Mapping, Recorded};
+use foveate_design::Config;
 use foveate_network::{Executor, Form, Mode, Network};
 use foveate_tables::{Cell, Cells, Table};
 use serde::Serialize;
@@ -66,8 +67,33 @@ pub struct Summary {
     pub tuning: Option<Tuning>,
     /// The files of the outputs, if they are written.
     pub outputs: Vec<Recorded>,
+    /// Every clip or set that is reported, in the order of the frames.
+    pub clips: Vec<Clip>,
+    /// Fingerprint of the design.
+    pub design: String,
+    /// The camera's configuration, with the frame size filled in.
+    pub configuration: Config,
     /// Every layer.
     pub layers: Vec<Layer>,
+}
+
+/// A clip or set. All shares and means are over its counted frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct Clip {
+    /// Its name in tables and charts.
+    pub name: String,
+    /// Frames that were seen.
+    pub frames: u64,
+    /// Frames that are counted.
+    pub counted_frames: u64,
+    /// Share of regions that were active.
+    pub active_share: f64,
+    /// Share of regions whose rendered pixels changed.
+    pub changed_share: f64,
+    /// Multiplications and additions of a frame, as means.
+    pub macs: Macs,
+    /// Why frames are missing, if some are.
+    pub problem: Option<String>,
 }
 
 /// Multiplications and additions per frame.
@@ -139,6 +165,8 @@ impl From<&Closeness> for Outputs {
 pub struct Tuning {
     /// What has to hold, as on the command line.
     pub goal: String,
+    /// The clips whose frames it was tuned on: the first half of several, rounded up, or the only one, of which it was the first half.
+    pub clips: Vec<String>,
     /// Counted frames of the first half, which it was tuned on. All else in the summary is of the second half.
     pub frames: u64,
     /// How often these frames were run.

@@ -8,10 +8,10 @@ use std::ops::AddAssign;
 /// Sums over frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Traffic {
-    read: u64,
-    halo: u64,
-    written: u64,
-    seconds: f64,
+    pub(crate) read: u64,
+    pub(crate) halo: u64,
+    pub(crate) written: u64,
+    pub(crate) seconds: f64,
 }
 
 /// What a frame, or a layer of it, reads and writes beside weights, as a mean over the counted frames. Blocks that are computed beyond what is needed are

@@ -7,9 +7,9 @@
 //! as long as the goal holds and fewer MACs are needed.
 
 use crate::InferenceError;
-use crate::camera::Kept;
+use crate::album::Part;
 use crate::closeness::{Closeness, Goal};
-use crate::player::Player;
+use crate::player::{Player, Way};
 use crate::summary::{Macs, Tried, Tuning, macs};
 use crate::tally::Positions;
 use foveate_footage::{Hooks, Progress};
@@ -40,9 +40,8 @@ struct Trial {
 struct Tuner<'a> {
     network: &'a Network,
     goal: Goal,
-    frames: &'a [Kept],
-    black: Option<&'a [f32]>,
-    /// Outputs of a whole computation, by frame and value.
+    parts: &'a [Part<'a>],
+    /// Outputs of a whole computation, by frame of all parts and by value.
     right: Vec<Vec<Vec<f32>>>,
     runs: u64,
     /// Frames before the first run.
@@ -50,17 +49,16 @@ struct Tuner<'a> {
     hooks: &'a mut dyn Hooks,
 }
 
-/// Tunes on some frames, of which the first does not count where there is no black picture to begin from.
+/// Tunes on parts of clips, of which the first frame does not count where there is no black picture to begin from.
 pub(crate) fn tune(
     network: &Network,
     goal: Goal,
-    frames: &[Kept],
-    black: Option<&[f32]>,
+    parts: &[Part<'_>],
     before: u64,
     hooks: &mut dyn Hooks,
 ) -> Result<Tuned, InferenceError> {
-    let (right, scales) = whole(network, frames);
-    let mut tuner = Tuner { network, goal, frames, black, right, runs: 0, before, hooks };
+    let (right, scales) = whole(network, parts);
+    let mut tuner = Tuner { network, goal, parts, right, runs: 0, before, hooks };
     let exact = tuner.run(vec![0.0; scales.len()])?;
     let together = |power: i32| scales.iter().map(|scale| scale * 2f32.powi(power)).collect();
     let mut uniform = Vec::new();
@@ -87,6 +85,7 @@ pub(crate) fn tune(
     };
     let tuning = Tuning {
         goal: goal.to_string(),
+        clips: parts.iter().map(|part| part.clip.to_owned()).collect(),
         frames: chosen.closeness.frames,
         runs: tuner.runs,
         exact: tried(&exact, Some(0.0)),
@@ -102,10 +101,10 @@ pub(crate) fn tune(
 }
 
 /// The outputs of all frames, and the root mean square of every node's values in the first.
-fn whole(network: &Network, frames: &[Kept]) -> (Vec<Vec<Vec<f32>>>, Vec<f32>) {
+fn whole(network: &Network, parts: &[Part<'_>]) -> (Vec<Vec<Vec<f32>>>, Vec<f32>) {
     let mut dense = Executor::new(network, Mode::Dense);
     let (mut right, mut scales) = (Vec::new(), Vec::new());
-    for kept in frames {
+    for kept in parts.iter().flat_map(|part| part.frames) {
         let seen = kept.seen();
         dense.step(seen.values, seen.changed);
         let nodes = 1..=network.nodes().len();
@@ -134,17 +133,23 @@ fn root_mean_square(values: &[f32]) -> f32 {
 impl Tuner<'_> {
     /// Runs over all frames.
     fn run(&mut self, limits: Vec<f32>) -> Result<Trial, InferenceError> {
-        let mut player = Player::new(Executor::truncating(self.network, &limits), self.black);
+        let mut player = Player::new(self.network, Way::Limits(limits.clone()));
         let mut sums = vec![Positions::default(); limits.len()];
         let mut closeness = Closeness::default();
-        for (number, (kept, right)) in (1..).zip(self.frames.iter().zip(&self.right)) {
+        let frames = self.parts.iter().flat_map(|part| {
+            part.frames.iter().enumerate().map(move |(at, kept)| (part, at == 0, kept))
+        });
+        for (number, ((part, is_first, kept), right)) in (1..).zip(frames.zip(&self.right)) {
             if self.hooks.cancelled() {
                 return Err(InferenceError::Cancelled);
+            }
+            if is_first {
+                player.begin(part.black);
             }
             let work = player.step(kept.seen()).to_vec();
             if player.is_counted() {
                 for (node, (sums, work)) in sums.iter_mut().zip(&work).enumerate() {
-                    sums.add(work, self.network.form(node + 1).places());
+                    *sums += Positions::of(work, self.network.form(node + 1).places());
                 }
                 closeness.add(&Closeness::of(
                     self.network,
@@ -152,7 +157,7 @@ impl Tuner<'_> {
                     player.executor(),
                 ));
             }
-            let done = self.before + self.runs * self.frames.len() as u64 + number;
+            let done = self.before + self.runs * self.right.len() as u64 + number;
             self.hooks.progress(Progress { done, total: None });
         }
         self.runs += 1;

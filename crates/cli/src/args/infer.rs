@@ -20,14 +20,16 @@ use crate::error::CliError;
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --mode truncate=0.01
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --accelerator eyeriss
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --outputs npy,png
+          foveate infer denoiser.onnx scene:street scene:shake -o out --max-frames 8
           foveate infer resnet50.onnx street.mp4 -o out --resize 224x224 --mean 0.485,0.456,0.406 --scale 0.229,0.224,0.225")]
 pub(crate) struct InferArgs {
     /// The network: an ONNX file whose input is [1, channels, height, width], with 1 or 3 channels
     #[arg(value_name = "MODEL")]
     pub(crate) network: PathBuf,
-    /// A clip or a set of images, as of `foveate simulate`
+    /// Clips and sets of images of one size, as of `foveate simulate`: image files together are one clip, every
+    /// other input is one of its own
     #[arg(value_name = "INPUT", required = true)]
-    pub(crate) inputs: Vec<String>,
+    pub(crate) inputs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
     /// Folder to write
@@ -38,8 +40,8 @@ pub(crate) struct InferArgs {
     /// lies under changed regions
     #[arg(long, value_name = "MODE", default_value = "exact", value_parser = parse_mode)]
     pub(crate) mode: Mode,
-    /// Choose a limit for every layer on the first half of the frames, so that the outputs stay close to those
-    /// of a whole computation, and report the second half: agreement=P%, in P % of frames the largest output is
+    /// Choose a limit for every layer on the first half of the clips, rounded up, or of the frames of the only
+    /// clip, so that the outputs stay close to those of a whole computation, and report the second half: agreement=P%, in P % of frames the largest output is
     /// the same; cosine=C, between all outputs; psnr=D, in decibels; variation=P%, the error is at most P % of
     /// how the outputs vary over the frames
     #[arg(long, value_name = "GOAL", conflicts_with = "mode", value_parser = parse_goal)]

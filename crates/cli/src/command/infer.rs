@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foveate_footage::{ImagesAs, open};
-use foveate_inference::{Inference, Options, Summary};
+use foveate_footage::ImagesAs;
+use foveate_inference::{Clip, Inference, Options, Summary, Tuning};
 use indicatif::DecimalBytes;
 
 use super::simulate::Terminal;
@@ -17,8 +17,7 @@ use crate::output;
 pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
     let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
     warn_of(&args.inputs, &input);
-    let source = open(&args.inputs, &config, &input)?;
-    let inference = Inference::new(&config, &args.network, source)?;
+    let inference = Inference::new(&config, &args.network, &args.inputs, &input)?;
     let options = Options {
         computed: args.computed(),
         accelerator: args.accelerator()?,
@@ -47,6 +46,69 @@ fn command(words: &[OsString]) -> Vec<String> {
     std::iter::once("foveate".to_owned()).chain(words).collect()
 }
 
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// A line for each of several clips.
+fn clips(summary: &Summary) -> String {
+    if summary.clips.len() == 1 {
+        return String::new();
+    }
+    let line = |clip: &Clip| {
+        let macs = &clip.macs;
+        let result = if clip.counted_frames == 0 {
+            "none of them counted".to_owned()
+        } else {
+            format!(
+                "regions active {}, changed {}; MACs needed {}",
+                percent(clip.active_share),
+                percent(clip.changed_share),
+                percent(macs.share(macs.needed))
+            )
+        };
+        let problem = clip.problem.as_ref().map(|problem| format!(", NOT COMPLETE: {problem}"));
+        format!(
+            "  {}: {} frames, {result}{}\n",
+            clip.name,
+            clip.frames,
+            problem.unwrap_or_default()
+        )
+    };
+    summary.clips.iter().map(line).collect()
+}
+
+/// How limits were chosen, and whether they hold.
+fn tuned(tuning: &Tuning, summary: &Summary) -> String {
+    let reported: Vec<&str> = summary.clips.iter().map(|clip| &clip.name[..]).collect();
+    let on = tuning.clips.join(", ");
+    // The only clip is on both sides.
+    let (frames, these) = if reported == [&on] {
+        ("counted frames before these".to_owned(), "these frames".to_owned())
+    } else {
+        (format!("counted frames of {on}"), reported.join(", "))
+    };
+    let held = if tuning.holds {
+        format!("is reached on {these}, too")
+    } else {
+        format!("is missed on {these}")
+    };
+    let frozen = if tuning.frozen.holds {
+        "           outputs that never change after the first frame reach it as well, so it says little; try variation=10%\n"
+    } else {
+        ""
+    };
+    format!(
+        "tuned      on {} {frames}, in {} runs; there {} of the MACs were needed, {} without a limit\n\
+         goal       {} {held}\n{frozen}",
+        tuning.frames,
+        tuning.runs,
+        percent(tuning.chosen.needed_share),
+        percent(tuning.exact.needed_share),
+        tuning.goal
+    )
+}
+
 fn text(folder: &Path, summary: &Summary) -> String {
     let mut text = format!(
         "{}: {} frames of {} x {} pixels, mode {}\n",
@@ -60,25 +122,9 @@ fn text(folder: &Path, summary: &Summary) -> String {
         text.push_str("the only frame was computed whole; savings begin with a second one\n");
         return text;
     }
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    text.push_str(&clips(summary));
     if let Some(tuning) = &summary.tuning {
-        let _ = writeln!(
-            text,
-            "tuned      on {} counted frames before these, in {} runs; there {} of the MACs were needed, {} without a limit",
-            tuning.frames,
-            tuning.runs,
-            percent(tuning.chosen.needed_share),
-            percent(tuning.exact.needed_share)
-        );
-        let held = if tuning.holds {
-            "is reached on these frames, too"
-        } else {
-            "is missed on these frames"
-        };
-        let _ = writeln!(text, "goal       {} {held}", tuning.goal);
-        if tuning.frozen.holds {
-            text.push_str("           outputs that never change after the first frame reach it as well, so it says little; try variation=10%\n");
-        }
+        text.push_str(&tuned(tuning, summary));
     }
     let _ = writeln!(
         text,

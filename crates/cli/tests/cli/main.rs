@@ -15,6 +15,7 @@ mod full_disk;
 mod hardware;
 mod help;
 mod infer;
+mod infer_clips;
 mod infer_files;
 mod inputs;
 mod link;

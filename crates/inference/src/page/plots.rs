@@ -11,13 +11,19 @@ const MANY: usize = 80;
 
 /// A chart. `titles` has the figures of every id; `note` says what is left out of the frames.
 pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> Plot {
-    let Shape::Lines(lines) = &drawn.chart.shape else { return Plot::default() };
+    let (lines, is_joined) = match &drawn.chart.shape {
+        Shape::Lines(lines) => (lines, true),
+        Shape::Points(points) => (points, false),
+        _ => return Plot::default(),
+    };
     let xs = || lines.iter().flat_map(|line| line.points.iter().map(|&(x, _)| x));
     let ys = || lines.iter().flat_map(|line| line.points.iter().map(|&(_, y)| y));
-    let is_frames = drawn.chart.file == "frames";
+    let is_frames = ["frames", "saved"].contains(&&drawn.chart.file[..]);
     let is_tuning = drawn.chart.file == "tuning";
     let field = if is_tuning {
         Field { x: Axis::even(xs().chain([0.0])), y: Axis::from_zero(ys()) }
+    } else if !is_joined {
+        Field { x: Axis::even(xs().chain([0.0])), y: Axis::even(ys().chain([0.0])) }
     } else {
         Field { x: Axis::even(xs()), y: Axis::even(ys().chain([0.0])) }
     };
@@ -34,7 +40,7 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
         y_ticks: field.y_ticks(),
         ..Plot::default()
     };
-    if !is_tuning {
+    if !is_tuning && is_joined {
         // Layers and frames are whole.
         plot.x_ticks.retain(|tick| !tick.label.contains('.'));
     }
@@ -58,8 +64,9 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
             });
         }
         // A line below another one shows through its gaps.
-        let class = if index % 2 == 1 { class + " dashed" } else { class };
-        plot.lines.push(Line { path: through(&places), class, shape, label: line.name.clone() });
+        let class = if is_joined && index % 2 == 1 { class + " dashed" } else { class };
+        let path = if is_joined { through(&places) } else { String::new() };
+        plot.lines.push(Line { path, class, shape, label: line.name.clone() });
     }
     let is_many = lines.iter().any(|line| line.points.len() > MANY);
     rings(&mut plot.marks, if is_many { 0.5 } else { 1.0 });

@@ -163,9 +163,40 @@ fn layer_title(number: usize, layer: &Layer) -> String {
     title
 }
 
+/// A row per clip.
+pub(super) fn clips(summary: &Summary) -> Rows {
+    let mut rows = Rows::new(vec![
+        ("clip", "", "the clip or set", false),
+        ("frames", "", "frames that were seen", true),
+        ("counted", "", "frames that are in the means", true),
+        ("active", "% of regions", "regions that were active", true),
+        ("changed", "% of regions", "regions whose rendered pixels changed", true),
+        ("needed", "% of MACs", "MACs whose windows hold a change", true),
+        ("computed", "% of MACs", "MACs that were computed, in whole blocks", true),
+        ("problem", "", "why frames are missing", false),
+    ]);
+    for (number, clip) in (0..).zip(&summary.clips) {
+        let counted = |share: f64| {
+            if clip.counted_frames > 0 { Cell::share(share) } else { Cell::none() }
+        };
+        let cells = vec![
+            Cell::words(clip.name.clone()),
+            Cell::count(clip.frames),
+            Cell::count(clip.counted_frames),
+            counted(clip.active_share),
+            counted(clip.changed_share),
+            counted(clip.macs.share(clip.macs.needed)),
+            counted(clip.macs.share(clip.macs.scheduled)),
+            Cell::words(clip.problem.clone().unwrap_or_default()),
+        ];
+        rows.push(format!("c{number}"), number, cells, String::new());
+    }
+    rows
+}
+
 /// A row per frame that is shown.
 pub(super) fn frames(frames: &[Counted], summary: &Summary) -> Rows {
-    let compared = summary.error.is_some();
+    let (compared, several) = (summary.error.is_some(), summary.clips.len() > 1);
     let mut headings = vec![
         ("name", "", "the frame in its input", false),
         ("active", "% of regions", "regions that were active", true),
@@ -182,6 +213,9 @@ pub(super) fn frames(frames: &[Counted], summary: &Summary) -> Rows {
             true,
         ));
     }
+    if several {
+        headings.insert(0, ("clip", "", "the clip or set of the frame", false));
+    }
     let mut rows = Rows::new(headings);
     for frame in frames {
         let of = |macs| frame.macs.share(macs);
@@ -193,8 +227,12 @@ pub(super) fn frames(frames: &[Counted], summary: &Summary) -> Rows {
             Cell::share(of(frame.macs.scheduled)),
             Cell::number(real(1e3 * frame.seconds, 2), Some(frame.seconds)),
         ];
+        let clip = if several { format!(" of {}", frame.clip) } else { String::new() };
+        if several {
+            cells.insert(0, Cell::words(frame.clip.clone()));
+        }
         let mut title = format!(
-            "Frame {}: {}\n{} of the MACs needed, {} computed\n{} of the regions changed, {} active\n{}",
+            "Frame {}{clip}: {}\n{} of the MACs needed, {} computed\n{} of the regions changed, {} active\n{}",
             frame.number,
             frame.name,
             share(of(frame.macs.needed)),
@@ -210,7 +248,7 @@ pub(super) fn frames(frames: &[Counted], summary: &Summary) -> Rows {
                 frame.relative_rms.map_or_else(String::new, error)
             );
         }
-        rows.push(frame_id(frame.number), frame.number, cells, title);
+        rows.push(frame_id(frame.place), frame.number, cells, title);
     }
     rows
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 use super::*;
 use crate::cost::{Accelerated, FrameCost};
-use crate::summary::{Error, Macs, Outputs, Tried, Tuning};
+use crate::summary::{Clip, Error, Macs, Outputs, Tried, Tuning};
 use crate::{FrameTraffic, Layer, Mapping, Recorded};
 use foveate_design::Config;
 use foveate_page::browser::{Tip, chromium, probe};
@@ -62,6 +62,61 @@ fn layer(number: u32) -> Layer {
     }
 }
 
+fn clip(name: &str, counted: u32) -> Clip {
+    Clip {
+        name: name.to_owned(),
+        frames: u64::from(counted) + 1,
+        counted_frames: counted.into(),
+        active_share: 0.07,
+        changed_share: 0.08,
+        macs: Macs { dense: 100.0, needed: 12.5, scheduled: 13.5, whole: 100.0 },
+        problem: None,
+    }
+}
+
+/// A run over three clips, the last of which has broken off at its first frame. Limits were chosen on two others.
+fn of_clips() -> Sample {
+    let mut sample = sample(20);
+    let names = ["a", "b", "c"];
+    sample.0.inputs = names.map(|name| format!("{name}.mp4")).to_vec();
+    sample.0.clips = vec![clip("a", 10), clip("b", 10), clip("c", 0)];
+    sample.0.clips[2].problem = Some("it was interrupted".to_owned());
+    sample.0.problem = Some("`c`: it was interrupted; clips that were not begun: 2".to_owned());
+    sample.0.tuning.as_mut().unwrap().clips = vec!["x".to_owned(), "y".to_owned()];
+    for (place, frame) in (1..).zip(&mut sample.1) {
+        let (clip, before) = if place < 11 { ("a", 0) } else { ("b", 11) };
+        clip.clone_into(&mut frame.clip);
+        (frame.place, frame.number) = (place + before / 11, place + before / 11 - before);
+    }
+    sample
+}
+
+#[test]
+fn several_clips_have_a_table_and_their_frames_names() {
+    let sample = of_clips();
+    let page = rendered(&sample);
+    let document = tree(&page);
+    assert_eq!(sorted_by(&document, "pc0")[1..7], ["a", "11", "10", "0.07", "0.08", "0.125"]);
+    assert_eq!(sorted_by(&document, "pc2")[4..8], ["", "", "", ""]);
+    assert!(sorted_by(&document, "pc2").contains(&"it was interrupted"));
+    // The first frame of the second clip, at place 11, is not counted.
+    assert!(by_id(&document, "pf11").is_none());
+    assert_eq!(sorted_by(&document, "pf12")[..2], ["1", "b"]);
+    for text in [
+        "frame, clip after clip",
+        "MACs saved [%]",
+        "</span>a</li>",
+        "Frame 1 of b: ",
+        "2 clips to choose limits on, then 3 other clips, which are reported",
+        "counted frames of x, y, in 21 runs",
+        "`c`: it was interrupted; clips that were not begun: 2",
+        "chosen on the first half of the clips",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+    assert!(!rendered(&self::sample(3)).contains("id=\"clips\""), "one clip needs no table");
+}
+
 /// A run that never was, with everything that a page can show.
 fn sample(frames: u32) -> Sample {
     let macs = Macs { dense: 140_894_208.0, needed: 14e6, scheduled: 15e6, whole: 141e6 };
@@ -120,6 +175,7 @@ fn sample(frames: u32) -> Sample {
         }),
         tuning: Some(Tuning {
             goal: "psnr=40".to_owned(),
+            clips: vec!["street".to_owned()],
             frames: 14,
             runs: 21,
             exact: tried(Some(0.0), 0.1, 0.0),
@@ -135,11 +191,16 @@ fn sample(frames: u32) -> Sample {
             array: Some("outputs/output.npy".to_owned()),
             pictures: Some("outputs/output".to_owned()),
         }],
+        clips: vec![clip("street", frames)],
+        design: "0123456789abcdef".to_owned(),
+        configuration: Config::default(),
         layers: (0..5).map(layer).collect(),
     };
     let frame = |number: u32| {
         let share = 0.05 + 0.04 * f64::from(number * 37 % 11) / 11.0;
         Counted {
+            place: u64::from(number) + 1,
+            clip: "street".to_owned(),
             number: u64::from(number) + 1,
             name: format!("frame {number}"),
             active: share,
@@ -228,12 +289,12 @@ fn every_figure_is_there() {
             [tried.needed_share, tried.outputs.rms_of_variation].map(|value| value.to_string())
         );
     }
-    // Two lines over the layers with MACs, three over the frames, and every run of the tuning.
+    // Two lines over the layers with MACs, three over the frames, a mark for what each frame saves, and every run of the tuning.
     let marks = document
         .descendants()
         .filter(|node| node.tag_name().name() == "a" && node.has_attribute("data-n"));
     let marks: Vec<Node<'_, '_>> = marks.collect();
-    assert_eq!(marks.len(), 2 * 4 + 3 * 29 + all.len());
+    assert_eq!(marks.len(), 2 * 4 + (3 + 1) * 29 + all.len());
     for mark in marks {
         let (row, id) = (mark.attribute("href").unwrap(), mark.attribute("data-n").unwrap());
         assert_eq!(row, format!("#p{id}"));
@@ -360,6 +421,7 @@ fn hard() -> Vec<(&'static str, Sample)> {
         ("one", flat),
         ("no-layers", empty),
         ("many", sample(5000)),
+        ("clips", of_clips()),
         ("all", sample(29)),
     ]
 }
@@ -391,7 +453,7 @@ fn pictures_have_numbers_whatever_the_data() {
         }
         assert_eq!(page.contains("id=\"plots\""), name != "none");
         assert_eq!(page.contains("nothing is saved"), name == "dense");
-        assert_eq!(page.contains("Not complete"), name == "odd");
+        assert_eq!(page.contains("Not complete"), ["odd", "clips"].contains(&name));
         assert_eq!(page.contains("<small>PSNR infinite</small>"), name == "exact");
         assert_eq!(page.contains("The only frame was computed whole"), name == "none");
     }
@@ -449,7 +511,7 @@ fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
         // Layers, runs of the tuning, frames.
         assert_eq!(found["rows"], 5 + 15 + 29, "{width}: {found}");
         assert_eq!((&found["hidden"], &found["wider"]), (&0.into(), &0.into()), "{width}: {found}");
-        assert_eq!((&found["told"], &found["plots"]), (&3.into(), &3.into()), "{width}: {found}");
+        assert_eq!((&found["told"], &found["plots"]), (&4.into(), &4.into()), "{width}: {found}");
         assert!(found["mark"].as_f64().unwrap() > 7.0, "{width}: {found}");
         // Narrower windows scroll, and say so.
         assert_eq!(found["cut"] == 0, width >= 1280, "{width}: {found}");

@@ -18,8 +18,13 @@ pub(super) fn title(summary: &Summary) -> String {
 }
 
 fn inputs(summary: &Summary) -> String {
-    let more = summary.inputs.len().saturating_sub(NAMED);
-    let named = summary.inputs[..summary.inputs.len() - more].join(", ");
+    some(&summary.inputs)
+}
+
+/// A few names, and how many more there are.
+fn some(names: &[String]) -> String {
+    let more = names.len().saturating_sub(NAMED);
+    let named = names[..names.len() - more].join(", ");
     if more > 0 { format!("{named} and {more} more") } else { named }
 }
 
@@ -27,15 +32,36 @@ fn inputs(summary: &Summary) -> String {
 pub(super) fn run(summary: &Summary, design: &Design) -> String {
     let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
     format!(
-        "The network {} ran on {} of {}, as a camera with {} shows them, in mode {}: {}. {}",
+        "The network {} ran on {} of {}{}, as a camera with {} shows them, in mode {}: {}. {}",
         summary.network,
         things(frames, "frame"),
         inputs(summary),
+        clips(summary),
         camera(design),
         summary.mode,
         mode(summary),
         mapped(&summary.mapping)
     )
+}
+
+/// How many clips there are, if there are several, and which of them are reported.
+fn clips(summary: &Summary) -> String {
+    let reported = summary.clips.len();
+    match summary.tuning.as_ref().filter(|tuning| is_tuned_on_clips(summary, tuning)) {
+        Some(tuning) => format!(
+            " ({} to choose limits on, then {}, which {} reported)",
+            things(tuning.clips.len(), "clip"),
+            things(reported, "other clip"),
+            if reported == 1 { "is" } else { "are" }
+        ),
+        None if reported > 1 => format!(" ({reported} clips)"),
+        None => String::new(),
+    }
+}
+
+/// Whether limits were chosen on other clips than those that are reported.
+fn is_tuned_on_clips(summary: &Summary, tuning: &Tuning) -> bool {
+    tuning.clips.iter().all(|name| summary.clips.iter().all(|clip| clip.name != *name))
 }
 
 /// How pixels become inputs of the network.
@@ -82,7 +108,12 @@ fn mode(summary: &Summary) -> String {
             "in every layer the positions under changed regions are computed again".to_owned()
         }
         _ => format!(
-            "{again} a change above the limit of its layer, which was chosen on the first half of the frames"
+            "{again} a change above the limit of its layer, which was chosen on the first half of the {}",
+            if summary.tuning.as_ref().is_some_and(|tuning| is_tuned_on_clips(summary, tuning)) {
+                "clips"
+            } else {
+                "frames"
+            }
         ),
     }
 }
@@ -90,6 +121,9 @@ fn mode(summary: &Summary) -> String {
 /// Why the run is not complete.
 pub(super) fn problems(summary: &Summary) -> Vec<String> {
     let problem = summary.problem.iter();
+    if summary.clips.len() > 1 {
+        return problem.cloned().collect();
+    }
     let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
     problem.map(|problem| format!("{problem}, after {}", things(frames, "frame"))).collect()
 }
@@ -135,7 +169,7 @@ pub(super) fn findings(summary: &Summary) -> Vec<String> {
     ];
     found.extend(accelerated(summary));
     found.extend(compared(summary));
-    found.extend(summary.tuning.as_ref().map(tuned));
+    found.extend(summary.tuning.as_ref().map(|tuning| tuned(summary, tuning)));
     found
 }
 
@@ -213,7 +247,7 @@ fn compared(summary: &Summary) -> Option<String> {
     ))
 }
 
-fn tuned(tuning: &Tuning) -> String {
+fn tuned(summary: &Summary, tuning: &Tuning) -> String {
     let held = if tuning.holds { "is reached" } else { "is missed" };
     let frozen = if tuning.frozen.holds {
         " Outputs that never change after the first frame reach it as well, so it says little."
@@ -221,8 +255,13 @@ fn tuned(tuning: &Tuning) -> String {
         ""
     };
     format!(
-        "The limits were chosen on {} before these, in {} runs; there they needed {} of the MACs, and {} without a limit. The goal {} {held} on these frames.{frozen}",
+        "The limits were chosen on {} {}, in {} runs; there they needed {} of the MACs, and {} without a limit. The goal {} {held} on these frames.{frozen}",
         things(usize::try_from(tuning.frames).unwrap_or(usize::MAX), "counted frame"),
+        if is_tuned_on_clips(summary, tuning) {
+            format!("of {}", some(&tuning.clips))
+        } else {
+            "before these".to_owned()
+        },
         grouped(tuning.runs),
         share(tuning.chosen.needed_share),
         share(tuning.exact.needed_share),

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The clips of a run: all of one size, shown to a camera of their own one after the other.
+
+use crate::camera::{Camera, Seen};
+use crate::{InferenceError, Mapping};
+use foveate_design::{Config, Design};
+use foveate_footage::{
+    FootageError, Hooks, InputOptions, Progress, Source, Subject, is_read_once, open, read_ahead,
+    subjects,
+};
+use foveate_network::Form;
+use std::path::PathBuf;
+
+/// Clips and sets.
+pub(crate) struct Clips {
+    subjects: Vec<Subject>,
+    config: Config,
+    input: InputOptions,
+    /// The only clip, open already: it may be one that cannot be opened twice.
+    only: Option<Box<dyn Source>>,
+    /// Width and height.
+    pub(crate) size: (u32, u32),
+    /// Frames of all, if that is known.
+    frames: Option<u64>,
+}
+
+/// Who looks at the frames of clips.
+pub(crate) trait Audience {
+    /// A clip or set begins, a set with the picture before each of its images.
+    fn begin(&mut self, clip: &str, black: Option<&[f32]>);
+
+    /// The next frame of it.
+    fn look(&mut self, seen: Seen<'_>) -> Result<(), InferenceError>;
+
+    /// It is over, and this is why frames are missing, if some are.
+    fn end(&mut self, problem: Option<String>);
+}
+
+/// A camera for every clip, and how far they are.
+pub(crate) struct Showing<'a> {
+    pub(crate) design: &'a Design,
+    pub(crate) input: &'a Form,
+    pub(crate) mapping: &'a Mapping,
+    pub(crate) clips: &'a mut Clips,
+    /// Frames that are done.
+    pub(crate) done: u64,
+}
+
+/// Why there are no more frames of a clip.
+const INTERRUPTED: &str = "it was interrupted";
+
+impl Clips {
+    /// Looks at all of them: image files together are one clip, every other input is one of its own.
+    pub(crate) fn new(
+        inputs: &[PathBuf],
+        config: &Config,
+        input: &InputOptions,
+    ) -> Result<Self, InferenceError> {
+        let subjects = subjects(inputs, input)?;
+        let several = subjects.len() > 1;
+        let mut found = Self {
+            subjects: Vec::new(),
+            config: config.clone(),
+            input: input.clone(),
+            only: None,
+            size: (0, 0),
+            frames: Some(0),
+        };
+        for subject in subjects {
+            if let Some(once) = subject.inputs.iter().find(|input| several && is_read_once(input)) {
+                return Err(InferenceError::ReadOnce { input: once.display().to_string() });
+            }
+            let source = open(&subject.inputs, config, input)?;
+            let size = source.size();
+            match found.subjects.first() {
+                None => found.size = size,
+                Some(_) if size == found.size => {}
+                Some(first) => {
+                    return Err(InferenceError::Sizes {
+                        first: first.name.clone(),
+                        first_size: found.size,
+                        other: subject.name,
+                        other_size: size,
+                    });
+                }
+            }
+            found.frames = found.frames.zip(source.frames()).map(|(all, own)| all + own);
+            // A decoder is a process: those of many clips are not kept.
+            found.only = (!several).then_some(source);
+            found.subjects.push(subject);
+        }
+        Ok(found)
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.subjects.len()
+    }
+
+    /// The inputs of every clip as they were named.
+    pub(crate) fn inputs(&self) -> Vec<String> {
+        let all = self.subjects.iter().flat_map(|subject| &subject.inputs);
+        all.map(|input| input.display().to_string()).collect()
+    }
+
+    fn open(&mut self, clip: usize) -> Result<Box<dyn Source>, InferenceError> {
+        let opened = self
+            .only
+            .take()
+            .map_or_else(|| open(&self.subjects[clip].inputs, &self.config, &self.input), Ok);
+        Ok(opened?)
+    }
+}
+
+impl Showing<'_> {
+    /// Shows some of the clips, until the end or `hooks` cancels. Returns whether all were shown.
+    ///
+    /// # Errors
+    /// When a frame cannot be read, a clip has none, and when `hooks` cancels before the first frame of all.
+    pub(crate) fn show(
+        &mut self,
+        clips: std::ops::Range<usize>,
+        hooks: &mut dyn Hooks,
+        audience: &mut dyn Audience,
+    ) -> Result<bool, InferenceError> {
+        for clip in clips {
+            if self.done > 0 && hooks.cancelled() {
+                return Ok(false);
+            }
+            let mut source = self.clips.open(clip)?;
+            let kind = source.kind();
+            let mut camera = Camera::new(self.design, self.input, self.mapping, kind);
+            audience.begin(&self.clips.subjects[clip].name, camera.black());
+            let before = self.done;
+            let ended = self.watch(source.as_mut(), &mut camera, hooks, audience)?;
+            match (ended, self.done - before) {
+                (false, 0) if before == 0 => return Err(InferenceError::Cancelled),
+                (true, 0) => {
+                    let inputs = source.inputs().join(", ");
+                    return Err(FootageError::NoFrames { inputs }.into());
+                }
+                (false, _) => {
+                    audience.end(Some(INTERRUPTED.to_owned()));
+                    return Ok(false);
+                }
+                (true, _) => audience.end(source.problem()),
+            }
+        }
+        Ok(true)
+    }
+
+    /// Shows the camera every frame. Returns whether that was all of them.
+    fn watch(
+        &mut self,
+        source: &mut dyn Source,
+        camera: &mut Camera,
+        hooks: &mut dyn Hooks,
+        audience: &mut dyn Audience,
+    ) -> Result<bool, InferenceError> {
+        let total = self.clips.frames;
+        read_ahead(source, |frames| {
+            while let Some(current) = frames.next()? {
+                if hooks.cancelled() {
+                    return Ok(false);
+                }
+                audience.look(camera.see(&current)?)?;
+                frames.give_back(current);
+                self.done += 1;
+                hooks.progress(Progress { done: self.done, total });
+            }
+            Ok(true)
+        })
+    }
+}

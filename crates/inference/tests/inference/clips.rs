@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Several clips in one run: each is as it is alone, and the totals are those of all.
+
+use crate::common::{Row, Run, is_counted, near, number, rows, text};
+use foveate_footage::{Hooks, Progress};
+use foveate_inference::{Computed, Goal};
+use foveate_network::Mode;
+
+/// Bytes of the values of an array: all behind its header.
+fn values(folder: &std::path::Path) -> Vec<u8> {
+    std::fs::read(folder.join("out/outputs/clean.npy")).unwrap()[128..].to_vec()
+}
+
+/// The rows of a run, without the time that it took.
+fn timeless(rows: Vec<Row>) -> Vec<Row> {
+    let strip = |mut row: Row| {
+        row.remove("seconds");
+        row
+    };
+    rows.into_iter().map(strip).collect()
+}
+
+/// Frames, layers and outputs of a run over clips are those of a run over each, one after the other.
+#[test]
+fn every_clip_is_as_it_is_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    for mode in [Mode::Exact, Mode::Compare, Mode::Truncate(0.05), Mode::Fixed] {
+        let all = ["scene:street", "scene:shake", "scene:fade"];
+        let run = |inputs: &[&str]| {
+            let computed = Computed::Mode(mode);
+            let run = Run { inputs, computed, accelerator: Some("eyeriss"), ..Run::default() };
+            let summary = run.write(dir.path()).unwrap();
+            let tables = ["frames.parquet", "layers_frames.parquet"];
+            let tables = tables.map(|table| timeless(rows(dir.path(), table)));
+            (summary, tables, values(dir.path()))
+        };
+        let (together, tables, found) = run(&all);
+        let (mut expected, mut outputs, mut needed) = ([Vec::new(), Vec::new()], Vec::new(), 0.0);
+        for (clip, told) in all.iter().zip(&together.clips) {
+            let (alone, [frames, details], values) = run(&[clip]);
+            expected[0].extend(frames);
+            expected[1].extend(details);
+            outputs.extend(values);
+            needed += alone.macs.needed;
+            assert_eq!(format!("scene:{}", told.name), *clip);
+            assert_eq!((told.frames, told.counted_frames), (4, 3));
+            assert!(near(told.macs.needed, alone.macs.needed), "{mode:?}: {clip}");
+            assert!(near(told.changed_share, alone.changed_share), "{mode:?}: {clip}");
+            assert_eq!(alone.clips.len(), 1);
+        }
+        assert_eq!(tables, expected, "{mode:?}");
+        assert!(found == outputs, "{mode:?}");
+        assert_eq!((together.frames, together.counted_frames), (12, 9));
+        assert!(near(together.macs.needed, needed / 3.0), "{mode:?}");
+    }
+}
+
+/// Limits are chosen on the first half of the clips, rounded up, and nothing but the others is reported.
+#[test]
+fn limits_of_some_clips_are_reported_on_the_others() {
+    let dir = tempfile::tempdir().unwrap();
+    let computed = Computed::Tuned(Goal::Variation(0.3));
+    let all = ["scene:street", "scene:shake", "scene:fade"];
+    let run = |inputs, frames| Run { inputs, frames, computed, ..Run::default() };
+    let summary = run(&all, 3).write(dir.path()).unwrap();
+    let tuning = summary.tuning.as_ref().unwrap();
+    assert_eq!(
+        (&tuning.clips[..], tuning.frames),
+        (&["street", "shake"].map(str::to_owned)[..], 4)
+    );
+    let frames = rows(dir.path(), "frames.parquet");
+    assert!(frames.iter().all(|row| text(row, "clip") == "fade"));
+    assert_eq!(frames.iter().map(|row| number(row, "frame")).collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
+    assert_eq!((summary.frames, summary.counted_frames, summary.clips.len()), (3, 2, 1));
+    assert_eq!(summary.inputs, all);
+    // The limits are the same whatever comes after the clips that they are chosen on.
+    let limits = |inputs| {
+        let summary = run(inputs, 3).write(dir.path()).unwrap();
+        summary.layers.iter().map(|layer| layer.limit).collect::<Vec<_>>()
+    };
+    let chosen: Vec<_> = summary.layers.iter().map(|layer| layer.limit).collect();
+    assert!(chosen.iter().flatten().any(|&limit| limit > 0.0));
+    assert_eq!(limits(&["scene:street", "scene:shake", "scene:zero", "scene:flicker"]), chosen);
+    let error = run(&all, 1).write(dir.path()).unwrap_err().to_string();
+    assert!(error.starts_with("no frame of the clips that it tunes on counts"), "{error}");
+}
+
+/// Stops after some frames.
+struct Stop {
+    after: u64,
+    done: u64,
+}
+
+impl Hooks for Stop {
+    fn progress(&mut self, progress: Progress) {
+        assert_eq!(progress.total, Some(12), "frames of all clips");
+        self.done = progress.done;
+    }
+
+    fn cancelled(&self) -> bool {
+        self.done >= self.after
+    }
+}
+
+/// An interrupted run keeps what was done, and says which clip broke off and how many were never begun.
+#[test]
+fn an_interrupted_run_keeps_the_clips_before() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = Run { inputs: &["scene:street", "scene:shake", "scene:fade"], ..Run::default() };
+    for (after, clips, problem) in [
+        (4, 1, "clips that were not begun: 2"),
+        (6, 2, "`shake`: it was interrupted; clips that were not begun: 1"),
+        (10, 3, "`fade`: it was interrupted"),
+    ] {
+        let summary = run.watched(dir.path(), &mut Stop { after, done: 0 }).unwrap();
+        assert_eq!(summary.problem.as_deref(), Some(problem), "{after}");
+        assert_eq!((summary.frames, summary.clips.len()), (after, clips), "{after}");
+        let frames = rows(dir.path(), "frames.parquet");
+        assert_eq!(frames.len() as u64, after);
+        assert_eq!(frames.iter().filter(|row| !is_counted(row)).count(), clips);
+        assert!(
+            rows(dir.path(), "layers_frames.parquet").len() as u64
+                == after * summary.layers.len() as u64
+        );
+    }
+    let nothing = run.watched(dir.path(), &mut Stop { after: 0, done: 0 }).unwrap_err();
+    assert_eq!(nothing.to_string(), "interrupted; nothing was written");
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs the denoiser that is shipped, and reads tables again.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use foveate_design::Config;
+use foveate_footage::{Hooks, InputOptions, Silent};
+use foveate_inference::{
+    Computed, Inference, InferenceError, Mapping, Options, Record, Summary, read_accelerator,
+};
+use foveate_network::Mode;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+
+const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
+
+/// A run with so many frames of every scene.
+pub(crate) struct Run<'a> {
+    pub(crate) inputs: &'a [&'a str],
+    pub(crate) frames: u32,
+    pub(crate) computed: Computed,
+    pub(crate) accelerator: Option<&'a str>,
+    pub(crate) reference: bool,
+}
+
+impl Default for Run<'_> {
+    fn default() -> Self {
+        Self {
+            inputs: &["scene:street"],
+            frames: 4,
+            computed: Computed::Mode(Mode::Exact),
+            accelerator: None,
+            reference: false,
+        }
+    }
+}
+
+impl Run<'_> {
+    /// Writes `out` in `folder`. Frames have 64x48 pixels.
+    pub(crate) fn write(&self, folder: &Path) -> Result<Summary, InferenceError> {
+        self.watched(folder, &mut Silent)
+    }
+
+    pub(crate) fn watched(
+        &self,
+        folder: &Path,
+        hooks: &mut dyn Hooks,
+    ) -> Result<Summary, InferenceError> {
+        let mut config = Config::default();
+        (config.frame.width, config.frame.height) = (Some(64), Some(48));
+        let input = InputOptions { frames: Some(self.frames), ..InputOptions::default() };
+        let inputs: Vec<PathBuf> = self.inputs.iter().map(PathBuf::from).collect();
+        let options = Options {
+            computed: self.computed,
+            mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
+            accelerator: self.accelerator.map(|name| read_accelerator(name).unwrap()),
+            reference: self.reference,
+            record: Record { arrays: true, pictures: false },
+            command: Vec::new(),
+            overwrite: true,
+        };
+        Inference::new(&config, Path::new(DENOISER), &inputs, &input)?.run(
+            &folder.join("out"),
+            &options,
+            hooks,
+        )
+    }
+}
+
+/// A row by the names of its columns.
+pub(crate) type Row = BTreeMap<String, Field>;
+
+/// The rows of a table of `out`.
+pub(crate) fn rows(folder: &Path, table: &str) -> Vec<Row> {
+    let file = File::open(folder.join("out").join(table)).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let row = |row: parquet::record::Row| {
+        row.get_column_iter().map(|(name, field)| (name.clone(), field.clone())).collect()
+    };
+    reader.get_row_iter(None).unwrap().map(|found| row(found.unwrap())).collect()
+}
+
+/// A number of a row.
+#[allow(clippy::cast_precision_loss, reason = "sums are compared")]
+pub(crate) fn number(row: &Row, column: &str) -> f64 {
+    match &row[column] {
+        Field::Long(value) => *value as f64,
+        Field::Double(value) => *value,
+        other => panic!("{column} is {other}"),
+    }
+}
+
+/// A text of a row.
+pub(crate) fn text<'a>(row: &'a Row, column: &str) -> &'a str {
+    match &row[column] {
+        Field::Str(value) => value,
+        other => panic!("{column} is {other}"),
+    }
+}
+
+/// Whether the frame of a row is in the means.
+pub(crate) fn is_counted(row: &Row) -> bool {
+    row["counted"] == Field::Bool(true)
+}
+
+/// Equal but for the order of a sum.
+pub(crate) fn near(one: f64, other: f64) -> bool {
+    (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
+}
