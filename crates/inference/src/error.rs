@@ -11,6 +11,7 @@ use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_network::NetworkError;
 use foveate_page::PageError;
+use foveate_page::number::things;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -71,7 +72,9 @@ pub enum InferenceError {
     },
     /// The mapping has another number of channels than the network.
     #[error(
-        "{what} has {found} values, but the network's input has {channels} channels; give one value, or one per channel"
+        "{what} has {}, but the network's input has {}; give one value, or one per channel",
+        things(*found, "value"),
+        things(*channels, "channel")
     )]
     Channels {
         /// The option.
@@ -99,7 +102,8 @@ pub enum InferenceError {
     },
     /// There are too few frames for two halves.
     #[error(
-        "tuning takes one half of the frames and reports the other, for which it needs {least} frames; there are {frames}"
+        "tuning takes one half of the frames and reports the other, for which it needs {least} frames; there {} {frames}",
+        if *frames == 1 { "is" } else { "are" }
     )]
     TooShort {
         /// Frames that there are.

@@ -10,7 +10,7 @@ use crate::details::Details;
 use crate::frame::Frame;
 use crate::player::Player;
 use crate::recording::Recording;
-use crate::summary::{Summary, Tuning, error, layers, macs, mask_bytes, ratio};
+use crate::summary::{Summary, Tuning, error, layers, macs, mask_bytes, ratio, sum};
 use crate::tally::{ClipSums, NotFinite, Positions, Reference};
 use crate::traffic::Traffic;
 use crate::{Goal, InferenceError, Mapping};
@@ -210,7 +210,7 @@ impl<'a> Run<'a> {
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
         let counted = counted_frames.max(1) as f64;
-        let mean = |of: fn(&Counted) -> f64| self.counted.iter().map(of).sum::<f64>() / counted;
+        let mean = |of: fn(&Counted) -> f64| sum(self.counted.iter().map(of)) / counted;
         let of_weights = self.network.not_finite().iter().map(|(name, count)| {
             format!(
                 "the weights `{name}` hold {count} infinite values, or such that are no numbers"
@@ -227,6 +227,7 @@ impl<'a> Run<'a> {
             warnings,
             inputs: told.inputs,
             network: told.network,
+            layout: self.network.layout().name(),
             mode: told.mode,
             mapping: told.mapping,
             width: self.design.width(),

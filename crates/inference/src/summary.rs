@@ -29,6 +29,8 @@ pub struct Summary {
     pub inputs: Vec<String>,
     /// The network's file.
     pub network: String,
+    /// In which layout the network's model takes its input: `nchw`, or `nhwc`, whose Transpose to channels first is left out.
+    pub layout: &'static str,
     /// What was computed: `dense`, `exact`, `compare`, `truncate=0.1` or `fixed`.
     pub mode: String,
     /// How pixels became inputs.
@@ -287,7 +289,7 @@ pub(crate) fn macs(network: &Network, sums: &[Positions]) -> Macs {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
     let of = |share: &dyn Fn(usize, &Positions) -> f64| {
         let layer = |(node, sums)| network.macs(node) as f64 * share(node, sums);
-        sums.iter().enumerate().map(layer).sum()
+        sum(sums.iter().enumerate().map(layer))
     };
     let places = |node: usize| network.form(node + 1).places() as u64;
     Macs {
@@ -307,6 +309,11 @@ pub(crate) fn error(reference: &Reference<'_>) -> Error {
         outputs: (&reference.outputs).into(),
         dense_seconds_per_frame: reference.seconds / frames,
     }
+}
+
+/// A sum; of nothing it is 0, where that of the standard library is -0.
+pub(crate) fn sum(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |sum, value| sum + value)
 }
 
 /// A share; 0 of nothing.

@@ -345,7 +345,8 @@ mod tests {
         let level = Level::detect();
         let geometry = Geometry::new(&[3, 1, 3, 3], [window; 2], 1).unwrap();
         let conv = Conv::new(geometry, &weights, None, level).unwrap();
-        let mut network = Network::new(Form::features(vec![1, 1, 24, 24])).unwrap();
+        let mut network =
+            Network::new(Form::features(vec![1, 1, 24, 24]), crate::read::Layout::Nchw).unwrap();
         let faulty = |operator, fault| Arc::new(Faulty { operator, window, fault });
         let first =
             network.push("a", "Conv", faulty(Arc::new(conv), in_convolution), vec![0]).unwrap();

@@ -24,5 +24,5 @@ pub use form::Form;
 pub use mask::{Mask, Window};
 pub use network::{Network, Node};
 pub use operator::Products;
-pub use read::{FrameSize, operators};
+pub use read::{FrameSize, Layout, operators};
 pub use tensor::Tensor;

@@ -6,6 +6,7 @@ use crate::error::NetworkError;
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::operator::{Operator, Products};
+use crate::read::Layout;
 use std::sync::Arc;
 
 /// Values of the largest tensor.
@@ -20,6 +21,7 @@ pub(crate) const MAX_AXES: usize = 8;
 /// A network whose shapes are known. Value 0 is its input, value `i + 1` the output of node `i`.
 #[derive(Clone, Debug)]
 pub struct Network {
+    layout: Layout,
     forms: Vec<Form>,
     nodes: Vec<Node>,
     outputs: Vec<usize>,
@@ -77,10 +79,11 @@ impl Node {
 
 impl Network {
     /// A network that has only an input so far.
-    pub(crate) fn new(input: Form) -> Result<Self, NetworkError> {
+    pub(crate) fn new(input: Form, layout: Layout) -> Result<Self, NetworkError> {
         limit(&input).map_err(NetworkError::Network)?;
         let kept = input.elements();
         Ok(Self {
+            layout,
             forms: vec![input],
             nodes: Vec::new(),
             outputs: Vec::new(),
@@ -149,6 +152,12 @@ impl Network {
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
+    }
+
+    /// In which layout the model takes its input; here its channels are always first.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.layout
     }
 
     /// The form of the input.

@@ -23,7 +23,8 @@ use crate::error::CliError;
           foveate infer denoiser.onnx scene:street scene:shake -o out --max-frames 8
           foveate infer resnet50.onnx street.mp4 -o out --resize 224x224 --mean 0.485,0.456,0.406 --scale 0.229,0.224,0.225")]
 pub(crate) struct InferArgs {
-    /// The network: an ONNX file whose input is [1, channels, height, width], with 1 or 3 channels
+    /// The network: an ONNX file whose input is [1, channels, height, width], with 1 or 3 channels, or
+    /// [1, height, width, channels] with a Transpose to channels first behind it
     #[arg(value_name = "MODEL")]
     pub(crate) network: PathBuf,
     /// Clips and sets of images of one size, as of `foveate simulate`: image files together are one clip, every

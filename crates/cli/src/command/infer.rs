@@ -50,6 +50,10 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
+fn frames(count: u64) -> String {
+    format!("{count} {}", if count == 1 { "frame" } else { "frames" })
+}
+
 /// A line for each of several clips.
 fn clips(summary: &Summary) -> String {
     if summary.clips.len() == 1 {
@@ -69,9 +73,9 @@ fn clips(summary: &Summary) -> String {
         };
         let problem = clip.problem.as_ref().map(|problem| format!(", NOT COMPLETE: {problem}"));
         format!(
-            "  {}: {} frames, {result}{}\n",
+            "  {}: {}, {result}{}\n",
             clip.name,
-            clip.frames,
+            frames(clip.frames),
             problem.unwrap_or_default()
         )
     };
@@ -83,10 +87,10 @@ fn tuned(tuning: &Tuning, summary: &Summary) -> String {
     let reported: Vec<&str> = summary.clips.iter().map(|clip| &clip.name[..]).collect();
     let on = tuning.clips.join(", ");
     // The only clip is on both sides.
-    let (frames, these) = if reported == [&on] {
-        ("counted frames before these".to_owned(), "these frames".to_owned())
+    let (of, these) = if reported == [&on] {
+        ("before these".to_owned(), "these frames".to_owned())
     } else {
-        (format!("counted frames of {on}"), reported.join(", "))
+        (format!("of {on}"), reported.join(", "))
     };
     let held = if tuning.holds {
         format!("is reached on {these}, too")
@@ -99,9 +103,10 @@ fn tuned(tuning: &Tuning, summary: &Summary) -> String {
         ""
     };
     format!(
-        "tuned      on {} {frames}, in {} runs; there {} of the MACs were needed, {} without a limit\n\
+        "tuned      on {} counted {} {of}, in {} runs; there {} of the MACs were needed, {} without a limit\n\
          goal       {} {held}\n{frozen}",
         tuning.frames,
+        if tuning.frames == 1 { "frame" } else { "frames" },
         tuning.runs,
         percent(tuning.chosen.needed_share),
         percent(tuning.exact.needed_share),
@@ -111,12 +116,18 @@ fn tuned(tuning: &Tuning, summary: &Summary) -> String {
 
 fn text(folder: &Path, summary: &Summary) -> String {
     let mut text = format!(
-        "{}: {} frames of {} x {} pixels, mode {}\n",
+        "{}: {} of {} x {} pixels, mode {}{}\n",
         folder.display(),
-        summary.frames,
+        frames(summary.frames),
         summary.width,
         summary.height,
-        summary.mode
+        summary.mode,
+        // What is usual is not said.
+        if summary.layout == "nchw" {
+            String::new()
+        } else {
+            format!(", layout {}", summary.layout)
+        }
     );
     if summary.counted_frames == 0 {
         text.push_str("the only frame was computed whole; savings begin with a second one\n");

@@ -191,7 +191,7 @@ fn images_of_a_set_begin_with_black() {
     .unwrap();
     let args = ["infer", DENOISER, "train-images", "-o", "out", "--force", "--reference"];
     let tuned = succeed_in(dir.path(), &[&args[..6], &["--tune", "psnr=40"]].concat());
-    assert!(tuned.contains("tuned      on 1 counted frames"), "{tuned}");
+    assert!(tuned.contains("tuned      on 1 counted frame before these"), "{tuned}");
     let text = succeed_in(dir.path(), &args);
     assert!(text.contains("0 of 2 differ"), "{text}");
     let frames = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
@@ -213,7 +213,7 @@ fn what_does_not_fit_is_refused_with_what_would() {
     };
     infer("text.onnx", &[], &["`text.onnx` is not an ONNX model"]);
     infer("none.onnx", &[], &["cannot read `none.onnx`"]);
-    infer(DENOISER, &["--mean", "0.1,0.2"], &["--mean has 2 values", "1 channels"]);
+    infer(DENOISER, &["--mean", "0.1,0.2"], &["--mean has 2 values", "has 1 channel;"]);
     let args = ["infer", DENOISER, "scene:zero", "-o", "out", "--scale", "-1"];
     let usage = run_in(dir.path(), &args);
     assert!(usage.code == 2 && usage.stderr.contains("expected a number above 0"));

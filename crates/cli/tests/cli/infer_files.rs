@@ -108,26 +108,19 @@ fn small(number: u8, value: u8) -> Vec<u8> {
     vec![number << 3, value]
 }
 
-/// An ONNX model of one global pooling, whose names are hard to write.
-fn pooling(name: &str) -> Vec<u8> {
+/// An ONNX model of some nodes, from `x` to an output.
+fn model(nodes: &[Vec<u8>], input: [u8; 4], output: (&str, [u8; 4])) -> Vec<u8> {
     let dimension = |length: u8| field(1, &small(1, length));
     let value = |name: &str, shape: [u8; 4]| {
         let shape: Vec<u8> = shape.into_iter().flat_map(dimension).collect();
         let tensor = [small(1, 1), field(2, &shape)].concat();
         [field(1, name.as_bytes()), field(2, &field(1, &tensor))].concat()
     };
-    let name_of_node = format!("node {name}");
-    let node = [
-        field(1, b"x"),
-        field(2, name.as_bytes()),
-        field(3, name_of_node.as_bytes()),
-        field(4, b"GlobalAveragePool"),
-    ];
     let graph = [
-        field(1, &node.concat()),
+        nodes.iter().flat_map(|node| field(1, node)).collect(),
         field(2, b"g"),
-        field(11, &value("x", [1, 1, 32, 32])),
-        field(12, &value(name, [1, 1, 1, 1])),
+        field(11, &value("x", input)),
+        field(12, &value(output.0, output.1)),
     ];
     // 8 is the version of the file, 13 that of the operators.
     let graph = graph.concat();
@@ -135,6 +128,70 @@ fn pooling(name: &str) -> Vec<u8> {
     let graph =
         [&[7 << 3 | 2, length, u8::try_from(graph.len() / 128).unwrap()], &graph[..]].concat();
     [small(1, 8), field(8, &small(2, 13)), graph].concat()
+}
+
+/// A node of one input.
+fn node(kind: &str, from: &str, to: &str) -> Vec<u8> {
+    let name = format!("node {to}");
+    let fields = [(1, from), (2, to), (3, &name), (4, kind)];
+    fields.into_iter().flat_map(|(number, text)| field(number, text.as_bytes())).collect()
+}
+
+/// An ONNX model of one global pooling, whose names are hard to write.
+fn pooling(name: &str) -> Vec<u8> {
+    model(&[node("GlobalAveragePool", "x", name)], [1, 1, 32, 32], (name, [1; 4]))
+}
+
+/// What is exported from TensorFlow is read with channels first, and said to be so.
+#[test]
+fn channels_may_be_last() {
+    let dir = tempfile::tempdir().unwrap();
+    let order: Vec<u8> = [0, 3, 1, 2].into_iter().flat_map(|axis| small(8, axis)).collect();
+    // The last field says that the attribute is of integers.
+    let attribute = field(5, &[field(1, b"perm"), order, vec![0xa0, 1, 7]].concat());
+    let turn = [node("Transpose", "x", "y"), attribute].concat();
+    let last =
+        model(&[turn, node("GlobalAveragePool", "y", "z")], [1, 48, 64, 3], ("z", [1, 3, 1, 1]));
+    fs::write(dir.path().join("last.onnx"), last).unwrap();
+    let first = model(&[node("GlobalAveragePool", "x", "z")], [1, 3, 48, 64], ("z", [1, 3, 1, 1]));
+    fs::write(dir.path().join("first.onnx"), first).unwrap();
+    let run = |name: &str| {
+        let args = ["infer", name, "scene:street", "-o", "out", "--force", "--outputs", "npy"];
+        let more = ["--max-frames", "3", "--set", "frame={width=64,height=48}"];
+        let text = succeed_in(dir.path(), &[&args[..], &more].concat());
+        let found = fs::read(dir.path().join("out/inference.json")).unwrap();
+        let found: Value = serde_json::from_slice(&found).unwrap();
+        (text, found["layout"].clone(), array(&dir.path().join("out/outputs/z.npy")))
+    };
+    let ((first, last), more) = ((run("first.onnx"), run("last.onnx")), ", layout nhwc\n");
+    assert!(!first.0.contains(more) && last.0.contains(more), "{}", last.0);
+    assert_eq!((first.1, last.1), ("nchw".into(), "nhwc".into()));
+    assert_eq!(first.2, last.2);
+    let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    assert!(page.contains("(layout nhwc); its Transpose to channels first is left out"));
+    let relu = model(&[node("Relu", "x", "z")], [1, 48, 64, 3], ("z", [1, 48, 64, 3]));
+    fs::write(dir.path().join("relu.onnx"), relu).unwrap();
+    let args = ["infer", "relu.onnx", "scene:street", "-o", "out", "--force"];
+    let parts = ["`node z` (Relu) takes it so", "--inputs-as-nchw x"];
+    fail_in(dir.path(), 2, &args, &parts);
+}
+
+/// A network whose output is its input costs nothing.
+#[test]
+fn a_network_without_nodes_costs_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let shape = [1, 1, 32, 32];
+    fs::write(dir.path().join("none.onnx"), model(&[], shape, ("x", shape))).unwrap();
+    let args = ["infer", "none.onnx", "scene:street", "--resize", "32x32", "-o", "out"];
+    let args = [&args[..], &["--accelerator", "eyeriss", "--max-frames"]].concat();
+    let text = succeed_in(dir.path(), &[&args[..], &["3"]].concat());
+    assert!(text.contains("MACs       0.0 M per frame; needed 0.0 %"), "{text}");
+    let alone = succeed_in(dir.path(), &[&args[..], &["1", "--force"]].concat());
+    assert!(alone.starts_with("out: 1 frame of 32 x 32 pixels"), "{alone}");
+    for file in ["inference.json", "report.html", "frames.csv"] {
+        let text = fs::read_to_string(dir.path().join("out").join(file)).unwrap();
+        assert!(!text.contains("-0.0"), "{file}: {text}");
+    }
 }
 
 #[test]

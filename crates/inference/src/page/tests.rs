@@ -143,6 +143,7 @@ fn sample(frames: u32) -> Sample {
         warnings: Vec::new(),
         inputs: vec!["scene:street".to_owned()],
         network: "networks/denoiser.onnx".to_owned(),
+        layout: "nchw",
         mode: "tuned to psnr=40".to_owned(),
         mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
         width: 224,
@@ -488,6 +489,8 @@ fn how_pixels_become_inputs_is_told() {
     let mut sample = sample(3);
     assert!(rendered(&sample).contains("the same in all channels.</p>"));
     sample.0.mapping = Mapping { mean: vec![0.485, -0.5, 0.0], scale: vec![0.25] };
+    sample.0.layout = "nhwc";
+    assert!(rendered(&sample).contains("The model takes them as [1, height, width, channels]"));
     let told = "in all channels, less the mean (0.485, -0.5, 0) and divided by the scale (0.25) of the channel.";
     assert!(rendered(&sample).contains(told));
 }

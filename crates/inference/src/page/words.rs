@@ -32,7 +32,7 @@ fn some(names: &[String]) -> String {
 pub(super) fn run(summary: &Summary, design: &Design) -> String {
     let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
     format!(
-        "The network {} ran on {} of {}{}, as a camera with {} shows them, in mode {}: {}. {}",
+        "The network {} ran on {} of {}{}, as a camera with {} shows them, in mode {}: {}. {}{}",
         summary.network,
         things(frames, "frame"),
         inputs(summary),
@@ -40,7 +40,8 @@ pub(super) fn run(summary: &Summary, design: &Design) -> String {
         camera(design),
         summary.mode,
         mode(summary),
-        mapped(&summary.mapping)
+        mapped(&summary.mapping),
+        layout(summary)
     )
 }
 
@@ -62,6 +63,15 @@ fn clips(summary: &Summary) -> String {
 /// Whether limits were chosen on other clips than those that are reported.
 fn is_tuned_on_clips(summary: &Summary, tuning: &Tuning) -> bool {
     tuning.clips.iter().all(|name| summary.clips.iter().all(|clip| clip.name != *name))
+}
+
+/// How the model takes its inputs, if that is not the usual way.
+fn layout(summary: &Summary) -> &'static str {
+    if summary.layout == "nhwc" {
+        " The model takes them as [1, height, width, channels] (layout nhwc); its Transpose to channels first is left out."
+    } else {
+        ""
+    }
 }
 
 /// How pixels become inputs of the network.

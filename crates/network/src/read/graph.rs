@@ -3,7 +3,7 @@
 
 use super::constant::{Constant, Folder};
 use super::fold;
-use super::input::{FrameSize, input_form, name_of};
+use super::input::{FrameSize, Layout, input_form, name_of, puts_channels_first};
 use super::node::NodeReader;
 use super::operators::{self, Made};
 use super::pointwise;
@@ -36,6 +36,12 @@ pub(super) fn full_kind(node: &NodeProto) -> String {
     }
 }
 
+/// What a node is called: by its name, or by its operator and its number.
+pub(super) fn shown_name(node: &NodeProto, index: usize) -> String {
+    let name = node.name.clone().filter(|name| !name.is_empty());
+    name.unwrap_or_else(|| format!("{}_{index}", node.op_type.as_deref().unwrap_or_default()))
+}
+
 /// Reads a graph for frames of a size.
 pub(super) fn read(
     graph: &GraphProto,
@@ -64,12 +70,18 @@ pub(super) fn read(
         )));
     };
     let input = graph.input.iter().find(|input| name_of(input) == name).expect("it is one of them");
-    let network = Network::new(input_form(input, frames)?)?;
+    let (form, layout) = input_form(input, graph, frames)?;
+    let network = Network::new(form, layout)?;
     known.insert(name.to_owned(), Known::Value(0));
     let mut reading =
         Reading { network, known, folder, opset, uses: uses(graph), aliased: HashSet::new() };
     for (index, node) in graph.node.iter().enumerate() {
-        reading.node(node, index)?;
+        if layout == Layout::Nhwc && puts_channels_first(node, name) {
+            // The input is read as what this makes of it.
+            reading.same(node, index, 0)?;
+        } else {
+            reading.node(node, index)?;
+        }
     }
     let named = |name: &str| Ok::<_, NetworkError>((name.to_owned(), reading.output(name)?));
     let outputs = graph.output.iter().map(|output| named(name_of(output)));
@@ -96,8 +108,7 @@ struct Reading<'a> {
 impl Reading<'_> {
     fn node(&mut self, node: &NodeProto, index: usize) -> Result<(), NetworkError> {
         let kind = node.op_type.clone().unwrap_or_default();
-        let name = node.name.clone().filter(|name| !name.is_empty());
-        let name = name.unwrap_or_else(|| format!("{kind}_{index}"));
+        let name = shown_name(node, index);
         let operator = full_kind(node);
         if !operators::is_known(&operator) {
             return Err(NetworkError::Operator {
@@ -112,10 +123,11 @@ impl Reading<'_> {
             problem,
         })?;
         for (made, output) in made.into_iter().zip(&node.output) {
-            if !output.is_empty() && self.known.contains_key(output) {
-                let problem = format!("its output `{output}` has the name of another tensor");
-                return Err(NetworkError::Node { node: name, operator: kind, problem });
-            }
+            self.is_new(output).map_err(|problem| NetworkError::Node {
+                node: name.clone(),
+                operator: kind.clone(),
+                problem,
+            })?;
             let what = match made {
                 Made::Constant(constant) => Known::Constant(Arc::new(constant)),
                 Made::Same(what) => {
@@ -141,6 +153,27 @@ impl Reading<'_> {
                 }
             };
             self.known.insert(output.clone(), what);
+        }
+        Ok(())
+    }
+
+    /// Lets the only output of a node be a value that there is.
+    fn same(&mut self, node: &NodeProto, index: usize, value: usize) -> Result<(), NetworkError> {
+        let output = &node.output[0];
+        self.is_new(output).map_err(|problem| NetworkError::Node {
+            node: shown_name(node, index),
+            operator: full_kind(node),
+            problem,
+        })?;
+        self.known.insert(output.clone(), Known::Value(value));
+        self.aliased.insert(value);
+        Ok(())
+    }
+
+    /// Refuses a name that something has.
+    fn is_new(&self, output: &str) -> Result<(), String> {
+        if !output.is_empty() && self.known.contains_key(output) {
+            return Err(format!("its output `{output}` has the name of another tensor"));
         }
         Ok(())
     }

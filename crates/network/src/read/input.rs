@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The input of a network, and the frames that it is to take.
 
+use super::graph::{full_kind, is_standard, shown_name};
 use crate::error::NetworkError;
 use crate::form::Form;
-use crate::onnx::{ValueInfoProto, data_type};
+use crate::onnx::{GraphProto, NodeProto, ValueInfoProto, data_type};
 
 /// Width and height of the frames, for a network that takes any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,8 +19,72 @@ pub(super) fn name_of(value: &ValueInfoProto) -> &str {
     value.name.as_deref().unwrap_or_default()
 }
 
-/// The form of the input: features of which the size may be open.
-pub(super) fn input_form(input: &ValueInfoProto, frames: FrameSize) -> Result<Form, NetworkError> {
+/// In which order a model takes the axes of its input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// Channels, rows, columns.
+    Nchw,
+    /// Rows, columns, channels, as models from TensorFlow do, which put the channels first before anything else. A network is read from there on.
+    Nhwc,
+}
+
+impl Layout {
+    /// Its usual name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nchw => "nchw",
+            Self::Nhwc => "nhwc",
+        }
+    }
+}
+
+/// What puts the channels first.
+const CHANNELS_FIRST: [i64; 4] = [0, 3, 1, 2];
+
+/// Whether a node does nothing but to put the channels of a value first.
+pub(super) fn puts_channels_first(node: &NodeProto, value: &str) -> bool {
+    let order = node.attribute.iter().find(|attribute| attribute.name.as_deref() == Some("perm"));
+    is_standard(node.domain.as_deref())
+        && node.op_type.as_deref() == Some("Transpose")
+        && node.input == [value]
+        && node.output.len() == 1
+        && order.is_some_and(|order| order.ints == CHANNELS_FIRST)
+}
+
+/// The layout of the input, from its shape and from what takes it.
+fn layout(
+    input: &ValueInfoProto,
+    lengths: &[Option<usize>],
+    graph: &GraphProto,
+) -> Result<Layout, NetworkError> {
+    let is_colours = |length: Option<usize>| matches!(length, Some(1 | 3));
+    let &[_, second, _, last] = lengths else { return Ok(Layout::Nchw) };
+    if is_colours(second) || !is_colours(last) {
+        return Ok(Layout::Nchw);
+    }
+    let name = name_of(input);
+    let takes = |node: &NodeProto| node.input.iter().any(|taken| taken == name);
+    let mut odd = graph.node.iter().enumerate();
+    let odd = odd.find(|(_, node)| takes(node) && !puts_channels_first(node, name));
+    let odd = odd.map(|(index, node)| {
+        format!("node `{}` ({}) takes it so", shown_name(node, index), full_kind(node))
+    });
+    let is_output = graph.output.iter().any(|output| name_of(output) == name);
+    match odd.or_else(|| is_output.then(|| "it is an output, too".to_owned())) {
+        None => Ok(Layout::Nhwc),
+        Some(odd) => Err(NetworkError::Network(format!(
+            "its input `{name}` is [1, height, width, channels], and {odd}; only a Transpose of perm {CHANNELS_FIRST:?} may take such an input. Export it with channels first, as tf2onnx does with --inputs-as-nchw {name}"
+        ))),
+    }
+}
+
+/// The form of the input with channels first, features of which the size may be open, and the layout in which the model takes it.
+pub(super) fn input_form(
+    input: &ValueInfoProto,
+    graph: &GraphProto,
+    frames: FrameSize,
+) -> Result<(Form, Layout), NetworkError> {
     let wrong = |what: String| {
         NetworkError::Network(format!(
             "its input `{}` must be [1, channels, height, width], {what}",
@@ -36,7 +101,7 @@ pub(super) fn input_form(input: &ValueInfoProto, frames: FrameSize) -> Result<Fo
     let shape = tensor
         .and_then(|tensor| tensor.shape.as_ref())
         .ok_or_else(|| wrong("but it has no shape".to_owned()))?;
-    let lengths: Vec<Option<usize>> = shape
+    let mut lengths: Vec<Option<usize>> = shape
         .dim
         .iter()
         .map(|dim| {
@@ -45,6 +110,10 @@ pub(super) fn input_form(input: &ValueInfoProto, frames: FrameSize) -> Result<Fo
                 .filter(|&length| length > 0)
         })
         .collect();
+    let layout = layout(input, &lengths, graph)?;
+    if layout == Layout::Nhwc {
+        lengths[1..].rotate_right(1);
+    }
     let &[batch, channels, height, width] = lengths.as_slice() else {
         return Err(wrong(format!("but it has {} axes", lengths.len())));
     };
@@ -62,5 +131,5 @@ pub(super) fn input_form(input: &ValueInfoProto, frames: FrameSize) -> Result<Fo
             found: format!("{}x{}", frames.width, frames.height),
         });
     }
-    Ok(Form::features(vec![1, channels, own_height, own_width]))
+    Ok((Form::features(vec![1, channels, own_height, own_width]), layout))
 }

@@ -24,7 +24,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-pub use input::FrameSize;
+pub use input::{FrameSize, Layout};
 pub use operators::operators;
 
 /// Bytes of the largest file.

@@ -8,6 +8,7 @@ mod exact;
 mod golden;
 mod integer_layers;
 mod integers;
+mod layout;
 mod model;
 mod oracle;
 mod refused;

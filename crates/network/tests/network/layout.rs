@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Networks from TensorFlow: the channels of the input are last, and are put first before anything else.
+
+use crate::model::{Model, Value, noise};
+use foveate_network::{Executor, Layout, Mask, Mode, Network};
+
+const FIRST: [i64; 4] = [0, 3, 1, 2];
+const LAST: [i64; 4] = [0, 2, 3, 1];
+
+fn turned(model: &mut Model, name: &str, order: [i64; 4]) -> String {
+    model.node("Transpose", &[name], &[("perm", Value::Ints(order.to_vec()))])
+}
+
+/// Two convolutions of the same picture, joined. With `turn` from and to channels last, in which case each takes a Transpose of its own.
+fn network(turn: bool, shape: &[i64]) -> Network {
+    let mut model = Model::new(shape);
+    let weights = model.floats(&[2, 3, 3, 3], &noise(1, 54));
+    let pads = [("pads", Value::Ints(vec![1; 4]))];
+    let parts: Vec<String> = (0..2)
+        .map(|_| {
+            let picture =
+                if turn { turned(&mut model, "picture", FIRST) } else { "picture".to_owned() };
+            model.node("Conv", &[&picture, &weights], &pads)
+        })
+        .collect();
+    let mut output = model.node("Mul", &[&parts[0], &parts[1]], &[]);
+    if turn {
+        output = turned(&mut model, &output, LAST);
+    }
+    model.output(&output);
+    model.read(6, 4).unwrap()
+}
+
+/// The outputs of a network for two pictures, of which the second differs in a corner.
+fn outputs(network: &Network) -> Vec<Vec<f32>> {
+    let mut executor = Executor::new(network, Mode::Exact);
+    let mut picture = noise(2, 72);
+    let mut step = |picture: &[f32], changed: &Mask| {
+        executor.step(picture, changed);
+        executor.value(network.outputs()[0]).reals().into_owned()
+    };
+    let first = step(&picture, &Mask::full(4, 6));
+    let mut corner = Mask::empty(4, 6);
+    corner.insert(0, 0);
+    (0..3).for_each(|channel| picture[24 * channel] += 1.0);
+    vec![first, step(&picture, &corner)]
+}
+
+/// The Transposes behind the input are gone, the one in front of the output is there, and values are those of channels first.
+#[test]
+fn channels_that_are_put_first_are_read_as_such() {
+    let first = network(false, &[1, 3, 4, 6]);
+    for shape in [[1, 4, 6, 3], [1, -1, -1, 3]] {
+        let last = network(true, &shape);
+        assert_eq!((first.layout(), last.layout()), (Layout::Nchw, Layout::Nhwc));
+        assert_eq!(last.input().shape(), [1, 3, 4, 6]);
+        assert_eq!(last.form(last.outputs()[0]).shape(), [1, 4, 6, 2]);
+        let kinds: Vec<_> = last.nodes().iter().map(foveate_network::Node::kind).collect();
+        assert_eq!(kinds, ["Conv", "Conv", "Mul", "Transpose"]);
+        for (first, last) in outputs(&first).iter().zip(outputs(&last)) {
+            for (at, value) in last.iter().enumerate() {
+                let (place, channel) = (at / 2, at % 2);
+                assert_eq!(value.to_bits(), first[24 * channel + place].to_bits());
+            }
+        }
+    }
+}
+
+#[test]
+fn channels_that_stay_last_are_refused_with_what_would_help() {
+    let refusal = |model: Model| model.read(6, 4).unwrap_err().to_string();
+    let start = "the network: its input `picture` is [1, height, width, channels], and";
+    let help = "Export it with channels first, as tf2onnx does with --inputs-as-nchw picture";
+    let mut used = Model::new(&[1, 4, 6, 3]);
+    let turn = turned(&mut used, "picture", FIRST);
+    let relu = used.node("Relu", &["picture"], &[]);
+    used.output(&turn);
+    used.output(&relu);
+    let mut other = Model::new(&[1, 4, 6, 3]);
+    let odd = turned(&mut other, "picture", [0, 3, 2, 1]);
+    other.output(&odd);
+    let mut output = Model::new(&[1, 4, 6, 1]);
+    turned(&mut output, "picture", FIRST);
+    output.output("picture");
+    for (model, why) in [
+        (used, "node `Relu2` (Relu) takes it so"),
+        (other, "node `Transpose1` (Transpose) takes it so"),
+        (output, "it is an output, too"),
+    ] {
+        let refusal = refusal(model);
+        assert!(refusal.starts_with(start), "{refusal}");
+        assert!(refusal.contains(why) && refusal.ends_with(help), "{refusal}");
+    }
+    let mut many = Model::new(&[1, 4, 6, 5]);
+    let turn = turned(&mut many, "picture", FIRST);
+    many.output(&turn);
+    assert!(refusal(many).ends_with("with 1 or 3 channels, but it has 4"));
+    let mut large = Model::new(&[1, 8, 8, 3]);
+    let turn = turned(&mut large, "picture", FIRST);
+    large.output(&turn);
+    assert!(refusal(large).ends_with("give --resize 8x8"));
+}
