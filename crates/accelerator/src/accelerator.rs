@@ -104,6 +104,15 @@ pub struct Energy {
     pub dram_pj: f64,
 }
 
+/// What is wrong with a value, without the names that types have in programs.
+fn in_words(problem: &str) -> String {
+    let number = "expected a number";
+    let whole = "expected a whole number from 1 on";
+    let types = [("expected u64", whole), ("expected u32", whole), ("expected f64", number)];
+    let end = types.iter().find_map(|(named, told)| Some((problem.strip_suffix(named)?, told)));
+    end.map_or_else(|| problem.to_owned(), |(start, told)| format!("{start}{told}"))
+}
+
 impl Accelerator {
     /// Reads an accelerator.
     ///
@@ -115,7 +124,7 @@ impl Accelerator {
         })?;
         let accelerator: Self = serde_path_to_error::deserialize(toml::Value::Table(table))
             .map_err(|error| {
-                let problem = error.inner().message().to_owned();
+                let problem = in_words(error.inner().message());
                 AcceleratorError::Key { key: error.path().to_string(), problem }
             })?;
         accelerator.validate()?;

@@ -12,6 +12,9 @@ use crate::operator::{
 use crate::tensor::Tensor;
 use std::sync::Arc;
 
+/// The largest scale of a Resize is below this; what it makes is limited, too.
+const MAX_SCALE: f32 = 65536.0;
+
 pub(super) fn concat(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let values = (0..node.node.input.len()).map(|at| node.value(at)).collect::<Result<_, _>>()?;
     one(Concat { axis: node.int("axis", 1) }, values)
@@ -226,9 +229,12 @@ pub(super) fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let scales = node.constant(scales_at, "scales")?.filter(|scales| scales.values.count() > 0);
     let size = match (scales, node.constant(3, "sizes")?) {
         (Some(scales), _) => match *scales.as_floats()? {
-            [1.0, 1.0, rows, columns]
-                if rows > 0.0 && columns > 0.0 && rows < 65536.0 && columns < 65536.0 =>
-            {
+            [1.0, 1.0, rows, columns] if rows > 0.0 && columns > 0.0 => {
+                if let Some(scale) = [rows, columns].into_iter().find(|&scale| scale >= MAX_SCALE) {
+                    return Err(format!(
+                        "its scale of {scale} is too large; it must be below {MAX_SCALE}"
+                    ));
+                }
                 Size::Scales([rows, columns])
             }
             ref scales => {

@@ -147,6 +147,13 @@ fn what_is_not_as_it_seems_is_refused() {
         kind.elem_type = Some(2);
         refusal(model)
     };
+    let scaled = |scales: [f32; 4]| {
+        let mut model = Model::new(&[1, 1, 8, 8]);
+        let scales = model.floats(&[4], &scales);
+        let output = model.node("Resize", &["picture", "", &scales], &[]);
+        model.output(&output);
+        refusal(model)
+    };
     let long = {
         let mut model = one_node("Einsum", &[]);
         model.graph.node[0].name = Some("line\nline ".repeat(100));
@@ -157,6 +164,8 @@ fn what_is_not_as_it_seems_is_refused() {
         (doubled, "it makes a constant of more than 65536 values"),
         (sliced, "its step is 0"),
         (bytes, "but it is of type 2 of ONNX"),
+        (scaled([1.0, 1.0, 2.0, 1e6]), "its scale of 1000000 is too large; it must be below 65536"),
+        (scaled([1.0, 2.0, 2.0, 2.0]), "are not supported, only those of rows and columns"),
         (long, "lineline lineline"),
         (with("Unsqueeze", &[&[0; 9]], &[]), "more than 8 axes"),
         (with("Unsqueeze", &[&[0, 0]], &[]), "it names an axis twice"),
