@@ -88,6 +88,19 @@ def row(path, clip, threads, options):
     return [name, f"{size[0]}x{size[1]}", label, str(threads), *shown, *ratios, *shares]
 
 
+def networks(folder, names):
+    """The ONNX files of a folder: those of these names, or all."""
+    known = sorted(glob.glob(os.path.join(folder, "*.onnx")))
+    if not known:
+        raise ValueError(f"there is no ONNX file in `{folder}`; `scripts/networks.py {folder}` makes some")
+    paths = [os.path.join(folder, f"{name}.onnx") for name in names]
+    for path, name in zip(paths, names):
+        if path not in known:
+            there = ", ".join(os.path.splitext(os.path.basename(one))[0] for one in known)
+            raise ValueError(f"there is no network `{name}` in `{folder}`; there are {there}")
+    return paths or known
+
+
 def main():
     parser = argparse.ArgumentParser(prog="bench_networks.py", description="Times `foveate infer` beside onnxruntime and tract.")
     parser.add_argument("folder")
@@ -98,7 +111,10 @@ def main():
     parser.add_argument("--threads", type=int, nargs="+", default=[1])
     parser.add_argument("--tract", metavar="PROGRAM", help="what scripts/tract_dense makes")
     options = parser.parse_args()
-    paths = [os.path.join(options.folder, f"{name}.onnx") for name in options.names] or sorted(glob.glob(os.path.join(options.folder, "*.onnx")))
+    try:
+        paths = networks(options.folder, options.names)
+    except ValueError as problem:
+        raise SystemExit(f"bench_networks: {problem}") from None
     print(f"onnxruntime {onnxruntime.__version__}, {options.frames} frames\n")
     programs = ["onnxruntime", *(["tract"] if options.tract else []), "dense", "exact", "masks"]
     heads = ["network", "size", "clip", "threads", *programs, "dense / onnxruntime", "exact / onnxruntime", "changed", "blocks", "time"]
