@@ -8,7 +8,7 @@ use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use foveate_fidelity::Likeness;
-use foveate_toolchain::{Invocation, Stream, Tool, Toolchain};
+use foveate_toolchain::{Invocation, Stream, Tool, ToolError, Toolchain};
 
 use crate::{Codec, Effort, LinkError, Quality};
 
@@ -105,8 +105,31 @@ impl<'a> Encoder<'a> {
             .args(self.codec.options(quantizer, self.effort))
             .args(["-f", self.codec.format()])
             .arg(&self.stream);
-        self.tools.run_checked(&encode)?;
+        self.tools.run_checked(&encode).map_err(|error| self.refused(error))?;
         Ok(Encoded { packets: self.packets(quantizer)?, quality: self.quality(quantizer)? })
+    }
+
+    /// What went wrong, in one line if the encoder said what.
+    fn refused(&self, error: ToolError) -> LinkError {
+        let (encoder, codec) = (self.codec.encoder(), self.codec.name());
+        let ToolError::Failed { full, .. } = &error else { return error.into() };
+        let own = |line: &str| {
+            let (speaker, said) = line.split_once("] ")?;
+            speaker
+                .strip_prefix('[')?
+                .starts_with(encoder)
+                .then(|| said.trim_end_matches('.').to_owned())
+        };
+        let Some(said) = full.lines().find_map(own) else { return error.into() };
+        let Footage { clip, width, height, .. } = self.footage;
+        LinkError::Refused {
+            encoder,
+            codec,
+            clip: clip.clone(),
+            width: *width,
+            height: *height,
+            said,
+        }
     }
 
     /// Bytes of every frame.

@@ -124,6 +124,24 @@ pub enum LinkError {
         /// The codec that needs it.
         codec: &'static str,
     },
+    /// An encoder does not take the frames.
+    #[error(
+        "the encoder `{encoder}` does not take `{clip}` of {width}x{height} pixels: {said}; give frames of another size with --resize, or leave `{codec}` out of --codecs"
+    )]
+    Refused {
+        /// The encoder.
+        encoder: &'static str,
+        /// The codec that needs it.
+        codec: &'static str,
+        /// The clip.
+        clip: String,
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// What the encoder said.
+        said: String,
+    },
     /// An encoder or decoder lost frames.
     #[error("{codec} at {quantizer} gave {found} of {expected} frames of `{clip}`; {said}")]
     Frames {

@@ -157,6 +157,11 @@ fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
     );
     link(&["scene:street"], &["--max-frames", "3", "--clock", "10Hz"], &["a faster --clock"]);
     link(&["none.mp4"], &[], &["none.mp4"]);
+    link(
+        &["scene:street"],
+        &["--max-frames", "4", "--codecs", "h265", "--resize", "7x5"],
+        &["`libx265` does not take `street` of 7x5 pixels: ", "small", "--resize", "`h265` out of"],
+    );
     // Two images of 16x16 pixels.
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let bytes: Vec<u8> = header.into_iter().chain([7; 512]).collect();
