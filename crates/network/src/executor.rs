@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs a network frame by frame, and computes again only what may have changed.
 
+use crate::compare::{copy, moved};
 use crate::element::{Element, Number, typed};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::network::Network;
 use crate::operator::Job;
-use crate::tensor::{Tensor, Values, for_each_run};
+use crate::tensor::{Tensor, Values};
 use std::time::{Duration, Instant};
 
 /// What is computed for a frame after the first. The first is always computed whole.
@@ -248,42 +249,6 @@ impl<'a> Executor<'a> {
         self.work[node] = Work { needed, scheduled, changed: changed.count() };
         self.masks[node + 1] = changed;
     }
-}
-
-/// The positions of `at` of which a value differs by more than `limit`; with a limit of 0, in any bit.
-fn moved<T: Number>(form: &Form, kept: &[T], fresh: &[T], at: &Mask, limit: f32) -> Mask {
-    let scale = form.encoding().scale;
-    let (inner, places, width) = (form.inner(), form.places(), form.width());
-    let mut moved = Mask::empty(form.height(), width);
-    // What is no number is neither more nor less.
-    let is_near = |kept: T, fresh: T| {
-        kept.is_same(fresh) || (limit > 0.0 && kept.distance(fresh) * scale <= limit)
-    };
-    let mut differs = Vec::new();
-    for y in 0..form.height() {
-        for (x, length) in at.runs(y) {
-            differs.clear();
-            differs.resize(length, false);
-            for outer in 0..form.outer() {
-                let run = (outer * places + y * width + x) * inner..;
-                let own = kept[run.clone()].chunks_exact(inner);
-                for (differs, (kept, fresh)) in
-                    differs.iter_mut().zip(own.zip(fresh[run].chunks_exact(inner)))
-                {
-                    *differs |= !kept.iter().zip(fresh).all(|(&kept, &fresh)| is_near(kept, fresh));
-                }
-            }
-            for (x, _) in (x..).zip(&differs).filter(|(_, differs)| **differs) {
-                moved.insert(x, y);
-            }
-        }
-    }
-    moved
-}
-
-/// Copies the values of some positions.
-fn copy<T: Number>(form: &Form, from: &[T], to: &mut [T], at: &Mask) {
-    for_each_run(form, at, |run| to[run.clone()].copy_from_slice(&from[run]));
 }
 
 #[cfg(test)]

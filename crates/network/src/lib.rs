@@ -5,6 +5,7 @@
 //! may have changed it derives, layer by layer, those of every tensor (a [`Mask`]), and computes these alone. In the exact [`Mode`]s the result
 //! is bit for bit that of a whole computation: every value is summed in one fixed order, whoever computes it.
 
+mod compare;
 mod element;
 mod error;
 mod executor;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which positions of a tensor may have changed, a bit per position.
 
+use std::ops::Range;
+
 /// A set of positions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
@@ -152,6 +154,38 @@ impl Mask {
             from = end;
             Some((start, end - start))
         })
+    }
+
+    /// The runs of positions that follow each other in memory, row after row: those at the end of a row and at the beginning of the next are one.
+    pub(crate) fn ranges(&self) -> Vec<Range<usize>> {
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        for y in 0..self.height {
+            for (x, length) in self.runs(y) {
+                let start = y * self.width + x;
+                match ranges.last_mut() {
+                    Some(last) if last.end == start => last.end += length,
+                    _ => ranges.push(start..start + length),
+                }
+            }
+        }
+        ranges
+    }
+
+    /// Adds of the positions that follow each other in memory from `start` on those with a mark that is not 0.
+    pub(crate) fn insert_marked(&mut self, start: usize, mut marks: &[u32]) {
+        let (mut x, mut y) = (start % self.width, start / self.width);
+        while !marks.is_empty() {
+            // As far as a word of the row goes.
+            let (own, rest) = marks.split_at(marks.len().min(64 - x % 64).min(self.width - x));
+            let word = |word, (bit, &mark): (usize, &u32)| word | u64::from(mark != 0) << bit;
+            let word = own.iter().enumerate().fold(0, word);
+            self.words[y * self.pitch + x / 64] |= word << (x % 64);
+            x += own.len();
+            if x == self.width {
+                (x, y) = (0, y + 1);
+            }
+            marks = rest;
+        }
     }
 
     /// The positions of `height` x `width` outputs that see a position of this mask through a window.

@@ -122,13 +122,11 @@ impl Tensor {
 
 /// Calls `visit` with the range in memory of every run of positions of `at`, for every outer index.
 pub(crate) fn for_each_run(form: &Form, at: &Mask, mut visit: impl FnMut(std::ops::Range<usize>)) {
-    let (places, inner, width) = (form.places(), form.inner(), form.width());
+    let (places, inner, ranges) = (form.places(), form.inner(), at.ranges());
     for outer in 0..form.outer() {
-        for y in 0..form.height() {
-            for (x, length) in at.runs(y) {
-                let start = (outer * places + y * width + x) * inner;
-                visit(start..start + length * inner);
-            }
+        for range in &ranges {
+            let start = outer * places;
+            visit((start + range.start) * inner..(start + range.end) * inner);
         }
     }
 }

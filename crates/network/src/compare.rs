@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What has changed of values beside those that are kept. Channel by channel the loops run over neighbors in memory, in vector lanes, because
+//! this is all that the modes that compare take longer.
+
+use crate::element::Number;
+use crate::form::Form;
+use crate::mask::Mask;
+use crate::tensor::for_each_run;
+
+/// Positions of which all channels are compared before the next ones, so that their marks stay in the first cache.
+const TOGETHER: usize = 2048;
+
+/// The positions of `at` of which a value differs by more than `limit`; with a limit of 0, in any bit.
+pub(crate) fn moved<T: Number>(
+    form: &Form,
+    kept: &[T],
+    fresh: &[T],
+    at: &Mask,
+    limit: f32,
+) -> Mask {
+    if limit > 0.0 {
+        let scale = form.encoding().scale;
+        // What is no number is neither more nor less. Both are asked, because a branch would keep values from the lanes.
+        let is_near =
+            |kept: T, fresh: T| kept.is_same(fresh) | (kept.distance(fresh) * scale <= limit);
+        differing(form, kept, fresh, at, is_near)
+    } else {
+        differing(form, kept, fresh, at, T::is_same)
+    }
+}
+
+/// The positions of `at` of which a value is not alike.
+fn differing<T: Number>(
+    form: &Form,
+    kept: &[T],
+    fresh: &[T],
+    at: &Mask,
+    is_alike: impl Fn(T, T) -> bool,
+) -> Mask {
+    let (inner, places) = (form.inner(), form.places());
+    let mut found = Mask::empty(form.height(), form.width());
+    let mut marks = [0; TOGETHER];
+    for range in at.ranges() {
+        for start in range.clone().step_by(TOGETHER) {
+            let marks = &mut marks[..TOGETHER.min(range.end - start)];
+            marks.fill(0);
+            for outer in 0..form.outer() {
+                let from = (outer * places + start) * inner;
+                let values = from..from + marks.len() * inner;
+                mark(marks, &kept[values.clone()], &fresh[values], inner, &is_alike);
+            }
+            found.insert_marked(start, marks);
+        }
+    }
+    found
+}
+
+/// Marks the positions, of `inner` values each, of which one is not alike.
+fn mark<T: Number>(
+    marks: &mut [u32],
+    kept: &[T],
+    fresh: &[T],
+    inner: usize,
+    is_alike: &impl Fn(T, T) -> bool,
+) {
+    let differs = |(&kept, &fresh): (&T, &T)| u32::from(!is_alike(kept, fresh));
+    let pairs = kept.iter().zip(fresh);
+    if inner == 1 {
+        marks.iter_mut().zip(pairs).for_each(|(mark, pair)| *mark |= differs(pair));
+        return;
+    }
+    let own = kept.chunks_exact(inner).zip(fresh.chunks_exact(inner));
+    for (mark, (kept, fresh)) in marks.iter_mut().zip(own) {
+        *mark |= kept.iter().zip(fresh).fold(0, |mark, pair| mark | differs(pair));
+    }
+}
+
+/// Copies the values of some positions.
+pub(crate) fn copy<T: Number>(form: &Form, from: &[T], to: &mut [T], at: &Mask) {
+    for_each_run(form, at, |run| to[run.clone()].copy_from_slice(&from[run]));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::element::{Element, Encoding};
+    use proptest::prelude::*;
+
+    /// The same value by value, as the modes are defined.
+    fn naive<T: Number>(form: &Form, kept: &[T], fresh: &[T], at: &Mask, limit: f32) -> Mask {
+        let (inner, places) = (form.inner(), form.places());
+        let differs = |&(kept, fresh): &(T, T)| {
+            !kept.is_same(fresh)
+                && (limit == 0.0
+                    || kept.distance(fresh).is_nan()
+                    || kept.distance(fresh) * form.encoding().scale > limit)
+        };
+        Mask::from_fn(form.height(), form.width(), |x, y| {
+            let place = y * form.width() + x;
+            let own = (0..kept.len()).filter(|at| at / inner % places == place);
+            at.contains(x, y) && own.map(|at| (kept[at], fresh[at])).any(|pair| differs(&pair))
+        })
+    }
+
+    /// Forms with planes below and above a word and a block, and with the channels last.
+    fn forms() -> impl Strategy<Value = Form> {
+        let features = (1usize..4, 1usize..70, prop_oneof![1usize..10, 60usize..70])
+            .prop_map(|(channels, height, width)| Form::features(vec![1, channels, height, width]));
+        let last = (1usize..9, 1usize..70, 1usize..5)
+            .prop_map(|(height, width, inner)| Form::at(vec![1, height, width, inner], 1..3));
+        prop_oneof![features, last]
+    }
+
+    fn check<T: Number>(form: &Form, seed: u64, limit: f32, value: impl Fn(u64) -> T) {
+        let mut state = seed | 1;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            state >> 40
+        };
+        let dense = seed % 3;
+        let bits: Vec<bool> = (0..form.places()).map(|_| next() % 3 <= dense).collect();
+        let at = Mask::from_fn(form.height(), form.width(), |x, y| bits[y * form.width() + x]);
+        let kept: Vec<T> = (0..form.elements()).map(|_| value(next())).collect();
+        // One in so many differs.
+        let fresh: Vec<T> =
+            kept.iter().map(|&kept| if next() % 8 == 0 { value(next()) } else { kept }).collect();
+        let found = moved(form, &kept, &fresh, &at, limit);
+        assert_eq!(found, naive(form, &kept, &fresh, &at, limit));
+        let mut copied = kept.clone();
+        copy(form, &fresh, &mut copied, &found);
+        for (place, ((copied, kept), fresh)) in copied.iter().zip(&kept).zip(&fresh).enumerate() {
+            let place = place / form.inner() % form.places();
+            let is_moved = found.contains(place % form.width(), place / form.width());
+            assert!(copied.is_same(if is_moved { *fresh } else { *kept }));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_moves_is_what_differs_value_by_value(form in forms(), seed: u64, limit in prop_oneof![Just(0.0f32), 0.01f32..2.0, Just(f32::INFINITY)]) {
+            #[allow(clippy::cast_precision_loss, reason = "small numbers")]
+            let odd = |bits: u64| match bits % 16 {
+                0 => f32::NAN,
+                1 => f32::INFINITY,
+                2 => 0.0,
+                3 => -0.0,
+                other => other as f32 / 8.0,
+            };
+            check::<f32>(&form, seed, limit, odd);
+            let of = |element| form.clone().encoded(Encoding { scale: 0.25, ..Encoding::plain(element) });
+            check::<u8>(&of(Element::U8), seed, limit, |bits| (bits % 9).to_le_bytes()[0]);
+            check::<i32>(&of(Element::I32), seed, limit, |bits| i32::try_from(bits % 9).unwrap() - 4);
+        }
+    }
+}
