@@ -93,12 +93,11 @@ def networks(folder, names):
     known = sorted(glob.glob(os.path.join(folder, "*.onnx")))
     if not known:
         raise ValueError(f"there is no ONNX file in `{folder}`; `scripts/networks.py {folder}` makes some")
-    paths = [os.path.join(folder, f"{name}.onnx") for name in names]
-    for path, name in zip(paths, names):
-        if path not in known:
-            there = ", ".join(os.path.splitext(os.path.basename(one))[0] for one in known)
-            raise ValueError(f"there is no network `{name}` in `{folder}`; there are {there}")
-    return paths or known
+    by_name = {os.path.splitext(os.path.basename(path))[0]: path for path in known}
+    for name in names:
+        if name not in by_name:
+            raise ValueError(f"there is no network `{name}` in `{folder}`; there are {', '.join(by_name)}")
+    return [by_name[name] for name in names] or known
 
 
 def main():
