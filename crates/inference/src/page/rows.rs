@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Layers, frames and what tuning tried, as rows of tables and as what a mark says.
 
+mod clips;
+
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
 use crate::charts::{self, Counted, frame_id, layer_id};
 use crate::{FrameCost, Layer, Summary};
 use foveate_page::number::real;
 use foveate_page::{Cell, Column, Row, Table};
 use std::collections::BTreeMap;
+
+pub(super) use clips::clips;
 
 /// Rows, and the figures of each in a few lines.
 pub(super) struct Rows {
@@ -161,37 +165,6 @@ fn layer_title(number: usize, layer: &Layer) -> String {
         title += &format!("\nrelative RMS error {}", error(relative));
     }
     title
-}
-
-/// A row per clip.
-pub(super) fn clips(summary: &Summary) -> Rows {
-    let mut rows = Rows::new(vec![
-        ("clip", "", "the clip or set", false),
-        ("frames", "", "frames that were seen", true),
-        ("counted", "", "frames that are in the means", true),
-        ("active", "% of regions", "regions that were active", true),
-        ("changed", "% of regions", "regions whose rendered pixels changed", true),
-        ("needed", "% of MACs", "MACs whose windows hold a change", true),
-        ("computed", "% of MACs", "MACs that were computed, in whole blocks", true),
-        ("problem", "", "why frames are missing", false),
-    ]);
-    for (number, clip) in (0..).zip(&summary.clips) {
-        let counted = |share: f64| {
-            if clip.counted_frames > 0 { Cell::share(share) } else { Cell::none() }
-        };
-        let cells = vec![
-            Cell::words(clip.name.clone()),
-            Cell::count(clip.frames),
-            Cell::count(clip.counted_frames),
-            counted(clip.active_share),
-            counted(clip.changed_share),
-            counted(clip.macs.share(clip.macs.needed)),
-            counted(clip.macs.share(clip.macs.scheduled)),
-            Cell::words(clip.problem.clone().unwrap_or_default()),
-        ];
-        rows.push(format!("c{number}"), number, cells, String::new());
-    }
-    rows
 }
 
 /// A row per frame that is shown.
