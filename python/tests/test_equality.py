@@ -128,16 +128,31 @@ def test_a_network_behind_the_camera(command, tmp_path):
         fv.infer(network, "scene:street", mode="sparse")
 
 
-def test_a_data_set_of_torch_equals_dataset(command, tmp_path):
-    torch = pytest.importorskip("torch")
-    from foveate.torch import RegionDataset
-
+def idx_set(folder):
+    """A labelled set of 12 images in IDX files."""
     chance = np.random.default_rng(3)
     images, labels = chance.integers(0, 256, (12, 28, 28), np.uint8), np.arange(12, dtype=np.uint8)
     images[:, :12] = 0
     for name, kind, array in [("images-idx3", 3, images), ("labels-idx1", 1, labels)]:
         header = struct.pack(f">BBBB{kind}I", 0, 0, 8, kind, *array.shape)
-        (tmp_path / f"train-{name}-ubyte").write_bytes(header + array.tobytes())
+        (folder / f"train-{name}-ubyte").write_bytes(header + array.tobytes())
+    return images, labels
+
+
+def test_images_of_a_set_are_first_frames(command, tmp_path):
+    images, labels = idx_set(tmp_path)
+    command("simulate", tmp_path / "train-images-idx3-ubyte", "-o", tmp_path / "out", "--quiet")
+    seen = list(fv.simulate(tmp_path / "train-images-idx3-ubyte"))
+    assert [outcome.label for outcome in seen] == [str(label) for label in labels]
+    for image, outcome, active in zip(images, seen, np.load(tmp_path / "out/active.npy"), strict=True):
+        assert outcome.trs.all() and np.array_equal(outcome.active, active) and np.array_equal(outcome.frame, image)
+
+
+def test_a_data_set_of_torch_equals_dataset(command, tmp_path):
+    torch = pytest.importorskip("torch")
+    from foveate.torch import RegionDataset
+
+    images, labels = idx_set(tmp_path)
     command("dataset", tmp_path / "train-images-idx3-ubyte", "-o", tmp_path / "out", "--quiet")
     raw = (tmp_path / "out/train-images-idx3-ubyte").read_bytes()
     made = np.frombuffer(raw, np.uint8, offset=16).reshape(images.shape)
