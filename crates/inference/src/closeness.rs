@@ -78,13 +78,17 @@ impl Distance {
     }
 }
 
-/// How much the outputs of a whole computation vary from frame to frame.
+/// How much the outputs of a whole computation vary from frame to frame of a clip. That clips differ from each other is no variation.
 #[derive(Clone, Debug, Default)]
 struct Variation {
-    /// Sums of every output over the frames.
+    /// Sums of every output over the frames of this clip.
     sums: Vec<f64>,
-    /// Sum of all squares.
+    /// Sum of all squares of this clip.
     squares: f64,
+    /// Frames of this clip.
+    frames: u64,
+    /// Of the clips before.
+    before: f64,
 }
 
 impl Variation {
@@ -94,13 +98,22 @@ impl Variation {
         }
         self.sums.iter_mut().zip(&other.sums).for_each(|(sum, other)| *sum += other);
         self.squares += other.squares;
+        self.frames += other.frames;
     }
 
-    /// Sum of the squared distances of every output from its mean over so many frames.
+    /// Says that the next frame is the first of another clip.
+    fn next_clip(&mut self) {
+        *self = Self { before: self.around_means(), ..Self::default() };
+    }
+
+    /// Sum of the squared distances of every output from its mean over the frames of its clip.
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
-    fn around_mean(&self, frames: u64) -> f64 {
+    fn around_means(&self) -> f64 {
+        if self.frames == 0 {
+            return self.before;
+        }
         let of_means: f64 = self.sums.iter().map(|sum| sum * sum).sum();
-        (self.squares - of_means / frames as f64).max(0.0)
+        self.before + (self.squares - of_means / self.frames as f64).max(0.0)
     }
 }
 
@@ -129,7 +142,7 @@ impl Closeness {
             agrees &= largest(&right) == largest(&found);
             sums.extend(right.iter().map(|&value| f64::from(value)));
         }
-        let variation = Variation { sums, squares: distance.right };
+        let variation = Variation { sums, squares: distance.right, frames: 1, before: 0.0 };
         Self { distance, variation, agreeing: agrees.into(), frames: 1 }
     }
 
@@ -140,10 +153,15 @@ impl Closeness {
         self.frames += other.frames;
     }
 
-    /// Root of the mean squared difference, as a share of the standard deviation of the outputs over the frames; 0 if there is no
-    /// difference. A network that is never run again has about 1.
+    /// Says that the next frame is the first of another clip.
+    pub(crate) fn next_clip(&mut self) {
+        self.variation.next_clip();
+    }
+
+    /// Root of the mean squared difference, as a share of the standard deviation of the outputs over the frames of their clip; 0 if there
+    /// is no difference. A network that is never run again has about 1.
     pub(crate) fn of_variation(&self) -> f64 {
-        let varies = self.variation.around_mean(self.frames);
+        let varies = self.variation.around_means();
         if self.distance.difference == 0.0 {
             0.0
         } else {
@@ -210,6 +228,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn clips_that_differ_from_each_other_do_not_vary() {
+        let frame = |value: f64| Variation {
+            sums: vec![value],
+            squares: value * value,
+            frames: 1,
+            before: 0.0,
+        };
+        let mut variation = Variation::default();
+        for clip in [[0.0, 2.0], [10.0, 12.0]] {
+            variation.next_clip();
+            clip.iter().for_each(|&value| variation.add(&frame(value)));
+        }
+        // Each clip is 1 away from its mean, twice.
+        assert_eq!(variation.around_means(), 4.0);
+        variation.next_clip();
+        assert_eq!(variation.around_means(), 4.0);
+    }
+
+    #[test]
     fn measures_are_those_of_the_books() {
         let (mut sum, differs) = Distance::of(&[3.0, 0.0], &[3.0, 4.0]);
         assert!(differs);
@@ -245,7 +282,7 @@ mod tests {
             let (distance, _) = Distance::of(&right, &found);
             let sums = right.map(f64::from).to_vec();
             Closeness {
-                variation: Variation { sums, squares: distance.right },
+                variation: Variation { sums, squares: distance.right, frames: 1, before: 0.0 },
                 distance,
                 agreeing: 1,
                 frames: 1,

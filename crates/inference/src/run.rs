@@ -71,6 +71,9 @@ impl Audience for Run<'_> {
         self.before = self.counted.last().map_or(0, |counted| counted.place + 1);
         self.clips.push(ClipSums::new(clip));
         self.player.begin(black);
+        if let Some(reference) = &mut self.reference {
+            reference.outputs.next_clip();
+        }
     }
 
     fn look(&mut self, seen: Seen<'_>) -> Result<(), InferenceError> {

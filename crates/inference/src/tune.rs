@@ -144,6 +144,7 @@ impl Tuner<'_> {
                 return Err(InferenceError::Cancelled);
             }
             if is_first {
+                closeness.next_clip();
                 player.begin(part.black);
             }
             let work = player.step(kept.seen()).to_vec();

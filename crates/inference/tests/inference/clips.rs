@@ -81,6 +81,11 @@ fn limits_of_some_clips_are_reported_on_the_others() {
     let chosen: Vec<_> = summary.layers.iter().map(|layer| layer.limit).collect();
     assert!(chosen.iter().flatten().any(|&limit| limit > 0.0));
     assert_eq!(limits(&["scene:street", "scene:shake", "scene:zero", "scene:flicker"]), chosen);
+    // That clips differ from each other is no variation: nothing computed again is as far away as in the clip that varies.
+    let far = |inputs| run(inputs, 3).write(dir.path()).unwrap().tuning.unwrap().frozen.outputs;
+    let (alone, beside) =
+        (far(&["scene:street", "scene:fade"]), far(&["scene:street", "scene:zero", "scene:fade"]));
+    assert!(near(alone.rms_of_variation, beside.rms_of_variation), "{alone:?} {beside:?}");
     let error = run(&all, 1).write(dir.path()).unwrap_err().to_string();
     assert!(error.starts_with("no frame of the clips that it tunes on counts"), "{error}");
 }
