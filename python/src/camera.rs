@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use foveate_design::Config;
 use foveate_engine::{Engine, Options};
 use foveate_footage::FrameRate;
-use foveate_frame::Plane;
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -16,6 +15,7 @@ use crate::design::{Design, in_words};
 use crate::error::raise;
 use crate::frame::{Grey, rows};
 use crate::outcome::{Outcome, Screen, Taken};
+use crate::tools;
 
 /// A camera that takes frames one by one.
 ///
@@ -62,10 +62,17 @@ pub(crate) struct Camera {
     seen: Mutex<Seen>,
 }
 
+/// What looks at frames of the size of the first one.
+struct Eye {
+    /// That of the engine, for outcomes to share.
+    design: Arc<foveate_design::Design>,
+    engine: Engine,
+}
+
 /// What a camera has seen.
 struct Seen {
-    /// Of the size of the first frame; kept when the camera forgets, for frames of the same size.
-    engine: Option<Engine>,
+    /// Kept when the camera forgets, for frames of the same size.
+    eye: Option<Eye>,
     /// Frames since the camera has seen nothing.
     frames: u64,
     /// Frames ever: which outcome the screen belongs to.
@@ -80,7 +87,7 @@ impl Camera {
     /// A camera that has seen nothing.
     fn of(config: Config, threads: usize) -> Self {
         let seen = Seen {
-            engine: None,
+            eye: None,
             frames: 0,
             steps: 0,
             process: std::process::id(),
@@ -108,8 +115,10 @@ impl Camera {
     /// The screen after a step, if there was none since.
     pub(crate) fn screen(&self, py: Python<'_>, step: u64) -> PyResult<Screen> {
         let seen = self.seen()?;
-        match &seen.engine {
-            Some(engine) if seen.steps == step => Ok(Screen::of(py, engine)),
+        match &seen.eye {
+            Some(eye) if seen.steps == step => {
+                Ok(Screen::of(py, &eye.design, eye.engine.rendered()))
+            }
             _ => Err(PyRuntimeError::new_err(
                 "this outcome's rendered frame is gone, because the camera has taken another frame or was reset; \
                  read outcome.rendered before the next step, or keep it with step(frame, keep=True)",
@@ -136,8 +145,8 @@ impl Camera {
     #[getter]
     fn design(&self) -> PyResult<Design> {
         let seen = self.seen()?;
-        match &seen.engine {
-            Some(engine) if seen.frames > 0 => Ok(engine.design().clone().into()),
+        match &seen.eye {
+            Some(eye) if seen.frames > 0 => Ok(eye.engine.design().clone().into()),
             _ => Design::new(self.config.clone()),
         }
     }
@@ -153,8 +162,8 @@ impl Camera {
         let mut seen = self.seen()?;
         seen.frames = 0;
         seen.steps += 1;
-        if let Some(engine) = &mut seen.engine {
-            engine.reset();
+        if let Some(eye) = &mut seen.eye {
+            eye.engine.reset();
         }
         Ok(())
     }
@@ -208,16 +217,16 @@ impl Camera {
             }
         }
         .map_err(raise)?;
-        let engine = seen.engine.as_ref().expect("it has taken a frame");
+        let Eye { design, engine } = seen.eye.as_ref().expect("it has taken a frame");
         let taken = Taken {
-            design: Arc::new(engine.design().clone()),
+            design: Arc::clone(design),
             result: engine.outcome().clone(),
             number,
             time_us: time_us.unwrap_or_else(|| FrameRate::default().time_us(number)),
             name: None,
             label: None,
         };
-        let screen = keep.then(|| Screen::of(py, engine));
+        let screen = keep.then(|| Screen::of(py, design, engine.rendered()));
         let step = seen.steps;
         drop(guard);
         Ok(Outcome::of_camera(py, taken, slf.clone().unbind(), step, screen))
@@ -240,14 +249,12 @@ impl Camera {
         folder: &Bound<'py, PyAny>,
         force: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let options = PyDict::new(slf.py());
-        options.set_item("force", force)?;
-        slf.py().import("foveate._work")?.call_method("generate", (slf, folder), Some(&options))
+        tools::generate_of(slf, folder, force)
     }
 
     /// Area and logic levels of the design; see `foveate.estimate`.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("foveate._work")?.call_method1("estimate", (slf,))
+        tools::estimate_of(slf)
     }
 
     fn __reduce__<'py>(
@@ -276,10 +283,7 @@ impl Seen {
     /// Makes ready for a frame, or refuses it.
     fn fit(&mut self, config: &Config, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
         let (width, height) = frame.size();
-        let own_size = |engine: &Engine| {
-            let design = engine.design();
-            (design.width() as usize, design.height() as usize)
-        };
+        let own_size = |eye: &Eye| (eye.design.width() as usize, eye.design.height() as usize);
         if self.frames > 0 {
             if threads != 1 && self.process != std::process::id() {
                 return Err(PyRuntimeError::new_err(
@@ -287,7 +291,7 @@ impl Seen {
                 ));
             }
             let (own_width, own_height) =
-                self.engine.as_ref().map(own_size).expect("it has seen a frame");
+                self.eye.as_ref().map(own_size).expect("it has seen a frame");
             if (own_width, own_height) != (width, height) {
                 return Err(PyValueError::new_err(format!(
                     "the frame has {width}x{height} pixels, but this camera has taken frames of \
@@ -295,15 +299,14 @@ impl Seen {
                      of another size"
                 )));
             }
-        } else if self.engine.as_ref().map(own_size) != Some((width, height))
+        } else if self.eye.as_ref().map(own_size) != Some((width, height))
             || self.process != std::process::id()
         {
             let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-            let mut config = config.clone();
-            config.fit_frame(side(width), side(height)).map_err(raise)?;
-            let design = config.validate().map_err(raise)?;
+            let design = config.for_frames(side(width), side(height)).map_err(raise)?;
             let options = Options { threads, ..Options::default() };
-            self.engine = Some(Engine::with_options(&design, options).map_err(raise)?);
+            let engine = Engine::with_options(&design, options).map_err(raise)?;
+            self.eye = Some(Eye { design: Arc::new(design), engine });
             self.process = std::process::id();
         }
         let bits = config.frame.pixel_bits;
@@ -324,9 +327,9 @@ impl Seen {
         &mut self,
         view: &numpy::ndarray::ArrayView2<'_, u8>,
     ) -> Result<(), foveate_engine::EngineError> {
-        let Self { engine, bytes, .. } = self;
+        let Self { eye, bytes, .. } = self;
         let (pixels, stride) = rows(view, bytes);
-        engine.as_mut().expect("made ready").step_u8(pixels, stride)?;
+        eye.as_mut().expect("made ready").engine.step_u8(pixels, stride)?;
         self.count();
         Ok(())
     }
@@ -335,9 +338,9 @@ impl Seen {
         &mut self,
         view: &numpy::ndarray::ArrayView2<'_, u16>,
     ) -> Result<(), foveate_engine::EngineError> {
-        let Self { engine, words, .. } = self;
+        let Self { eye, words, .. } = self;
         let (pixels, stride) = rows(view, words);
-        engine.as_mut().expect("made ready").step_u16(pixels, stride)?;
+        eye.as_mut().expect("made ready").engine.step_u16(pixels, stride)?;
         self.count();
         Ok(())
     }
@@ -345,17 +348,5 @@ impl Seen {
     fn count(&mut self) {
         self.frames += 1;
         self.steps += 1;
-    }
-}
-
-impl Screen {
-    /// What is on the screen of an engine, as an array that owns its memory.
-    pub(crate) fn of(py: Python<'_>, engine: &Engine) -> Self {
-        let design = engine.design();
-        let size = [design.height() as usize, design.width() as usize];
-        match engine.rendered() {
-            Plane::Bytes(pixels) => Self::bytes(py, pixels, size),
-            Plane::Words(pixels) => Self::words(py, pixels, size),
-        }
     }
 }

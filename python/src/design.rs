@@ -7,6 +7,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::config;
 use crate::error::raise;
+use crate::tools;
 
 /// A validated configuration with the numbers that follow from it. Immutable, hashable, and can be pickled.
 ///
@@ -185,14 +186,12 @@ impl Design {
         folder: &Bound<'py, PyAny>,
         force: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let options = PyDict::new(slf.py());
-        options.set_item("force", force)?;
-        slf.py().import("foveate._work")?.call_method("generate", (slf, folder), Some(&options))
+        tools::generate_of(slf, folder, force)
     }
 
     /// Area and logic levels of the design; see `foveate.estimate`.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("foveate._work")?.call_method1("estimate", (slf,))
+        tools::estimate_of(slf)
     }
 
     #[classmethod]

@@ -4,11 +4,12 @@
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use foveate_design::Config;
 use foveate_engine::Engine;
 use foveate_footage::{
     Crop, FrameRate, ImagesAs, InputOptions, Kind, Plan, Source, open, parse_time, plan,
 };
+use foveate_frame::{Plane, Raster};
+use foveate_simulator::SimulatorError;
 use numpy::ndarray::Axis;
 use numpy::{PyArray2, PyReadonlyArray3, ToPyArray};
 use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
@@ -117,6 +118,13 @@ struct State {
     ended: bool,
 }
 
+/// A frame, what came of it, and the screen after it.
+struct Step {
+    taken: Taken,
+    frame: Raster,
+    screen: Raster,
+}
+
 impl Run {
     /// A run belongs to one thread at a time; another waits for its frame without holding the interpreter.
     fn state(&self) -> MutexGuard<'_, State> {
@@ -156,7 +164,7 @@ impl Run {
         py.check_signals()?;
         let design = Arc::clone(&self.design);
         let next = py.detach(|| self.state().next(design)).map_err(raise)?;
-        let Some((taken, raster, screen)) = next else {
+        let Some(Step { taken, frame, screen }) = next else {
             let problem = self.problem(py);
             if let Some(problem) = problem {
                 let text = std::ffi::CString::new(problem).unwrap_or_default();
@@ -164,8 +172,8 @@ impl Run {
             }
             return Ok(None);
         };
-        let frame = Screen::of_raster(py, &raster);
-        Ok(Some(Outcome::of_run(py, taken, frame, Screen::of_raster(py, &screen))))
+        let array = |raster: &Raster| Screen::of(py, &self.design, raster.plane());
+        Ok(Some(Outcome::of_run(py, taken, array(&frame), array(&screen))))
     }
 
     fn __repr__(&self) -> String {
@@ -175,15 +183,10 @@ impl Run {
 }
 
 impl State {
-    /// The next frame, what came of it, and the screen after it.
-    #[allow(clippy::type_complexity, reason = "said in the line above, and used once")]
     fn next(
         &mut self,
         design: Arc<foveate_design::Design>,
-    ) -> Result<
-        Option<(Taken, foveate_frame::Raster, foveate_frame::Raster)>,
-        foveate_simulator::SimulatorError,
-    > {
+    ) -> Result<Option<Step>, SimulatorError> {
         if self.ended {
             return Ok(None);
         }
@@ -206,24 +209,11 @@ impl State {
         let (width, height, bits) =
             (current.frame.width(), current.frame.height(), current.frame.bits());
         let screen = match self.engine.rendered() {
-            foveate_frame::Plane::Bytes(pixels) => {
-                foveate_frame::Raster::from_bytes(width, height, bits, pixels.to_vec())?
-            }
-            foveate_frame::Plane::Words(pixels) => {
-                foveate_frame::Raster::from_words(width, height, bits, pixels.to_vec())?
-            }
+            Plane::Bytes(pixels) => Raster::from_bytes(width, height, bits, pixels.to_vec())?,
+            Plane::Words(pixels) => Raster::from_words(width, height, bits, pixels.to_vec())?,
         };
-        Ok(Some((taken, current.frame, screen)))
+        Ok(Some(Step { taken, frame: current.frame, screen }))
     }
-}
-
-/// Opens inputs for a camera.
-pub(crate) fn opened(
-    inputs: &[PathBuf],
-    config: &Config,
-    options: &InputOptions,
-) -> Result<Box<dyn Source>, foveate_footage::FootageError> {
-    open(inputs, config, options)
 }
 
 /// Run a camera over footage, frame by frame.
@@ -282,11 +272,9 @@ pub(crate) fn simulate(
                 clips.len()
             )));
         }
-        let source = opened(&inputs, &config, &options).map_err(raise)?;
+        let source = open(&inputs, &config, &options).map_err(raise)?;
         let (width, height) = source.size();
-        let mut config = config;
-        config.fit_frame(width, height).map_err(raise)?;
-        let design = config.validate().map_err(raise)?;
+        let design = config.for_frames(width, height).map_err(raise)?;
         let (total, engine) = (source.frames(), Engine::new(&design));
         let state = State { source, engine, number: 0, ended: false };
         Ok(Run { design: Arc::new(design), total, state: Mutex::new(state) })

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use foveate_design::Action;
 use foveate_engine::Outcome as Result;
-use foveate_frame::{Plane, Raster};
+use foveate_frame::Plane;
 use numpy::{Element, PyArray2, PyArrayMethods, PyUntypedArray};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -29,20 +29,13 @@ pub(crate) struct Taken {
 pub(crate) struct Screen(Py<PyUntypedArray>);
 
 impl Screen {
-    pub(crate) fn bytes(py: Python<'_>, pixels: &[u8], size: [usize; 2]) -> Self {
-        Self(untyped(py, pixels, size))
-    }
-
-    pub(crate) fn words(py: Python<'_>, pixels: &[u16], size: [usize; 2]) -> Self {
-        Self(untyped(py, pixels, size))
-    }
-
-    pub(crate) fn of_raster(py: Python<'_>, raster: &Raster) -> Self {
-        let size = [raster.height() as usize, raster.width() as usize];
-        match raster.plane() {
-            Plane::Bytes(pixels) => Self::bytes(py, pixels, size),
-            Plane::Words(pixels) => Self::words(py, pixels, size),
-        }
+    /// Pixels of a design's frame.
+    pub(crate) fn of(py: Python<'_>, design: &foveate_design::Design, pixels: Plane<'_>) -> Self {
+        let size = [design.height() as usize, design.width() as usize];
+        Self(match pixels {
+            Plane::Bytes(pixels) => untyped(py, pixels, size),
+            Plane::Words(pixels) => untyped(py, pixels, size),
+        })
     }
 }
 

@@ -4,12 +4,13 @@
 use std::sync::atomic::Ordering;
 
 use foveate_explore::compare;
+use foveate_footage::open;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::config;
 use crate::error::{raise, value_error};
-use crate::footage::{input_options, opened, paths};
+use crate::footage::{input_options, paths};
 use crate::work::interruptible;
 
 /// A value as JSON, from which Python makes its own.
@@ -31,7 +32,7 @@ pub(crate) fn explain(
     let (inputs, options) = (paths(inputs)?, input_options(options)?);
     let config = config::read(camera, None)?;
     let explanation = py.detach(|| {
-        let source = opened(&inputs, &config, &options).map_err(raise)?;
+        let source = open(&inputs, &config, &options).map_err(raise)?;
         foveate_simulator::explain(&config, source, frame, region).map_err(raise)
     })?;
     Ok((json(&explanation)?, explanation.to_string()))

@@ -9,6 +9,7 @@ use foveate_estimate::{EstimateJob, render_text};
 use foveate_toolchain::{Cache, Toolchain};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::config;
 use crate::error::raise;
@@ -55,4 +56,21 @@ pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(S
         foveate_estimate::estimate(&toolchain, &cache, &job).map_err(raise)
     })??;
     Ok((json(&report)?, render_text(&report, WIDTH)))
+}
+
+/// `foveate.generate` as a method of a camera or a design.
+pub(crate) fn generate_of<'py>(
+    camera: &Bound<'py, PyAny>,
+    folder: &Bound<'py, PyAny>,
+    force: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let options = PyDict::new(camera.py());
+    options.set_item("force", force)?;
+    let work = camera.py().import("foveate._work")?;
+    work.call_method("generate", (camera, folder), Some(&options))
+}
+
+/// `foveate.estimate` as a method of a camera or a design.
+pub(crate) fn estimate_of<'py>(camera: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    camera.py().import("foveate._work")?.call_method1("estimate", (camera,))
 }

@@ -56,6 +56,16 @@ impl Config {
         Ok(Design::new(config, (width, height), features, temporal))
     }
 
+    /// The design for inputs of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// As [`Config::fit_frame`] and [`Config::validate`].
+    pub fn for_frames(&self, width: u32, height: u32) -> Result<Design, DesignError> {
+        let mut config = self.clone();
+        config.fit_frame(width, height)?;
+        config.validate()
+    }
+
     /// Takes the frame size from an input of `width` x `height` pixels.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use foveate_design::{Config, Design};
+use foveate_design::Config;
 use foveate_fidelity::Figures;
 use foveate_footage::{InputOptions, Subject, open};
 
@@ -30,7 +30,8 @@ pub fn compare(
     ideal: &Config,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Compared, ExploreError> {
-    let design = fitted(inputs, input, config)?;
+    let (width, height) = open(inputs, config, input)?.size();
+    let design = config.for_frames(width, height)?;
     let subject = Subject { name: String::new(), inputs: inputs.to_vec() };
     let whole = 0..u64::MAX;
     let clip = Clip {
@@ -44,16 +45,4 @@ pub fn compare(
     let measured = clip.measure(&[design])?.pop().and_then(|mut parts| parts.pop());
     let Measured { tally, problem, .. } = measured.expect("one design and one part are measured");
     Ok(Compared { figures: tally.figures(), problem })
-}
-
-/// The design for the frames of the clip.
-fn fitted(
-    inputs: &[PathBuf],
-    input: &InputOptions,
-    config: &Config,
-) -> Result<Design, ExploreError> {
-    let (width, height) = open(inputs, config, input)?.size();
-    let mut config = config.clone();
-    config.fit_frame(width, height)?;
-    Ok(config.validate()?)
 }

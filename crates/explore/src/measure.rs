@@ -71,9 +71,7 @@ impl Clip<'_> {
     pub(crate) fn measure(&self, designs: &[Design]) -> Result<Vec<Vec<Measured>>, ExploreError> {
         let source = open(&self.subject.inputs, self.ideal, self.input)?;
         let (width, height) = source.size();
-        let mut ideal = self.ideal.clone();
-        ideal.fit_frame(width, height)?;
-        let ideal = &ideal.validate()?;
+        let ideal = &self.ideal.for_frames(width, height)?;
         let candidate = |design| Candidate::new(ideal, design, self.parts.len());
         let mut candidates = designs.iter().map(candidate).collect::<Result<Vec<_>, _>>()?;
         let set = source.kind() == Kind::Set;

@@ -81,9 +81,9 @@ impl Space {
             .filter_map(|(axis, value)| value.map(|value| format!("{}={value}", axis.key)))
             .collect();
         let config = self.start.with_its_levels(&overrides);
-        let mut config = config.map_err(|error| error.to_string())?;
-        config.fit_frame(width, height).map_err(|error| error.to_string())?;
-        let design = config.validate().map_err(|error| error.to_string())?;
+        let design = config
+            .and_then(|config| config.for_frames(width, height))
+            .map_err(|error| error.to_string())?;
         // With every default filled in, so that equal designs are equal texts.
         Ok(Design::config(&design).clone())
     }

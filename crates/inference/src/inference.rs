@@ -71,13 +71,11 @@ impl Inference {
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
         let clips = Clips::new(inputs, config, input)?;
-        let mut config = config.clone();
         let (width, height) = clips.size;
         let network_for = FrameSize { width: width as usize, height: height as usize };
         let path = network.to_owned();
         let network = Network::read(network, network_for)?;
-        config.fit_frame(width, height)?;
-        Ok(Self { design: config.validate()?, network, path, clips })
+        Ok(Self { design: config.for_frames(width, height)?, network, path, clips })
     }
 
     /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when everything is written; on an error nothing is left.

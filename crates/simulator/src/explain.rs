@@ -131,10 +131,8 @@ pub fn explain(
     frame: u64,
     region: (u32, u32),
 ) -> Result<Explanation, SimulatorError> {
-    let mut config = config.clone();
     let (width, height) = source.size();
-    config.fit_frame(width, height)?;
-    let design = config.validate()?;
+    let design = config.for_frames(width, height)?;
     let (columns, rows) = (design.columns(), design.rows());
     let (x, y) = region;
     if x >= columns || y >= rows {

@@ -23,10 +23,8 @@ impl Simulation {
     /// # Errors
     /// When the configuration names another size, or is not a valid design.
     pub fn new(config: &Config, source: Box<dyn Source>) -> Result<Self, SimulatorError> {
-        let mut config = config.clone();
         let (width, height) = source.size();
-        config.fit_frame(width, height)?;
-        Ok(Self { design: config.validate()?, source })
+        Ok(Self { design: config.for_frames(width, height)?, source })
     }
 
     /// The design, with the frame size of the source.

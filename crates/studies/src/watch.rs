@@ -122,11 +122,7 @@ impl Watcher<'_> {
     ) -> Result<Watched<T, G>, StudyError> {
         let mut source = open(&subject.inputs, self.config, self.input)?;
         let (width, height) = source.size();
-        let design = |config: &Config| -> Result<Design, StudyError> {
-            let mut config = config.clone();
-            config.fit_frame(width, height)?;
-            Ok(config.validate()?)
-        };
+        let design = |config: &Config| config.for_frames(width, height);
         let designs = configs.iter().map(design).collect::<Result<Vec<_>, _>>()?;
         let mut points: Vec<(Engine, T)> =
             designs.iter().map(|design| (Engine::new(design), T::default())).collect();

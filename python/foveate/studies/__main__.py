@@ -98,10 +98,8 @@ def _accuracy(bench: Bench, options: argparse.Namespace) -> int:
 
     plan = Plan(options.sets, sorted(set(options.thresholds)), options.seeds, options.figure_seeds, options.margin / 100)
     summary = study(bench, plan, jobs=options.jobs, report=_say)
-    tables.write_csv(options.output / "accuracy.csv", runs_of(bench, plan, summary))
-    tables.write_json(options.output / "accuracy.json", summary)
     text = tables.accuracy_markdown(summary)
-    tables.write_text(options.output / "accuracy.md", text)
+    tables.write_all(options.output / "accuracy", runs_of(bench, plan, summary), summary, text)
     plots.accuracy(summary, options.output)
     print(text, end="")
     return 0
@@ -113,10 +111,8 @@ def _savings(bench: Bench, options: argparse.Namespace) -> int:
 
     plan = Plan(options.sets, options.sizes, sorted(set(options.thresholds)), options.seeds, options.learned, options.images)
     summary = study(bench, plan, jobs=options.jobs, report=_say)
-    tables.write_csv(options.output / "savings.csv", summary["rows"])
-    tables.write_json(options.output / "savings.json", summary)
     text = tables.savings_markdown(summary)
-    tables.write_text(options.output / "savings.md", text)
+    tables.write_all(options.output / "savings", summary["rows"], summary, text)
     plots.savings(summary, options.output)
     print(text, end="")
     return 0

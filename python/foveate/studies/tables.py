@@ -36,6 +36,13 @@ def write_text(path: Path, text: str) -> None:
     write_whole(path, lambda partial: partial.write_text(text, encoding="utf-8"))
 
 
+def write_all(path: Path, rows: Sequence[Mapping[str, Any]], summary: Mapping[str, Any], text: str) -> None:
+    """Write the rows, the summary and the table of a study beside each other, as ``path`` with the extension of each."""
+    write_csv(path.with_suffix(".csv"), rows)
+    write_json(path.with_suffix(".json"), summary)
+    write_text(path.with_suffix(".md"), text)
+
+
 def accuracy_markdown(summary: Mapping[str, Any]) -> str:
     """The table beside the paper's, and what each row comes to in words."""
     lines = [

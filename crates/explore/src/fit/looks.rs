@@ -62,9 +62,9 @@ impl<'a> Search<'a> {
         halves: &'a Halves,
         task: &Config,
     ) -> Result<Self, ExploreError> {
-        let mut task = Config { hardware: HardwareConfig::default(), ..task.clone() };
-        task.fit_frame(footage.size.0, footage.size.1)?;
-        let task = task.validate()?.config().clone();
+        let task = Config { hardware: HardwareConfig::default(), ..task.clone() };
+        let (width, height) = footage.size;
+        let task = task.for_frames(width, height)?.config().clone();
         Ok(Self { constraints, footage, halves, task, seen: BTreeMap::new() })
     }
 

@@ -50,8 +50,7 @@ fn nearest(
     let design = |task: &Config| {
         let mut exact = task.clone();
         exact.region.neighborhood = Neighborhood::Shared;
-        exact.fit_frame(width, height)?;
-        exact.validate()
+        exact.for_frames(width, height)
     };
     // A scaled threshold can be out of range; that is no task.
     let (tasks, designs): (Vec<Config>, Vec<_>) =
