@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 tools=$(scripts/python_tools.sh --package)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$tools/maturin" sdist --quiet --out "$folder"
+"$tools/maturin" sdist --out "$folder"
 python3 -m venv "$folder/environment"
 cd "$folder"
 environment/bin/pip install --quiet --disable-pip-version-check foveate-*.tar.gz
