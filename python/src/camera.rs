@@ -146,7 +146,7 @@ impl Camera {
     fn design(&self) -> PyResult<Design> {
         let seen = self.seen()?;
         match &seen.eye {
-            Some(eye) if seen.frames > 0 => Ok(eye.engine.design().clone().into()),
+            Some(eye) if seen.frames > 0 => Ok(foveate_design::Design::clone(&eye.design).into()),
             _ => Design::new(self.config.clone()),
         }
     }

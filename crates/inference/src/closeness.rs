@@ -92,6 +92,11 @@ struct Variation {
 }
 
 impl Variation {
+    /// Of a frame, from its outputs and the sum of their squares.
+    fn of(sums: Vec<f64>, squares: f64) -> Self {
+        Self { sums, squares, frames: 1, before: 0.0 }
+    }
+
     fn add(&mut self, other: &Self) {
         if self.sums.is_empty() {
             self.sums.resize(other.sums.len(), 0.0);
@@ -142,7 +147,7 @@ impl Closeness {
             agrees &= largest(&right) == largest(&found);
             sums.extend(right.iter().map(|&value| f64::from(value)));
         }
-        let variation = Variation { sums, squares: distance.right, frames: 1, before: 0.0 };
+        let variation = Variation::of(sums, distance.right);
         Self { distance, variation, agreeing: agrees.into(), frames: 1 }
     }
 
@@ -185,7 +190,7 @@ pub enum Goal {
     Cosine(f64),
     /// The peak signal-to-noise ratio of all outputs is at least this many decibels, with the range of the outputs as the peak.
     Psnr(f64),
-    /// The error of all outputs is at most this share of their standard deviation over the frames.
+    /// The error of all outputs is at most this share of their standard deviation over the frames of their clip.
     Variation(f64),
 }
 
@@ -229,12 +234,7 @@ mod tests {
 
     #[test]
     fn clips_that_differ_from_each_other_do_not_vary() {
-        let frame = |value: f64| Variation {
-            sums: vec![value],
-            squares: value * value,
-            frames: 1,
-            before: 0.0,
-        };
+        let frame = |value: f64| Variation::of(vec![value], value * value);
         let mut variation = Variation::default();
         for clip in [[0.0, 2.0], [10.0, 12.0]] {
             variation.next_clip();
@@ -282,7 +282,7 @@ mod tests {
             let (distance, _) = Distance::of(&right, &found);
             let sums = right.map(f64::from).to_vec();
             Closeness {
-                variation: Variation { sums, squares: distance.right, frames: 1, before: 0.0 },
+                variation: Variation::of(sums, distance.right),
                 distance,
                 agreeing: 1,
                 frames: 1,

@@ -11,6 +11,7 @@ use foveate_design::Config;
 use foveate_network::{Executor, Form, Mode, Network};
 use foveate_tables::{Cell, Cells, Table};
 use serde::Serialize;
+use std::ops::AddAssign;
 
 /// A run of a network behind a camera. All shares and means are over the counted frames.
 #[derive(Clone, Debug, Serialize)]
@@ -119,6 +120,15 @@ impl Macs {
     }
 }
 
+impl AddAssign for Macs {
+    fn add_assign(&mut self, other: Self) {
+        self.dense += other.dense;
+        self.needed += other.needed;
+        self.scheduled += other.scheduled;
+        self.whole += other.whole;
+    }
+}
+
 /// A comparison with a whole computation.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Error {
@@ -144,7 +154,7 @@ pub struct Outputs {
     pub largest: f64,
     /// Root of the mean squared difference of the outputs, as a share of that of their values.
     pub relative_rms: f64,
-    /// The same as a share of the standard deviation of the outputs over the frames: about 1 for outputs that never change.
+    /// The same as a share of the standard deviation of the outputs over the frames of their clip: about 1 for outputs that never change.
     pub rms_of_variation: f64,
 }
 

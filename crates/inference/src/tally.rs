@@ -71,10 +71,7 @@ impl ClipSums {
         self.counted += 1;
         self.active += frame.active;
         self.changed += frame.changed;
-        self.macs.dense += frame.macs.dense;
-        self.macs.needed += frame.macs.needed;
-        self.macs.scheduled += frame.macs.scheduled;
-        self.macs.whole += frame.macs.whole;
+        self.macs += frame.macs;
     }
 
     /// The means of the counted frames.

@@ -70,9 +70,7 @@ pub(crate) fn watch(
         return Err(LinkError::Set { name: subject.name.clone() });
     }
     let (width, height) = source.size();
-    let mut config = config.clone();
-    config.fit_frame(width, height)?;
-    let design = config.validate()?;
+    let design = config.for_frames(width, height)?;
     if design.pixel_bits() != 8 {
         return Err(LinkError::Depth { bits: design.pixel_bits() });
     }
@@ -82,8 +80,8 @@ pub(crate) fn watch(
     let mut camera = Watch::new(&design);
     let mut pixels = PixelCamera::new(&design, PixelEvents::default())?;
     let mut others = Vec::new();
-    for swept in swept(&config) {
-        others.push((Watch::new(&swept.config.validate()?), 0, swept));
+    for swept in swept(design.config()) {
+        others.push((Watch::new(&swept.design), 0, swept));
     }
     let (mut times_us, mut sent) = (Vec::new(), Vec::new());
     while let Some(current) = source.next_frame()? {
@@ -98,7 +96,7 @@ pub(crate) fn watch(
         pixels.step(&current.frame.to_frame()?, |event| events[event.y as usize] += 1);
         sent.push(Sent::of(&design, camera.step(frame, width)?, events));
         for (other, pixels, _) in &mut others {
-            let design = other.engine.design().clone();
+            // The regions are those of the design; only thresholds differ.
             *pixels += forwarded(&design, other.step(frame, width)?);
         }
         times_us.push(current.time_us);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The design with one threshold at a time set to other values: the points of its own curves.
 
-use foveate_design::{Config, Decimal};
+use foveate_design::{Config, Decimal, Design};
 
 /// Grey levels of 8 bits.
 const LEVELS: [u32; 9] = [0, 1, 2, 4, 8, 16, 32, 64, 128];
@@ -15,23 +15,23 @@ pub(crate) struct Swept {
     pub(crate) key: &'static str,
     /// What it is.
     pub(crate) value: u64,
-    pub(crate) config: Config,
+    pub(crate) design: Design,
 }
 
 /// `temporal.level` and `spatial.0.min_score`, each varied alone.
 pub(crate) fn swept(config: &Config) -> Vec<Swept> {
+    // A score above what a region of this design can have is no design.
+    let swept =
+        |key, value, config: Config| Some(Swept { key, value, design: config.validate().ok()? });
     let level = |&value: &u32| {
         let mut config = config.clone();
         config.temporal.level = Some(value);
-        Swept { key: "temporal.level", value: value.into(), config }
+        swept("temporal.level", value.into(), config)
     };
     let score = |&value: &u64| {
         let mut config = config.clone();
         config.spatial.first_mut()?.min_score = Some(Decimal::whole(value));
-        Some(Swept { key: "spatial.0.min_score", value, config })
+        swept("spatial.0.min_score", value, config)
     };
-    // A score above what a region of this design can have is no design.
-    let is_design = |swept: &Swept| swept.config.validate().is_ok();
-    let all = LEVELS.iter().map(level).chain(SCORES.iter().filter_map(score));
-    all.filter(is_design).collect()
+    LEVELS.iter().filter_map(level).chain(SCORES.iter().filter_map(score)).collect()
 }

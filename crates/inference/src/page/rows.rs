@@ -245,7 +245,7 @@ pub(super) fn tried(summary: &Summary) -> Rows {
         (
             "error",
             "% of variation",
-            "RMS error of the outputs, as a share of their standard deviation over the frames",
+            "RMS error of the outputs, as a share of their standard deviation over the frames of their clip",
             true,
         ),
         ("error", "relative", "relative RMS error of the outputs", true),

@@ -215,9 +215,8 @@ fn sample(frames: u32) -> Sample {
             relative_rms: Some(0.01 * share),
         }
     };
-    let mut config = Config::default();
-    config.fit_frame(224, 224).unwrap();
-    (summary, (0..frames).map(frame).collect(), config.validate().unwrap())
+    let design = Config::default().for_frames(224, 224).unwrap();
+    (summary, (0..frames).map(frame).collect(), design)
 }
 
 fn rendered((summary, frames, design): &Sample) -> String {
