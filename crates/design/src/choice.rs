@@ -130,6 +130,8 @@ choice! {
         Pipelined = "pipelined",
         /// Small lanes under one sequencer.
         Serial = "serial",
+        /// One core that takes the frame row by row, K pixels at every clock.
+        Raster = "raster",
     }
 }
 choice! {
@@ -150,6 +152,28 @@ choice! {
         Distributed = "distributed",
         /// Block memory: data a clock after its address.
         Block = "block",
+    }
+}
+choice! {
+    /// How finely the arithmetic of the raster organization is cut by registers.
+    #[derive(Default)]
+    Pipelining {
+        /// A register after each step of arithmetic.
+        #[default]
+        Plain = "plain",
+        /// More registers, for faster clocks.
+        Deep = "deep",
+    }
+}
+choice! {
+    /// Of what the frame store of the raster organization is built.
+    #[derive(Default)]
+    Store {
+        /// Block RAM.
+        #[default]
+        Block = "block",
+        /// Ultra RAM.
+        Ultra = "ultra",
     }
 }
 choice! {

@@ -7,7 +7,7 @@
 use crate::depth::{self, DEFAULT_BITS};
 use crate::{
     Combine, Decimal, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
-    Organization, Payload, Reference, Thresholds,
+    Organization, Payload, Pipelining, Reference, Store, Thresholds,
 };
 use serde::{Deserialize, Serialize};
 
@@ -227,6 +227,16 @@ pub struct HardwareConfig {
     /// [`crate::LaneMemory`]. `pipelined` has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryKind>,
+    /// Pixels that the raster organization takes at a clock, K: 1, 2 or 4; left out it is 1. Only a raster
+    /// design has it, as the two below.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixels_per_clock: Option<u32>,
+    /// How finely the arithmetic of the raster organization is cut by registers; left out it is `plain`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pipelining: Option<Pipelining>,
+    /// Of what the frame store of the raster organization is built; left out it is `block`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub store: Option<Store>,
     /// Whether thresholds are inputs of the core or constants in it.
     pub thresholds: Thresholds,
 }
@@ -238,6 +248,9 @@ impl Default for HardwareConfig {
             fold: 1,
             feed: None,
             memory: None,
+            pixels_per_clock: None,
+            pipelining: None,
+            store: None,
             thresholds: Thresholds::Runtime,
         }
     }

@@ -2,8 +2,8 @@
 //! The validated configuration: one immutable value from which everything else is derived.
 
 use crate::{
-    Combine, Config, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload, Reference,
-    SpatialFeature, Thresholds,
+    Combine, Config, Feed, Filter, Irrelevant, Neighborhood, Organization, Payload, Pipelining,
+    Reference, SpatialFeature, Store, Thresholds,
 };
 
 /// A design: a configuration that has been checked, with every number that follows from it.
@@ -126,6 +126,24 @@ impl Design {
     #[must_use]
     pub fn feed(&self) -> Feed {
         self.config.hardware.feed.unwrap_or_default()
+    }
+
+    /// Pixels of a word K of the raster organization; 1 in the others.
+    #[must_use]
+    pub fn pixels_per_clock(&self) -> u32 {
+        self.config.hardware.pixels_per_clock.unwrap_or(1)
+    }
+
+    /// How finely the arithmetic of the raster organization is cut by registers.
+    #[must_use]
+    pub fn pipelining(&self) -> Pipelining {
+        self.config.hardware.pipelining.unwrap_or_default()
+    }
+
+    /// Of what the frame store of the raster organization is built.
+    #[must_use]
+    pub fn store(&self) -> Store {
+        self.config.hardware.store.unwrap_or_default()
     }
 
     /// Where the thresholds come from.

@@ -3,7 +3,7 @@
 
 use crate::{
     Combine, DesignError, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
-    Organization, Payload, Reference, Thresholds,
+    Organization, Payload, Pipelining, Reference, Store, Thresholds,
 };
 use Takes::{Names, Text};
 use toml::{Table, Value};
@@ -38,6 +38,9 @@ const KEYS: &[(&str, Takes)] = &[
     ("hardware.fold", Text("a whole number >= 1")),
     ("hardware.feed", Names(Feed::one_of)),
     ("hardware.memory", Names(MemoryKind::one_of)),
+    ("hardware.pixels_per_clock", Text("1, 2 or 4")),
+    ("hardware.pipelining", Names(Pipelining::one_of)),
+    ("hardware.store", Names(Store::one_of)),
     ("hardware.thresholds", Names(Thresholds::one_of)),
 ];
 

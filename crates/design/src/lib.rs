@@ -23,6 +23,7 @@ mod parse;
 mod pipelined;
 mod port;
 mod preset;
+mod raster;
 mod reciprocal;
 mod rules;
 mod serial;
@@ -33,7 +34,7 @@ mod width;
 pub use action::Action;
 pub use choice::{
     Combine, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood, Organization,
-    Payload, Reference, Thresholds,
+    Payload, Pipelining, Reference, Store, Thresholds,
 };
 pub use config::{
     Config, DecisionConfig, DenoiseConfig, FrameConfig, HardwareConfig, RegionConfig, RenderConfig,
@@ -47,6 +48,7 @@ pub use kind::Measure;
 pub use pipelined::PipelinedTiming;
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
+pub use raster::{RasterTiming, SecondPass};
 pub use reciprocal::Reciprocal;
 pub use rules::Unit;
 pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, SerialTiming};

@@ -7,7 +7,7 @@
 
 use crate::rules::{Rules, Unit};
 use crate::{Design, Feed, HardwareConfig, MemoryKind, Organization, Port, Timing};
-use crate::{pipelined::Pipelined, serial::Serial};
+use crate::{pipelined::Pipelined, raster::Raster, serial::Serial};
 
 impl Organization {
     /// The answers of the organization.
@@ -15,6 +15,7 @@ impl Organization {
         match self {
             Self::Pipelined => &Pipelined,
             Self::Serial => &Serial,
+            Self::Raster => &Raster,
         }
     }
 
@@ -85,6 +86,9 @@ impl HardwareConfig {
         words.extend(self.feed.or(default).map(|feed| format!("{feed} feed")));
         words.extend(self.organization.folds().then(|| format!("fold {}", self.fold)));
         words.extend(self.memory.map(|memory| format!("{memory} memory")));
+        words.extend(self.pixels_per_clock.map(|pixels| format!("{pixels} pixels per clock")));
+        words.extend(self.pipelining.map(|pipelining| format!("{pipelining} pipelining")));
+        words.extend(self.store.map(|store| format!("{store} store")));
         words.join(", ")
     }
 }

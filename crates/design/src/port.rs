@@ -22,7 +22,8 @@ pub enum PortRole {
     Reset,
     /// A pixel is on the pixel port.
     Valid,
-    /// One pixel per lane; of a serial array with raster feed one.
+    /// One pixel per lane; of a serial array with raster feed one; of a raster core a word of K pixels, the
+    /// left one in the lowest bits.
     Pixel,
     /// Which sides of the region are the frame's border: `{bottom, top, right, left}`.
     Border,
@@ -34,17 +35,19 @@ pub enum PortRole {
     TemporalLevel,
     /// Per-region threshold of the temporal score.
     TemporalMinCount,
-    /// A pixel would be taken (`serial`).
+    /// The sink takes what is on the forward ports (`raster`).
+    ForwardReady,
+    /// A pixel would be taken (`serial`, `raster`).
     Ready,
     /// A score stands at the score port (`serial`).
     ScoreValid,
     /// Which score: 0 the temporal count, 1.. the features in the order of the design (`serial`).
     ScoreIndex,
-    /// The region that score and decision belong to (`serial`).
+    /// The region that scores and decision belong to (`serial`, `raster`).
     Region,
     /// That score (`serial`).
     AnyScore,
-    /// A decision is valid, with the outputs below: of all regions (`pipelined`), of one (`serial`).
+    /// A decision is valid, with the outputs below: of all regions (`pipelined`), of one (`serial`, `raster`).
     DecisionValid,
     /// Spatial relevance.
     Srs,
@@ -52,20 +55,24 @@ pub enum PortRole {
     Trs,
     /// Both: the region's pixels will leave.
     Active,
-    /// Score of a feature (`pipelined`).
+    /// Score of a feature (`pipelined`, `raster`).
     Score(FeatureKind),
-    /// Temporal score (`pipelined`).
+    /// Temporal score (`pipelined`, `raster`).
     TemporalCount,
-    /// A pixel of an active region leaves.
+    /// A pixel of an active region leaves; of a raster core a word.
     ForwardValid,
-    /// That pixel.
+    /// That pixel, or that word.
     ForwardPixel,
-    /// Number of that pixel in its region, in raster order (`serial`).
+    /// Number of that pixel in its region, in raster order (`serial`); of the first of a word (`raster`).
     ForwardPosition,
     /// Slot of that region in its lane (`serial`, parallel feed, fold > 1).
     ForwardSlot,
-    /// Number of that region (`serial`, raster feed).
+    /// Number of that region (`serial`, raster feed; `raster`).
     ForwardRegion,
+    /// A region was lost since reset (`raster`).
+    Lost,
+    /// How many (`raster`).
+    LostCount,
 }
 
 /// When the value of an output means something. Otherwise it may be anything, and is not compared.
@@ -154,6 +161,7 @@ fn port_name(role: PortRole) -> String {
         PortRole::MinScore(kind) => format!("{kind}_min_i"),
         PortRole::TemporalLevel => "temporal_level_i".to_owned(),
         PortRole::TemporalMinCount => "temporal_min_i".to_owned(),
+        PortRole::ForwardReady => "forward_ready_i".to_owned(),
         PortRole::Ready => "ready_o".to_owned(),
         PortRole::ScoreValid => "score_valid_o".to_owned(),
         PortRole::ScoreIndex => "score_index_o".to_owned(),
@@ -170,5 +178,7 @@ fn port_name(role: PortRole) -> String {
         PortRole::ForwardPosition => "forward_position_o".to_owned(),
         PortRole::ForwardSlot => "forward_slot_o".to_owned(),
         PortRole::ForwardRegion => "forward_region_o".to_owned(),
+        PortRole::Lost => "lost_o".to_owned(),
+        PortRole::LostCount => "lost_count_o".to_owned(),
     }
 }

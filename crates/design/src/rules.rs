@@ -21,6 +21,18 @@ pub struct Unit {
     pub split: &'static str,
 }
 
+/// A frame and its regions, as far as `[hardware]` depends on them.
+pub(crate) struct Grid {
+    /// Width of the frame in pixels.
+    pub(crate) width: u32,
+    /// Side of a region in pixels.
+    pub(crate) size: u32,
+    /// Regions side by side.
+    pub(crate) columns: u32,
+    /// Regions of the frame.
+    pub(crate) regions: u32,
+}
+
 /// What an organization answers.
 pub(crate) trait Rules {
     /// The unit of a design.
@@ -33,13 +45,9 @@ pub(crate) trait Rules {
     fn memories(&self) -> &'static [MemoryKind];
     /// Whether regions may share a unit, `hardware.fold`.
     fn folds(&self) -> bool;
-    /// `[hardware]` for a frame of so many `regions` of `size` x `size` pixels, its keys filled in.
-    fn hardware(
-        &self,
-        asked: &HardwareConfig,
-        size: u32,
-        regions: u32,
-    ) -> Result<HardwareConfig, DesignError>;
+    /// `[hardware]` for such frames, its keys filled in. [`HardwareConfig::refuse_raster_keys`] is for all
+    /// but the raster organization.
+    fn hardware(&self, asked: &HardwareConfig, grid: &Grid) -> Result<HardwareConfig, DesignError>;
     /// The design whose ports module `rpu` has.
     fn lone_unit(&self, design: &Design) -> Design;
     /// When a design says what.

@@ -4,6 +4,7 @@
 use std::ops::RangeInclusive;
 
 use crate::depth::{self, DEFAULT_BITS};
+use crate::rules::Grid;
 use crate::{Config, Design, DesignError, FeatureKind, HardwareConfig, SpatialFeature, Temporal};
 
 /// Frame size where the configuration leaves it out.
@@ -33,7 +34,9 @@ impl Config {
         in_range("region.size", self.region.size, 2..=64, "")?;
         let regions = self.check_regions(width, height)?;
         let rules = self.hardware.organization.rules();
-        let hardware = rules.hardware(&self.hardware, self.region.size, regions)?;
+        let size = self.region.size;
+        let grid = Grid { width, size, columns: width.div_ceil(size), regions };
+        let hardware = rules.hardware(&self.hardware, &grid)?;
         let n = self.region.size * self.region.size;
         let pixel_max = (1 << self.frame.pixel_bits) - 1;
         let level = self.temporal_level(pixel_max)?;
@@ -141,6 +144,22 @@ impl Config {
 }
 
 impl HardwareConfig {
+    /// Refuses the keys that only the raster organization has.
+    pub(crate) fn refuse_raster_keys(&self) -> Result<(), DesignError> {
+        let given = [
+            ("hardware.pixels_per_clock", self.pixels_per_clock.map(|pixels| pixels.to_string())),
+            ("hardware.pipelining", self.pipelining.map(|pipelining| format!("\"{pipelining}\""))),
+            ("hardware.store", self.store.map(|store| format!("\"{store}\""))),
+        ];
+        match given.into_iter().find_map(|(key, value)| Some((key, value?))) {
+            None => Ok(()),
+            Some((key, value)) => {
+                let remedy = "only the raster organization has it; leave the key out";
+                Err(self.clash(key, value, remedy))
+            }
+        }
+    }
+
     /// The error for a `key` whose value the organization does not take.
     pub(crate) fn clash(&self, key: &str, value: String, remedy: &str) -> DesignError {
         DesignError::Combination {

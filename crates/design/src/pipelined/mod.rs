@@ -6,7 +6,7 @@ mod timing;
 
 pub use timing::PipelinedTiming;
 
-use crate::rules::{Rules, Unit};
+use crate::rules::{Grid, Rules, Unit};
 use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 
 /// The organization as the answers to [`Rules`].
@@ -40,12 +40,8 @@ impl Rules for Pipelined {
         false
     }
 
-    fn hardware(
-        &self,
-        asked: &HardwareConfig,
-        _: u32,
-        _: u32,
-    ) -> Result<HardwareConfig, DesignError> {
+    fn hardware(&self, asked: &HardwareConfig, _: &Grid) -> Result<HardwareConfig, DesignError> {
+        asked.refuse_raster_keys()?;
         if asked.fold != 1 {
             let remedy = "only the serial organization shares lanes; use 1";
             return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));

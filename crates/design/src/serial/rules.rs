@@ -2,7 +2,7 @@
 //! What a serial design answers; see [`crate::organization`].
 
 use super::{SerialTiming, ports::ports};
-use crate::rules::{Rules, Unit};
+use crate::rules::{Grid, Rules, Unit};
 use crate::validate::in_range;
 use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 
@@ -44,9 +44,9 @@ impl Rules for Serial {
     fn hardware(
         &self,
         asked: &HardwareConfig,
-        size: u32,
-        regions: u32,
+        &Grid { size, regions, .. }: &Grid,
     ) -> Result<HardwareConfig, DesignError> {
+        asked.refuse_raster_keys()?;
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
             return Err(asked.clash("region.size", size.to_string(), &remedy));

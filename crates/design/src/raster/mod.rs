@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The raster organization: one core for all regions, K pixels at every clock; the numbers behind
+//! `docs/raster.md`.
+
+mod ports;
+mod rules;
+mod timing;
+
+pub(crate) use rules::Raster;
+pub use timing::{RasterTiming, SecondPass};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Numbers of `docs/raster.md`, worked out by hand, and what the organization takes and refuses.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use super::*;
+use crate::{Config, Design, Direction, Pipelining, PortRole, Qualifier, Store};
+
+fn config(overrides: &[&str]) -> Config {
+    Config::from_toml_with("[hardware]\norganization = \"raster\"\n", overrides).unwrap()
+}
+
+fn design(overrides: &[&str]) -> Design {
+    config(overrides).validate().unwrap()
+}
+
+fn refusal(overrides: &[&str]) -> String {
+    config(overrides).validate().unwrap_err().to_string()
+}
+
+#[test]
+fn a_frame_of_full_hd_takes_what_the_page_says() {
+    let design = design(&["frame.width=1920", "frame.height=1080"]);
+    let timing = RasterTiming::of(&design);
+    assert_eq!((timing.row_words, timing.taken_words, timing.windows), (1920, 1920, 2));
+    assert_eq!((timing.region_row_words, timing.region_words), (8, 64));
+    assert_eq!((timing.store_latency, timing.decision_latency), (8, 12));
+    assert_eq!((timing.buffer_rows, timing.second_pass), (2, None));
+    assert_eq!((timing.words(), timing.tail_delay()), (2_073_600, 3_842));
+    assert_eq!((timing.advances(), timing.flush_clocks()), (2_077_442, 3_842));
+    assert_eq!(timing.clocks_per_frame(), 2_077_454);
+    let answers = design.timing();
+    assert_eq!(answers.clocks_per_frame(), 2_077_454);
+    assert_eq!(answers.pixels_per_frame(), 2_073_600);
+    let departure = answers.departure();
+    assert_eq!((departure.take_clocks, departure.decision_clocks), (2_073_600, 3_854));
+    // The first region of the last row is decided at 3842 - 1920 + 8 + 12 = 1942. Its words are on the
+    // ports from 1947 on, and 15,360 words follow each other.
+    assert_eq!(departure.forward_clocks, 1_947 + 15_360 - 1);
+    assert_eq!((departure.decision_frames, departure.forward_frames), (0, 0));
+    assert_eq!((departure.slot_clocks, departure.alone), (0, false));
+}
+
+/// 61x37 pixels: 8x5 regions of 8x8, rows of 16 words, all of them taken; three rows are added below.
+#[test]
+fn the_second_pass_of_a_ragged_frame() {
+    let design = design(&[
+        "frame.width=61",
+        "frame.height=37",
+        "hardware.pixels_per_clock=4",
+        "hardware.pipelining=deep",
+        "denoise.filter=none",
+        "spatial=[{feature=\"variance\"},{feature=\"mad\"}]",
+    ]);
+    let timing = RasterTiming::of(&design);
+    assert_eq!((timing.row_words, timing.taken_words, timing.windows), (16, 16, 0));
+    assert_eq!((timing.store_latency, timing.decision_latency), (1, 10));
+    assert_eq!(timing.second_pass, Some(SecondPass { after_store: 6, decision_latency: 5 }));
+    assert_eq!((timing.buffer_rows, timing.region_words), (3, 16));
+    assert_eq!((timing.advances(), timing.flush_clocks()), (640, 48));
+    assert_eq!((timing.taken(), timing.clocks_per_frame()), (37 * 16, 650));
+    // The last word of the first region of the last row comes at T0 + 48 - 14, its pass begins 7 later;
+    // the eight passes take 128 clocks, and the decision comes 5 after the last edge.
+    let departure = design.timing().departure();
+    assert_eq!(departure.decision_clocks, 34 + 7 + 127 + 5);
+    assert_eq!(departure.forward_clocks, 173 + 5 + 15);
+}
+
+/// 50x20 pixels in words of two: 7x3 regions; three words of a row and four rows are made by the core.
+#[test]
+fn a_frame_takes_its_words_and_what_the_core_adds() {
+    let overrides = [
+        "frame.width=50",
+        "frame.height=20",
+        "hardware.pixels_per_clock=2",
+        "spatial=[{feature=\"variance\"}]",
+    ];
+    let timing = RasterTiming::of(&design(&overrides));
+    assert_eq!((timing.row_words, timing.taken_words, timing.windows), (28, 25, 1));
+    assert_eq!((timing.store_latency, timing.decision_latency), (4, 11));
+    assert_eq!((timing.advances(), timing.flush_clocks()), (24 * 28 + 29, 3 + 4 * 28 + 29));
+    let departure = design(&overrides).timing().departure();
+    assert_eq!((departure.take_clocks, departure.decision_clocks), (19 * 28 + 25, 144 + 11));
+    assert_eq!(timing.clocks_per_frame(), 557 + 144 + 11);
+    assert_eq!(timing.edges_to_ready(), 155);
+}
+
+#[test]
+fn latencies_follow_filter_features_and_pipelining() {
+    let latencies = |filter: &str, feature: &str, pipelining: &str| {
+        let timing = RasterTiming::of(&design(&[
+            &format!("denoise.filter={filter}"),
+            &format!("spatial=[{{feature=\"{feature}\"}}]"),
+            &format!("hardware.pipelining={pipelining}"),
+        ]));
+        (timing.store_latency, timing.decision_latency)
+    };
+    for (filter, feature, plain, deep) in [
+        ("none", "mad", (1, 5), (1, 7)),
+        ("none", "corner", (5, 9), (8, 14)),
+        ("median3x3", "mad", (4, 8), (9, 15)),
+        ("median3x3", "edge", (8, 12), (16, 22)),
+        ("none", "variance", (1, 8), (1, 10)),
+    ] {
+        assert_eq!(latencies(filter, feature, "plain"), plain, "{filter} {feature}");
+        assert_eq!(latencies(filter, feature, "deep"), deep, "{filter} {feature}");
+    }
+}
+
+#[test]
+fn only_small_frames_of_last_sent_wait() {
+    let waits = |rows: u32, reference: &str, feature: &str| {
+        let design = design(&[
+            &format!("frame.height={}", rows * 8),
+            &format!("temporal.reference={reference}"),
+            &format!("spatial=[{{feature=\"{feature}\"}}]"),
+        ]);
+        RasterTiming::of(&design).waits_for_pending
+    };
+    assert!(waits(2, "last-sent", "edge") && !waits(3, "last-sent", "edge"));
+    assert!(waits(3, "last-sent", "mad") && !waits(4, "last-sent", "mad"));
+    assert!(!waits(2, "previous", "edge"));
+}
+
+#[test]
+fn keys_are_filled_in_and_only_here() {
+    let plain = design(&[]);
+    let hardware = &plain.config().hardware;
+    assert_eq!(
+        (hardware.pixels_per_clock, hardware.pipelining, hardware.store),
+        (Some(1), Some(Pipelining::Plain), Some(Store::Block))
+    );
+    assert_eq!((hardware.feed, hardware.memory, hardware.fold), (None, None, 1));
+    assert_eq!(hardware.in_words(), "raster, 1 pixels per clock, plain pipelining, block store");
+    let named = design(&["hardware.pixels_per_clock=1", "hardware.store=block"]);
+    assert_eq!(named.fingerprint(), plain.fingerprint());
+    let others = ["pixels_per_clock=2", "pipelining=deep", "store=ultra"]
+        .map(|key| design(&[&format!("hardware.{key}")]));
+    assert!(others.iter().all(|other| other.fingerprint() != plain.fingerprint()));
+    assert_eq!(others[2].store(), Store::Ultra);
+
+    for organization in ["pipelined", "serial"] {
+        let other = [&format!("hardware.organization={organization}")];
+        let toml = config(&other.map(String::as_str)).validate().unwrap().config().to_toml();
+        assert!(!toml.contains("pixels_per_clock") && !toml.contains("store"), "{toml}");
+        for (key, value) in
+            [("pixels_per_clock", "2"), ("pipelining", "\"deep\""), ("store", "\"block\"")]
+        {
+            let key = format!("hardware.{key}={value}");
+            let (name, _) = key.split_once('=').unwrap();
+            assert_eq!(
+                refusal(&[other[0], &key]),
+                format!(
+                    "`{name}` = {value} cannot be combined with organization = \
+                     \"{organization}\"; only the raster organization has it; leave the key out"
+                )
+            );
+        }
+    }
+}
+
+#[test]
+fn what_only_lanes_have_is_refused() {
+    for (key, remedy) in [
+        ("hardware.fold=2", "only the serial organization shares lanes; use 1"),
+        (
+            "hardware.feed=\"raster\"",
+            "this organization always takes the frame row by row; leave the key out",
+        ),
+        (
+            "hardware.memory=\"block\"",
+            "only the lanes of the serial organization have such a memory; leave the key out, or use \
+             `hardware.store`",
+        ),
+    ] {
+        let (name, value) = key.split_once('=').unwrap();
+        assert_eq!(
+            refusal(&[key]),
+            format!(
+                "`{name}` = {value} cannot be combined with organization = \"raster\"; {remedy}"
+            )
+        );
+    }
+}
+
+#[test]
+fn frames_that_the_core_cannot_take_are_refused() {
+    for (overrides, message) in [
+        (
+            vec!["hardware.pixels_per_clock=3"],
+            "`hardware.pixels_per_clock` = 3 is out of range; the valid range is 1, 2 or 4",
+        ),
+        (
+            vec!["hardware.pixels_per_clock=4", "region.size=6"],
+            "`hardware.pixels_per_clock` = 4 cannot be combined with organization = \"raster\"; \
+             it must divide region.size = 6; use fewer pixels",
+        ),
+        (
+            vec!["frame.width=8193"],
+            "`frame.width` = 8193 is out of range; the valid range is 1..=8192 for organization = \
+             \"raster\"; use a narrower frame, or \"serial\"",
+        ),
+        (
+            vec!["frame.width=24"],
+            "`frame.width` = 24 cannot be combined with organization = \"raster\"; a row must have \
+             at least 4 regions and 16 words of 1 pixels; use frames of at least 25 pixels, or \
+             smaller regions",
+        ),
+        (
+            vec!["frame.width=28", "region.size=4", "hardware.pixels_per_clock=2"],
+            "`frame.width` = 28 cannot be combined with organization = \"raster\"; a row must have \
+             at least 4 regions and 16 words of 2 pixels; use frames of at least 29 pixels, or \
+             smaller regions",
+        ),
+    ] {
+        assert_eq!(refusal(&overrides), message);
+    }
+    design(&["frame.width=25"]);
+    design(&["frame.width=8192"]);
+    design(&["frame.width=29", "region.size=4", "hardware.pixels_per_clock=2"]);
+}
+
+/// Name, width, and what says when it means something.
+#[test]
+fn ports_stand_in_the_order_of_the_page() {
+    let design = design(&[
+        "frame.width=64",
+        "frame.height=40",
+        "hardware.pixels_per_clock=4",
+        "spatial=[{feature=\"corner\"},{feature=\"edge\"}]",
+    ]);
+    let ports = design.rcm_ports();
+    let named = |direction| -> Vec<(&str, u32)> {
+        let own = ports.iter().filter(|port| port.direction == direction);
+        own.map(|port| (port.name.as_str(), port.bits())).collect()
+    };
+    let inputs = [
+        ("clk_i", 1),
+        ("rst_i", 1),
+        ("valid_i", 1),
+        ("pixel_i", 32),
+        ("forward_ready_i", 1),
+        ("corner_level_i", 8),
+        ("corner_min_i", 7),
+        ("edge_level_i", 11),
+        ("edge_min_i", 7),
+        ("temporal_level_i", 8),
+        ("temporal_min_i", 7),
+    ];
+    assert_eq!(named(Direction::Input), inputs);
+    let outputs = [
+        ("ready_o", 1),
+        ("decision_valid_o", 1),
+        ("region_o", 6),
+        ("srs_o", 1),
+        ("trs_o", 1),
+        ("active_o", 1),
+        ("corner_score_o", 7),
+        ("edge_score_o", 7),
+        ("temporal_count_o", 7),
+        ("forward_valid_o", 1),
+        ("forward_region_o", 6),
+        ("forward_position_o", 6),
+        ("forward_pixel_o", 32),
+        ("lost_o", 1),
+        ("lost_count_o", 16),
+    ];
+    assert_eq!(named(Direction::Output), outputs);
+    for port in &ports {
+        let qualifier = match port.name.as_str() {
+            "region_o" | "corner_score_o" | "edge_score_o" | "temporal_count_o" => {
+                Qualifier::With(PortRole::DecisionValid)
+            }
+            "forward_region_o" | "forward_position_o" | "forward_pixel_o" => {
+                Qualifier::With(PortRole::ForwardValid)
+            }
+            _ => Qualifier::Always,
+        };
+        assert_eq!((port.qualifier, port.lanes), (qualifier, 1), "{}", port.name);
+    }
+}
+
+#[test]
+fn one_core_serves_all_regions_and_the_lone_one_the_smallest_frame() {
+    let unit = design(&[]).unit();
+    assert_eq!((unit.name, unit.module, unit.count), ("core", "raster_core", 1));
+    assert_eq!((unit.regions, unit.rpu_in_rcm), (784, false));
+    for (size, pixels, columns) in
+        [(8, 1, 4), (8, 4, 8), (2, 1, 8), (2, 2, 16), (64, 4, 4), (12, 4, 6), (5, 1, 4)]
+    {
+        let design = design(&[
+            &format!("region.size={size}"),
+            &format!("hardware.pixels_per_clock={pixels}"),
+            "temporal.min_count=1",
+            "spatial.0.min_score=1",
+            "frame.width=1000",
+        ]);
+        let lone = design.lone_unit();
+        assert_eq!((lone.columns(), lone.rows()), (columns, 3), "{size} {pixels}");
+        assert_eq!((lone.width(), lone.height()), (columns * size, 3 * size));
+        assert!(RasterTiming::of(&lone).row_words >= 16);
+        assert_eq!(lone.lone_unit(), lone);
+        assert_eq!(design.rpu_ports(), lone.rcm_ports());
+    }
+}

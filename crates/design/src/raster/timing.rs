@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! When a raster core does what: the numbers of `docs/raster.md`.
+
+use crate::timing::Departure;
+use crate::{Design, FeatureKind, Filter, Pipelining, Reference, Timing};
+
+/// Clocks from the decision of a region to its first word on the ports, where it does not wait: the queue,
+/// holding, fetching.
+const TO_FIRST_WORD: u64 = 5;
+
+/// The numbers of a raster core.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RasterTiming {
+    /// K: pixels of a word.
+    pub word_pixels: u32,
+    /// L: words of a row of the padded frame.
+    pub row_words: u32,
+    /// V: words of a row that are taken.
+    pub taken_words: u32,
+    /// Rows of the frame, H.
+    pub taken_rows: u32,
+    /// Rows of the padded frame, R*N.
+    pub rows: u32,
+    /// N/K: words of a row of a region.
+    pub region_row_words: u32,
+    /// n/K: words of a region.
+    pub region_words: u32,
+    /// w: windows that a word passes.
+    pub windows: u32,
+    /// S: clocks from the advance of a word in the tail to its storing.
+    pub store_latency: u32,
+    /// D: clocks from the advance of the last word of a region in the tail to its decision.
+    pub decision_latency: u32,
+    /// B: rows of regions whose pixels are kept.
+    pub buffer_rows: u32,
+    /// The second pass, of designs with `mad`.
+    pub second_pass: Option<SecondPass>,
+    /// Whether a frame of at most B rows of regions waits until no region of the frame before is pending.
+    pub waits_for_pending: bool,
+}
+
+/// When the stored words of a region are read back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SecondPass {
+    /// Clocks from the storing of the region's last word to the first edge of its pass, at least.
+    pub after_store: u32,
+    /// Clocks from the last edge of its pass to its decision.
+    pub decision_latency: u32,
+}
+
+impl RasterTiming {
+    /// The numbers of the design, as if it were a raster design.
+    #[must_use]
+    pub fn of(design: &Design) -> Self {
+        let word_pixels = design.pixels_per_clock();
+        let median = u32::from(design.filter() == Filter::Median3x3);
+        let feature = u32::from(design.has_feature_window());
+        let has_variance = design.feature(FeatureKind::Variance).is_some();
+        let (store_latency, after_store) = match design.pipelining() {
+            Pipelining::Plain => (1 + 3 * median + 4 * feature, 4),
+            Pipelining::Deep => (1 + 8 * median + 7 * feature, 6),
+        };
+        let second_pass =
+            design.has_second_pass().then_some(SecondPass { after_store: 6, decision_latency: 5 });
+        let buffer_rows = if second_pass.is_some() { 3 } else { 2 };
+        let last_sent = design.temporal().reference == Reference::LastSent;
+        Self {
+            word_pixels,
+            row_words: design.columns() * design.region_size() / word_pixels,
+            taken_words: design.width().div_ceil(word_pixels),
+            taken_rows: design.height(),
+            rows: design.rows() * design.region_size(),
+            region_row_words: design.region_size() / word_pixels,
+            region_words: design.region_pixels() / word_pixels,
+            windows: median + feature,
+            store_latency,
+            decision_latency: store_latency + after_store + if has_variance { 3 } else { 0 },
+            buffer_rows,
+            second_pass,
+            waits_for_pending: last_sent && design.rows() <= buffer_rows,
+        }
+    }
+
+    /// Words of the padded frame, R*N*L.
+    #[must_use]
+    pub fn words(&self) -> u64 {
+        u64::from(self.rows) * u64::from(self.row_words)
+    }
+
+    /// Words of a frame that are taken, H*V.
+    #[must_use]
+    pub fn taken(&self) -> u64 {
+        u64::from(self.taken_rows) * u64::from(self.taken_words)
+    }
+
+    /// Advances from a word to its place in the tail, w (L + 1): a(i) = i + this.
+    #[must_use]
+    pub fn tail_delay(&self) -> u64 {
+        u64::from(self.windows) * (u64::from(self.row_words) + 1)
+    }
+
+    /// A: advances of a frame.
+    #[must_use]
+    pub fn advances(&self) -> u64 {
+        self.words() + self.tail_delay()
+    }
+
+    /// Z: clocks from T0 to the last advance of the frame.
+    #[must_use]
+    pub fn flush_clocks(&self) -> u64 {
+        let (row, taken) = (u64::from(self.row_words), u64::from(self.taken_words));
+        row - taken + u64::from(self.rows - self.taken_rows) * row + self.tail_delay()
+    }
+
+    /// Clocks from T0 to the one after which `ready_o` is 1 again, Z + D; more where a frame waits for
+    /// pending regions.
+    #[must_use]
+    pub fn edges_to_ready(&self) -> u64 {
+        self.flush_clocks() + u64::from(self.decision_latency)
+    }
+
+    /// Clocks from one frame to the next that follows at once; more where a frame waits for pending regions.
+    #[must_use]
+    pub fn clocks_per_frame(&self) -> u64 {
+        self.advances() + u64::from(self.decision_latency)
+    }
+
+    /// What every organization answers.
+    pub(super) fn answers(&self) -> Timing {
+        let clocks = self.clocks_per_frame();
+        let take = u64::from(self.taken_rows - 1) * u64::from(self.row_words)
+            + u64::from(self.taken_words);
+        let mut figures = vec![
+            ("cycles_per_frame", clocks),
+            ("taken_words", self.taken()),
+            ("advances", self.advances()),
+            ("row_words", self.row_words.into()),
+            ("store_latency", self.store_latency.into()),
+            ("decision_latency", self.decision_latency.into()),
+            ("buffer_rows", self.buffer_rows.into()),
+        ];
+        let mut decision = format!("{} clocks after its region's last word", self.decided_after());
+        if let Some(pass) = self.second_pass {
+            figures.push(("second_pass_words", self.region_words.into()));
+            figures.push(("second_pass_latency", pass.decision_latency.into()));
+            decision.push_str(", after its second pass");
+        }
+        let shown = format!(
+            "{clocks}: {} advances, {} clocks until the last is decided",
+            self.advances(),
+            self.decision_latency
+        );
+        Timing {
+            clocks_per_frame: clocks,
+            pixels_per_frame: self.taken(),
+            figures,
+            phases: Vec::new(),
+            text: vec![
+                ("cycles per frame", shown),
+                ("decision", decision),
+                ("pixels leave", format!("from {TO_FIRST_WORD} clocks after their decision on")),
+            ],
+            departure: Departure {
+                take_clocks: take,
+                decision_frames: 0,
+                decision_clocks: self.last_decision(),
+                forward_frames: 0,
+                forward_clocks: self.last_word(),
+                slot_clocks: 0,
+                alone: false,
+            },
+        }
+    }
+
+    /// Clocks from the edge that takes the last word of a region, inside the frame, to its decision, where
+    /// words come at every clock and the second pass does not wait.
+    fn decided_after(&self) -> u64 {
+        self.tail_delay()
+            + match self.second_pass {
+                None => u64::from(self.decision_latency),
+                Some(pass) => u64::from(self.stored_to_decided(pass)),
+            }
+    }
+
+    /// Clocks from the advance of a region's last word in the tail to its decision, if its pass does not wait.
+    fn stored_to_decided(&self, pass: SecondPass) -> u32 {
+        self.store_latency + pass.after_store + self.region_words - 1 + pass.decision_latency
+    }
+
+    /// Clocks from T0 to the advance of the last word of the first region of the last row of regions, and L
+    /// more, so that it is never negative. The last advance is that of the last region of that row.
+    fn first_of_last_row(&self) -> u64 {
+        self.flush_clocks() + u64::from(self.region_row_words)
+    }
+
+    /// Clocks from T0 to the last decision of the frame, where words have come at every clock.
+    fn last_decision(&self) -> u64 {
+        match self.second_pass {
+            None => self.edges_to_ready(),
+            Some(pass) => {
+                // The passes of a row of regions follow each other.
+                let first = self.first_of_last_row() + u64::from(self.stored_to_decided(pass));
+                first + self.words_of_regions()
+                    - u64::from(self.region_words)
+                    - u64::from(self.row_words)
+            }
+        }
+    }
+
+    /// Clocks from T0 to the last word that leaves, if all regions of the last row are active and the sink
+    /// takes a word at every clock.
+    fn last_word(&self) -> u64 {
+        match self.second_pass {
+            // The words of a row of regions follow each other.
+            None => {
+                let first = self.first_of_last_row() + u64::from(self.decision_latency);
+                first + TO_FIRST_WORD + self.words_of_regions() - 1 - u64::from(self.row_words)
+            }
+            Some(_) => self.last_decision() + TO_FIRST_WORD + u64::from(self.region_words) - 1,
+        }
+    }
+
+    /// Words of a row of regions, N*L.
+    fn words_of_regions(&self) -> u64 {
+        let rows = u64::from(self.region_words / self.region_row_words);
+        rows * u64::from(self.row_words)
+    }
+}
