@@ -25,10 +25,7 @@ mod raster;
 mod rcm;
 mod regions;
 mod schedule;
-mod scorer;
-mod square;
 mod streams;
 
 pub use ports::{SerialInput, SerialOutput};
 pub use rcm::SerialRcm;
-pub use scorer::RegionScorer;

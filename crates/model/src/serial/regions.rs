@@ -1,35 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the array keeps of every region from frame to frame, and what it thinks of it.
 
-use foveate_design::{Action, Design, FeatureKind, Reference};
+use foveate_design::{Action, Design, Reference};
 
-use super::scorer::RegionScorer;
-use crate::Thresholds;
-use crate::decision::{action, combined};
 use crate::number::index;
-
-/// Scores and decision of a region, for the last frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Verdict {
-    pub(super) scores: [u64; FeatureKind::COUNT],
-    pub(super) temporal_count: u32,
-    pub(super) srs: bool,
-    pub(super) trs: bool,
-}
-
-impl Verdict {
-    pub(super) fn active(&self) -> bool {
-        self.srs && self.trs
-    }
-
-    /// A score by its number at the port: 0 for the temporal count, then the features.
-    pub(super) fn score(&self, number: u32) -> u64 {
-        match number.checked_sub(1) {
-            None => self.temporal_count.into(),
-            Some(feature) => self.scores[index(feature)],
-        }
-    }
-}
+use crate::verdict::Verdict;
+use crate::{RegionScorer, Thresholds};
 
 /// The state of every region.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,13 +73,13 @@ impl Regions {
         thresholds: &Thresholds,
     ) {
         self.scorer.take(stream, border);
-        let verdict = self.decide(region, thresholds);
+        let verdict = Verdict::of(&self.design, &self.scorer, self.reference(region), thresholds);
         self.verdicts[region] = verdict;
         let own = region * self.pixels..(region + 1) * self.pixels;
         for (scored, pixel) in self.scored[own.clone()].iter_mut().zip(self.scorer.pixels()) {
             *scored = pixel;
         }
-        match (self.design.temporal().reference, self.action(&verdict)) {
+        match (self.design.temporal().reference, verdict.action(&self.design)) {
             (Reference::Previous, _) => self.referenced[region] = true,
             (Reference::LastSent, Action::Forward) => {
                 self.referenced[region] = true;
@@ -113,22 +89,5 @@ impl Regions {
             // What was sent is no longer on the screen.
             (Reference::LastSent, Action::Blank) => self.referenced[region] = false,
         }
-    }
-
-    fn decide(&self, region: usize, thresholds: &Thresholds) -> Verdict {
-        let scores = self.scorer.scores(thresholds);
-        let temporal_count = self.scorer.temporal_count(self.reference(region), thresholds);
-        let minima = self.design.features().iter().zip(&thresholds.min_score);
-        let votes = minima.zip(&scores).map(|((_, min), score)| score >= min);
-        Verdict {
-            scores,
-            temporal_count,
-            srs: combined(self.design.combine(), votes),
-            trs: temporal_count >= thresholds.temporal_min_count,
-        }
-    }
-
-    fn action(&self, verdict: &Verdict) -> Action {
-        action(&self.design, verdict.srs, verdict.trs)
     }
 }

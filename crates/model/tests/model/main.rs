@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The models against an oracle that shares no line with them, against each other, and against the
-//! waveforms of `docs/timing.md`.
+//! waveforms of `docs/timing.md` and its siblings.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(
     clippy::cast_possible_truncation,
@@ -15,6 +15,7 @@ mod functional_properties;
 mod hard_cases;
 mod oracle;
 mod pipelined_properties;
+mod raster;
 mod recipe;
 mod schedule;
 mod serial;

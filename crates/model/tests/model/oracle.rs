@@ -26,6 +26,8 @@ pub(crate) struct SeenRegion {
     pub(crate) trs: bool,
     pub(crate) payload: Vec<i64>,
     pub(crate) active: bool,
+    /// Whether not all of its pixels were sent though it is active: a loss of the raster organization.
+    pub(crate) lost: bool,
     /// What becomes of the region on the screen.
     pub(crate) action: &'static str,
 }
@@ -49,6 +51,15 @@ pub(crate) fn watch_changing(recipes: &[Recipe], film: &[Frame]) -> Vec<Seen> {
 }
 
 fn look(recipe: &Recipe, history: &[Seen], frame: &Frame) -> Seen {
+    let mut seen = begin(recipe, frame);
+    for region in 0..recipe.columns() * recipe.rows() {
+        seen.regions.push(look_at_region(recipe, history, &seen, region));
+    }
+    seen
+}
+
+/// A frame of which no region has been looked at.
+pub(crate) fn begin(recipe: &Recipe, frame: &Frame) -> Seen {
     let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
     let padded: Image =
         (0..height).map(|y| (0..width).map(|x| frame.clamped(x, y).into()).collect()).collect();
@@ -65,11 +76,7 @@ fn look(recipe: &Recipe, history: &[Seen], frame: &Frame) -> Seen {
             }
         }
     }
-    let payload = if recipe.raw_payload { &padded } else { &denoised };
-    let regions = (0..recipe.columns() * recipe.rows())
-        .map(|region| look_at_region(recipe, history, &denoised, payload, region))
-        .collect();
-    Seen { padded, denoised, regions, rendered: Vec::new() }
+    Seen { padded, denoised, regions: Vec::new(), rendered: Vec::new() }
 }
 
 fn square() -> impl Iterator<Item = (i64, i64)> {
@@ -102,13 +109,15 @@ pub(crate) fn cut(recipe: &Recipe, image: &Image, region: i64) -> Vec<i64> {
     positions(recipe, region).iter().map(|&(x, y)| image[y as usize][x as usize]).collect()
 }
 
-fn look_at_region(
+/// A region of a frame after those of the history.
+pub(crate) fn look_at_region(
     recipe: &Recipe,
     history: &[Seen],
-    denoised: &Image,
-    payload: &Image,
+    frame: &Seen,
     region: i64,
 ) -> SeenRegion {
+    let denoised = &frame.denoised;
+    let payload = if recipe.raw_payload { &frame.padded } else { denoised };
     let pixels = cut(recipe, denoised, region);
     let terms: Vec<Vec<i64>> =
         recipe.features.iter().map(|f| terms(recipe, f, denoised, region)).collect();
@@ -148,7 +157,19 @@ fn look_at_region(
         (false, true) => "blank",
         (false, false) => "hold",
     };
-    SeenRegion { terms, scores, temporal_hits, temporal_count, srs, trs, payload, active, action }
+    let lost = false;
+    SeenRegion {
+        terms,
+        scores,
+        temporal_hits,
+        temporal_count,
+        srs,
+        trs,
+        payload,
+        active,
+        lost,
+        action,
+    }
 }
 
 fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64) -> Vec<i64> {
@@ -205,7 +226,7 @@ fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
     for (frame, seen) in history.iter().enumerate().rev() {
         let region = &seen.regions[region as usize];
         if region.active {
-            return Some(frame);
+            return (!region.lost).then_some(frame);
         }
         if recipe.blank_irrelevant && !region.srs {
             return None;

@@ -3,11 +3,11 @@
 
 use foveate_design::{Design, FeatureKind, Filter, SpatialFeature};
 
-use super::square::Square;
 use crate::Thresholds;
 use crate::denoise::median;
 use crate::feature::score;
 use crate::number::{count, index};
+use crate::square::Square;
 
 /// Scores one region after the other. Whoever wants to know a frame's scores before the array
 /// says them, to aim thresholds at them, asks this.

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A square of pixels: a region with its halo, as one slot's memory holds it.
+//! A square of pixels: a region with its halo, row by row.
 
 use crate::stream::{BOTTOM, LEFT, RIGHT, TOP};
 use crate::window::Window;
 
 /// Pixels row by row.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Square {
+pub(crate) struct Square {
     side: usize,
     pixels: Vec<u16>,
 }
 
 impl Square {
     /// A black square.
-    pub(super) fn black(side: usize) -> Self {
+    pub(crate) fn black(side: usize) -> Self {
         Self { side, pixels: vec![0; side * side] }
     }
 
     /// Takes other pixels, as many as it has.
-    pub(super) fn fill(&mut self, pixels: impl Iterator<Item = u16>) {
+    pub(crate) fn fill(&mut self, pixels: impl Iterator<Item = u16>) {
         let mut own = self.pixels.iter_mut();
         // From inside, as nested loops: what comes may be windows, row by row.
         pixels.for_each(|pixel| {
@@ -29,14 +29,14 @@ impl Square {
     }
 
     /// The pixels of the square of side `inner` in the middle, row by row.
-    pub(super) fn middle(&self, inner: usize) -> impl Iterator<Item = u16> + '_ {
+    pub(crate) fn middle(&self, inner: usize) -> impl Iterator<Item = u16> + '_ {
         let margin = (self.side - inner) / 2;
         (margin..margin + inner).flat_map(move |y| self.row(y)[margin..][..inner].iter().copied())
     }
 
     /// The windows around the pixels of [`Square::middle`]. Beyond this square they see the nearest
     /// pixel of it, which happens only where there is no margin: in isolated regions.
-    pub(super) fn windows(&self, inner: usize) -> impl Iterator<Item = Window> + '_ {
+    pub(crate) fn windows(&self, inner: usize) -> impl Iterator<Item = Window> + '_ {
         let (margin, last) = ((self.side - inner) / 2, self.side - 1);
         let around = move |at: usize| [at.saturating_sub(1), at, (at + 1).min(last)];
         (margin..margin + inner).flat_map(move |y| {
@@ -60,7 +60,7 @@ impl Square {
 
     /// Repeats the second outermost pixels at the sides that `border` names: what lies beyond the
     /// frame holds the nearest pixel inside. Rows first, so that the columns carry the corners.
-    pub(super) fn repeat_beyond(&mut self, border: u8) {
+    pub(crate) fn repeat_beyond(&mut self, border: u8) {
         let (side, last) = (self.side, self.side - 1);
         let names = |bit: u8| border & bit != 0;
         if names(TOP) {

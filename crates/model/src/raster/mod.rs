@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The raster organization, clock by clock: what every output port shows after every edge.
+//!
+//! One [`RasterRcm::step`] is one rising edge of the clock. `docs/raster.md` says how many clocks after the
+//! advance of a word everything happens, whatever the pixels are. So this model keeps whole frames, and judges
+//! a region at once when its last word comes to the tail; what follows is done at the edge at which it is due:
+//!
+//! ```text
+//! valid_i   +----------+ word  +---------+
+//! pixel_i ->| advances |------>| picture |
+//! ready_o <-|          |       +---------+
+//!           +----------+            |  last word of a region
+//!             | first word of       v
+//!             | a row of regions  +---------+     +-----------+
+//!             |                   | regions |---->| decisions |----> decision ports
+//!             v                   +---------+     +-----------+
+//!           +-----------+ due       ^ references     |  active
+//!           | staleness |--------> +---------+       |
+//!           +-----------+          | readout |<------+
+//!           forward_ready_i ------>|         |---------------------> forward ports, lost_o
+//!                                  +---------+
+//! ```
+
+mod advances;
+mod decisions;
+mod picture;
+mod ports;
+mod rcm;
+mod readout;
+mod regions;
+mod staleness;
+
+pub use ports::{RasterInput, RasterOutput};
+pub use rcm::RasterRcm;

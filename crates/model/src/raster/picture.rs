@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The padded frame as it comes in, word by word: what lies beyond the frame repeats its last column and row.
+
+use foveate_design::Design;
+use foveate_frame::Frame;
+
+use super::advances::Place;
+use crate::number::index;
+use crate::region::black_padded;
+
+/// The raw pixels of the frame that comes in.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Picture {
+    padded: Frame,
+    /// Size of the frame itself.
+    width: u32,
+    height: u32,
+    /// K.
+    word_pixels: u32,
+}
+
+impl Picture {
+    pub(super) fn new(design: &Design) -> Self {
+        Self {
+            padded: black_padded(design),
+            width: design.width(),
+            height: design.height(),
+            word_pixels: design.pixels_per_clock(),
+        }
+    }
+
+    /// The padded frame, as far as it has come in.
+    pub(super) fn padded(&self) -> &Frame {
+        &self.padded
+    }
+
+    /// Writes a word, in the order of the advances. `port` is looked at for pixels of the frame itself.
+    pub(super) fn write(&mut self, place: Place, port: &[u16]) {
+        let left = place.column * self.word_pixels;
+        let pixels: Vec<u16> = (left..left + self.word_pixels)
+            .zip(port)
+            .map(|(x, &pixel)| self.pixel(x, place.row, left, port, pixel))
+            .collect();
+        self.padded.write(left, place.row, &pixels);
+    }
+
+    /// The pixel at (x, y), which is `own` if it lies inside the frame.
+    fn pixel(&self, x: u32, y: u32, left: u32, port: &[u16], own: u16) -> u16 {
+        let last = self.width - 1;
+        if y >= self.height {
+            self.padded.get(x, self.height - 1)
+        } else if x <= last {
+            own
+        } else if last >= left {
+            // The last column comes in the same word.
+            port[index(last - left)]
+        } else {
+            self.padded.get(last, y)
+        }
+    }
+}

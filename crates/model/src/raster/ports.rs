@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The ports of the core.
+
+use foveate_design::FeatureKind;
+
+use super::decisions::Judged;
+use super::readout::Word;
+use crate::Thresholds;
+
+/// What is applied to the inputs of the core at one edge.
+#[derive(Clone, Copy, Debug)]
+pub struct RasterInput<'a> {
+    /// `rst_i`.
+    pub reset: bool,
+    /// `valid_i`.
+    pub valid: bool,
+    /// `pixel_i`: a word of K pixels, the left one first.
+    pub pixels: &'a [u16],
+    /// `forward_ready_i`.
+    pub forward_ready: bool,
+    /// The threshold inputs; without meaning where the design has constants.
+    pub thresholds: &'a Thresholds,
+}
+
+/// What the outputs of the core show after an edge. A port that means nothing shows 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RasterOutput {
+    /// `ready_o`.
+    pub ready: bool,
+    /// `decision_valid_o`.
+    pub decision_valid: bool,
+    /// `region_o`.
+    pub region: u32,
+    /// `srs_o`.
+    pub srs: bool,
+    /// `trs_o`.
+    pub trs: bool,
+    /// `active_o`.
+    pub active: bool,
+    /// The scores of the features, in the order of the design.
+    pub scores: [u64; FeatureKind::COUNT],
+    /// `temporal_count_o`.
+    pub temporal_count: u32,
+    /// `forward_valid_o`.
+    pub forward_valid: bool,
+    /// `forward_region_o`.
+    pub forward_region: u32,
+    /// `forward_position_o`.
+    pub forward_position: u32,
+    /// `forward_pixel_o`: a word of K pixels, the left one first.
+    pub forward_pixels: Vec<u16>,
+    /// `lost_o`.
+    pub lost: bool,
+    /// `lost_count_o`.
+    pub lost_count: u16,
+}
+
+impl RasterOutput {
+    /// After a reset, for words of so many pixels.
+    pub(super) fn fresh(word_pixels: usize) -> Self {
+        Self {
+            ready: true,
+            decision_valid: false,
+            region: 0,
+            srs: false,
+            trs: false,
+            active: false,
+            scores: [0; FeatureKind::COUNT],
+            temporal_count: 0,
+            forward_valid: false,
+            forward_region: 0,
+            forward_position: 0,
+            forward_pixels: vec![0; word_pixels],
+            lost: false,
+            lost_count: 0,
+        }
+    }
+
+    /// Shows the decision of a region, or none.
+    pub(super) fn show_decision(&mut self, judged: Option<&Judged>) {
+        let verdict = judged.map(|judged| judged.verdict).unwrap_or_default();
+        self.decision_valid = judged.is_some();
+        self.region = judged.map_or(0, |judged| judged.region);
+        (self.srs, self.trs, self.active) = (verdict.srs, verdict.trs, verdict.active());
+        (self.scores, self.temporal_count) = (verdict.scores, verdict.temporal_count);
+    }
+
+    /// Shows a word that leaves, or none.
+    pub(super) fn show_word(&mut self, word: Option<&Word>) {
+        self.forward_valid = word.is_some();
+        self.forward_region = word.map_or(0, |word| word.region);
+        self.forward_position = word.map_or(0, |word| word.position);
+        match word {
+            Some(word) => self.forward_pixels.copy_from_slice(&word.pixels),
+            None => self.forward_pixels.fill(0),
+        }
+    }
+
+    /// Shows how many regions were lost; the count stays at its largest value.
+    pub(super) fn show_lost(&mut self, lost: u64) {
+        self.lost = lost > 0;
+        self.lost_count = u16::try_from(lost).unwrap_or(u16::MAX);
+    }
+}

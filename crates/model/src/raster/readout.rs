@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How the pixels of active regions leave: the queue, the region that is held, the word that is fetched and
+//! the word on the ports.
+
+use std::collections::VecDeque;
+
+use super::decisions::Judged;
+use crate::number::index;
+
+/// Edges from entering the queue to holding, and from one holding to the next, at least.
+const REST: u64 = 2;
+
+/// A word on its way out.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Word {
+    pub(super) region: u32,
+    /// The number in its region of its first pixel.
+    pub(super) position: u32,
+    /// As it leaves.
+    pub(super) pixels: Vec<u16>,
+    /// As it was scored.
+    pub(super) scored: Vec<u16>,
+}
+
+/// What an edge does to references.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Read {
+    /// Whether a word was fetched.
+    pub(super) has_fetched: bool,
+    /// The region that was lost.
+    pub(super) lost: Option<u32>,
+}
+
+/// The readout.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Readout {
+    /// K.
+    word_pixels: u32,
+    /// Active regions with the edges at which they entered.
+    queue: VecDeque<(u64, Judged)>,
+    held: Option<Held>,
+    /// The edge at which it last started to hold a region.
+    started: Option<u64>,
+    fetched: Option<Word>,
+    shown: Option<Word>,
+    /// Regions lost since reset.
+    lost: u64,
+}
+
+/// A region that is held.
+#[derive(Clone, Debug, PartialEq)]
+struct Held {
+    judged: Judged,
+    /// The first pixel of the next word.
+    next: u32,
+}
+
+impl Held {
+    fn fetch(&mut self, word_pixels: u32) -> Word {
+        let own = index(self.next)..index(self.next + word_pixels);
+        let word = Word {
+            region: self.judged.region,
+            position: self.next,
+            pixels: self.judged.payload[own.clone()].to_vec(),
+            scored: self.judged.scored[own].to_vec(),
+        };
+        self.next += word_pixels;
+        word
+    }
+
+    fn is_fetched(&self) -> bool {
+        index(self.next) == self.judged.payload.len()
+    }
+}
+
+impl Readout {
+    pub(super) fn new(word_pixels: u32) -> Self {
+        Self {
+            word_pixels,
+            queue: VecDeque::new(),
+            held: None,
+            started: None,
+            fetched: None,
+            shown: None,
+            lost: 0,
+        }
+    }
+
+    /// An active region enters the queue at edge `now`.
+    pub(super) fn enter(&mut self, now: u64, judged: Judged) {
+        self.queue.push_back((now, judged));
+    }
+
+    /// The word on the ports.
+    pub(super) fn shown(&self) -> Option<&Word> {
+        self.shown.as_ref()
+    }
+
+    /// The word that was fetched at the last step.
+    pub(super) fn fetched(&self) -> Option<&Word> {
+        self.fetched.as_ref()
+    }
+
+    /// Regions lost since reset.
+    pub(super) fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    /// Whether there is nothing that has to leave.
+    pub(super) fn is_empty(&self) -> bool {
+        let on_the_way = self.fetched.is_some() || self.shown.is_some();
+        self.queue.is_empty() && self.held.is_none() && !on_the_way
+    }
+
+    /// Edge `now`, at which the sink takes a word or not; rows of regions below `fresh` are stale.
+    pub(super) fn step(&mut self, now: u64, sink_takes: bool, fresh: u64) -> Read {
+        let mut may_start = self.held.is_none();
+        let stale = self.held.take_if(|held| held.judged.row < fresh);
+        let mut read = Read { has_fetched: false, lost: stale.map(|held| held.judged.region) };
+        if self.shown.is_none() || sink_takes {
+            self.shown = self.fetched.take();
+            self.fetched = self.held.as_mut().map(|held| held.fetch(self.word_pixels));
+            read.has_fetched = self.fetched.is_some();
+            may_start |= self.held.take_if(|held| held.is_fetched()).is_some();
+        }
+        if may_start && let Some(judged) = self.next(now) {
+            self.started = Some(now);
+            if judged.row < fresh {
+                read.lost = Some(judged.region);
+            } else {
+                self.held = Some(Held { judged, next: 0 });
+            }
+        }
+        self.lost += u64::from(read.lost.is_some());
+        read
+    }
+
+    /// Takes the oldest region from the queue, if it may be held now.
+    fn next(&mut self, now: u64) -> Option<Judged> {
+        let has_rested = self.started.is_none_or(|started| now >= started + REST);
+        let is_due = self.queue.front().is_some_and(|(entered, _)| now >= entered + REST);
+        (has_rested && is_due).then(|| self.queue.pop_front()).flatten().map(|(_, judged)| judged)
+    }
+}

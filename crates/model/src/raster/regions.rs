@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the core keeps of every region from frame to frame, and what it thinks of it.
+
+use foveate_design::{Action, Design, Payload, Reference};
+use foveate_frame::Frame;
+
+use super::decisions::Judged;
+use super::readout::Word;
+use crate::number::index;
+use crate::verdict::Verdict;
+use crate::{RegionScorer, Thresholds, region_border, region_pixels, region_stream};
+
+/// The references of all regions.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Regions {
+    design: Design,
+    scorer: RegionScorer,
+    /// Pixels of a region n.
+    pixels: usize,
+    /// What each region is compared with, region by region.
+    references: Vec<u16>,
+    /// Which regions have a valid reference.
+    referenced: Vec<bool>,
+}
+
+impl Regions {
+    pub(super) fn new(design: &Design) -> Self {
+        let (regions, pixels) = (index(design.regions()), index(design.region_pixels()));
+        Self {
+            scorer: RegionScorer::new(design),
+            pixels,
+            references: vec![0; regions * pixels],
+            referenced: vec![false; regions],
+            design: design.clone(),
+        }
+    }
+
+    /// The next frame is the first; pixels stay and are never seen.
+    pub(super) fn forget(&mut self) {
+        self.referenced.fill(false);
+    }
+
+    /// What the next frame of a region is compared with.
+    pub(super) fn reference(&self, region: u32) -> Option<&[u16]> {
+        let region = index(region);
+        self.referenced[region].then(|| &self.references[region * self.pixels..][..self.pixels])
+    }
+
+    /// Judges a region of a frame; `row` is the number of its row of regions since reset.
+    pub(super) fn judge(
+        &mut self,
+        region: u32,
+        row: u64,
+        padded: &Frame,
+        thresholds: &Thresholds,
+    ) -> Judged {
+        let mut stream = Vec::new();
+        region_stream(&self.design, padded, region, &mut stream);
+        self.scorer.take(stream.into_iter(), region_border(&self.design, region));
+        let reference = self.reference(region);
+        let verdict = Verdict::of(&self.design, &self.scorer, reference, thresholds);
+        let scored: Vec<u16> = self.scorer.pixels().collect();
+        if self.design.temporal().reference == Reference::Previous {
+            self.remember(region, 0, &scored);
+            self.referenced[index(region)] = true;
+        }
+        let payload = match self.design.payload() {
+            Payload::Denoised => scored.clone(),
+            Payload::Raw => {
+                let mut raw = Vec::new();
+                region_pixels(&self.design, padded, region, &mut raw);
+                raw
+            }
+        };
+        Judged { region, row, verdict, scored, payload }
+    }
+
+    /// A region is decided: whether it has a reference from now on.
+    pub(super) fn decide(&mut self, judged: &Judged) {
+        let referenced = &mut self.referenced[index(judged.region)];
+        match (self.design.temporal().reference, judged.verdict.action(&self.design)) {
+            (Reference::Previous, _) | (Reference::LastSent, Action::Hold) => {}
+            (Reference::LastSent, Action::Forward) => *referenced = true,
+            // What was sent is no longer on the screen.
+            (Reference::LastSent, Action::Blank) => *referenced = false,
+        }
+    }
+
+    /// A word was fetched, and will leave. That it becomes the reference an edge later cannot be seen: the
+    /// next frame of its region comes later still.
+    pub(super) fn send(&mut self, word: &Word) {
+        if self.design.temporal().reference == Reference::LastSent {
+            self.remember(word.region, word.position, &word.scored);
+        }
+    }
+
+    /// A region was lost: what was sent of it is not known.
+    pub(super) fn lose(&mut self, region: u32) {
+        if self.design.temporal().reference == Reference::LastSent {
+            self.referenced[index(region)] = false;
+        }
+    }
+
+    fn remember(&mut self, region: u32, position: u32, pixels: &[u16]) {
+        let from = index(region) * self.pixels + index(position);
+        self.references[from..from + pixels.len()].copy_from_slice(pixels);
+    }
+}

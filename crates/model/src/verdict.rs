@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scores and decision of one region in one frame.
+
+use foveate_design::{Action, Design, FeatureKind};
+
+use crate::decision::{action, combined};
+use crate::number::index;
+use crate::{RegionScorer, Thresholds};
+
+/// What is thought of a region.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Verdict {
+    pub(crate) scores: [u64; FeatureKind::COUNT],
+    pub(crate) temporal_count: u32,
+    pub(crate) srs: bool,
+    pub(crate) trs: bool,
+}
+
+impl Verdict {
+    /// Of the region that the scorer has taken; `reference` is `None` where there is no valid one.
+    pub(crate) fn of(
+        design: &Design,
+        scorer: &RegionScorer,
+        reference: Option<&[u16]>,
+        thresholds: &Thresholds,
+    ) -> Self {
+        let scores = scorer.scores(thresholds);
+        let temporal_count = scorer.temporal_count(reference, thresholds);
+        let minima = design.features().iter().zip(&thresholds.min_score);
+        let votes = minima.zip(&scores).map(|((_, min), score)| score >= min);
+        Self {
+            scores,
+            temporal_count,
+            srs: combined(design.combine(), votes),
+            trs: temporal_count >= thresholds.temporal_min_count,
+        }
+    }
+
+    pub(crate) fn active(&self) -> bool {
+        self.srs && self.trs
+    }
+
+    /// A score by its number: 0 for the temporal count, then the features.
+    pub(crate) fn score(&self, number: u32) -> u64 {
+        match number.checked_sub(1) {
+            None => self.temporal_count.into(),
+            Some(feature) => self.scores[index(feature)],
+        }
+    }
+
+    /// What becomes of the region.
+    pub(crate) fn action(&self, design: &Design) -> Action {
+        action(design, self.srs, self.trs)
+    }
+}

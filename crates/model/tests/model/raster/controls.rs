@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Wrong expectations must be noticed: the same check, with one thing changed in what it expects.
+
+use super::driver::{Driver, Manner, Sink};
+use super::expected::{Check, Oracle};
+use super::properties::Film;
+use super::recipe::{Misread, RasterRecipe};
+use crate::frames::{Content, Script};
+use crate::recipe::{FeatureRecipe, Recipe};
+
+fn feature(name: &'static str, level: i64, min_milli: i64) -> FeatureRecipe {
+    FeatureRecipe { name, level, min_milli, fraction_bits: 1 }
+}
+
+/// 4x4 regions of 4x4 pixels, of which the last are ragged.
+fn recipe(last: FeatureRecipe) -> RasterRecipe {
+    RasterRecipe {
+        base: Recipe {
+            width: 15,
+            height: 14,
+            bits: 8,
+            side: 4,
+            shared: true,
+            median: true,
+            features: vec![feature("edge", 150, 6000), last],
+            all_must_vote: false,
+            temporal_level: 20,
+            temporal_min: 6,
+            last_sent: true,
+            blank_irrelevant: false,
+            raw_payload: false,
+            constant: true,
+        },
+        pixels: 1,
+        deep: false,
+        misread: Misread::default(),
+    }
+}
+
+fn script() -> Script {
+    use Content::{AlmostFlat, Noise, Repeat, Touch};
+    let contents = [Noise, Touch, Repeat, AlmostFlat, Touch, Noise, Touch, Repeat, Touch, Repeat];
+    contents.into_iter().zip(5..).collect()
+}
+
+/// A sink that loses regions.
+const SLOW: Manner = Manner { gaps: 3, pushing: 50, sink: Sink::Often(45), ..Manner::DENSE };
+
+/// Runs the core of a recipe against what another expects.
+fn expect(built: &RasterRecipe, change: impl Fn(&mut RasterRecipe)) -> Check {
+    let film = Film::new(built, &script());
+    let trace = Driver::new(built, SLOW).run(&film.jobs(), 300, i64::MAX);
+    let mut expected = built.clone();
+    change(&mut expected);
+    let mut recipes = film.recipes.clone();
+    recipes.iter_mut().for_each(change);
+    Oracle::check(&expected, &recipes, &film.frames, &trace)
+}
+
+type Fault = (&'static str, fn(&mut RasterRecipe));
+
+const FAULTS: [Fault; 20] = [
+    ("S", |recipe| recipe.misread.stored = 1),
+    ("D", |recipe| recipe.misread.decided = 1),
+    ("resting", |recipe| recipe.misread.rest = 1),
+    ("not resting", |recipe| recipe.misread.rest = -1),
+    ("buffer", |recipe| recipe.misread.rows = 1),
+    ("references of lost regions", |recipe| recipe.misread.keeps_reference = true),
+    ("pipelining", |recipe| recipe.deep = true),
+    ("width", |recipe| recipe.base.width -= 1),
+    ("height", |recipe| recipe.base.height -= 1),
+    ("edge level", |recipe| recipe.base.features[0].level += 60),
+    ("edge minimum", |recipe| recipe.base.features[0].min_milli += 4000),
+    ("order of features", |recipe| recipe.base.features.reverse()),
+    ("combination", |recipe| recipe.base.all_must_vote = true),
+    ("median", |recipe| recipe.base.median = false),
+    ("neighborhood", |recipe| recipe.base.shared = false),
+    ("temporal level", |recipe| recipe.base.temporal_level += 5),
+    ("temporal minimum", |recipe| recipe.base.temporal_min = 16),
+    ("reference", |recipe| recipe.base.last_sent = false),
+    ("irrelevant", |recipe| recipe.base.blank_irrelevant = true),
+    ("payload", |recipe| recipe.base.raw_payload = true),
+];
+
+#[test]
+fn every_planted_fault_is_noticed() {
+    let mad = recipe(feature("mad", 0, 18_000));
+    let variance = recipe(feature("variance", 0, 900_000));
+    for built in [&mad, &variance] {
+        assert_eq!(expect(built, |_| {}), Ok(()));
+        for (fault, spoil) in FAULTS {
+            assert!(expect(built, spoil).is_err(), "{fault} goes unnoticed");
+        }
+    }
+    assert!(expect(&mad, |recipe| recipe.misread.pass = 1).is_err(), "second pass");
+    assert!(expect(&mad, |recipe| recipe.base.features[1].fraction_bits = 2).is_err(), "fraction");
+}
+
+/// Words of two pixels, and frames that wait for pending regions.
+#[test]
+fn faults_of_small_frames_in_wide_words_are_noticed() {
+    let mut built = recipe(feature("variance", 0, 900_000));
+    (built.pixels, built.base.width, built.base.height) = (2, 31, 7);
+    assert_eq!(expect(&built, |_| {}), Ok(()));
+    let faults: [Fault; 3] = [
+        ("waiting", |recipe| recipe.misread.never_waits = true),
+        ("words", |recipe| recipe.pixels = 1),
+        ("width", |recipe| recipe.base.width -= 2),
+    ];
+    for (fault, spoil) in faults {
+        assert!(expect(&built, spoil).is_err(), "{fault} goes unnoticed");
+    }
+}
+
+/// The controls and the properties are worth something only if these happen.
+#[test]
+fn a_slow_sink_loses_regions_and_holds_small_frames_back() {
+    let built = recipe(feature("variance", 0, 900_000));
+    let film = Film::new(&built, &script());
+    let lost = |sink| {
+        let manner = Manner { sink, ..SLOW };
+        let trace = Driver::new(&built, manner).run(&film.jobs(), 300, i64::MAX);
+        trace.shown.last().unwrap().lost_count
+    };
+    assert_eq!(lost(Sink::Often(100)), 0);
+    assert!(lost(Sink::Often(45)) > 20, "{}", lost(Sink::Often(45)));
+    assert!(lost(Sink::Often(0)) > lost(Sink::Often(45)));
+
+    let mut small = built.clone();
+    small.base.height = 7;
+    let clocks = |recipe: &RasterRecipe, sink| {
+        let film = Film::new(recipe, &script());
+        let manner = Manner { sink, ..Manner::DENSE };
+        let trace = Driver::new(recipe, manner).run(&film.jobs(), 0, i64::MAX);
+        (trace.shown.last().unwrap().lost, trace.end())
+    };
+    let (lost, slow) = clocks(&small, Sink::Often(20));
+    assert!(!lost && slow > clocks(&small, Sink::Often(100)).1);
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Feeds frames to a core, word by word, in front of a sink that is not always ready, and keeps what was
+//! applied and what was shown.
+
+use foveate_design::FeatureKind;
+use foveate_frame::Frame;
+use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+
+use super::recipe::RasterRecipe;
+use crate::frames::Random;
+
+/// When the sink is ready.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Sink {
+    /// This percent of clocks.
+    Often(i64),
+    /// In turns of up to so many clocks, ready and not.
+    Turns(i64),
+}
+
+/// How words come and go.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Manner {
+    /// Percent of clocks in which there is no word though the core is ready.
+    pub(crate) gaps: i64,
+    /// Longest pause between frames.
+    pub(crate) between: i64,
+    /// Percent of clocks with a word though the core is not ready.
+    pub(crate) pushing: i64,
+    pub(crate) sink: Sink,
+    pub(crate) seed: u64,
+}
+
+impl Manner {
+    pub(crate) const DENSE: Self =
+        Self { gaps: 0, between: 0, pushing: 0, sink: Sink::Often(100), seed: 0 };
+}
+
+/// A frame and its thresholds.
+pub(crate) struct Job {
+    pub(crate) frame: Frame,
+    pub(crate) thresholds: Thresholds,
+}
+
+/// What was applied and shown since a reset; edge x is number x, and number 0 is before the first.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trace {
+    pub(crate) valid: Vec<bool>,
+    pub(crate) sink: Vec<bool>,
+    pub(crate) shown: Vec<RasterOutput>,
+}
+
+impl Trace {
+    /// The number of the last edge.
+    pub(crate) fn end(&self) -> i64 {
+        self.shown.len() as i64 - 1
+    }
+}
+
+pub(crate) struct Driver {
+    recipe: RasterRecipe,
+    pub(crate) rcm: RasterRcm,
+    manner: Manner,
+    random: Random,
+    trace: Trace,
+    /// Clocks that are left before everything ends.
+    left: i64,
+    /// Clocks left of the sink's turn, and whether it is ready in it.
+    turn: (i64, bool),
+    decisions: i64,
+}
+
+impl Driver {
+    pub(crate) fn new(recipe: &RasterRecipe, manner: Manner) -> Self {
+        let rcm = RasterRcm::new(&recipe.design());
+        let mut driver = Self {
+            recipe: recipe.clone(),
+            rcm,
+            manner,
+            random: Random(manner.seed),
+            trace: Trace::default(),
+            left: i64::MAX,
+            turn: (0, true),
+            decisions: 0,
+        };
+        driver.begin();
+        driver
+    }
+
+    /// Resets the core for one or two clocks with anything at its ports.
+    pub(crate) fn reset(&mut self, clocks: i64) {
+        for _ in 0..clocks {
+            let (word, thresholds) = (self.junk(), self.noise());
+            let (valid, forward_ready) = (self.random.below(2) > 0, self.random.below(2) > 0);
+            let input = RasterInput {
+                reset: true,
+                valid,
+                pixels: &word,
+                forward_ready,
+                thresholds: &thresholds,
+            };
+            self.rcm.step(&input);
+        }
+        self.begin();
+    }
+
+    fn begin(&mut self) {
+        self.decisions = 0;
+        let shown = vec![self.rcm.output().clone()];
+        self.trace = Trace { valid: vec![false], sink: vec![false], shown };
+    }
+
+    /// Feeds frame after frame, lets `rest` clocks pass, and says what was seen; ends after `clocks` clocks,
+    /// whatever is under way.
+    pub(crate) fn run(&mut self, jobs: &[Job], rest: i64, clocks: i64) -> Trace {
+        self.left = clocks;
+        for (number, job) in (1..).zip(jobs) {
+            let pause = self.random.below(self.manner.between + 1);
+            for _ in 0..pause {
+                self.idle(&job.thresholds);
+            }
+            self.feed(job);
+            // Until the thresholds may change.
+            while !self.is_settled(number) && self.left > 0 {
+                self.idle(&job.thresholds);
+            }
+        }
+        for _ in 0..rest {
+            let noise = self.noise();
+            self.idle(&noise);
+        }
+        std::mem::take(&mut self.trace)
+    }
+
+    /// Without `mad` frames follow at once; with it thresholds may change only after the last decision.
+    fn is_settled(&self, frames: i64) -> bool {
+        let regions = self.recipe.base.columns() * self.recipe.base.rows();
+        let is_decided = self.decisions == frames * regions;
+        self.rcm.output().ready && (is_decided || !self.recipe.has_mad())
+    }
+
+    fn feed(&mut self, job: &Job) {
+        for word in words(&self.recipe, &job.frame, &mut self.random) {
+            while !self.rcm.output().ready || self.random.below(100) < self.manner.gaps {
+                if self.left == 0 {
+                    return;
+                }
+                self.idle(&job.thresholds);
+            }
+            self.step(true, &word, &job.thresholds);
+        }
+    }
+
+    fn idle(&mut self, thresholds: &Thresholds) {
+        let junk = self.junk();
+        let pushes = !self.rcm.output().ready && self.random.below(100) < self.manner.pushing;
+        self.step(pushes, &junk, thresholds);
+    }
+
+    fn step(&mut self, valid: bool, pixels: &[u16], thresholds: &Thresholds) {
+        if self.left == 0 {
+            return;
+        }
+        self.left -= 1;
+        let forward_ready = self.sink();
+        let input = RasterInput { reset: false, valid, pixels, forward_ready, thresholds };
+        let shown = self.rcm.step(&input).clone();
+        self.decisions += i64::from(shown.decision_valid);
+        self.trace.valid.push(valid);
+        self.trace.sink.push(forward_ready);
+        self.trace.shown.push(shown);
+    }
+
+    fn sink(&mut self) -> bool {
+        match self.manner.sink {
+            Sink::Often(percent) => self.random.below(100) < percent,
+            Sink::Turns(longest) => {
+                if self.turn.0 == 0 {
+                    self.turn = (1 + self.random.below(longest), !self.turn.1);
+                }
+                self.turn.0 -= 1;
+                self.turn.1
+            }
+        }
+    }
+
+    /// A word that nobody may look at.
+    fn junk(&mut self) -> Vec<u16> {
+        let top = self.recipe.base.pixel_max() + 1;
+        (0..self.recipe.pixels).map(|_| self.random.below(top) as u16).collect()
+    }
+
+    /// Thresholds that nobody may look at.
+    fn noise(&mut self) -> Thresholds {
+        let mut noise = Thresholds::of(&self.recipe.design());
+        noise.temporal_level = self.random.below(2) as u32;
+        noise.temporal_min_count = self.random.below(5) as u32;
+        noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
+        noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
+        noise
+    }
+}
+
+/// The words of a frame; pixels beyond its right border are anything.
+pub(crate) fn words(recipe: &RasterRecipe, frame: &Frame, random: &mut Random) -> Vec<Vec<u16>> {
+    let top = recipe.base.pixel_max() + 1;
+    let mut words = Vec::new();
+    for y in 0..frame.height() {
+        let mut row = frame.row(y).to_vec();
+        row.resize((recipe.taken_of_row() * recipe.pixels) as usize, random.below(top) as u16);
+        words.extend(row.chunks_exact(recipe.pixels as usize).map(<[u16]>::to_vec));
+    }
+    words
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the ports must show after every edge, computed from what was applied: the edges of all advances of a
+//! frame at once by the formulas of `docs/raster.md`, then decisions and readout edge by edge.
+
+use std::collections::BTreeMap;
+
+use foveate_frame::Frame;
+use foveate_model::RasterOutput;
+
+use super::driver::Trace;
+use super::reading::Readings;
+use super::recipe::RasterRecipe;
+use crate::oracle::{Seen, begin, look_at_region};
+
+/// What differs, and where.
+pub(crate) type Check = Result<(), String>;
+
+pub(crate) struct Oracle<'a> {
+    recipe: &'a RasterRecipe,
+    trace: &'a Trace,
+    history: Vec<Seen>,
+    /// Edges at which regions are decided, with frame and region.
+    decisions: BTreeMap<i64, (usize, i64)>,
+    readings: Readings,
+    /// Edges from which on rows of regions are stale, counted through all frames.
+    begun: Vec<i64>,
+    ready: Vec<bool>,
+    /// The last edge of the second pass before.
+    passed: i64,
+}
+
+impl<'a> Oracle<'a> {
+    /// Compares what was shown with what follows from the frames and what was applied; `recipes` has the
+    /// thresholds of each frame.
+    pub(crate) fn check(
+        recipe: &'a RasterRecipe,
+        recipes: &[RasterRecipe],
+        film: &[Frame],
+        trace: &'a Trace,
+    ) -> Check {
+        let mut oracle = Self {
+            recipe,
+            trace,
+            history: Vec::new(),
+            decisions: BTreeMap::new(),
+            readings: Readings::new(recipe.region_words(), recipe.misread.rest),
+            begun: Vec::new(),
+            ready: vec![false; trace.shown.len()],
+            passed: 0,
+        };
+        oracle.set_ready(0..=0);
+        oracle.compare(0)?;
+        let mut ready = 0;
+        for (number, frame) in film.iter().enumerate() {
+            if ready > trace.end() {
+                break;
+            }
+            ready = oracle.frame(ready, number, frame, &recipes[..=number])?;
+        }
+        oracle.set_ready(ready..=trace.end());
+        oracle.until(trace.end(), recipes)
+    }
+
+    /// A frame, before which `ready_o` is 1 from edge `ready` on; returns that edge of the next.
+    fn frame(
+        &mut self,
+        ready: i64,
+        number: usize,
+        frame: &Frame,
+        recipes: &[RasterRecipe],
+    ) -> Result<i64, String> {
+        let recipe = self.recipe;
+        let edges = self.advances(ready);
+        self.history.push(begin(&recipe.base, frame));
+        let tail = |word: i64| edges.get((word + recipe.flush()) as usize).copied();
+        for row in 0..recipe.base.rows() {
+            let stored =
+                tail(row * recipe.base.side * recipe.row()).map(|edge| edge + recipe.stored());
+            self.begun.extend(stored);
+        }
+        for region in 0..recipe.base.columns() * recipe.base.rows() {
+            if let Some(edge) = tail(recipe.last_word(region)) {
+                let decided = self.decided(edge);
+                self.decisions.insert(decided, (number, region));
+            }
+        }
+        let taken = (0..recipe.words()).filter(|&a| recipe.takes(a)).max().unwrap();
+        let Some(&last_taken) = edges.get(taken as usize) else {
+            self.until(self.trace.end(), recipes)?;
+            return Ok(i64::MAX);
+        };
+        let mut next = last_taken + recipe.after_last() + recipe.decided();
+        if recipe.waits() {
+            self.until(next - 1, recipes)?;
+            // Everything but `ready_o` is compared before it is known whether that is 1.
+            while next <= self.trace.end() {
+                self.edge(next, recipes)?;
+                let undecided = self.decisions.keys().any(|&edge| edge > next);
+                self.ready[next as usize] = !undecided && !self.readings.is_pending();
+                self.compare(next)?;
+                if self.ready[next as usize] {
+                    break;
+                }
+                next += 1;
+            }
+        }
+        Ok(next)
+    }
+
+    /// The edges of all advances of a frame, as far as they came.
+    fn advances(&mut self, ready: i64) -> Vec<i64> {
+        let (mut edges, mut last) = (Vec::new(), ready);
+        for a in 0..self.recipe.advances() {
+            let mut edge = last + 1;
+            if self.recipe.takes(a) {
+                while edge <= self.trace.end() && !self.trace.valid[edge as usize] {
+                    edge += 1;
+                }
+                self.set_ready(last..=edge - 1);
+            }
+            if edge > self.trace.end() {
+                break;
+            }
+            edges.push(edge);
+            last = edge;
+        }
+        edges
+    }
+
+    fn set_ready(&mut self, edges: std::ops::RangeInclusive<i64>) {
+        for edge in edges.filter(|&edge| edge <= self.trace.end()) {
+            self.ready[edge as usize] = true;
+        }
+    }
+
+    /// When a region is decided whose last word came to the tail at that edge.
+    fn decided(&mut self, edge: i64) -> i64 {
+        if !self.recipe.has_mad() {
+            return edge + self.recipe.decided();
+        }
+        let first =
+            (edge + self.recipe.stored() + 6 + self.recipe.misread.pass).max(self.passed + 1);
+        self.passed = first + self.recipe.region_words() - 1;
+        self.passed + 5
+    }
+
+    /// Looks at all edges up to that one that have not been looked at.
+    fn until(&mut self, last: i64, recipes: &[RasterRecipe]) -> Check {
+        for edge in self.readings.shown.len() as i64..=last.min(self.trace.end()) {
+            self.edge(edge, recipes)?;
+            self.compare(edge)?;
+        }
+        Ok(())
+    }
+
+    /// What happens at an edge.
+    fn edge(&mut self, edge: i64, recipes: &[RasterRecipe]) -> Check {
+        self.stale();
+        self.readings.edge(edge, self.trace.sink[edge as usize]);
+        for reading in self.readings.all.iter().filter(|reading| reading.lost == Some(edge)) {
+            let keeps = self.recipe.misread.keeps_reference;
+            self.history[reading.frame].regions[reading.region as usize].lost = !keeps;
+        }
+        let Some(&(frame, region)) = self.decisions.get(&edge) else { return Ok(()) };
+        let (before, from) = self.history.split_at(frame);
+        let seen = look_at_region(&recipes[frame].base, before, &from[0], region);
+        if seen.active {
+            self.readings.enter(frame, region, edge);
+        }
+        self.history[frame].regions.push(seen);
+        if self.history[frame].regions.len() as i64 != region + 1 {
+            return Err(format!("region {region} is decided out of order"));
+        }
+        Ok(())
+    }
+
+    /// Tells the readings which rows of regions have been begun.
+    fn stale(&mut self) {
+        let rows = self.recipe.base.rows();
+        for reading in self.readings.all.iter_mut().filter(|reading| reading.stale == i64::MAX) {
+            let row = reading.frame as i64 * rows + reading.region / self.recipe.base.columns();
+            let over = (row + self.recipe.buffer_rows()) as usize;
+            reading.stale = self.begun.get(over).copied().unwrap_or(i64::MAX);
+        }
+    }
+
+    fn compare(&self, edge: i64) -> Check {
+        let got = &self.trace.shown[edge as usize];
+        let ready = self.ready[edge as usize];
+        if got.ready != ready {
+            return Err(format!("ready_o is {} after edge {edge}", got.ready));
+        }
+        self.compare_decision(edge, got)?;
+        self.compare_word(edge, got)?;
+        let lost = self.readings.lost[edge as usize];
+        if (got.lost, i64::from(got.lost_count)) != (lost > 0, lost.min(65_535)) {
+            return Err(format!("{} lost after edge {edge}, due are {lost}", got.lost_count));
+        }
+        Ok(())
+    }
+
+    fn compare_decision(&self, edge: i64, got: &RasterOutput) -> Check {
+        let bits = (got.srs, got.trs, got.active);
+        let Some(&(frame, region)) = self.decisions.get(&edge) else {
+            return match (got.decision_valid, bits) {
+                (false, (false, false, false)) => Ok(()),
+                _ => Err(format!("a decision of region {} after edge {edge}", got.region)),
+            };
+        };
+        let seen = &self.history[frame].regions[region as usize];
+        let scores = seen.scores.iter().map(|&score| score as u64);
+        let agrees = got.decision_valid
+            && i64::from(got.region) == region
+            && bits == (seen.srs, seen.trs, seen.active)
+            && i64::from(got.temporal_count) == seen.temporal_count
+            && scores.eq(got.scores.into_iter().take(seen.scores.len()));
+        agrees.then_some(()).ok_or_else(|| {
+            format!("after edge {edge}: {got:?}, due is region {region} of frame {frame}")
+        })
+    }
+
+    fn compare_word(&self, edge: i64, got: &RasterOutput) -> Check {
+        let due = self.readings.shown[edge as usize];
+        let Some((reading, word)) = due else {
+            return if got.forward_valid {
+                Err(format!("a word leaves after edge {edge}"))
+            } else {
+                Ok(())
+            };
+        };
+        let reading = &self.readings.all[reading];
+        let position = word * self.recipe.pixels;
+        let seen = &self.history[reading.frame].regions[reading.region as usize];
+        let pixels = &seen.payload[position as usize..][..self.recipe.pixels as usize];
+        let agrees = got.forward_valid
+            && i64::from(got.forward_region) == reading.region
+            && i64::from(got.forward_position) == position
+            && pixels.iter().eq(got
+                .forward_pixels
+                .iter()
+                .map(|&pixel| i64::from(pixel))
+                .collect::<Vec<_>>()
+                .iter());
+        agrees
+            .then_some(())
+            .ok_or_else(|| format!("after edge {edge}: {got:?}, due is word {word} of {reading:?}"))
+    }
+}

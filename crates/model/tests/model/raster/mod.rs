@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The raster core against waveforms that are computed from `docs/raster.md` and the oracle, against waveforms
+//! worked out by hand, and against the functional camera.
+
+mod controls;
+mod driver;
+mod expected;
+mod properties;
+mod reading;
+mod recipe;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The readout of `docs/raster.md`, looked up edge by edge in the complete history of what was read.
+
+/// An active region: what happened to it, by edge.
+#[derive(Clone, Debug)]
+pub(crate) struct Reading {
+    pub(crate) frame: usize,
+    pub(crate) region: i64,
+    /// The edge after which its decision stands on the ports.
+    decided: i64,
+    /// The edge from which on it is stale, once that is known.
+    pub(crate) stale: i64,
+    held: Option<i64>,
+    fetched: Vec<i64>,
+    pub(crate) lost: Option<i64>,
+}
+
+/// A word: the number of its reading, and its number in its region.
+pub(crate) type Word = (usize, i64);
+
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Readings {
+    pub(crate) all: Vec<Reading>,
+    words: i64,
+    /// Clocks by which resting is misread.
+    rest: i64,
+    /// The word on the ports after every edge.
+    pub(crate) shown: Vec<Option<Word>>,
+    /// Regions that had been lost after every edge.
+    pub(crate) lost: Vec<i64>,
+    /// The word that was fetched at the last step.
+    fetched: Option<Word>,
+}
+
+impl Readings {
+    /// For regions of so many words.
+    pub(crate) fn new(words: i64, wrong: i64) -> Self {
+        let rest = 2 + wrong;
+        Self { words, rest, shown: vec![None], lost: vec![0], ..Self::default() }
+    }
+
+    /// A region is active; its decision is on the ports after that edge.
+    pub(crate) fn enter(&mut self, frame: usize, region: i64, decided: i64) {
+        let (held, fetched) = (None, Vec::new());
+        let lost = None;
+        self.all.push(Reading { frame, region, decided, stale: i64::MAX, held, fetched, lost });
+    }
+
+    fn is_held_before(&self, reading: &Reading, edge: i64) -> bool {
+        let is_over = reading.fetched.len() as i64 == self.words;
+        reading.held.is_some_and(|held| held < edge) && reading.lost.is_none() && !is_over
+    }
+
+    /// The next edge.
+    pub(crate) fn edge(&mut self, edge: i64, sink: bool) {
+        let before = self.shown[edge as usize - 1];
+        let steps = before.is_none() || sink;
+        let held = self.all.iter().position(|reading| self.is_held_before(reading, edge));
+        let mut may_hold = held.is_none();
+        let mut fetched = None;
+        if let Some(number) = held {
+            let reading = &mut self.all[number];
+            if reading.stale <= edge {
+                reading.lost = Some(edge);
+            } else if steps {
+                fetched = Some((number, reading.fetched.len() as i64));
+                reading.fetched.push(edge);
+                may_hold = reading.fetched.len() as i64 == self.words;
+            }
+        }
+        if may_hold {
+            self.hold(edge);
+        }
+        self.shown.push(if steps { self.fetched } else { before });
+        if steps {
+            self.fetched = fetched;
+        }
+        let lost = self.all.iter().filter(|reading| reading.lost.is_some()).count();
+        self.lost.push(lost as i64);
+    }
+
+    fn hold(&mut self, edge: i64) {
+        // Lost instead of held is as good as held.
+        let starts = self.all.iter().filter_map(|reading| reading.held);
+        let has_rested = starts.max().is_none_or(|last| edge - last >= self.rest);
+        let next = self.all.iter_mut().find(|reading| reading.held.is_none());
+        let Some(reading) =
+            next.filter(|reading| has_rested && edge >= reading.decided + 1 + self.rest)
+        else {
+            return;
+        };
+        reading.held = Some(edge);
+        if reading.stale <= edge {
+            reading.lost = Some(edge);
+        }
+    }
+
+    /// Whether a region is pending after that edge, the last that was looked at.
+    pub(crate) fn is_pending(&self) -> bool {
+        let left = |reading: &&Reading| {
+            reading.lost.is_none() && (reading.fetched.len() as i64) < self.words
+        };
+        let is_shown = self.shown.last().is_some_and(Option::is_some);
+        self.all.iter().any(|reading| left(&reading)) || self.fetched.is_some() || is_shown
+    }
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow.
+
+use foveate_design::{Design, Organization, Pipelining};
+use proptest::prelude::*;
+use proptest::sample::select;
+
+use crate::recipe::{Recipe, recipes_of};
+
+#[derive(Clone, Debug)]
+pub(crate) struct RasterRecipe {
+    pub(crate) base: Recipe,
+    /// K.
+    pub(crate) pixels: i64,
+    pub(crate) deep: bool,
+    pub(crate) misread: Misread,
+}
+
+/// How the page is misread on purpose, for the controls: by so many clocks, or in what it says.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Misread {
+    /// S; D stays what it is.
+    pub(crate) stored: i64,
+    /// D.
+    pub(crate) decided: i64,
+    /// The first edge of the second pass.
+    pub(crate) pass: i64,
+    /// The edges between entering and holding, and between holding and holding.
+    pub(crate) rest: i64,
+    /// Rows of the buffer, B.
+    pub(crate) rows: i64,
+    /// A region that was lost keeps its reference.
+    pub(crate) keeps_reference: bool,
+    /// A frame does not wait for pending regions.
+    pub(crate) never_waits: bool,
+}
+
+impl RasterRecipe {
+    pub(crate) fn design(&self) -> Design {
+        let mut config = self.base.design().config().clone();
+        config.hardware.organization = Organization::Raster;
+        config.hardware.pixels_per_clock = Some(self.pixels as u32);
+        config.hardware.pipelining =
+            Some(if self.deep { Pipelining::Deep } else { Pipelining::Plain });
+        config.validate().unwrap_or_else(|error| panic!("{error}\n{self:?}"))
+    }
+
+    fn median(&self) -> i64 {
+        i64::from(self.base.median)
+    }
+
+    fn window(&self) -> i64 {
+        i64::from(self.base.has("edge") || self.base.has("corner"))
+    }
+
+    pub(crate) fn has_mad(&self) -> bool {
+        self.base.has("mad")
+    }
+
+    /// L.
+    pub(crate) fn row(&self) -> i64 {
+        self.base.columns() * self.base.side / self.pixels
+    }
+
+    /// V.
+    pub(crate) fn taken_of_row(&self) -> i64 {
+        (self.base.width + self.pixels - 1) / self.pixels
+    }
+
+    /// R*N*L.
+    pub(crate) fn words(&self) -> i64 {
+        self.base.rows() * self.base.side * self.row()
+    }
+
+    /// w (L + 1).
+    pub(crate) fn flush(&self) -> i64 {
+        (self.median() + self.window()) * (self.row() + 1)
+    }
+
+    /// A.
+    pub(crate) fn advances(&self) -> i64 {
+        self.words() + self.flush()
+    }
+
+    /// Z.
+    pub(crate) fn after_last(&self) -> i64 {
+        let below = self.base.rows() * self.base.side - self.base.height;
+        (self.row() - self.taken_of_row()) + below * self.row() + self.flush()
+    }
+
+    /// S.
+    pub(crate) fn stored(&self) -> i64 {
+        let (m, f) = (self.median(), self.window());
+        self.misread.stored + if self.deep { 1 + 8 * m + 7 * f } else { 1 + 3 * m + 4 * f }
+    }
+
+    /// D.
+    pub(crate) fn decided(&self) -> i64 {
+        let variance = if self.base.has("variance") { 3 } else { 0 };
+        let stored = self.stored() - self.misread.stored;
+        self.misread.decided + stored + if self.deep { 6 } else { 4 } + variance
+    }
+
+    /// n/K.
+    pub(crate) fn region_words(&self) -> i64 {
+        self.base.n() / self.pixels
+    }
+
+    /// B.
+    pub(crate) fn buffer_rows(&self) -> i64 {
+        self.misread.rows + if self.has_mad() { 3 } else { 2 }
+    }
+
+    pub(crate) fn waits(&self) -> bool {
+        let is_small = self.base.rows() <= self.buffer_rows();
+        self.base.last_sent && is_small && !self.misread.never_waits
+    }
+
+    /// Whether advance `a` takes a word.
+    pub(crate) fn takes(&self, a: i64) -> bool {
+        a < self.words()
+            && a % self.row() < self.taken_of_row()
+            && a / self.row() < self.base.height
+    }
+
+    /// The number of the last word of a region, i.
+    pub(crate) fn last_word(&self, region: i64) -> i64 {
+        let (row, column) = (region / self.base.columns(), region % self.base.columns());
+        let wide = self.base.side / self.pixels;
+        ((row + 1) * self.base.side - 1) * self.row() + (column + 1) * wide - 1
+    }
+}
+
+/// Every kind of raster design, with about four regions side by side or sixteen words.
+pub(crate) fn raster_recipes() -> impl Strategy<Value = RasterRecipe> {
+    let sides = prop_oneof![6 => select(vec![2i64, 3, 4, 4, 5, 6, 8, 8]), 1 => 2i64..=9];
+    let size = (0i64..=100, 0i64..=100, 0i64..=1);
+    (recipes_of(sides), select(vec![1i64, 2, 4]), any::<bool>(), size).prop_map(
+        |(mut base, pixels, deep, (wide, high, more))| {
+            let side = base.side;
+            let pixels = if side % pixels == 0 { pixels } else { 1 };
+            let columns = 4.max((16 * pixels + side - 1) / side) + more;
+            base.width = (columns - 1) * side + 1 + wide % side;
+            // Up to five rows of regions.
+            base.height = 1 + high % (5 * side);
+            RasterRecipe { base, pixels, deep, misread: Misread::default() }
+        },
+    )
+}
