@@ -86,7 +86,10 @@ impl HardwareConfig {
         words.extend(self.feed.or(default).map(|feed| format!("{feed} feed")));
         words.extend(self.organization.folds().then(|| format!("fold {}", self.fold)));
         words.extend(self.memory.map(|memory| format!("{memory} memory")));
-        words.extend(self.pixels_per_clock.map(|pixels| format!("{pixels} pixels per clock")));
+        words.extend(self.pixels_per_clock.map(|pixels| {
+            let plural = if pixels == 1 { "" } else { "s" };
+            format!("{pixels} pixel{plural} per clock")
+        }));
         words.extend(self.pipelining.map(|pipelining| format!("{pipelining} pipelining")));
         words.extend(self.store.map(|store| format!("{store} store")));
         words.join(", ")

@@ -130,7 +130,7 @@ fn keys_are_filled_in_and_only_here() {
         (Some(1), Some(Pipelining::Plain), Some(Store::Block))
     );
     assert_eq!((hardware.feed, hardware.memory, hardware.fold), (None, None, 1));
-    assert_eq!(hardware.in_words(), "raster, 1 pixels per clock, plain pipelining, block store");
+    assert_eq!(hardware.in_words(), "raster, 1 pixel per clock, plain pipelining, block store");
     let named = design(&["hardware.pixels_per_clock=1", "hardware.store=block"]);
     assert_eq!(named.fingerprint(), plain.fingerprint());
     let others = ["pixels_per_clock=2", "pipelining=deep", "store=ultra"]

@@ -102,3 +102,17 @@ impl RasterOutput {
         self.lost_count = u16::try_from(lost).unwrap_or(u16::MAX);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_count_of_lost_regions_stays_at_its_largest() {
+        let mut output = RasterOutput::fresh(1);
+        for (lost, shown) in [(0, 0), (1, 1), (65_535, 65_535), (65_536, 65_535)] {
+            output.show_lost(lost);
+            assert_eq!((output.lost, output.lost_count), (lost > 0, shown));
+        }
+    }
+}

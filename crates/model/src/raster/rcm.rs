@@ -105,7 +105,13 @@ impl RasterRcm {
     #[must_use]
     pub fn is_pending(&self) -> bool {
         let is_active = self.decided.as_ref().is_some_and(|judged| judged.verdict.active());
-        is_active || !self.decisions.is_empty() || !self.readout.is_empty()
+        is_active || self.is_deciding() || !self.readout.is_empty()
+    }
+
+    /// Whether a region is not yet decided though its last word has come to the tail.
+    #[must_use]
+    pub fn is_deciding(&self) -> bool {
+        !self.decisions.is_empty()
     }
 
     fn reset(&mut self) {

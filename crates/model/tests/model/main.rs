@@ -18,6 +18,7 @@ mod pipelined_properties;
 mod raster;
 mod recipe;
 mod schedule;
+mod screen;
 mod serial;
 mod temporal_behavior;
 mod thresholds_in_time;

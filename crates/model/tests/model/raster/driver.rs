@@ -68,11 +68,13 @@ pub(crate) struct Driver {
     /// Clocks left of the sink's turn, and whether it is ready in it.
     turn: (i64, bool),
     decisions: i64,
+    noise: Thresholds,
 }
 
 impl Driver {
     pub(crate) fn new(recipe: &RasterRecipe, manner: Manner) -> Self {
-        let rcm = RasterRcm::new(&recipe.design());
+        let design = recipe.design();
+        let rcm = RasterRcm::new(&design);
         let mut driver = Self {
             recipe: recipe.clone(),
             rcm,
@@ -82,6 +84,7 @@ impl Driver {
             left: i64::MAX,
             turn: (0, true),
             decisions: 0,
+            noise: Thresholds::of(&design),
         };
         driver.begin();
         driver
@@ -104,7 +107,8 @@ impl Driver {
         self.begin();
     }
 
-    fn begin(&mut self) {
+    /// Forgets what was applied and shown.
+    pub(crate) fn begin(&mut self) {
         self.decisions = 0;
         let shown = vec![self.rcm.output().clone()];
         self.trace = Trace { valid: vec![false], sink: vec![false], shown };
@@ -192,7 +196,7 @@ impl Driver {
 
     /// Thresholds that nobody may look at.
     fn noise(&mut self) -> Thresholds {
-        let mut noise = Thresholds::of(&self.recipe.design());
+        let mut noise = self.noise;
         noise.temporal_level = self.random.below(2) as u32;
         noise.temporal_min_count = self.random.below(5) as u32;
         noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];

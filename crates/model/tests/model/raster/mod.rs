@@ -2,8 +2,10 @@
 //! The raster core against waveforms that are computed from `docs/raster.md` and the oracle, against waveforms
 //! worked out by hand, and against the functional camera.
 
+mod camera;
 mod controls;
 mod driver;
+mod examples;
 mod expected;
 mod properties;
 mod reading;

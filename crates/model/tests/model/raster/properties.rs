@@ -83,7 +83,7 @@ fn sequence(driver: &mut Driver, recipe: &RasterRecipe, script: &Script, clocks:
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(250))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn every_port_after_every_edge(

@@ -2,7 +2,6 @@
 //! Whole films: scores, decisions and the rendered frame, against the functional camera, over a
 //! matrix of designs that has every value of every choice beside every other.
 
-use foveate_design::Action;
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::{
@@ -13,34 +12,7 @@ use super::bench::applied;
 use super::recipe::SerialRecipe;
 use crate::hard_cases::hard_frames;
 use crate::recipe::{FeatureRecipe, Recipe};
-
-/// The screen behind an array.
-struct Screen {
-    design: Design,
-    pixels: Vec<u16>,
-}
-
-impl Screen {
-    fn place(&self, region: u32, position: u32) -> usize {
-        let (side, columns) = (self.design.region_size(), self.design.columns());
-        let x = region % columns * side + position % side;
-        let y = region / columns * side + position / side;
-        (y * columns * side + x) as usize
-    }
-
-    fn act(&mut self, region: u32, srs: bool, trs: bool) {
-        // A pixel that the array does not send must not look like the one before.
-        let value = match foveate_model::action(&self.design, srs, trs) {
-            Action::Hold => return,
-            Action::Blank => 0,
-            Action::Forward => u16::MAX,
-        };
-        for position in 0..self.design.region_pixels() {
-            let place = self.place(region, position);
-            self.pixels[place] = value;
-        }
-    }
-}
+use crate::screen::Screen;
 
 /// Feeds a frame as fast as it is taken; returns the clocks until the array is ready again.
 fn play(
@@ -121,8 +93,8 @@ fn check(recipe: &SerialRecipe, film: &[Frame]) {
     let mut camera = Camera::new(&design);
     let mut rcm = SerialRcm::new(&design);
     let side = design.region_size();
-    let (width, height) = (design.columns() * side, design.rows() * side);
-    let mut screen = Screen { pixels: vec![0; (width * height) as usize], design };
+    let width = design.columns() * side;
+    let mut screen = Screen::black(&design);
     for frame in film {
         let outcome = camera.step(frame).unwrap();
         predict(&rcm, frame, outcome, &screen.design);

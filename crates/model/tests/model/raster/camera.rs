@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whole films: scores, decisions and the rendered frame, against the functional camera, over a matrix of
+//! designs that has every value of every choice beside every other.
+
+use foveate_frame::Frame;
+use foveate_model::{Camera, Outcome, RasterOutput};
+
+use super::driver::{Driver, Job, Manner};
+use super::recipe::{Misread, RasterRecipe};
+use crate::hard_cases::hard_frames;
+use crate::recipe::{FeatureRecipe, Recipe};
+use crate::screen::Screen;
+
+/// The decisions of a frame are those of the camera.
+fn compare(shown: &RasterOutput, outcome: &Outcome) {
+    let at = shown.region as usize;
+    let due = (outcome.srs[at], outcome.trs[at], outcome.active[at]);
+    assert_eq!((shown.srs, shown.trs, shown.active), due, "decision of region {at}");
+    assert_eq!(shown.temporal_count, outcome.temporal_count[at], "region {at}");
+    let scores = outcome.scores.iter().map(|scores| scores[at]);
+    assert!(scores.eq(shown.scores.into_iter().take(outcome.scores.len())), "region {at}");
+}
+
+/// Frame after frame, each drained, so that the screen can be compared.
+fn check(recipe: &RasterRecipe, film: &[Frame]) {
+    let design = recipe.design();
+    let thresholds = foveate_model::Thresholds::of(&design);
+    let (mut camera, mut driver) = (Camera::new(&design), Driver::new(recipe, Manner::DENSE));
+    let mut screen = Screen::black(&design);
+    let rest = 2 * recipe.words() + 100;
+    for frame in film {
+        let outcome = camera.step(frame).unwrap();
+        let trace = driver.run(&[Job { frame: frame.clone(), thresholds }], rest, i64::MAX);
+        driver.begin();
+        let mut decisions = 0;
+        for shown in &trace.shown[1..] {
+            if shown.decision_valid {
+                compare(shown, outcome);
+                screen.act(shown.region, shown.srs, shown.trs);
+                decisions += 1;
+            }
+            if shown.forward_valid {
+                for (position, &pixel) in (shown.forward_position..).zip(&shown.forward_pixels) {
+                    let place = screen.place(shown.forward_region, position);
+                    screen.pixels[place] = pixel;
+                }
+            }
+        }
+        assert_eq!(decisions, design.regions());
+        assert!(!driver.rcm.is_pending() && !driver.rcm.output().lost);
+        for y in 0..frame.height() {
+            let row = &screen.pixels[(y * design.columns() * design.region_size()) as usize..];
+            let shown = &row[..frame.width() as usize];
+            assert_eq!(shown, outcome.rendered.row(y), "row {y}, {recipe:?}");
+        }
+        for region in 0..design.regions() {
+            let reference = driver.rcm.reference(region).map(<[u16]>::to_vec);
+            assert_eq!(reference, camera.reference(region), "reference of region {region}");
+        }
+    }
+}
+
+/// The recipe of a number: choices turn at different speeds.
+fn recipe(number: usize) -> RasterRecipe {
+    let on = |speed: usize| number / speed % 2 == 1;
+    let feature =
+        |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 2 };
+    let all = [
+        feature("edge", 120, 3000),
+        feature("mad", 0, 9000),
+        feature("corner", 12, 2000),
+        feature("variance", 0, 300_000),
+    ];
+    let count = 1 + number % 4;
+    let features = (0..count).map(|turn| all[(number / 4 + turn) % 4].clone()).collect();
+    let (side, pixels) = [(4, 4), (4, 1), (5, 1), (6, 2), (8, 4), (3, 1), (2, 2)][number % 7];
+    let columns = 4.max((16 * pixels + side - 1) / side);
+    RasterRecipe {
+        base: Recipe {
+            width: columns * side - number as i64 % side,
+            height: [2, 3, 4][number % 3] * side - number as i64 / 2 % side,
+            bits: 8,
+            side,
+            shared: on(1),
+            median: on(2),
+            features,
+            all_must_vote: on(8),
+            temporal_level: 9,
+            temporal_min: side,
+            last_sent: on(4),
+            blank_irrelevant: on(3),
+            raw_payload: on(6),
+            constant: on(5),
+        },
+        pixels,
+        deep: on(7),
+        misread: Misread::default(),
+    }
+}
+
+#[test]
+fn every_kind_of_core_shows_what_the_camera_shows() {
+    for number in 0..56 {
+        let recipe = recipe(number);
+        let film = hard_frames(&recipe.base);
+        check(&recipe, &film);
+    }
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Small frames with every clock worked out by hand from `docs/raster.md`. The edge that takes the first word
+//! is number 1.
+
+use std::ops::RangeInclusive;
+
+use foveate_design::{Config, Design};
+use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+
+/// A design with one feature, all of whose regions are active in every frame.
+fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
+    let toml = format!(
+        "[frame]\nwidth = {}\nheight = {}\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+         [[spatial]]\nfeature = \"{feature}\"\nmin_score = 0\n[temporal]\nmin_count = 0\n\
+         [hardware]\norganization = \"raster\"\n",
+        frame.0, frame.1
+    );
+    Config::from_toml_with(&toml, more).unwrap().validate().unwrap()
+}
+
+/// The outputs after every edge up to `last` while one frame of ones is applied as fast as it is taken; `sink`
+/// says at which edges it is ready.
+fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<RasterOutput> {
+    let mut rcm = RasterRcm::new(design);
+    let ones = vec![1; design.pixels_per_clock() as usize];
+    let thresholds = Thresholds::of(design);
+    let mut left = design.timing().pixels_per_frame();
+    let mut outputs = vec![rcm.output().clone()];
+    for edge in 1..=last {
+        let (valid, forward_ready) = (left > 0, sink(edge));
+        left -= u64::from(valid && rcm.output().ready);
+        let input = RasterInput {
+            reset: false,
+            valid,
+            pixels: &ones,
+            forward_ready,
+            thresholds: &thresholds,
+        };
+        outputs.push(rcm.step(&input).clone());
+    }
+    assert_eq!(left, 0, "the frame was taken");
+    outputs
+}
+
+fn edges(outputs: &[RasterOutput], which: impl Fn(&RasterOutput) -> bool) -> Vec<usize> {
+    (0..outputs.len()).filter(|&edge| which(&outputs[edge])).collect()
+}
+
+fn list(edges: RangeInclusive<usize>) -> Vec<usize> {
+    edges.collect()
+}
+
+/// Edges and regions of decisions.
+fn decisions(outputs: &[RasterOutput]) -> Vec<(usize, u32)> {
+    let edges = edges(outputs, |output| output.decision_valid);
+    edges.into_iter().map(|edge| (edge, outputs[edge].region)).collect()
+}
+
+/// The first edge at which each region was lost in turn.
+fn losses(outputs: &[RasterOutput]) -> Vec<usize> {
+    let rises = |edge: &usize| outputs[*edge].lost_count > outputs[edge - 1].lost_count;
+    (1..outputs.len()).filter(rises).collect()
+}
+
+/// 16x8 pixels, 4x2 regions, rows of 16 words, one window: word i comes to the tail at edge i + 18, S is 5
+/// and D is 9. The last words of the regions are 51, 55, 59, 63, then 115 and so on.
+#[test]
+fn a_frame_with_one_window() {
+    let design = design("edge", (16, 8), &[]);
+    let outputs = play(&design, 240, |_| true);
+    // T0 is 128, Z is 17.
+    assert_eq!(edges(&outputs, |output| !output.ready), list(128..=153));
+    let due = [(78, 0), (82, 1), (86, 2), (90, 3), (142, 4), (146, 5), (150, 6), (154, 7)];
+    assert_eq!(decisions(&outputs), due);
+    // Region 0 enters at 79, is held at 81 and fetched from 82 on; then one word follows the other.
+    assert_eq!(edges(&outputs, |output| output.forward_valid), list(83..=210));
+    for (word, output) in outputs[83..=210].iter().enumerate() {
+        let (region, position) = (word / 16, word % 16);
+        assert_eq!(
+            (output.forward_region, output.forward_position),
+            (region as u32, position as u32)
+        );
+    }
+    assert!(!outputs[240].lost);
+    let departure = design.timing().departure();
+    assert_eq!((departure.take_clocks, departure.decision_clocks), (128, 154 - 128));
+    assert_eq!(departure.forward_clocks, 210 - 128);
+}
+
+/// 29x7 pixels in words of two, regions of 8x8: a row has 16 words, of which 15 are taken, and a row is added
+/// below. One median: word i comes to the tail at edge i + 18, S is 4, and D with variance 11.
+#[test]
+fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
+    let more = ["region.size=8", "denoise.filter=median3x3", "hardware.pixels_per_clock=2"];
+    let previous = design("variance", (29, 7), &more);
+    let outputs = play(&previous, 300, |_| true);
+    // After the last word of each of the first six rows; then T0 is 111 and Z is 1 + 16 + 17.
+    let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=155)].concat();
+    assert_eq!(edges(&outputs, |output| !output.ready), closed);
+    assert_eq!(decisions(&outputs), [(144, 0), (148, 1), (152, 2), (156, 3)]);
+    // Region 0 is held at 147. Four regions of 32 words.
+    assert_eq!(edges(&outputs, |output| output.forward_valid), list(149..=276));
+    let positions: Vec<u32> = (149..=180).map(|edge| outputs[edge].forward_position).collect();
+    assert_eq!(positions, (0..32).map(|word| 2 * word).collect::<Vec<u32>>());
+
+    let more = [&more[..], &["temporal.reference=last-sent"]].concat();
+    let last_sent = design("variance", (29, 7), &more);
+    let outputs = play(&last_sent, 300, |_| true);
+    // The last word is on the ports after edge 276 and taken at 277.
+    let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=276)].concat();
+    assert_eq!(edges(&outputs, |output| !output.ready), closed);
+}
+
+/// The first word of row of regions g is stored at edge 64 g + 23. The sink is not ready before edge 400: the
+/// regions of rows 0 and 1 are lost, those of rows 2 and 3 are not, since no frame follows.
+#[test]
+fn a_sink_that_stalls_loses_two_rows_of_regions() {
+    let outputs = play(&design("edge", (16, 16), &[]), 540, |edge| edge >= 400);
+    // One is held when its row becomes stale, the others are lost instead of being held, two edges apart.
+    let due = [151, 152, 154, 156, 215, 216, 218, 220];
+    assert_eq!(losses(&outputs), due);
+    assert_eq!(edges(&outputs, |output| output.lost), list(151..=540));
+    assert_eq!(outputs[540].lost_count, 8);
+    // Two words of region 0 had been fetched. Region 8 is held from edge 222 on.
+    assert_eq!(edges(&outputs, |output| output.forward_valid), list(83..=528));
+    let word = |edge: usize| (outputs[edge].forward_region, outputs[edge].forward_position);
+    assert!((83..400).all(|edge| word(edge) == (0, 0)));
+    assert_eq!([400, 401, 402, 416, 417].map(word), [(0, 1), (8, 0), (8, 1), (8, 15), (9, 0)]);
+    assert_eq!(word(528), (15, 15));
+}
+
+/// No window: word i comes to the tail at edge i + 1, S is 1, D is 5. The first pass begins at edge 52 + 1 + 6.
+/// Four passes of 16 edges take as long as a row of regions comes in.
+#[test]
+fn the_second_pass_decides_one_region_after_the_other() {
+    let design = design("mad", (16, 8), &[]);
+    let outputs = play(&design, 300, |_| true);
+    let due = [(79, 0), (95, 1), (111, 2), (127, 3), (143, 4), (159, 5), (175, 6), (191, 7)];
+    assert_eq!(decisions(&outputs), due);
+    assert_eq!(edges(&outputs, |output| !output.ready), list(128..=132));
+    assert_eq!(edges(&outputs, |output| output.forward_valid), list(84..=211));
+    let departure = design.timing().departure();
+    assert_eq!((departure.decision_clocks, departure.forward_clocks), (191 - 128, 211 - 128));
+}
+
+/// How many clocks a sink may stall after the first word has come, while all regions are active and words come at
+/// every clock: L - N/K - (D - S) - 3, and (N+1) L - (n+N)/K - 13 with a second pass.
+#[test]
+fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
+    for (feature, more, first, stall) in [
+        ("edge", &[][..], 83, 16 - 4 - 4 - 3),
+        ("variance", &[], 65, 16 - 4 - 7 - 3),
+        ("edge", &["hardware.pipelining=deep"], 88, 16 - 4 - 6 - 3),
+        ("mad", &[], 84, 5 * 16 - 20 - 13),
+    ] {
+        let design = design(feature, (16, 64), more);
+        let outputs = play(&design, 1300, |_| true);
+        assert_eq!(edges(&outputs, |output| output.forward_valid)[0], first, "{feature}");
+        for (clocks, lost) in [(stall, false), (stall + 1, true)] {
+            let outputs = play(&design, 1300, |edge| edge <= first || edge > first + clocks);
+            assert_eq!(outputs[1300].lost, lost, "{feature}, {clocks} clocks");
+        }
+    }
+}
+
+#[test]
+fn after_a_reset_nothing_is_shown() {
+    let design = design("edge", (16, 16), &[]);
+    let mut rcm = RasterRcm::new(&design);
+    let fresh = rcm.clone();
+    let thresholds = Thresholds::of(&design);
+    let input = RasterInput {
+        reset: false,
+        valid: true,
+        pixels: &[1],
+        forward_ready: false,
+        thresholds: &thresholds,
+    };
+    // A decision, a word and a loss are on the ports.
+    for _ in 0..154 {
+        rcm.step(&input);
+    }
+    let shown = rcm.output();
+    assert!(shown.decision_valid && shown.forward_valid && shown.lost);
+    rcm.step(&RasterInput { reset: true, ..input });
+    assert_eq!(rcm.output(), fresh.output());
+    let quiet = [!rcm.output().forward_valid, !rcm.output().lost, !rcm.output().decision_valid];
+    assert!(rcm.output().ready && quiet == [true; 3] && !rcm.is_pending());
+}
