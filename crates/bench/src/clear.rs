@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clear cycle-level models: [`PipelinedRcm`] and [`SerialRcm`]. The recording was made by them.
+//! The clear cycle-level models: [`PipelinedRcm`], [`SerialRcm`] and [`RasterRcm`]. The recording was made by them.
 
 use std::hint::black_box;
 
-use foveate_cosim::{Agreement, PipelinedCodec, Recording, SerialCodec};
+use foveate_cosim::{Agreement, PipelinedCodec, RasterCodec, Recording, SerialCodec};
 use foveate_design::{Design, Organization};
 use foveate_frame::Frame;
-use foveate_model::{PipelinedRcm, SerialInput, SerialRcm};
+use foveate_model::{PipelinedRcm, RasterInput, RasterRcm, SerialInput, SerialRcm};
 
 use crate::error::BenchError;
 use crate::memory::Before;
@@ -33,7 +33,7 @@ pub(crate) fn clear(
             let mut rcm = PipelinedRcm::new(design);
             let time = timer.time(|| {
                 for (control, pixels) in vectors.words() {
-                    let Control { reset, valid, thresholds } = control;
+                    let Control { reset, valid, thresholds, .. } = control;
                     black_box(rcm.step(*reset, *valid, pixels, thresholds));
                 }
                 Ok(())
@@ -51,6 +51,18 @@ pub(crate) fn clear(
                 Ok(())
             })?;
             ("SerialRcm", again, before.peak_bytes(), time)
+        }
+        Organization::Raster => {
+            let again = raster_agreement(design, recording, vectors)?;
+            let before = Before::now();
+            let mut rcm = RasterRcm::new(design);
+            let time = timer.time(|| {
+                for (control, pixels) in vectors.words() {
+                    black_box(rcm.step(&core_input(control, pixels)));
+                }
+                Ok(())
+            })?;
+            ("RasterRcm", again, before.peak_bytes(), time)
         }
     };
     let agreement = Agreement {
@@ -70,7 +82,7 @@ pub(crate) fn fast(
 ) -> Result<Option<Row>, BenchError> {
     match design.organization() {
         Organization::Pipelined => array::fast(design, recording, vectors, timer).map(Some),
-        Organization::Serial => Ok(None),
+        Organization::Serial | Organization::Raster => Ok(None),
     }
 }
 
@@ -104,6 +116,26 @@ fn serial_agreement(
 }
 
 fn input<'a>(control: &'a Control, pixels: &'a [u16]) -> SerialInput<'a> {
-    let Control { reset, valid, thresholds } = control;
+    let Control { reset, valid, thresholds, .. } = control;
     SerialInput { reset: *reset, valid: *valid, pixels, thresholds }
+}
+
+fn raster_agreement(
+    design: &Design,
+    recording: &Recording,
+    vectors: &Vectors,
+) -> Result<Agreement, BenchError> {
+    let (mut rcm, codec) = (RasterRcm::new(design), RasterCodec::new(design));
+    let mut inputs = vectors.words();
+    compare(recording, |record| {
+        if let Some((control, pixels)) = inputs.next() {
+            let outputs = rcm.step(&core_input(control, pixels));
+            codec.outputs(recording.outputs(), outputs, record);
+        }
+    })
+}
+
+fn core_input<'a>(control: &'a Control, pixels: &'a [u16]) -> RasterInput<'a> {
+    let &Control { reset, valid, forward_ready, ref thresholds } = control;
+    RasterInput { reset, valid, pixels, forward_ready, thresholds }
 }

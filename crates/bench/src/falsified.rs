@@ -27,9 +27,12 @@ struct Case {
 
 impl Case {
     fn new(preset: &str) -> Self {
+        Self::of(preset, &["frame={width=16,height=16}"])
+    }
+
+    fn of(preset: &str, overrides: &[&str]) -> Self {
         let text = Preset::find(preset).unwrap().toml;
-        let size = ["frame={width=16,height=16}".to_owned()];
-        let design = Config::from_toml_with(text, &size).unwrap().validate().unwrap();
+        let design = Config::from_toml_with(text, overrides).unwrap().validate().unwrap();
         let frames = random_frames(&design, 1, 3).unwrap();
         let stimulus =
             Stimulus { level: Simulated::Full, seed: 1, rounds: 0, frames: frames.clone() };
@@ -95,4 +98,19 @@ fn one_false_bit_is_noticed_at_every_level_with_clocks() {
             assert_eq!(case.array(timer), 1);
         }
     }
+}
+
+/// A raster core has no Verilog yet; its model takes words of two pixels, while earlier ones leave.
+#[test]
+fn one_false_bit_of_a_raster_core_is_noticed_by_its_model() {
+    let cancel = AtomicBool::new(false);
+    let timer = Timer { at_least: Duration::ZERO, cancel: &cancel };
+    let hardware = "hardware={organization=\"raster\",pixels_per_clock=2}";
+    let case = Case::of("paper", &["frame={width=39,height=30}", hardware]);
+    assert_eq!(case.clear(&case.frames, timer), 0);
+    let mut other = case.frames.clone();
+    other.swap(0, 1);
+    assert!(case.clear(&other, timer) > 0, "other frames");
+    case.falsify();
+    assert!(case.clear(&case.frames, timer) > 0);
 }

@@ -46,9 +46,15 @@ impl<'a> Judge<'a> {
     }
 
     fn look(&mut self, record: &[u8]) {
-        match field(self.layout, PortRole::Region) {
-            None => self.look_at_all(record),
-            Some(_) => self.look_at_one(record),
+        match (field(self.layout, PortRole::Region), field(self.layout, PortRole::AnyScore)) {
+            (None, _) => self.look_at_all(record),
+            (Some(_), Some(_)) => self.look_at_one(record),
+            (Some(region), None) => {
+                if self.value(record, PortRole::DecisionValid, 0) == Some(1) {
+                    let region = usize::try_from(region.get(record, 0));
+                    self.look_at_scores(record, region.expect("regions have 32 bits"), 0);
+                }
+            }
         }
     }
 
@@ -58,15 +64,19 @@ impl<'a> Judge<'a> {
             return;
         }
         for lane in 0..self.design.regions() {
-            let region = lane as usize;
-            let count = self.value(record, PortRole::TemporalCount, lane);
-            self.check(region, count, |outcome| outcome.temporal_count[region].into());
-            for (place, feature) in self.design.features().iter().enumerate() {
-                let score = self.value(record, PortRole::Score(feature.kind()), lane);
-                self.check(region, score, |outcome| outcome.scores[place][region]);
-            }
-            self.decide(record, region, lane);
+            self.look_at_scores(record, lane as usize, lane);
         }
+    }
+
+    /// The decision of a region with all its scores, in a lane of the ports.
+    fn look_at_scores(&mut self, record: &[u8], region: usize, lane: u32) {
+        let count = self.value(record, PortRole::TemporalCount, lane);
+        self.check(region, count, |outcome| outcome.temporal_count[region].into());
+        for (place, feature) in self.design.features().iter().enumerate() {
+            let score = self.value(record, PortRole::Score(feature.kind()), lane);
+            self.check(region, score, |outcome| outcome.scores[place][region]);
+        }
+        self.decide(record, region, lane);
     }
 
     /// A score of one region, and perhaps its decision.

@@ -29,6 +29,8 @@ pub(crate) struct Vectors {
 pub(crate) struct Control {
     pub(crate) reset: bool,
     pub(crate) valid: bool,
+    /// Whether the sink takes what leaves, where that is a port.
+    pub(crate) forward_ready: bool,
     pub(crate) thresholds: Thresholds,
 }
 
@@ -37,6 +39,7 @@ impl Vectors {
         let layout = recording.inputs();
         let pixel = field(layout, PortRole::Pixel).expect("an array takes pixels");
         let ready = field(recording.outputs(), PortRole::Ready);
+        let held = (pixel.port.bits() / design.pixel_bits()) as usize;
         let (mut controls, mut pixels) = (Vec::new(), Vec::new());
         let (mut is_ready, mut taken) = (true, 0);
         each_clock(recording, |input, expected| {
@@ -45,8 +48,7 @@ impl Vectors {
             is_ready = ready.is_none_or(|field| field.get(expected, 0) == 1);
             controls.push(control);
             let narrow = |value: u64| u16::try_from(value).expect("a pixel has at most 16 bits");
-            let lanes = 0..pixel.port.lanes;
-            pixels.extend(lanes.map(|lane| narrow(pixel.get(input, lane))));
+            pixels.extend(pixel.words(input, held).map(narrow));
         })?;
         let byte = |&pixel| u8::try_from(pixel).expect("a pixel of at most 8 bits");
         Ok(Self {
@@ -81,7 +83,7 @@ impl Vectors {
 impl Control {
     fn of(design: &Design, layout: &Layout, input: &[u8]) -> Self {
         let mut thresholds = Thresholds::of(design);
-        let (mut reset, mut valid) = (false, false);
+        let (mut reset, mut valid, mut forward_ready) = (false, false, true);
         let place = |kind| design.features().iter().position(|feature| feature.kind() == kind);
         let word = |value: u64| u32::try_from(value).expect("a level has at most 32 bits");
         for field in layout.fields() {
@@ -89,6 +91,7 @@ impl Control {
             match field.port.role {
                 PortRole::Reset => reset = value() == 1,
                 PortRole::Valid => valid = value() == 1,
+                PortRole::ForwardReady => forward_ready = value() == 1,
                 PortRole::Level(kind) => {
                     if let Some(place) = place(kind) {
                         thresholds.level[place] = word(value());
@@ -105,7 +108,7 @@ impl Control {
                 _ => {}
             }
         }
-        Self { reset, valid, thresholds }
+        Self { reset, valid, forward_ready, thresholds }
     }
 }
 

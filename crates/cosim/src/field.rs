@@ -51,6 +51,37 @@ impl Field {
         }
     }
 
+    /// Writes every lane, each with as many pixels as it holds: one, or those of a word, the first in the
+    /// lowest bits.
+    pub(crate) fn set_words(&self, record: &mut [u8], pixels: &[u16]) {
+        let (held, bits) = self.word(pixels.len());
+        let word = |pixels: &[u16]| {
+            pixels.iter().rev().fold(0, |word, &pixel| word << bits | u64::from(pixel))
+        };
+        self.set_all(record, pixels.chunks(held).map(word));
+    }
+
+    /// Reads every lane, as [`Field::set_words`] has written so many pixels.
+    pub fn words(&self, record: &[u8], count: usize) -> impl Iterator<Item = u64> {
+        let (held, bits) = self.word(count);
+        let lanes = (0..self.port.lanes).map(|lane| self.get(record, lane));
+        let pixels = move |word: u64| {
+            let next = move |left: &mut u64, _| {
+                let pixel = *left & mask(bits);
+                *left = left.checked_shr(bits).unwrap_or(0);
+                Some(pixel)
+            };
+            (0..held).scan(word, next)
+        };
+        lanes.flat_map(pixels)
+    }
+
+    /// Pixels of a lane, and bits of a pixel, where all lanes have so many pixels.
+    fn word(&self, pixels: usize) -> (usize, u32) {
+        let held = (pixels / self.port.lanes as usize).max(1);
+        (held, self.port.width / u32::try_from(held).unwrap_or(u32::MAX))
+    }
+
     /// Reads one lane.
     #[must_use]
     pub fn get(&self, record: &[u8], lane: u32) -> u64 {

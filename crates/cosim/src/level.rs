@@ -36,7 +36,10 @@ impl Level {
         let wanted = design.fold() + 1;
         let rows_for = |columns: u32| wanted.div_ceil(columns).max(2).min(all_rows);
         let columns = (all_columns.min(3)..=all_columns)
-            .find(|&columns| columns * rows_for(columns) >= wanted)
+            .find(|&columns| {
+                let is_taken = with_grid(design, columns, rows_for(columns)).is_ok();
+                columns * rows_for(columns) >= wanted && is_taken
+            })
             .unwrap_or(all_columns);
         Self::Rcm { columns, rows: rows_for(columns) }
     }

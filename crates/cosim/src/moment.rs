@@ -8,7 +8,7 @@ use crate::error::CosimError;
 use crate::field::Field;
 use crate::layout::Layout;
 use crate::recording::Recording;
-use foveate_design::{Design, Phase, PortRole, SerialTiming};
+use foveate_design::{Design, Phase, PortRole, RasterTiming, SerialTiming};
 use std::fmt;
 
 /// What the hardware is busy with after an edge. Frames count from 0 with the reset of the sequence.
@@ -16,7 +16,8 @@ use std::fmt;
 pub(crate) enum Moment {
     /// The reset.
     Reset,
-    /// The edge has taken this pixel of a frame's stream: its number, column and row, negative in a halo.
+    /// The edge has taken this pixel of a frame's stream: its number, column and row, negative in a halo. Of a
+    /// raster core it has taken a word, whose number it is, and the place of its first pixel.
     Pixel { frame: u64, number: u64, of: u64, x: i64, y: i64 },
     /// No pixel was taken; so many of this frame are in.
     Waiting { frame: u64, taken: u64, of: u64 },
@@ -58,6 +59,8 @@ pub(crate) struct Follower<'a> {
     serial: Option<SerialTiming>,
     /// Whether the pixels are those of the frame, row by row.
     is_raster: bool,
+    /// Of a raster core: words of a row and pixels of a word.
+    words: Option<(u64, u64)>,
     pixels: u64,
     /// Clocks that the last pixel of a frame goes on entering.
     lag: u64,
@@ -72,21 +75,26 @@ pub(crate) struct Follower<'a> {
 
 impl<'a> Follower<'a> {
     fn new(design: &'a Design) -> Self {
-        // An array that is not always ready takes a frame and then works on it.
         let ports = design.rcm_ports();
         let has = |role| ports.iter().any(|port| port.role == role);
-        let serial = has(PortRole::Ready).then(|| SerialTiming::of(design));
+        // An array that says one score after the other takes a frame and then works on it.
+        let serial = has(PortRole::AnyScore).then(|| SerialTiming::of(design));
         let is_raster = has(PortRole::ForwardRegion);
+        let words = has(PortRole::ForwardReady).then(|| {
+            let timing = RasterTiming::of(design);
+            (timing.taken_words.into(), timing.word_pixels.into())
+        });
         let side = design.region_size();
         let (x, y) = (design.columns() * side - 1, design.rows() * side - 1);
         let places = u64::from(design.column_places(x)) * u64::from(design.row_places(y));
         let pixels = match &serial {
+            _ if words.is_some() => design.timing().pixels_per_frame(),
             Some(timing) => timing.load_pixels(),
             None => design.stream_pixels().into(),
         };
-        let lag = if is_raster { places - 1 } else { 0 };
+        let lag = if is_raster && words.is_none() { places - 1 } else { 0 };
         let (taken, frames, since, is_ready) = (0, 0, None, true);
-        Self { design, serial, is_raster, pixels, lag, taken, frames, since, is_ready }
+        Self { design, serial, is_raster, words, pixels, lag, taken, frames, since, is_ready }
     }
 
     /// One clock: what goes in, and whether the array is ready after it.
@@ -121,6 +129,10 @@ impl<'a> Follower<'a> {
 
     /// Column and row of a pixel of the stream, of the frame for a raster, else of a region.
     fn place(&self, number: u64) -> (i64, i64) {
+        if let Some((row, word)) = self.words {
+            let signed = |value: u64| i64::try_from(value).expect("a place in a frame");
+            return (signed(number % row * word), signed(number / row));
+        }
         let (width, halo) = if self.is_raster {
             (u64::from(self.design.columns() * self.design.region_size()), 0)
         } else {

@@ -196,6 +196,7 @@ fn signal(port: &Port) -> Signal {
             | PortRole::ForwardPosition
             | PortRole::ForwardSlot
             | PortRole::ForwardRegion
+            | PortRole::LostCount
     );
     Signal { name: format!("{}{lane}", port.name), is_bit: !is_number }
 }

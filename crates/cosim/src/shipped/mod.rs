@@ -11,6 +11,7 @@ mod model;
 mod picture;
 mod pipelined;
 mod player;
+mod raster;
 mod script;
 mod serial;
 mod studio;

@@ -4,7 +4,7 @@
 use super::model::Model;
 use super::script::{Script, Shot};
 use super::tape::Tape;
-use super::{pipelined, serial};
+use super::{pipelined, raster, serial};
 use crate::error::CosimError;
 use crate::stimulus::Applied;
 use foveate_design::{Design, Organization};
@@ -25,6 +25,7 @@ pub(crate) fn model(organization: Organization) -> fn(&Design, Top) -> Box<dyn M
     match organization {
         Organization::Pipelined => pipelined::model,
         Organization::Serial => serial::model,
+        Organization::Raster => raster::model,
     }
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds for a frame that is to come, aimed at the scores that one of its regions will have.
 
-use super::super::aim::Ranges;
-use super::super::random::Random;
-use super::feed::Feed;
+use super::aim::Ranges;
+use super::random::Random;
 use foveate_design::{Design, FeatureKind};
-use foveate_model::{RegionScorer, SerialRcm, Thresholds, region_border};
+use foveate_model::{RegionScorer, Thresholds, region_border};
 
 /// How the thresholds of a frame are chosen, where they are ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,18 +41,21 @@ impl Aimer {
         self.ranges.shake(thresholds, random);
     }
 
-    /// Thresholds near the data of one region of the frame that the model takes next; with `largest`
-    /// levels near the largest values that there are, by turns.
+    /// The number of any region.
+    pub(super) fn any_region(&self, random: &mut Random) -> u32 {
+        random.up_to_u32(self.design.regions() - 1)
+    }
+
+    /// Thresholds near the data of one region of the frame that the model takes next: its stream, and what it
+    /// is compared with. With `largest` levels near the largest values that there are, by turns.
     pub(super) fn exact(
         &mut self,
-        model: &SerialRcm,
-        feed: &Feed,
+        region: u32,
+        stream: &[u16],
+        reference: Option<&[u16]>,
         largest: Option<u32>,
         random: &mut Random,
     ) -> Thresholds {
-        let region = random.up_to_u32(self.design.regions() - 1);
-        let stream = feed.stream(region as usize);
-        let reference = model.reference(region);
         self.scorer.take(stream.iter().copied(), region_border(&self.design, region));
         let mut thresholds = Thresholds::of(&self.design);
         let difference = reference.and_then(|reference| {

@@ -4,17 +4,19 @@
 use super::kinds::Kinds;
 use crate::layout::Layout;
 use foveate_design::PortRole;
-use foveate_model::{SerialInput, Thresholds};
+use foveate_model::{RasterInput, SerialInput, Thresholds};
 
 /// What is applied at one edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Applied<'a> {
     pub(crate) reset: bool,
     pub(crate) valid: bool,
-    /// One pixel per lane.
+    /// One pixel per lane, or those of a word.
     pub(crate) pixels: &'a [u16],
     /// The sides of the region at the frame's border, where that is a port.
     pub(crate) border: u8,
+    /// Whether the sink takes what leaves, where that is a port.
+    pub(crate) forward_ready: bool,
     pub(crate) thresholds: Thresholds,
 }
 
@@ -26,7 +28,8 @@ impl<'a> Applied<'a> {
 
     /// No pixel, whatever the pixel port shows.
     pub(crate) fn idle(pixels: &'a [u16], thresholds: &Thresholds) -> Self {
-        Self { reset: false, valid: false, pixels, border: 0, thresholds: *thresholds }
+        let thresholds = *thresholds;
+        Self { reset: false, valid: false, pixels, border: 0, forward_ready: true, thresholds }
     }
 
     /// To a serial array.
@@ -35,18 +38,25 @@ impl<'a> Applied<'a> {
         SerialInput { reset, valid, pixels, thresholds }
     }
 
+    /// To a raster core.
+    pub(crate) fn of_core(&self) -> RasterInput<'_> {
+        let &Self { reset, valid, pixels, forward_ready, ref thresholds, .. } = self;
+        RasterInput { reset, valid, pixels, forward_ready, thresholds }
+    }
+
     pub(crate) fn write(&self, kinds: &Kinds, layout: &Layout, record: &mut [u8]) {
         for field in layout.fields() {
             let value = match field.port.role {
                 PortRole::Reset => self.reset.into(),
                 PortRole::Valid => self.valid.into(),
                 PortRole::Border => self.border.into(),
+                PortRole::ForwardReady => self.forward_ready.into(),
                 PortRole::Level(kind) => self.thresholds.level[kinds.index(kind)].into(),
                 PortRole::MinScore(kind) => self.thresholds.min_score[kinds.index(kind)],
                 PortRole::TemporalLevel => self.thresholds.temporal_level.into(),
                 PortRole::TemporalMinCount => self.thresholds.temporal_min_count.into(),
                 PortRole::Pixel => {
-                    field.set_all(record, self.pixels.iter().map(|&pixel| pixel.into()));
+                    field.set_words(record, self.pixels);
                     continue;
                 }
                 // The clock, which is in no record, and outputs.
@@ -66,7 +76,9 @@ impl<'a> Applied<'a> {
                 | PortRole::AnyScore
                 | PortRole::ForwardPosition
                 | PortRole::ForwardSlot
-                | PortRole::ForwardRegion => continue,
+                | PortRole::ForwardRegion
+                | PortRole::Lost
+                | PortRole::LostCount => continue,
             };
             field.set(record, 0, value);
         }

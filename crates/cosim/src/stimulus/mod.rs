@@ -6,14 +6,19 @@
 //! of the caller. Sequences end drained, in mid-frame or in mid-flush, so that each reset finds
 //! something else under way. Everything follows from the design, the seed and the frames.
 
+mod ahead;
 mod aim;
 mod applied;
 mod brush;
+mod gallery;
 mod gauge;
 mod kinds;
+mod manners;
 mod motif;
+mod parts;
 mod pipelined;
 mod random;
+mod raster;
 mod run;
 mod sequence;
 mod serial;
@@ -28,6 +33,8 @@ pub(crate) use motif::{Artist, Motif};
 pub(crate) use pipelined::Machine;
 pub use pipelined::PipelinedCodec;
 pub(crate) use random::Random;
+pub use raster::RasterCodec;
+pub(crate) use raster::words;
 use run::Run;
 pub(crate) use serial::Feed;
 pub use serial::SerialCodec;
@@ -58,6 +65,7 @@ fn driver(organization: Organization) -> fn(Run<'_>) -> Result<(), CosimError> {
     match organization {
         Organization::Pipelined => pipelined::record,
         Organization::Serial => serial::record,
+        Organization::Raster => raster::record,
     }
 }
 

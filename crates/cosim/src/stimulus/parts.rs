@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The caller's frames, as the simulated array sees them.
+//! The caller's frames, as the simulated array or core sees them.
 
 use crate::error::CosimError;
 use foveate_design::Design;
 use foveate_frame::Frame;
 
-/// Clocks of all the parts that go through a single lane, at most; they are spread over the frame.
-const MAX_CLOCKS: u64 = 1 << 21;
+/// Clocks of all the parts that go through a single lane or core, at most; they are spread over the frame.
+pub(super) const MAX_CLOCKS: u64 = 1 << 21;
 
 /// The first regions of the lanes of a design whose frames go through one lane: all, or as many, evenly
 /// spread, as `clocks` per part allow.
@@ -33,7 +33,8 @@ pub(super) fn upper_left(design: &Design, frame: &Frame) -> Result<Frame, CosimE
     cut(design, frame, (design.width(), design.height()), |x, y| (x, y))
 }
 
-fn cut(
+/// The part of a frame of which `place` says where its pixels are; beyond the frame they repeat its border.
+pub(super) fn cut(
     design: &Design,
     frame: &Frame,
     (width, height): (u32, u32),

@@ -12,6 +12,7 @@ mod machinery;
 mod matrix;
 mod negative_control;
 mod netlist;
+mod raster_stimulus;
 mod report;
 mod same_results;
 mod serial_matrix;

@@ -132,6 +132,41 @@ fn serial(design: &Design, recording: &Recording) -> Results {
     results
 }
 
+fn raster(design: &Design, recording: &Recording) -> Results {
+    let (regions, outputs) = (design.regions() as usize, recording.outputs());
+    let word = design.pixels_per_clock() as usize;
+    let mut results: Results = Vec::new();
+    let mut decided = vec![0; regions];
+    for (_, output) in clocks(recording) {
+        let says = |role| value(outputs, role, &output);
+        let number = |role| usize::try_from(says(role)).unwrap();
+        if says(PortRole::DecisionValid) == 1 {
+            let region = number(PortRole::Region);
+            if decided[region] == results.len() {
+                results.push(vec![Result::default(); regions]);
+            }
+            let score = |f: &foveate_design::SpatialFeature| says(PortRole::Score(f.kind()));
+            results[decided[region]][region] = Result {
+                count: says(PortRole::TemporalCount),
+                scores: design.features().iter().map(score).collect(),
+                srs: says(PortRole::Srs) == 1,
+                trs: says(PortRole::Trs) == 1,
+                pixels: Vec::new(),
+            };
+            decided[region] += 1;
+        }
+        if says(PortRole::ForwardValid) == 1 {
+            let region = number(PortRole::ForwardRegion);
+            let pixels = &mut results[decided[region] - 1][region].pixels;
+            assert_eq!(pixels.len(), number(PortRole::ForwardPosition));
+            let field = common::vectors::field(outputs, PortRole::ForwardPixel);
+            pixels.extend(field.words(&output, word));
+        }
+        assert_eq!(says(PortRole::Lost), 0);
+    }
+    results
+}
+
 /// Simulates the RTL of both organizations on the frames, and compares what all three say.
 fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(), String> {
     let design = |organization, feed, fold| {
@@ -163,6 +198,7 @@ fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(
         let got = match organization {
             Organization::Pipelined => pipelined(&design, &recording, stimulus.frames.len()),
             Organization::Serial => serial(&design, &recording),
+            Organization::Raster => raster(&design, &recording),
         };
         if got != expected {
             return Err(format!("{what}: {organization} {feed:?} is not what the contract says"));
@@ -228,6 +264,24 @@ fn hard_cases_give_the_same_in_both_organizations() {
         check(config, &frames, &format!("{:?}", config.spatial))
     });
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// What the vectors of a raster core say; it has no Verilog yet that could be simulated.
+#[test]
+fn the_vectors_of_a_raster_core_give_the_same() {
+    for (turn, mut config) in configs().into_iter().enumerate() {
+        let side = config.region.size;
+        let wide = if side.is_multiple_of(2) && turn > 1 { 2 } else { 1 };
+        let (width, height) = (wide * 5 * side - 1, 4 * side - 2);
+        let frames = hard_cases(width, height, config.frame.pixel_bits);
+        (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        config.hardware.organization = Organization::Raster;
+        config.hardware.pixels_per_clock = Some(wide);
+        let design = config.validate().unwrap();
+        let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone() };
+        let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+        assert!(raster(&design, &recording) == functional(&design, &frames), "{config:?}");
+    }
 }
 
 #[test]

@@ -2,7 +2,8 @@
 //! Builds looks: which arrays are possible, what each costs, and which is the cheapest.
 
 use foveate_design::{
-    Config, Design, FeatureKind, Filter, MemoryKind, Neighborhood, Organization, Reference,
+    Config, Design, FeatureKind, Filter, HardwareConfig, MemoryKind, Neighborhood, Organization,
+    Reference,
 };
 use foveate_estimate::Device;
 
@@ -217,14 +218,17 @@ fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
     let Bounds { max_clocks, memory } = bounds;
     let with = |organization: Organization, feed| {
         let mut config = look.clone();
-        config.hardware = task.hardware.clone();
-        config.hardware.organization = organization;
-        config.hardware.fold = 1;
-        config.hardware.feed = feed;
-        config.hardware.memory = memory.filter(|kind| organization.memories().contains(kind));
+        config.hardware = HardwareConfig {
+            organization,
+            feed,
+            memory: memory.filter(|kind| organization.memories().contains(kind)),
+            thresholds: task.hardware.thresholds,
+            ..HardwareConfig::default()
+        };
         config.validate().ok()
     };
-    let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());
+    let organizations = Organization::ALL.iter().filter(|&&one| foveate_emit::has_verilog(one));
+    let (folding, others): (Vec<_>, Vec<_>) = organizations.partition(|o| o.folds());
     let mut found = Vec::new();
     let fed = |&organization: &Organization| {
         organization.feeds().iter().filter_map(move |&feed| with(organization, Some(feed)))

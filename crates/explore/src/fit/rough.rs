@@ -2,7 +2,7 @@
 //! A rough cost of a design before it is synthesized, only to try the promising ones first. What is
 //! chosen is chosen by what Yosys counts.
 
-use foveate_design::{Design, FeatureKind, Filter, MemoryKind, Organization};
+use foveate_design::{Design, FeatureKind, Filter, MemoryKind, Organization, RasterTiming};
 use foveate_estimate::Device;
 
 use crate::row::real;
@@ -42,6 +42,18 @@ pub(super) fn rough(design: &Design) -> f64 {
             };
             (300.0 + lanes * (logic + luts)) / real(device.lut)
                 + lanes * blocks / real(device.bram18)
+        }
+        // Not measured: the logic of a pipelined RPU for each pixel of a word, beside the bits of the memories.
+        Organization::Raster => {
+            let features: f64 = kinds.map(|_| 10.0).sum();
+            let pixels = f64::from(design.pixels_per_clock());
+            let logic = pixels * (8.0 + features + if median { 37.0 } else { 0.0 }) * bits;
+            let timing = RasterTiming::of(design);
+            let row = f64::from(timing.row_words) * pixels;
+            let side = f64::from(design.region_size());
+            let kept = f64::from(timing.buffer_rows) * side + 2.0 * f64::from(timing.windows);
+            let words = real(timing.words()) * pixels + kept * row;
+            logic / real(device.lut) + (words * bits / 18_432.0).ceil() / real(device.bram18)
         }
     }
 }

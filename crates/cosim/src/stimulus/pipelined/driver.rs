@@ -156,8 +156,12 @@ impl<'a> Driver<'a> {
             self.ranges.shake(&mut self.thresholds, &mut self.random);
         }
         let pixels = pixels.unwrap_or(&self.garbage);
-        let mut inputs =
-            Applied { reset, valid, pixels, border: self.border, thresholds: self.thresholds };
+        let mut inputs = Applied {
+            reset,
+            valid,
+            border: self.border,
+            ..Applied::idle(pixels, &self.thresholds)
+        };
         if self.aim != Aim::Design {
             let lane = self.random.up_to(self.garbage.len().saturating_sub(1) as u64);
             if decides(&mut self.scout, &inputs) {
@@ -183,6 +187,6 @@ impl<'a> Driver<'a> {
 /// none of those whose thresholds are not aimed, and the reset that begins a sequence brings it back
 /// into step. Neither pixels nor borders nor thresholds move a decision in time.
 fn decides(scout: &mut PipelinedRpu, inputs: &Applied<'_>) -> bool {
-    let &Applied { reset, valid, border, pixels, ref thresholds } = inputs;
+    let &Applied { reset, valid, border, pixels, ref thresholds, .. } = inputs;
     scout.step(&RpuInput { reset, valid, pixel: pixels[0], border }, thresholds).decision_valid
 }

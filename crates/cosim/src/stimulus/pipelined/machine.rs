@@ -83,7 +83,10 @@ impl PipelinedCodec {
                     | PortRole::AnyScore
                     | PortRole::ForwardPosition
                     | PortRole::ForwardSlot
-                    | PortRole::ForwardRegion => continue,
+                    | PortRole::ForwardRegion
+                    | PortRole::ForwardReady
+                    | PortRole::Lost
+                    | PortRole::LostCount => continue,
                 };
                 field.set(record, lane, value);
             }

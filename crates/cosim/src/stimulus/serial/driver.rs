@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Offers frames to the model of an array, clock by clock, and records what goes in and what comes out.
 
+use super::super::ahead::{Aim, Aimer};
 use super::super::applied::Applied;
+use super::super::manners::Manners;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
-use super::aim::{Aim, Aimer};
 use super::codec::SerialCodec;
 use super::feed::Feed;
 use crate::error::CosimError;
@@ -36,17 +37,6 @@ pub(crate) struct Driver<'a> {
     garbage: Vec<u16>,
     input: Vec<u8>,
     expected: Vec<u8>,
-}
-
-/// What is offered while the array takes nothing.
-#[derive(Clone, Copy, Debug)]
-enum Manners {
-    /// Nothing.
-    Quiet,
-    /// The next pixel, until it is taken.
-    Patient,
-    /// Garbage, which must not be taken, at every other clock.
-    Rude,
 }
 
 impl<'a> Driver<'a> {
@@ -113,11 +103,7 @@ impl<'a> Driver<'a> {
 
     /// The first `count` pixels of a frame, each as soon as it is taken and its gap is over.
     pub(super) fn take(&mut self, feed: &Feed, count: usize, gaps: Gaps) -> Result<(), CosimError> {
-        self.manners = match self.random.up_to(3) {
-            0 => Manners::Quiet,
-            1 => Manners::Patient,
-            _ => Manners::Rude,
-        };
+        self.manners = Manners::any(&mut self.random);
         self.wait(feed.beats().next())?;
         self.is_under_way = false;
         for pixels in feed.beats().take(count) {
@@ -129,7 +115,10 @@ impl<'a> Driver<'a> {
                     Aim::Design => self.configured,
                     Aim::Exact | Aim::Largest => {
                         let largest = (self.aim == Aim::Largest).then_some(self.turn);
-                        self.aimer.exact(&self.model, feed, largest, &mut self.random)
+                        let region = self.aimer.any_region(&mut self.random);
+                        let stream = feed.stream(region as usize);
+                        let reference = self.model.reference(region);
+                        self.aimer.exact(region, stream, reference, largest, &mut self.random)
                     }
                     Aim::Least => Aimer::least(),
                 };
@@ -205,7 +194,7 @@ impl<'a> Driver<'a> {
             self.aimer.shake(&mut self.thresholds, &mut self.random);
         }
         let pixels = pixels.unwrap_or(&self.garbage);
-        let applied = Applied { reset, valid, pixels, border: 0, thresholds: self.thresholds };
+        let applied = Applied { reset, valid, ..Applied::idle(pixels, &self.thresholds) };
         let output = self.model.step(&applied.of_array());
         self.codec.inputs(self.recorder.inputs(), &applied, &mut self.input);
         self.codec.outputs(self.recorder.outputs(), output, &mut self.expected);

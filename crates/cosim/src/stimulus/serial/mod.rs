@@ -4,14 +4,12 @@
 //! A recording is again a row of sequences that a reset begins. Frames of an array take thousands of
 //! clocks, so that there are fewer of them: every region of a frame shows another motif, and the
 //! thresholds of a frame are aimed at a region of it. These must stand still while the frame is under
-//! way, so that its scores are computed [before](aim) it enters; between frames they are shaken. The
+//! way, so that its scores are computed [before](super::ahead) it enters; between frames they are shaken. The
 //! [driver] follows `ready_o`, and offers garbage while it is 0.
 
-mod aim;
 mod codec;
 mod driver;
 mod feed;
-mod parts;
 mod sequence;
 mod session;
 

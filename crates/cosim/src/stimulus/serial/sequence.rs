@@ -2,8 +2,8 @@
 //! The list of sequences of a serial array: each a reset, a few frames, and the place at which the next
 //! reset finds the array.
 
+use super::super::ahead::Aim;
 use super::super::motif::Motif::{self, *};
-use super::aim::Aim;
 
 /// A sequence of frames with one thing in common.
 #[derive(Clone, Copy, Debug)]

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A recording under way: draws the frames of each sequence and offers them to the array.
 
-use super::super::motif::Artist;
+use super::super::ahead::Aim;
+use super::super::gallery::Gallery;
+use super::super::parts;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
-use super::aim::Aim;
 use super::driver::Driver;
 use super::feed::Feed;
-use super::parts;
 use super::sequence::{End, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
@@ -26,8 +26,7 @@ pub(crate) struct Session<'a> {
     level: Level,
     driver: Driver<'a>,
     random: Random,
-    /// One per region.
-    artists: Vec<Artist>,
+    gallery: Gallery,
     clocks_per_frame: u64,
     /// Clocks in which the pixels of the last slot leave.
     unload: u64,
@@ -44,8 +43,7 @@ impl<'a> Session<'a> {
         driver: Driver<'a>,
         mut random: Random,
     ) -> Self {
-        let artist = |_| Artist::new(design, design.region_size(), random.fork());
-        let artists = (0..design.regions()).map(artist).collect();
+        let gallery = Gallery::new(design, &mut random);
         let before = |&&(phase, _): &&(Phase, u64)| phase != Phase::RotateCount;
         let steps: u64 = timing.phases().iter().take_while(before).map(|&(_, steps)| steps).sum();
         Self {
@@ -54,7 +52,7 @@ impl<'a> Session<'a> {
             level,
             driver,
             random,
-            artists,
+            gallery,
             clocks_per_frame: timing.clocks_per_frame(),
             first_score: timing.edges_to_ready() - timing.edges_to_step(steps),
             unload: timing.phases().last().expect("a frame has phases").1,
@@ -98,11 +96,13 @@ impl<'a> Session<'a> {
         self.driver.begin(sequence.aim)?;
         let last = sequence.motifs.len() - 1;
         for frame in 0..=last {
-            self.draw(sequence, frame + round);
+            let configured = self.driver.thresholds_are_configured();
+            let Sequence { motifs, mixed, .. } = *sequence;
+            self.gallery.draw(motifs, frame + round, mixed, configured, &mut self.random);
             if frame > 0 {
                 self.driver.name(sequence.name, frame as u64, None);
             }
-            let drawn = self.drawn()?;
+            let drawn = self.gallery.frame()?;
             let feed = self.feed(&drawn);
             let beats = match (sequence.end, frame == last) {
                 (End::Loading, true) => self.below(feed.count()),
@@ -114,20 +114,6 @@ impl<'a> Session<'a> {
             }
         }
         self.end(sequence.end)
-    }
-
-    /// Lets every artist draw the next picture.
-    fn draw(&mut self, sequence: &Sequence, turn: usize) {
-        let configured = self.driver.thresholds_are_configured();
-        for (region, artist) in self.artists.iter_mut().enumerate() {
-            let shift = if sequence.mixed { region } else { 0 };
-            let motif = sequence.motifs[(turn + shift) % sequence.motifs.len()];
-            if configured && self.random.one_in(2) {
-                artist.draw_near_minimum(motif);
-            } else {
-                artist.draw(motif);
-            }
-        }
     }
 
     /// Brings the array to the place at which the next reset is to find it.
@@ -208,18 +194,6 @@ impl<'a> Session<'a> {
     fn feed(&mut self, frame: &Frame) -> Feed {
         let max = u16::try_from(self.design.pixel_max()).expect("a pixel has at most 16 bits");
         Feed::of(self.design, frame, || self.random.pixel(max))
-    }
-
-    /// What the artists have drawn, as a frame.
-    fn drawn(&self) -> Result<Frame, CosimError> {
-        let design = self.design;
-        let (side, columns) = (design.region_size(), design.columns());
-        let pixel = |x: u32, y: u32| {
-            let artist = &self.artists[(y / side * columns + x / side) as usize];
-            artist.pixels[(y % side * side + x % side) as usize]
-        };
-        Frame::from_fn(design.width(), design.height(), design.pixel_bits(), pixel)
-            .map_err(|error| CosimError::Model { reason: error.to_string() })
     }
 
     fn below(&mut self, count: usize) -> usize {

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What goes into the model of a core, and what comes out, in records.
+
+use super::super::applied::Applied;
+use super::super::kinds::Kinds;
+use crate::layout::Layout;
+use foveate_design::{Design, PortRole};
+use foveate_model::RasterOutput;
+
+/// Puts values of raster models into records.
+#[derive(Clone, Debug)]
+pub struct RasterCodec {
+    kinds: Kinds,
+}
+
+impl RasterCodec {
+    /// The codec of a design.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
+        Self { kinds: Kinds::of(design) }
+    }
+
+    pub(crate) fn inputs(&self, layout: &Layout, applied: &Applied<'_>, record: &mut [u8]) {
+        applied.write(&self.kinds, layout, record);
+    }
+
+    /// The outputs of the core after an edge.
+    pub fn outputs(&self, layout: &Layout, output: &RasterOutput, record: &mut [u8]) {
+        for field in layout.fields() {
+            let value = match field.port.role {
+                PortRole::Ready => output.ready.into(),
+                PortRole::DecisionValid => output.decision_valid.into(),
+                PortRole::Region => output.region.into(),
+                PortRole::Srs => output.srs.into(),
+                PortRole::Trs => output.trs.into(),
+                PortRole::Active => output.active.into(),
+                PortRole::Score(kind) => output.scores[self.kinds.index(kind)],
+                PortRole::TemporalCount => output.temporal_count.into(),
+                PortRole::ForwardValid => output.forward_valid.into(),
+                PortRole::ForwardRegion => output.forward_region.into(),
+                PortRole::ForwardPosition => output.forward_position.into(),
+                PortRole::ForwardPixel => {
+                    field.set_words(record, &output.forward_pixels);
+                    continue;
+                }
+                PortRole::Lost => output.lost.into(),
+                PortRole::LostCount => output.lost_count.into(),
+                // Inputs, and what a core does not have.
+                _ => continue,
+            };
+            field.set(record, 0, value);
+        }
+    }
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The list of sequences of a raster core: each a reset, a few frames in front of a sink, and the place at
+//! which the next reset finds the core.
+
+use super::super::ahead::Aim;
+use super::super::motif::Motif::{self, *};
+
+/// A sequence of frames with one thing in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sequence {
+    /// Its name in reports.
+    pub(super) name: &'static str,
+    /// What the regions show, frame by frame.
+    pub(super) motifs: &'static [Motif],
+    /// Whether every region starts at another motif.
+    pub(super) mixed: bool,
+    /// How it ends.
+    pub(super) end: End,
+    /// How thresholds are chosen.
+    pub(super) aim: Aim,
+    /// Whether its sink stalls so long that regions are lost.
+    pub(super) stalls: bool,
+}
+
+/// Where the reset that begins the next sequence comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// Some clocks after everything has left.
+    Drained,
+    /// Between the words of a frame.
+    Loading,
+    /// While `ready_o` is 0 after the last word of a frame.
+    Flushing,
+    /// While pixels leave.
+    Leaving,
+}
+
+const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Sequence {
+    Sequence { name, motifs, mixed: true, end: End::Drained, aim: Aim::Exact, stalls: false }
+}
+
+const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Sequence {
+    Sequence { name, motifs, mixed: true, end, aim: Aim::Least, stalls: false }
+}
+
+/// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
+/// that what they leave behind meets another kind of frame each time.
+pub(super) const SEQUENCES: &[Sequence] = &[
+    Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
+    cut("reset while loading", &[Noise, Ramp], End::Loading),
+    Sequence {
+        aim: Aim::Least,
+        stalls: true,
+        ..mixed("losses", &[Noise, Same, Binary, Same, Same, Noise])
+    },
+    cut("reset in the flush", &[Noise, Binary], End::Flushing),
+    mixed("steps", &[Step, Ring, HotCorner, Ramp]),
+    Sequence { stalls: true, ..cut("reset after losses", &[Noise, Max, Binary], End::Leaving) },
+    mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
+    cut("reset while pixels leave", &[Noise], End::Leaving),
+    Sequence { aim: Aim::Design, ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same]) },
+    cut("reset after one frame", &[TwoPoint], End::Flushing),
+    Sequence {
+        aim: Aim::Least,
+        ..mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel])
+    },
+    Sequence {
+        aim: Aim::Least,
+        stalls: true,
+        ..mixed("blanked and lost", &[Noise, Zero, Noise, Same, Zero, Noise, Same])
+    },
+    mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
+    mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
+    Sequence {
+        mixed: false,
+        aim: Aim::Largest,
+        ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
+    },
+];

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A recording under way: draws the frames of each sequence and offers them to the core.
+
+use super::super::ahead::Aim;
+use super::super::gallery::Gallery;
+use super::super::parts::{self, MAX_CLOCKS};
+use super::super::random::Random;
+use super::super::sequence::Gaps;
+use super::driver::Driver;
+use super::sequence::{End, SEQUENCES, Sequence};
+use super::sink::Mood;
+use crate::error::CosimError;
+use crate::level::Level;
+use foveate_design::{Design, RasterTiming};
+use foveate_frame::Frame;
+
+/// Clocks that are simulated after the last pixel of a sequence has left.
+const SILENCE: u64 = 8;
+
+/// A recording under way.
+pub(crate) struct Session<'a> {
+    /// The design whose frames the caller gives.
+    whole: &'a Design,
+    /// The design that is simulated.
+    design: &'a Design,
+    level: Level,
+    driver: Driver<'a>,
+    random: Random,
+    gallery: Gallery,
+    timing: RasterTiming,
+}
+
+impl<'a> Session<'a> {
+    pub(crate) fn new(
+        whole: &'a Design,
+        design: &'a Design,
+        level: Level,
+        driver: Driver<'a>,
+        mut random: Random,
+    ) -> Self {
+        let gallery = Gallery::new(design, &mut random);
+        Self { whole, design, level, driver, random, gallery, timing: RasterTiming::of(design) }
+    }
+
+    pub(crate) fn run(
+        &mut self,
+        rounds: u32,
+        frames: &[Frame],
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<(), CosimError> {
+        let parts = self.parts(frames);
+        let total = u64::from(rounds) * SEQUENCES.len() as u64 + parts.len() as u64;
+        let mut done = 0;
+        progress(done, total);
+        for round in 0..rounds as usize {
+            for (number, sequence) in SEQUENCES.iter().enumerate() {
+                self.directed(sequence, round, number)?;
+                done += 1;
+                progress(done, total);
+            }
+        }
+        for (number, corner) in parts.into_iter().enumerate() {
+            self.given(number, corner, frames)?;
+            done += 1;
+            progress(done, total);
+        }
+        Ok(())
+    }
+
+    /// One directed sequence. Gaps and sinks differ from sequence to sequence and from round to round.
+    fn directed(
+        &mut self,
+        sequence: &Sequence,
+        round: usize,
+        number: usize,
+    ) -> Result<(), CosimError> {
+        let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
+        let mood = self.mood(sequence.stalls, round + number / Gaps::ALL.len());
+        self.driver.name(sequence.name, 0);
+        self.driver.begin(sequence.aim, mood)?;
+        let last = sequence.motifs.len() - 1;
+        for frame in 0..=last {
+            let configured = self.driver.thresholds_are_configured();
+            let Sequence { motifs, mixed, .. } = *sequence;
+            self.gallery.draw(motifs, frame + round, mixed, configured, &mut self.random);
+            if frame > 0 {
+                self.driver.name(sequence.name, frame as u64);
+            }
+            let drawn = self.gallery.frame()?;
+            let is_cut = sequence.end == End::Loading && frame == last;
+            let taken = usize::try_from(self.timing.taken()).expect("a frame is in memory");
+            let most = is_cut.then(|| self.random.index(taken - 1));
+            self.driver.take(&drawn, most, gaps)?;
+            if frame < last && gaps == Gaps::Bursts && self.random.one_in(2) {
+                self.drain()?;
+            }
+        }
+        self.end(sequence.end)
+    }
+
+    /// A sink; one that stalls does so for up to two rows of regions more than the buffer holds.
+    fn mood(&mut self, stalls: bool, turn: usize) -> Mood {
+        let row = self.timing.words() / u64::from(self.design.rows());
+        let rows = u64::from(self.timing.buffer_rows) + 2;
+        match (stalls, turn % 4) {
+            (true, 0) => Mood::Slow,
+            (true, _) => Mood::Turns(rows * row),
+            (false, 0) => Mood::Willing,
+            (false, 1) => Mood::Hesitant,
+            (false, 2) => Mood::Turns(row / 2),
+            (false, _) => Mood::Turns(9),
+        }
+    }
+
+    /// Brings the core to the place at which the next reset is to find it.
+    fn end(&mut self, end: End) -> Result<(), CosimError> {
+        match end {
+            End::Drained => self.drain(),
+            End::Loading => {
+                let pause = self.random.up_to(2);
+                self.driver.idle(pause)
+            }
+            End::Flushing => {
+                let clocks = self.random.up_to(self.timing.edges_to_ready());
+                self.busy(clocks)
+            }
+            End::Leaving => {
+                while !self.driver.output().forward_valid && self.driver.is_pending() {
+                    self.driver.busy(None)?;
+                }
+                let clocks = self.random.up_to(2 * u64::from(self.timing.region_words));
+                self.busy(clocks)
+            }
+        }
+    }
+
+    fn busy(&mut self, clocks: u64) -> Result<(), CosimError> {
+        for _ in 0..clocks {
+            self.driver.busy(None)?;
+        }
+        Ok(())
+    }
+
+    /// Lets everything leave, every other time to a sink that is always ready.
+    fn drain(&mut self) -> Result<(), CosimError> {
+        if self.random.one_in(2) {
+            self.driver.calm_sink();
+        }
+        self.driver.drain()?;
+        let pause = self.random.up_to(SILENCE);
+        self.driver.idle(pause)
+    }
+
+    /// The upper left corners of the parts of the caller's frames that are simulated: of the core one, of the
+    /// lone core as many, evenly spread, as is affordable.
+    fn parts(&self, frames: &[Frame]) -> Vec<(u32, u32)> {
+        match self.level {
+            _ if frames.is_empty() => Vec::new(),
+            Level::Rcm { .. } | Level::Full => vec![(0, 0)],
+            Level::Rpu => {
+                let (width, height) = (self.design.width(), self.design.height());
+                let columns = self.whole.width().div_ceil(width);
+                let tiles = u64::from(columns) * u64::from(self.whole.height().div_ceil(height));
+                let clocks = frames.len() as u64 * self.timing.clocks_per_frame();
+                let affordable = (MAX_CLOCKS / clocks.max(1)).clamp(1, tiles);
+                let corner = |number: u64| {
+                    let tile = number * tiles / affordable;
+                    let tile = u32::try_from(tile).expect("a frame has few tiles");
+                    (tile % columns * width, tile / columns * height)
+                };
+                (0..affordable).map(corner).collect()
+            }
+        }
+    }
+
+    /// A part of the caller's frames, back to back.
+    fn given(
+        &mut self,
+        number: usize,
+        (left, top): (u32, u32),
+        frames: &[Frame],
+    ) -> Result<(), CosimError> {
+        let gaps = Gaps::ALL[number % Gaps::ALL.len()];
+        let mood = self.mood(false, number);
+        self.driver.name("frames", 0);
+        self.driver.begin(Aim::Design, mood)?;
+        let size = (self.design.width(), self.design.height());
+        for (number, frame) in (0..).zip(frames) {
+            if number > 0 {
+                self.driver.name("frames", number);
+            }
+            let part = parts::cut(self.design, frame, size, |x, y| (left + x, top + y))?;
+            self.driver.take(&part, None, gaps)?;
+        }
+        self.driver.drain()?;
+        self.driver.idle(SILENCE)
+    }
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether the vectors of raster designs hit what they are meant to hit, and keep to the contract in what
+//! they offer; no tool is needed for that.
+
+use std::collections::BTreeSet;
+
+use crate::common::vectors::{clocks, value};
+use crate::common::{design, directed, feature};
+use foveate_cosim::{Level, Recording};
+use foveate_design::{
+    Config, Design, FeatureKind, Filter, Neighborhood, Organization, PortRole, RasterTiming,
+    Reference,
+};
+
+/// Small, with two features, the last of them this.
+fn config(last: FeatureKind) -> Config {
+    let features = [feature(FeatureKind::Edge, 0), feature(last, 1)];
+    let mut config = Config { spatial: features.to_vec(), ..Config::default() };
+    config.hardware.organization = Organization::Raster;
+    config.region.size = 4;
+    config.temporal.reference = Reference::LastSent;
+    config
+}
+
+/// With a second pass; without one, in words; and a frame that waits for the pixels of the one before.
+fn designs() -> [Design; 3] {
+    let mut wide = config(FeatureKind::Variance);
+    wide.hardware.pixels_per_clock = Some(2);
+    wide.region.neighborhood = Neighborhood::Shared;
+    let mut small = config(FeatureKind::Corner);
+    small.denoise.filter = Filter::None;
+    [design(&config(FeatureKind::Mad), (4, 5)), design(&wide, (8, 4)), design(&small, (4, 2))]
+}
+
+/// One clock of a recording, as the contract sees it.
+struct Clock {
+    reset: bool,
+    valid: bool,
+    /// A word is taken at the edge of this clock.
+    takes: bool,
+    /// Words of a frame were taken before this clock, and not all of it is over.
+    under_way: bool,
+    /// Not all of its words.
+    loading: bool,
+    thresholds: Vec<u64>,
+    /// The outputs of the clock before.
+    before: Vec<u8>,
+    output: Vec<u8>,
+}
+
+fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let frame = RasterTiming::of(design).taken();
+    let shows = |record: &[u8], role| value(outputs, role, record) == 1;
+    let (mut before, mut story) = (outputs.record(), Vec::new());
+    let (mut taken, mut undecided) = (0, 0);
+    for (input, output) in clocks(recording) {
+        let reset = value(inputs, PortRole::Reset, &input) == 1;
+        let valid = value(inputs, PortRole::Valid, &input) == 1;
+        let ready = shows(&before, PortRole::Ready);
+        let takes = valid && ready && !reset;
+        if taken == frame && ready {
+            taken = 0;
+        }
+        let under_way = taken > 0 || (design.has_second_pass() && undecided > 0);
+        let loading = taken > 0 && taken < frame;
+        if takes {
+            undecided += if taken == 0 { design.regions() } else { 0 };
+            taken += 1;
+        }
+        undecided -= u32::from(shows(&output, PortRole::DecisionValid));
+        if reset {
+            (taken, undecided) = (0, 0);
+        }
+        let is_threshold = |role| {
+            use PortRole::{Level, MinScore, TemporalLevel, TemporalMinCount};
+            matches!(role, Level(_) | MinScore(_) | TemporalLevel | TemporalMinCount)
+        };
+        let fields = inputs.fields().iter().filter(|field| is_threshold(field.port.role));
+        let thresholds = fields.map(|field| field.get(&input, 0)).collect();
+        let before = std::mem::replace(&mut before, output.clone());
+        story.push(Clock { reset, valid, takes, under_way, loading, thresholds, before, output });
+    }
+    story
+}
+
+fn record(design: &Design, rounds: u32) -> Recording {
+    directed(Level::Full, rounds).record(design, &mut |_, _| {}).unwrap()
+}
+
+#[test]
+fn thresholds_stand_still_while_a_frame_is_under_way_and_only_then() {
+    for design in designs() {
+        let story = story(&design, &record(&design, 1));
+        let mut changes = 0;
+        for pair in story.windows(2) {
+            let [last, now] = pair else { unreachable!() };
+            let changed = last.thresholds != now.thresholds;
+            assert!(!changed || !now.under_way || now.reset || last.reset, "under way");
+            changes += u32::from(changed);
+        }
+        assert!(changes > 100, "{changes} changes");
+    }
+}
+
+#[test]
+fn words_are_refused_and_frames_follow_at_once() {
+    for design in designs() {
+        let recording = record(&design, 3);
+        let story = story(&design, &recording);
+        let ready = |record: &[u8]| value(recording.outputs(), PortRole::Ready, record) == 1;
+        let refused = story.iter().filter(|clock| clock.valid && !clock.takes && !clock.reset);
+        assert!(refused.count() > 500);
+        let at_once = story.windows(2).filter(|pair| {
+            let rises = !ready(&pair[0].before) && ready(&pair[0].output);
+            rises && pair[1].takes && !pair[1].loading && !pair[0].reset
+        });
+        assert!(at_once.count() > 5);
+        assert!(story.iter().filter(|clock| clock.loading && !clock.valid).count() > 500);
+    }
+}
+
+#[test]
+fn regions_are_lost_and_small_frames_wait() {
+    let [pass, wide, small] = designs();
+    for design in [&pass, &wide] {
+        let recording = record(design, 2);
+        let counts: BTreeSet<u64> = clocks(&recording)
+            .iter()
+            .map(|(_, output)| value(recording.outputs(), PortRole::LostCount, output))
+            .collect();
+        assert!(counts.len() > 20, "{} counts", counts.len());
+    }
+    let recording = record(&small, 2);
+    let longest = RasterTiming::of(&small).edges_to_ready();
+    let (mut closed, mut waits) = (0, 0);
+    for (_, output) in clocks(&recording) {
+        assert_eq!(value(recording.outputs(), PortRole::Lost, &output), 0);
+        let ready = value(recording.outputs(), PortRole::Ready, &output) == 1;
+        closed = if ready { 0 } else { closed + 1 };
+        waits += u32::from(closed == longest + 1);
+    }
+    assert!(waits > 20, "{waits} waits");
+}
+
+#[test]
+fn resets_come_everywhere() {
+    let mut lost = 0;
+    for design in designs() {
+        let recording = record(&design, 3);
+        let outputs = recording.outputs();
+        let shows = |role, clock: &Clock| value(outputs, role, &clock.before) == 1;
+        let story = story(&design, &recording);
+        // The first is at power-up.
+        let resets: Vec<&Clock> = story.iter().skip(1).filter(|clock| clock.reset).collect();
+        let count =
+            |which: &dyn Fn(&Clock) -> bool| resets.iter().filter(|clock| which(clock)).count();
+        assert!(count(&|clock| clock.loading) > 2, "loading");
+        assert!(count(&|clock| !shows(PortRole::Ready, clock)) > 2, "flushing");
+        assert!(count(&|clock| shows(PortRole::ForwardValid, clock)) > 2, "leaving");
+        lost += count(&|clock| shows(PortRole::Lost, clock));
+    }
+    assert!(lost > 5, "{lost} after losses");
+}
