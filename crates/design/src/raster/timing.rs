@@ -2,7 +2,7 @@
 //! When a raster core does what: the numbers of `docs/raster.md`.
 
 use crate::timing::Departure;
-use crate::{Design, FeatureKind, Filter, Pipelining, Reference, Timing};
+use crate::{Design, Filter, Pipelining, Reference, Timing};
 
 /// Clocks from the decision of a region to its first word on the ports, where it does not wait: the queue,
 /// holding, fetching.
@@ -55,7 +55,7 @@ impl RasterTiming {
         let word_pixels = design.pixels_per_clock();
         let median = u32::from(design.filter() == Filter::Median3x3);
         let feature = u32::from(design.has_feature_window());
-        let has_variance = design.feature(FeatureKind::Variance).is_some();
+        let has_variance = design.features().iter().any(|feature| feature.variance().is_some());
         let (store_latency, after_store) = match design.pipelining() {
             Pipelining::Plain => (1 + 3 * median + 4 * feature, 4),
             Pipelining::Deep => (1 + 8 * median + 7 * feature, 6),
