@@ -130,6 +130,14 @@ fn regions_are_lost_and_small_frames_wait() {
             .map(|(_, output)| value(recording.outputs(), PortRole::LostCount, output))
             .collect();
         assert!(counts.len() > 20, "{} counts", counts.len());
+        // Whole rows of regions are lost, too.
+        let takes = |(input, _): &(Vec<u8>, Vec<u8>)| {
+            value(recording.inputs(), PortRole::ForwardReady, input) == 1
+        };
+        let clocks = clocks(&recording);
+        let longest = clocks.split(takes).map(<[_]>::len).max().unwrap();
+        let row = RasterTiming::of(design).words() / u64::from(design.rows());
+        assert!(longest as u64 > 2 * row, "{longest} clocks");
     }
     let recording = record(&small, 2);
     let longest = RasterTiming::of(&small).edges_to_ready();
