@@ -16,11 +16,11 @@ use std::fmt;
 pub(crate) enum Moment {
     /// The reset.
     Reset,
-    /// The edge has taken this pixel of a frame's stream: its number, column and row, negative in a halo. Of a
-    /// raster core it has taken a word, whose number it is, and the place of its first pixel.
-    Pixel { frame: u64, number: u64, of: u64, x: i64, y: i64 },
-    /// No pixel was taken; so many of this frame are in.
-    Waiting { frame: u64, taken: u64, of: u64 },
+    /// The edge has taken this pixel of a frame's stream: its number, column and row, negative in a halo. A raster
+    /// core takes words; the place is that of the first pixel.
+    Pixel { unit: &'static str, frame: u64, number: u64, of: u64, x: i64, y: i64 },
+    /// Nothing was taken; so many pixels or words of this frame are in.
+    Waiting { unit: &'static str, frame: u64, taken: u64, of: u64 },
     /// The lanes work on a frame.
     Work { frame: u64, slot: u64, phase: Phase, step: u64, of: u64 },
 }
@@ -29,11 +29,11 @@ impl fmt::Display for Moment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Reset => write!(f, "in reset"),
-            Self::Pixel { frame, number, of, x, y } => {
-                write!(f, "pixel {number} of {of} (x {x}, y {y}) of frame {frame} enters")
+            Self::Pixel { unit, frame, number, of, x, y } => {
+                write!(f, "{unit} {number} of {of} (x {x}, y {y}) of frame {frame} enters")
             }
-            Self::Waiting { frame, taken, of } => {
-                write!(f, "{taken} of {of} pixels of frame {frame} are in")
+            Self::Waiting { unit, frame, taken, of } => {
+                write!(f, "{taken} of {of} {unit}s of frame {frame} are in")
             }
             Self::Work { frame, slot, phase, step, of } => {
                 write!(f, "frame {frame}, slot {slot}, phase \"{phase}\", step {step} of {of}")
@@ -114,8 +114,9 @@ impl<'a> Follower<'a> {
             self.since = None;
         }
         let (frame, of) = (self.frames, self.pixels);
+        let unit = if self.words.is_some() { "word" } else { "pixel" };
         if !(valid && was_ready) {
-            return Moment::Waiting { frame, taken: self.taken, of };
+            return Moment::Waiting { unit, frame, taken: self.taken, of };
         }
         let number = self.taken;
         self.taken += 1;
@@ -124,7 +125,7 @@ impl<'a> Follower<'a> {
             self.since = self.serial.is_some().then_some(0);
         }
         let (x, y) = self.place(number);
-        Moment::Pixel { frame, number, of, x, y }
+        Moment::Pixel { unit, frame, number, of, x, y }
     }
 
     /// Column and row of a pixel of the stream, of the frame for a raster, else of a region.
@@ -279,5 +280,32 @@ mod tests {
             }
         });
         assert!(corners > 20 && decisions > 20, "{corners} {decisions}");
+    }
+
+    /// 31x7 pixels in words of two: rows of 16 words; the decisions of a frame come after its last word.
+    #[test]
+    fn the_words_of_a_raster_core_are_counted() {
+        let toml = "[frame]\nwidth = 31\nheight = 7\n[region]\nsize = 4\n[hardware]\n\
+                    organization = \"raster\"\npixels_per_clock = 2\n";
+        let last = Moment::Pixel { unit: "word", frame: 0, number: 111, of: 112, x: 30, y: 6 };
+        assert_eq!(last.to_string(), "word 111 of 112 (x 30, y 6) of frame 0 enters");
+        let (mut frames, mut decisions) = (0, 0);
+        followed(toml, Level::Full, |layout, moment, expected| {
+            match moment {
+                Moment::Pixel { unit, number: 18, of, x, y, .. } => {
+                    assert_eq!((unit, of, x, y), ("word", 112, 4, 1), "{moment}");
+                    frames += 1;
+                }
+                Moment::Pixel { number: 111, x, y, .. } => assert_eq!((x, y), (30, 6)),
+                Moment::Work { .. } => panic!("{moment}"),
+                _ => {}
+            }
+            let says = |role| of_role(layout, role).unwrap().get(expected, 0);
+            if says(PortRole::DecisionValid) == 1 && says(PortRole::Region) == 15 {
+                assert!(matches!(moment, Moment::Waiting { taken: 0, of: 112, .. }), "{moment}");
+                decisions += 1;
+            }
+        });
+        assert!(frames > 20 && decisions > 20, "{frames} {decisions}");
     }
 }

@@ -6,11 +6,12 @@ use std::collections::BTreeSet;
 
 use crate::common::vectors::{clocks, value};
 use crate::common::{design, directed, feature};
-use foveate_cosim::{Level, Recording};
+use foveate_cosim::{Level, Recording, Stimulus};
 use foveate_design::{
     Config, Design, FeatureKind, Filter, Neighborhood, Organization, PortRole, RasterTiming,
     Reference,
 };
+use foveate_frame::Frame;
 
 /// Small, with two features, the last of them this.
 fn config(last: FeatureKind) -> Config {
@@ -42,6 +43,7 @@ struct Clock {
     under_way: bool,
     /// Not all of its words.
     loading: bool,
+    word: u64,
     thresholds: Vec<u64>,
     /// The outputs of the clock before.
     before: Vec<u8>,
@@ -79,7 +81,18 @@ fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
         let fields = inputs.fields().iter().filter(|field| is_threshold(field.port.role));
         let thresholds = fields.map(|field| field.get(&input, 0)).collect();
         let before = std::mem::replace(&mut before, output.clone());
-        story.push(Clock { reset, valid, takes, under_way, loading, thresholds, before, output });
+        let word = value(inputs, PortRole::Pixel, &input);
+        story.push(Clock {
+            reset,
+            valid,
+            takes,
+            under_way,
+            loading,
+            word,
+            thresholds,
+            before,
+            output,
+        });
     }
     story
 }
@@ -169,4 +182,25 @@ fn resets_come_everywhere() {
         lost += count(&|clock| shows(PortRole::Lost, clock));
     }
     assert!(lost > 5, "{lost} after losses");
+}
+
+/// The lone core has 4x3 regions of 4x4 pixels: two tiles side by side, the second partly beyond the frame.
+#[test]
+fn frames_of_the_caller_go_through_the_lone_core_tile_by_tile() {
+    let design = design(&config(FeatureKind::Mad), (6, 3));
+    let frame = Frame::from_fn(24, 12, 8, |x, y| u16::try_from(x + 16 * y).unwrap()).unwrap();
+    let frames = vec![frame.clone(), frame];
+    let stimulus = Stimulus { rounds: 0, frames, ..Stimulus::default() };
+    let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+    assert_eq!((recording.sequences(), recording.frames()), (2, 4));
+    let last = recording.span(recording.clocks()).unwrap();
+    assert_eq!((last.sequence.as_str(), last.frame), ("frames from x 16, y 0 on", 1));
+    let taken = story(&design.lone_unit(), &recording).into_iter().filter(|clock| clock.takes);
+    let words: Vec<u64> = taken.map(|clock| clock.word).collect();
+    assert_eq!(words.len(), 4 * 16 * 12);
+    assert_eq!(words[14..18], [14, 15, 16, 17]);
+    assert_eq!(words[16 * 12..][..2], [0, 1], "the frame after");
+    // Columns 16 to 23, then the last column repeated.
+    let row: Vec<u64> = (16..24).chain([23; 8]).collect();
+    assert_eq!(words[2 * 16 * 12..][..16], row, "the second tile");
 }

@@ -182,12 +182,16 @@ impl<'a> Session<'a> {
     ) -> Result<(), CosimError> {
         let gaps = Gaps::ALL[number % Gaps::ALL.len()];
         let mood = self.mood(false, number);
-        self.driver.name("frames", 0);
+        let name = match self.level {
+            Level::Rpu => format!("frames from x {left}, y {top} on"),
+            Level::Rcm { .. } | Level::Full => "frames".to_owned(),
+        };
+        self.driver.name(&name, 0);
         self.driver.begin(Aim::Design, mood)?;
         let size = (self.design.width(), self.design.height());
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {
-                self.driver.name("frames", number);
+                self.driver.name(&name, number);
             }
             let part = parts::cut(self.design, frame, size, |x, y| (left + x, top + y))?;
             self.driver.take(&part, None, gaps)?;
