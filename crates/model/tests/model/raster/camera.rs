@@ -2,10 +2,11 @@
 //! Whole films: scores, decisions and the rendered frame, against the functional camera, over a matrix of
 //! designs that has every value of every choice beside every other.
 
+use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::{Camera, Outcome, RasterOutput};
 
-use super::driver::{Driver, Job, Manner};
+use super::driver::{Driver, Job, Manner, Trace};
 use super::recipe::{Misread, RasterRecipe};
 use crate::hard_cases::hard_frames;
 use crate::recipe::{FeatureRecipe, Recipe};
@@ -19,6 +20,19 @@ fn compare(shown: &RasterOutput, outcome: &Outcome) {
     assert_eq!(shown.temporal_count, outcome.temporal_count[at], "region {at}");
     let scores = outcome.scores.iter().map(|scores| scores[at]);
     assert!(scores.eq(shown.scores.into_iter().take(outcome.scores.len())), "region {at}");
+}
+
+/// `Departure` says when the last decision comes, and when the last word leaves if all regions are active.
+fn check_departure(design: &Design, outcome: &Outcome, trace: &Trace) {
+    let departure = design.timing().departure();
+    let last = |which: fn(&RasterOutput) -> bool| trace.shown.iter().rposition(which);
+    let decided = (departure.take_clocks + departure.decision_clocks) as usize;
+    assert_eq!(last(|shown| shown.decision_valid), Some(decided));
+    let left = (departure.take_clocks + departure.forward_clocks) as usize;
+    match last(|shown| shown.forward_valid) {
+        found if outcome.active.iter().all(|&active| active) => assert_eq!(found, Some(left)),
+        found => assert!(found <= Some(left)),
+    }
 }
 
 /// Frame after frame, each drained, so that the screen can be compared.
@@ -47,6 +61,7 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
             }
         }
         assert_eq!(decisions, design.regions());
+        check_departure(&design, outcome, &trace);
         assert!(!driver.rcm.is_pending() && !driver.rcm.output().lost);
         for y in 0..frame.height() {
             let row = &screen.pixels[(y * design.columns() * design.region_size()) as usize..];
