@@ -77,12 +77,14 @@ impl Level {
     }
 }
 
-/// The design for a frame of so many regions.
+/// The design for a frame of so many regions, of which as much lies beyond the frame as in the design.
 fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, DesignError> {
     let mut config = design.config().clone();
     let side = design.region_size();
-    config.frame.width = Some(columns.saturating_mul(side));
-    config.frame.height = Some(rows.saturating_mul(side));
+    let length =
+        |regions: u32, own: u32, all: u32| regions.saturating_mul(side) - (all * side - own);
+    config.frame.width = Some(length(columns, design.width(), design.columns()));
+    config.frame.height = Some(length(rows, design.height(), design.rows()));
     config.validate()
 }
 

@@ -63,6 +63,27 @@ leaves! {
     "serial_shown" => [],
     "serial_sides" => [],
     "serial_decision" => ["frame_store"],
+    "raster_memory" => [],
+    "raster_delay" => [],
+    "raster_pulse" => [],
+    "raster_pad" => [],
+    "raster_control" => [],
+    "raster_window" => ["raster_memory"],
+    "raster_line" => ["raster_memory"],
+    "raster_median" => [],
+    "raster_edge" => ["adder", "magnitude_above"],
+    "raster_corner" => [],
+    "raster_change" => ["magnitude_above"],
+    "raster_counts" => ["raster_memory"],
+    "raster_store" => ["raster_memory"],
+    "raster_start" => [],
+    "raster_valid" => ["raster_delay"],
+    "raster_readout" => ["raster_memory"],
+    "raster_core" => [
+        "raster_control", "raster_pad", "raster_pulse", "raster_delay", "raster_window", "raster_median",
+        "raster_edge", "raster_corner", "raster_store", "raster_change", "raster_counts", "vote",
+        "raster_start", "raster_readout", "raster_line", "raster_memory", "raster_valid"
+    ],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
         "serial_group", "serial_sides", "serial_lane", "serial_decision"

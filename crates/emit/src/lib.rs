@@ -9,6 +9,7 @@ mod core;
 mod instance;
 mod leaf;
 mod organization;
+mod raster;
 mod rcm;
 mod readme;
 mod rpu;

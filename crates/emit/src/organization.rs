@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the Verilog of an organization is made of; the only place that lists them here.
 
-use crate::{SourceFile, Top, leaf, rcm, readme, serial};
+use crate::{SourceFile, Top, leaf, raster, rcm, readme, serial};
 use foveate_design::{Design, DesignError, Organization};
 
 /// What an organization brings.
@@ -18,8 +18,7 @@ pub(crate) struct Emitter {
 #[must_use]
 pub fn has_verilog(organization: Organization) -> bool {
     match organization {
-        Organization::Pipelined | Organization::Serial => true,
-        Organization::Raster => false,
+        Organization::Pipelined | Organization::Serial | Organization::Raster => true,
     }
 }
 
@@ -56,8 +55,8 @@ impl Emitter {
             },
             // Nothing yet; `check` refuses the design before anybody asks.
             Organization::Raster => Self {
-                leaves: |_| Vec::new(),
-                modules: |_, _| Vec::new(),
+                leaves: |_| vec!["raster_core"],
+                modules: raster::modules,
                 readme: |_| String::new(),
             },
         }

@@ -21,8 +21,11 @@ pub(super) fn part(design: &Design, top: Top) -> Result<Design, CosimError> {
         }
         Top::Rpu => Ok(design.lone_unit()),
         Top::Rcm => {
-            let (columns, rows) = array(design);
-            Ok(Level::Rcm { columns, rows }.design(design)?)
+            let (least, rows) = array(design);
+            let part = |columns| Level::Rcm { columns, rows }.design(design);
+            // The grid of a small array may be less than the organization takes.
+            let taken = (least..design.columns()).find_map(|columns| part(columns).ok());
+            Ok(taken.map_or_else(|| part(design.columns()), Ok)?)
         }
     }
 }

@@ -57,8 +57,8 @@ impl RasterTiming {
         let feature = u32::from(design.has_feature_window());
         let has_variance = design.features().iter().any(|feature| feature.variance().is_some());
         let (store_latency, after_store) = match design.pipelining() {
-            Pipelining::Plain => (1 + 3 * median + 4 * feature, 4),
-            Pipelining::Deep => (1 + 8 * median + 7 * feature, 6),
+            Pipelining::Plain => (2 + 4 * median + feature, 4),
+            Pipelining::Deep => (4 + 9 * median + 3 * feature, 6),
         };
         let second_pass =
             design.has_second_pass().then_some(SecondPass { after_store: 6, decision_latency: 5 });

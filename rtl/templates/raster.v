@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// {= banner =}
+//
+// {= what =}
+//   scores   {= summary =}
+//   words    {= lanes =} pixels, {= pipelining =} pipelining
+//   frame    {= clocks =}
+//
+// Keep thresholds still from the first word of a frame until ready_o is 1 after its last.
+`default_nettype none
+
+module {= module =} #(
+    parameter COLUMNS = {= columns =},  // regions side by side
+    parameter ROWS = {= rows =}      // regions one below the other
+) (
+{%- for port in ports %}
+    {= port.declaration =}  // {= port.doc =}
+{%- endfor %}
+);
+{%- for constant in constants %}
+    localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
+{%- endfor %}
+{%- for port in unused %}
+    wire [{= port.width - 1 =}:0] unused_{= port.name =};
+{%- endfor %}
+
+    raster_core #(
+        .COLUMNS(COLUMNS), .ROWS(ROWS),
+        .FRAME_WIDTH(COLUMNS * {= n =}{% if pad_columns > 0 %} - {= pad_columns =}{% endif %}), .FRAME_HEIGHT(ROWS * {= n =}{% if pad_rows > 0 %} - {= pad_rows =}{% endif %}),
+        .REGION_BITS($clog2(COLUMNS * ROWS)),
+{%- for parameter in parameters %}
+        .{= parameter.0 =}({= parameter.1 =}){% if !loop.last %},{% endif %}
+{%- endfor %}
+    ) u_core (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .pixel_i(pixel_i), .ready_o(ready_o),
+{%- for threshold in thresholds %}
+        .{= threshold.0 =}({= threshold.1 =}),
+{%- endfor %}
+        .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .edge_score_o({= edge_score =}), .corner_score_o({= corner_score =}), .temporal_count_o(temporal_count_o),
+        .forward_ready_i(forward_ready_i), .forward_valid_o(forward_valid_o), .forward_region_o(forward_region_o),
+        .forward_position_o(forward_position_o), .forward_pixel_o(forward_pixel_o),
+        .lost_o(lost_o), .lost_count_o(lost_count_o)
+    );
+
+endmodule
+
+`default_nettype wire
