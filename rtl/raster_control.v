@@ -38,7 +38,8 @@ module raster_control #(
     output wire segment_end_o,    // it is the last of a row of its region
     output wire row_end_o,        // it is the last of its row
     output wire region_top_o,     // it is in the first row of its region
-    output wire region_bottom_o   // it is in the last row of its region
+    output wire region_bottom_o,  // it is in the last row of its region
+    output wire frame_over_o      // at this edge a frame is over: the next may begin
 );
 
     localparam [WORD_BITS-1:0] BEFORE_LAST_WORD = ROW_WORDS - 2;
@@ -161,7 +162,8 @@ module raster_control #(
         end else if (settling_q) begin
             if (settle_q != {SETTLE_BITS{1'b0}}) begin
                 settle_q <= settle_q - 1'b1;
-            end else if (!busy_i) begin
+            end
+            if (frame_over_o) begin
                 settling_q <= 1'b0;
                 ready_o    <= 1'b1;
             end
@@ -174,6 +176,7 @@ module raster_control #(
     end
 
     assign step_o = step;
+    assign frame_over_o = settling_q && settle_q == {SETTLE_BITS{1'b0}} && !busy_i;
     assign pad_o = own_q;
     assign taken_end_o = taken_end_q;
     assign repeat_o = !taken_row_q;

@@ -44,11 +44,6 @@ module raster_readout #(
 );
 
     localparam ENTRY_BITS = 2 + REGION_BITS + START_BITS + EXTRA_BITS;
-    localparam SEGMENT_BITS = SEGMENT > 1 ? $clog2(SEGMENT) : 1;
-    localparam WORDS = SEGMENT * SIDE;
-    localparam [POSITION_BITS-1:0] LAST_POSITION = (WORDS - 1) * LANES;
-    localparam [SEGMENT_BITS-1:0] LAST_IN_SEGMENT = SEGMENT - 1;
-    localparam [START_BITS-1:0] JUMP = ROW_WORDS - SEGMENT + 1;
     localparam [1:0] AGE = BANKS;
 
     // The queue. Its oldest entry is read ahead.
@@ -85,28 +80,27 @@ module raster_readout #(
     reg [1:0] row_q;
     reg [REGION_BITS-1:0] held_region_q;
     reg [EXTRA_BITS-1:0] extra_q;
-    reg [START_BITS-1:0] place_q;
-    reg [POSITION_BITS-1:0] at_q;
-    reg [SEGMENT_BITS-1:0] in_segment_q;
+    wire [POSITION_BITS-1:0] position;
+    wire last;
     wire held_stale = held_q && stored_row_i - row_q == AGE;
     wire fetch = step_o && held_q && !held_stale;
-    wire fetch_last = fetch && at_q == LAST_POSITION;
-    wire segment_end = SEGMENT == 1 || in_segment_q == LAST_IN_SEGMENT;
+    wire fetch_last = fetch && last;
 
     assign take = oldest_valid_q && (!held_q || fetch_last);
+
+    raster_walk #(
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
+        .PLACE_BITS(START_BITS)
+    ) u_walk (
+        .clk_i(clk_i), .begin_i(take), .start_i(oldest_start), .step_i(fetch), .place_o(place_o),
+        .position_o(position), .first_o(first_o), .segment_end_o(segment_end_o), .last_o(last)
+    );
 
     always @(posedge clk_i) begin
         if (take) begin
             row_q         <= oldest_row;
             held_region_q <= oldest_region;
             extra_q       <= oldest_extra;
-            place_q       <= oldest_start;
-            at_q          <= {POSITION_BITS{1'b0}};
-            in_segment_q  <= {SEGMENT_BITS{1'b0}};
-        end else if (fetch) begin
-            place_q      <= place_q + (segment_end ? JUMP : {{(START_BITS - 1) {1'b0}}, 1'b1});
-            at_q         <= at_q + LANES[POSITION_BITS-1:0];
-            in_segment_q <= segment_end ? {SEGMENT_BITS{1'b0}} : in_segment_q + 1'b1;
         end
         held_q <= take ? !oldest_stale : held_q && !held_stale && !fetch_last;
         if (rst_i) held_q <= 1'b0;
@@ -121,7 +115,7 @@ module raster_readout #(
         if (step_o) begin
             fetched_q        <= fetch;
             fetched_region_q <= held_region_q;
-            fetched_at_q     <= at_q;
+            fetched_at_q     <= position;
             valid_o          <= fetched_q;
             region_o         <= fetched_region_q;
             position_o       <= fetched_at_q;
@@ -134,13 +128,10 @@ module raster_readout #(
 
     assign step_o = !valid_o || ready_i;
     assign fetch_o = fetch;
-    assign place_o = place_q;
     assign lost_o = held_stale || (take && oldest_stale);
     assign lost_region_o = held_stale ? held_region_q : oldest_region;
     assign lost_extra_o = held_stale ? extra_q : oldest_extra;
     assign held_extra_o = extra_q;
-    assign first_o = at_q == {POSITION_BITS{1'b0}};
-    assign segment_end_o = segment_end;
     assign idle_o = enter_q == leave_q && !held_q && !fetched_q && step_o;
 
 endmodule

@@ -37,7 +37,10 @@ module {= module =} #(
         .{= threshold.0 =}({= threshold.1 =}),
 {%- endfor %}
         .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
-        .edge_score_o({= edge_score =}), .corner_score_o({= corner_score =}), .temporal_count_o(temporal_count_o),
+{%- for score in scores %}
+        .{= score.0 =}({= score.1 =}),
+{%- endfor %}
+        .temporal_count_o(temporal_count_o),
         .forward_ready_i(forward_ready_i), .forward_valid_o(forward_valid_o), .forward_region_o(forward_region_o),
         .forward_position_o(forward_position_o), .forward_pixel_o(forward_pixel_o),
         .lost_o(lost_o), .lost_count_o(lost_count_o)

@@ -78,11 +78,17 @@ leaves! {
     "raster_store" => ["raster_memory"],
     "raster_start" => [],
     "raster_valid" => ["raster_delay"],
-    "raster_readout" => ["raster_memory"],
+    "raster_walk" => [],
+    "raster_repeat" => ["raster_memory"],
+    "raster_sums" => ["raster_memory", "raster_delay", "raster_pulse"],
+    "raster_variance" => [],
+    "raster_pass" => ["raster_memory", "raster_walk", "raster_delay", "raster_pulse"],
+    "raster_readout" => ["raster_memory", "raster_walk"],
     "raster_core" => [
         "raster_control", "raster_pad", "raster_pulse", "raster_delay", "raster_window", "raster_median",
         "raster_edge", "raster_corner", "raster_store", "raster_change", "raster_counts", "vote",
-        "raster_start", "raster_readout", "raster_line", "raster_memory", "raster_valid"
+        "raster_start", "raster_readout", "raster_line", "raster_memory", "raster_valid", "raster_repeat", "raster_sums",
+        "raster_variance", "region_mean", "raster_pass"
     ],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",

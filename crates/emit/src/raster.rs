@@ -7,7 +7,7 @@ use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Pipelining, Port, PortRole,
-    RasterTiming, Reference,
+    RasterTiming, Reference, SpatialFeature, bits_for,
 };
 
 #[derive(Template)]
@@ -29,10 +29,10 @@ struct Raster {
     constants: Vec<Constant>,
     /// Outputs of the core that the design does not have.
     unused: Vec<Unused>,
-    parameters: Vec<(&'static str, u32)>,
-    thresholds: Vec<(&'static str, String)>,
-    edge_score: String,
-    corner_score: String,
+    parameters: Vec<(&'static str, String)>,
+    thresholds: Vec<(String, String)>,
+    /// The scores of the core, and what they are connected to.
+    scores: Vec<(String, String)>,
 }
 
 struct Unused {
@@ -58,17 +58,19 @@ fn range(port: &Port) -> Option<String> {
 fn view(design: &Design, named: &Design, top: Top) -> Raster {
     let timing = RasterTiming::of(design);
     let n = design.region_size();
-    let count_bits = design.count_bits();
     let mut unused = Vec::new();
-    let mut score = |kind, port: &'static str, name| match design.feature(kind) {
-        Some(_) => port.to_owned(),
-        None => {
-            unused.push(Unused { name, width: count_bits });
-            format!("unused_{name}")
-        }
-    };
-    let edge_score = score(FeatureKind::Edge, "edge_score_o", "edges");
-    let corner_score = score(FeatureKind::Corner, "corner_score_o", "corners");
+    let mut scores = Vec::new();
+    for &kind in FeatureKind::ALL {
+        let port = format!("{kind}_score_o");
+        let connected = match design.feature(kind) {
+            Some(_) => port.clone(),
+            None => {
+                unused.push(Unused { name: kind.name(), width: score_bits(design, kind) });
+                format!("unused_{kind}")
+            }
+        };
+        scores.push((port, connected));
+    }
     Raster {
         banner: banner(named),
         what: format!(
@@ -90,16 +92,20 @@ fn view(design: &Design, named: &Design, top: Top) -> Raster {
         unused,
         parameters: parameters(design, &timing),
         thresholds: thresholds(design),
-        edge_score,
-        corner_score,
+        scores,
     }
 }
 
-fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, u32)> {
+/// Bits of a score of the core; of one that the design does not have, some.
+fn score_bits(design: &Design, kind: FeatureKind) -> u32 {
+    design.feature(kind).map_or(design.count_bits(), SpatialFeature::score_bits)
+}
+
+fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, String)> {
     let flag = |condition: bool| u32::from(condition);
     let has = |kind| flag(design.feature(kind).is_some());
     let edge_level = design.feature(FeatureKind::Edge);
-    vec![
+    let mut list = vec![
         ("WIDTH", design.pixel_bits()),
         ("LANES", design.pixels_per_clock()),
         ("SIDE", design.region_size()),
@@ -107,6 +113,8 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, u32)
         ("MEDIAN", flag(design.filter() == Filter::Median3x3)),
         ("EDGE", has(FeatureKind::Edge)),
         ("CORNER", has(FeatureKind::Corner)),
+        ("MAD", has(FeatureKind::Mad)),
+        ("VARIANCE", has(FeatureKind::Variance)),
         ("ALL", flag(design.combine() == Combine::All)),
         ("LAST_SENT", flag(design.temporal().reference == Reference::LastSent)),
         ("BLANKS", flag(design.irrelevant() == Irrelevant::Zero)),
@@ -116,23 +124,51 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, u32)
         ("COUNT_BITS", design.count_bits()),
         ("EDGE_LEVEL_BITS", edge_level.map_or(design.pixel_bits() + 3, |edge| edge.level_bits())),
         ("POSITION_BITS", design.position_bits()),
-    ]
+        ("MAD_BITS", score_bits(design, FeatureKind::Mad)),
+        ("VARIANCE_BITS", score_bits(design, FeatureKind::Variance)),
+    ];
+    let mut wide = Vec::new();
+    if design.features().iter().any(|feature| !feature.kind().has_window()) {
+        list.push(("SUM_BITS", design.pixel_sum_bits()));
+    }
+    if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
+        let factor = mean.reciprocal.multiplier();
+        list.extend([
+            ("FRACTION", mean.fraction_bits),
+            ("DIVIDEND_BITS", mean.dividend_bits),
+            ("MEAN_BITS", mean.mean_bits),
+            ("FACTOR_BITS", bits_for(factor)),
+            ("SHIFT", mean.reciprocal.shift()),
+        ]);
+        wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
+    }
+    if let Some(variance) = design.features().iter().find_map(SpatialFeature::variance) {
+        list.extend([
+            ("SQUARE_SUM_BITS", variance.square_sum_bits),
+            ("PRODUCT_BITS", variance.product_bits),
+        ]);
+    }
+    let list = list.into_iter().map(|(name, value)| (name, value.to_string()));
+    list.chain(wide).collect()
 }
 
 /// What is connected to the threshold inputs of the core.
-fn thresholds(design: &Design) -> Vec<(&'static str, String)> {
-    let of = |role, kind, width: u32| match design.feature(kind) {
-        Some(_) => signal(design, role),
-        None => format!("{width}'d0"),
+fn thresholds(design: &Design) -> Vec<(String, String)> {
+    let mut list = vec![
+        ("temporal_level_i".to_owned(), signal(design, PortRole::TemporalLevel)),
+        ("temporal_min_i".to_owned(), signal(design, PortRole::TemporalMinCount)),
+    ];
+    let mut add = |name: String, role, kind, width: u32| {
+        let given = design.feature(kind).map(|_| signal(design, role));
+        list.push((name, given.unwrap_or_else(|| format!("{width}'d0"))));
     };
-    let (edge, corner) = (FeatureKind::Edge, FeatureKind::Corner);
-    let (pixel, count) = (design.pixel_bits(), design.count_bits());
-    vec![
-        ("edge_level_i", of(PortRole::Level(edge), edge, pixel + 3)),
-        ("corner_level_i", of(PortRole::Level(corner), corner, pixel)),
-        ("temporal_level_i", signal(design, PortRole::TemporalLevel)),
-        ("edge_min_i", of(PortRole::MinScore(edge), edge, count)),
-        ("corner_min_i", of(PortRole::MinScore(corner), corner, count)),
-        ("temporal_min_i", signal(design, PortRole::TemporalMinCount)),
-    ]
+    for (kind, width) in
+        [(FeatureKind::Edge, design.pixel_bits() + 3), (FeatureKind::Corner, design.pixel_bits())]
+    {
+        add(format!("{kind}_level_i"), PortRole::Level(kind), kind, width);
+    }
+    for &kind in FeatureKind::ALL {
+        add(format!("{kind}_min_i"), PortRole::MinScore(kind), kind, score_bits(design, kind));
+    }
+    list
 }

@@ -60,8 +60,15 @@ impl RasterTiming {
             Pipelining::Plain => (2 + 4 * median + feature, 4),
             Pipelining::Deep => (4 + 9 * median + 3 * feature, 6),
         };
-        let second_pass =
-            design.has_second_pass().then_some(SecondPass { after_store: 6, decision_latency: 5 });
+        let variance_latency = if has_variance { 3 } else { 0 };
+        let (pass_after_store, pass_to_decision) = match design.pipelining() {
+            Pipelining::Plain => (8, 4),
+            Pipelining::Deep => (9, 6),
+        };
+        let second_pass = design.has_second_pass().then_some(SecondPass {
+            after_store: pass_after_store + variance_latency,
+            decision_latency: pass_to_decision,
+        });
         let buffer_rows = if second_pass.is_some() { 3 } else { 2 };
         let last_sent = design.temporal().reference == Reference::LastSent;
         Self {
@@ -74,7 +81,7 @@ impl RasterTiming {
             region_words: design.region_pixels() / word_pixels,
             windows: median + feature,
             store_latency,
-            decision_latency: store_latency + after_store + if has_variance { 3 } else { 0 },
+            decision_latency: store_latency + after_store + variance_latency,
             buffer_rows,
             second_pass,
             waits_for_pending: last_sent && design.rows() <= buffer_rows,
