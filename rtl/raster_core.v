@@ -324,7 +324,7 @@ module raster_core #(
             assign hits = {corners, edges, changed};
         end else if (HITS > 0) begin : g_one
             assign hits = {EDGE ? edges : corners, changed};
-        end else begin : g_none
+        end else begin : g_changes
             assign hits = changed;
         end
     endgenerate
@@ -416,7 +416,7 @@ module raster_core #(
     // ---- Second pass
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
     localparam START_BITS = $clog2(BUFFER_WORDS);
-    localparam QUEUE_BITS = $clog2(2 * COLUMNS);
+    localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // all regions in the buffer may wait
     localparam JUDGED_BITS = VARIANCE_BITS + (HITS + 1) * COUNT_BITS;
     wire judged;  // all scores are there
     wire [MAD_BITS-1:0] judged_mad;
@@ -431,7 +431,7 @@ module raster_core #(
             wire enter;
             wire [JUDGED_BITS-1:0] entering;
             wire [START_BITS-1:0] start;
-            wire [1:0] unused_row;
+            wire [2:0] unused_row;
             wire unused_place;
             region_mean #(
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
@@ -550,7 +550,7 @@ module raster_core #(
     reg [START_BITS-1:0] store_place_q;
     reg store_end_q;
     reg fresh_row_q;  // the next word is the first of a row of regions
-    reg [1:0] stored_row_q;
+    reg [2:0] stored_row_q;
     wire store_row_end, store_region_bottom;
     raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS - 1)) u_store_places (
         .clk_i(clk_i), .data_i({row_end, region_bottom}), .data_o({store_row_end, store_region_bottom})
@@ -568,12 +568,12 @@ module raster_core #(
             store_place_q <= {START_BITS{1'b0}};
             store_end_q   <= 1'b0;
             fresh_row_q   <= 1'b0;
-            stored_row_q  <= 2'd0;
+            stored_row_q  <= 3'd0;
         end
     end
 
     // Where in the buffer and in the frame the region starts that is decided.
-    wire [1:0] decided_row;
+    wire [2:0] decided_row;
     wire [START_BITS-1:0] decided_start;
     wire [PLACE_BITS-1:0] decided_place;
 

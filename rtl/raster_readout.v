@@ -22,11 +22,11 @@ module raster_readout #(
     input  wire                     clk_i,           // clock, rising edge
     input  wire                     rst_i,           // synchronous reset, active high
     input  wire                     enter_i,         // a region enters the queue
-    input  wire [              1:0] row_i,           // its row of regions, modulo 4
+    input  wire [              2:0] row_i,           // its row of regions, modulo 8
     input  wire [  REGION_BITS-1:0] region_i,        // its number
     input  wire [   START_BITS-1:0] start_i,         // where in the buffer its first word is
     input  wire [   EXTRA_BITS-1:0] extra_i,         // what travels with it
-    input  wire [              1:0] stored_row_i,    // row of regions of the word that is stored at this edge, modulo 4
+    input  wire [              2:0] stored_row_i,    // row of regions of the word that is stored at this edge, modulo 8
     input  wire                     ready_i,         // what is on the port is taken
     output wire                     fetch_o,         // a word is fetched at this edge
     output wire [   START_BITS-1:0] place_o,         // where in the buffer it is
@@ -43,8 +43,8 @@ module raster_readout #(
     output wire                     idle_o           // after this edge nothing waits, is held, fetched or on the port
 );
 
-    localparam ENTRY_BITS = 2 + REGION_BITS + START_BITS + EXTRA_BITS;
-    localparam [1:0] AGE = BANKS;
+    localparam ENTRY_BITS = 3 + REGION_BITS + START_BITS + EXTRA_BITS;
+    localparam [2:0] AGE = BANKS;
 
     // The queue. Its oldest entry is read ahead.
     reg [QUEUE_BITS-1:0] enter_q, leave_q;
@@ -69,20 +69,22 @@ module raster_readout #(
         end
     end
 
-    wire [1:0] oldest_row = oldest[1:0];
-    wire [REGION_BITS-1:0] oldest_region = oldest[2+:REGION_BITS];
-    wire [START_BITS-1:0] oldest_start = oldest[2+REGION_BITS+:START_BITS];
-    wire [EXTRA_BITS-1:0] oldest_extra = oldest[2+REGION_BITS+START_BITS+:EXTRA_BITS];
-    wire oldest_stale = stored_row_i - oldest_row == AGE;
+    wire [2:0] oldest_row = oldest[2:0];
+    wire [REGION_BITS-1:0] oldest_region = oldest[3+:REGION_BITS];
+    wire [START_BITS-1:0] oldest_start = oldest[3+REGION_BITS+:START_BITS];
+    wire [EXTRA_BITS-1:0] oldest_extra = oldest[3+REGION_BITS+START_BITS+:EXTRA_BITS];
+    wire [2:0] oldest_age = stored_row_i - oldest_row;
+    wire oldest_stale = oldest_age >= AGE;
 
     // The region that is held.
     reg held_q;
-    reg [1:0] row_q;
+    reg [2:0] row_q;
     reg [REGION_BITS-1:0] held_region_q;
     reg [EXTRA_BITS-1:0] extra_q;
     wire [POSITION_BITS-1:0] position;
     wire last;
-    wire held_stale = held_q && stored_row_i - row_q == AGE;
+    wire [2:0] held_age = stored_row_i - row_q;
+    wire held_stale = held_q && held_age >= AGE;
     wire fetch = step_o && held_q && !held_stale;
     wire fetch_last = fetch && last;
 

@@ -15,7 +15,7 @@ module raster_start #(
     input  wire                  clk_i,    // clock, rising edge
     input  wire                  rst_i,    // synchronous reset, active high
     input  wire                  step_i,   // the next region is next
-    output reg  [           1:0] row_o,    // row of regions of this one, modulo 4, counted through all frames
+    output reg  [           2:0] row_o,    // row of regions of this one, modulo 8, counted through all frames
     output reg  [START_BITS-1:0] start_o,  // where in the buffer its first word is
     output wire [PLACE_BITS-1:0] place_o   // ... in the frame (FRAME)
 );
@@ -34,13 +34,13 @@ module raster_start #(
         if (step_i) begin
             column_q      <= last_column_q ? {COLUMN_BITS{1'b0}} : column_q + 1'b1;
             last_column_q <= column_q == BEFORE_LAST;
-            row_o         <= row_o + {1'b0, last_column_q};
+            row_o         <= row_o + {2'd0, last_column_q};
             start_o       <= start_o == LAST_START ? {START_BITS{1'b0}} : start_o + (last_column_q ? NEXT_ROW : NEXT);
         end
         if (rst_i) begin
             column_q      <= {COLUMN_BITS{1'b0}};
             last_column_q <= 1'b0;
-            row_o         <= 2'd0;
+            row_o         <= 3'd0;
             start_o       <= {START_BITS{1'b0}};
         end
     end
