@@ -42,12 +42,12 @@ module raster_control #(
     output wire frame_over_o      // at this edge a frame is over: the next may begin
 );
 
-    localparam [WORD_BITS-1:0] BEFORE_LAST_WORD = ROW_WORDS - 2;
-    localparam [WORD_BITS-1:0] BEFORE_LAST_TAKEN = TAKEN_WORDS - 2;
-    localparam [ROW_BITS-1:0] BEFORE_LAST_ROW = ROWS - 2;
-    localparam [ROW_BITS-1:0] BEFORE_LAST_TAKEN_ROW = TAKEN_ROWS - 2;
-    localparam [SIDE_BITS-1:0] BEFORE_LAST_SIDE = SIDE - 2;
-    localparam [SEGMENT_BITS-1:0] BEFORE_LAST_IN_SEGMENT = SEGMENT - 2;
+    localparam BEFORE_LAST_WORD = ROW_WORDS - 2;
+    localparam BEFORE_LAST_TAKEN = TAKEN_WORDS - 2;
+    localparam BEFORE_LAST_ROW = ROWS - 2;
+    localparam BEFORE_LAST_TAKEN_ROW = TAKEN_ROWS - 2;
+    localparam BEFORE_LAST_SIDE = SIDE - 2;
+    localparam BEFORE_LAST_IN_SEGMENT = SEGMENT - 2;
 
     // The word of the next advance: its place, and whether that is a last one.
     reg [WORD_BITS-1:0] word_q;
@@ -79,7 +79,7 @@ module raster_control #(
             always @(posedge clk_i) begin
                 if (step) begin
                     segment_q     <= segment_end_q ? {SEGMENT_BITS{1'b0}} : segment_q + 1'b1;
-                    segment_end_q <= segment_q == BEFORE_LAST_IN_SEGMENT;
+                    segment_end_q <= segment_q == BEFORE_LAST_IN_SEGMENT[SEGMENT_BITS-1:0];
                 end
                 if (rst_i || (step && frame_last)) begin
                     segment_q     <= {SEGMENT_BITS{1'b0}};
@@ -101,8 +101,8 @@ module raster_control #(
     always @(posedge clk_i) begin
         if (step) begin
             word_q    <= row_end_q ? {WORD_BITS{1'b0}} : word_q + 1'b1;
-            row_end_q <= word_q == BEFORE_LAST_WORD;
-            taken_end_q <= word_q == BEFORE_LAST_TAKEN;
+            row_end_q <= word_q == BEFORE_LAST_WORD[WORD_BITS-1:0];
+            taken_end_q <= word_q == BEFORE_LAST_TAKEN[WORD_BITS-1:0];
             unit_end_q        <= {unit_end_q[2:1], unit_end};
             old_segment_end_q <= {old_segment_end_q[2:1], segment_end};
             old_row_end_q     <= {old_row_end_q[2:1], row_end_q};
@@ -110,11 +110,11 @@ module raster_control #(
         if (next_row) begin
             row_q           <= row_q + 1'b1;
             top_row_q       <= 1'b0;
-            bottom_row_q    <= row_q == BEFORE_LAST_ROW;
-            taken_bottom_q  <= row_q == BEFORE_LAST_TAKEN_ROW;
+            bottom_row_q    <= row_q == BEFORE_LAST_ROW[ROW_BITS-1:0];
+            taken_bottom_q  <= row_q == BEFORE_LAST_TAKEN_ROW[ROW_BITS-1:0];
             side_q          <= region_bottom_q ? {SIDE_BITS{1'b0}} : side_q + 1'b1;
             region_top_q    <= region_bottom_q;
-            region_bottom_q <= side_q == BEFORE_LAST_SIDE;
+            region_bottom_q <= side_q == BEFORE_LAST_SIDE[SIDE_BITS-1:0];
             if (bottom_row_q) real_q <= 1'b0;
             if (taken_bottom_q) taken_row_q <= 1'b0;
             old_top_q           <= {old_top_q[1], top};

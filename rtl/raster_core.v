@@ -352,9 +352,9 @@ module raster_core #(
     raster_delay #(.WIDTH((HITS + 1) * COUNT_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
         .clk_i(clk_i), .data_i(counts), .data_o(settled_counts)
     );
-    integer lane;
     generate
         if (MAD || VARIANCE) begin : g_sums
+            integer lane;
             // Pixels and squares of a word, two clocks behind its center.
             localparam WORD_SUM_BITS = WIDTH + $clog2(LANES);
             localparam WORD_SQUARE_BITS = 2 * WIDTH + $clog2(LANES);
@@ -474,8 +474,8 @@ module raster_core #(
     endgenerate
 
     // ---- Decision
-    localparam [REGION_BITS-1:0] BEFORE_LAST = REGIONS - 2;
-    localparam [COUNT_BITS-1:0] ALL_PIXELS = SIDE * SIDE;
+    localparam BEFORE_LAST = REGIONS - 2;
+    localparam ALL_PIXELS = SIDE * SIDE;
     localparam [3:0] PRESENT = {VARIANCE != 0, MAD != 0, CORNER != 0, EDGE != 0};
     localparam EDGE_PLACE = HITS > 0 ? 1 : 0;
     reg [REGION_BITS-1:0] region_q;  // the region that is judged
@@ -483,7 +483,7 @@ module raster_core #(
     reg no_reference_q;              // in the first frame no region has one
     wire [REGION_BITS-1:0] next_region = last_region_q ? {REGION_BITS{1'b0}} : region_q + 1'b1;
     wire reference_valid;            // of that region (LAST_SENT)
-    wire [COUNT_BITS-1:0] temporal_count = !LAST_SENT || reference_valid ? judged_counts[COUNT_BITS-1:0] : ALL_PIXELS;
+    wire [COUNT_BITS-1:0] temporal_count = !LAST_SENT || reference_valid ? judged_counts[COUNT_BITS-1:0] : ALL_PIXELS[COUNT_BITS-1:0];
     wire [COUNT_BITS-1:0] edge_count = judged_counts[EDGE_PLACE*COUNT_BITS+:COUNT_BITS];
     wire [COUNT_BITS-1:0] corner_count = judged_counts[HITS*COUNT_BITS+:COUNT_BITS];
     wire [3:0] votes;
@@ -527,7 +527,7 @@ module raster_core #(
         variance_score_o <= decided_variance;
         if (judged) begin
             region_q      <= next_region;
-            last_region_q <= region_q == BEFORE_LAST;
+            last_region_q <= region_q == BEFORE_LAST[REGION_BITS-1:0];
             if (last_region_q) no_reference_q <= 1'b0;
         end
         if (rst_i) begin
@@ -542,7 +542,7 @@ module raster_core #(
     end
 
     // ---- Pixels that leave
-    localparam [START_BITS-1:0] LAST_PLACE = BUFFER_WORDS - 1;
+    localparam LAST_PLACE = BUFFER_WORDS - 1;
     localparam PLACE_BITS = LAST_SENT ? $clog2(ROW_WORDS * ROWS * SIDE) : 1;
     localparam EXTRA_BITS = LAST_SENT ? PLACE_BITS + 1 : 1;
 
@@ -558,7 +558,7 @@ module raster_core #(
     always @(posedge clk_i) begin
         if (store_step) begin
             store_place_q <= store_end_q ? {START_BITS{1'b0}} : store_place_q + 1'b1;
-            store_end_q   <= store_place_q == LAST_PLACE - 1'b1;
+            store_end_q   <= store_place_q == LAST_PLACE[START_BITS-1:0] - 1'b1;
         end
         if (arriving_step) begin
             fresh_row_q <= store_row_end && store_region_bottom;
@@ -666,12 +666,12 @@ module raster_core #(
             reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
             wire [PLACE_BITS-1:0] start = held_extra[PLACE_BITS-1:0];
             wire [PLACE_BITS-1:0] place = fetch_first ? start : next_place_q;
-            localparam [PLACE_BITS-1:0] JUMP = ROW_WORDS - SEGMENT + 1;
+            localparam JUMP = ROW_WORDS - SEGMENT + 1;
             always @(posedge clk_i) begin
                 fetched_q <= fetch && !rst_i;
                 if (fetch) begin
                     sent_place_q <= place;
-                    next_place_q <= place + (fetch_segment_end ? JUMP : {{(PLACE_BITS - 1) {1'b0}}, 1'b1});
+                    next_place_q <= place + (fetch_segment_end ? JUMP[PLACE_BITS-1:0] : {{(PLACE_BITS - 1) {1'b0}}, 1'b1});
                 end
             end
             assign reference_write = fetched_q;

@@ -37,7 +37,6 @@ module raster_counts #(
 
     localparam ROW_BITS = $clog2(SIDE + 1);                 // hits of a row of a region
     localparam KEPT_BITS = $clog2((SIDE - 1) * SIDE + 1);   // ... of all rows but the last
-    localparam [COLUMN_BITS-1:0] NO_COLUMN = 0;
 
     // The hits of a row of a region.
     reg [FEATURES*ROW_BITS-1:0] row_q;
@@ -46,25 +45,28 @@ module raster_counts #(
     reg [COLUMN_BITS-1:0] column_q, old_column_q;
 
     integer feature, lane;
-    reg [ROW_BITS-1:0] sum;
+    reg [FEATURES*ROW_BITS-1:0] row;
+    always @* begin
+        row = fresh_q ? {FEATURES * ROW_BITS{1'b0}} : row_q;
+        for (feature = 0; feature < FEATURES; feature = feature + 1)
+            for (lane = 0; lane < LANES; lane = lane + 1)
+                row[feature*ROW_BITS+:ROW_BITS] = row[feature*ROW_BITS+:ROW_BITS]
+                    + {{(ROW_BITS - 1) {1'b0}}, hits_i[feature*LANES+lane]};
+    end
+
     always @(posedge clk_i) begin
-        ended_q  <= step_i && segment_end_i && !rst_i;
-        top_q    <= region_top_i;
-        bottom_q <= region_bottom_i;
+        ended_q      <= step_i && segment_end_i && !rst_i;
+        top_q        <= region_top_i;
+        bottom_q     <= region_bottom_i;
         old_column_q <= column_q;
         if (step_i) begin
             fresh_q <= segment_end_i;
-            for (feature = 0; feature < FEATURES; feature = feature + 1) begin
-                sum = fresh_q ? {ROW_BITS{1'b0}} : row_q[feature*ROW_BITS+:ROW_BITS];
-                for (lane = 0; lane < LANES; lane = lane + 1)
-                    sum = sum + {{(ROW_BITS - 1) {1'b0}}, hits_i[feature*LANES+lane]};
-                row_q[feature*ROW_BITS+:ROW_BITS] <= sum;
-            end
-            if (segment_end_i) column_q <= row_end_i ? NO_COLUMN : column_q + 1'b1;
+            row_q   <= row;
+            if (segment_end_i) column_q <= row_end_i ? {COLUMN_BITS{1'b0}} : column_q + 1'b1;
         end
         if (rst_i) begin
             fresh_q  <= 1'b1;
-            column_q <= NO_COLUMN;
+            column_q <= {COLUMN_BITS{1'b0}};
         end
     end
 
@@ -81,7 +83,7 @@ module raster_counts #(
         .read_i(1'b1), .read_address_i(column_q), .data_o(above)
     );
 
-    wire [FEATURES*ROW_BITS-1:0] row;
+    wire [FEATURES*ROW_BITS-1:0] last_row;
     wire ended, top, bottom;
     wire [COLUMN_BITS-1:0] column;
     generate
@@ -96,13 +98,13 @@ module raster_counts #(
                 bottom_2q     <= bottom_q;
                 old_column_2q <= old_column_q;
             end
-            assign row = row_2q;
+            assign last_row = row_2q;
             assign ended = ended_2q;
             assign top = top_2q;
             assign bottom = bottom_2q;
             assign column = old_column_2q;
         end else begin : g_plain
-            assign row = row_q;
+            assign last_row = row_q;
             assign ended = ended_q;
             assign top = top_q;
             assign bottom = bottom_q;
@@ -116,7 +118,7 @@ module raster_counts #(
     genvar each;
     generate
         for (each = 0; each < FEATURES; each = each + 1) begin : g_feature
-            wire [COUNT_BITS-1:0] hits = {{(COUNT_BITS - ROW_BITS) {1'b0}}, row[each*ROW_BITS+:ROW_BITS]};
+            wire [COUNT_BITS-1:0] hits = {{(COUNT_BITS - ROW_BITS) {1'b0}}, last_row[each*ROW_BITS+:ROW_BITS]};
             wire [KEPT_BITS-1:0] others = top ? {KEPT_BITS{1'b0}} : above[each*KEPT_BITS+:KEPT_BITS];
             always @(posedge clk_i)
                 counts_q[each*COUNT_BITS+:COUNT_BITS] <= hits + {{(COUNT_BITS - KEPT_BITS) {1'b0}}, others};

@@ -17,11 +17,15 @@ module raster_delay #(
         if (DEPTH < 0) begin : g_depth DEPTH_must_be_0_or_more u_refused (); end
 
         if (DEPTH == 0) begin : g_none
+            wire unused_clock = clk_i;
             assign data_o = data_i;
+        end else if (DEPTH == 1) begin : g_one
+            reg [WIDTH-1:0] data_q;
+            always @(posedge clk_i) data_q <= data_i;
+            assign data_o = data_q;
         end else begin : g_some
-            reg  [WIDTH*DEPTH-1:0] line_q;
-            wire [WIDTH*(DEPTH+1)-1:0] line = {line_q, data_i};
-            always @(posedge clk_i) line_q <= line[WIDTH*DEPTH-1:0];
+            reg [WIDTH*DEPTH-1:0] line_q;
+            always @(posedge clk_i) line_q <= {line_q[WIDTH*(DEPTH-1)-1:0], data_i};
             assign data_o = line_q[WIDTH*(DEPTH-1)+:WIDTH];
         end
     endgenerate

@@ -14,7 +14,7 @@ module raster_line #(
     output wire [WORD_BITS-1:0] word_o   // the one of ROW_WORDS + 1 steps ago
 );
 
-    localparam [ADDRESS_BITS-1:0] BEFORE_LAST = ROW_WORDS - 2;
+    localparam BEFORE_LAST = ROW_WORDS - 2;
 
     reg [ADDRESS_BITS-1:0] place_q, old_place_q;
     reg at_end_q, step_q;
@@ -26,7 +26,7 @@ module raster_line #(
         old_place_q <= place_q;
         if (step_i) begin
             place_q  <= at_end_q ? {ADDRESS_BITS{1'b0}} : place_q + 1'b1;
-            at_end_q <= place_q == BEFORE_LAST;
+            at_end_q <= place_q == BEFORE_LAST[ADDRESS_BITS-1:0];
         end
         if (rst_i) begin
             place_q  <= {ADDRESS_BITS{1'b0}};

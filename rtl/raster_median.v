@@ -145,7 +145,6 @@ module raster_median #(
                 wire [WIDTH-1:0] a = columns[lane*COLUMN+level*WIDTH+:WIDTH];
                 wire [WIDTH-1:0] b = columns[(lane+1)*COLUMN+level*WIDTH+:WIDTH];
                 wire [WIDTH-1:0] c = columns[(lane+2)*COLUMN+level*WIDTH+:WIDTH];
-                wire no_left = lane == 0 && merge_left_q;
                 wire no_right = lane == LANES - 1 && merge_right_q;
                 wire earlier;
                 if (lane == 0) begin : g_kept
@@ -162,7 +161,7 @@ module raster_median #(
                     // The middle one of three is b if the comparisons of neighbors end alike, or in ab alone.
                     assign next_above[3*lane+level]  = b > c;
                     assign right_above[3*lane+level] =
-                        no_left || (no_right ? earlier : next_above[3*lane+level]);
+                        (lane == 0 && merge_left_q) || (no_right ? earlier : next_above[3*lane+level]);
                     assign skip_above[3*lane+level]  = {1'b0, a} > {no_right, c};
                 end else begin : g_high
                     assign next_above[3*lane+level]  = {1'b0, b} > {no_right, c};

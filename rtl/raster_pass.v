@@ -102,16 +102,22 @@ module raster_pass #(
     reg [SUM_BITS-1:0] sum_q;
     reg valid_q, first_q, last_q, valid_2q, first_2q, last_2q, done_q;
     integer lane;
+    reg [LANES*MEAN_BITS-1:0] deviation;
     reg [MEAN_BITS-1:0] scaled;
     reg [TERM_BITS-1:0] term;
-    always @(posedge clk_i) begin
+    always @* begin
+        deviation = {LANES * MEAN_BITS{1'b0}};
         term = {TERM_BITS{1'b0}};
         for (lane = 0; lane < LANES; lane = lane + 1) begin
             scaled = {{(MEAN_BITS - WIDTH) {1'b0}}, word_i[lane*WIDTH+:WIDTH]} << FRACTION;
-            deviation_q[lane*MEAN_BITS+:MEAN_BITS] <= scaled < mean ? mean - scaled : scaled - mean;
+            deviation[lane*MEAN_BITS+:MEAN_BITS] = scaled < mean ? mean - scaled : scaled - mean;
             term = term + {{(TERM_BITS - MEAN_BITS) {1'b0}}, deviation_q[lane*MEAN_BITS+:MEAN_BITS]};
         end
-        term_q <= term;
+    end
+
+    always @(posedge clk_i) begin
+        deviation_q <= deviation;
+        term_q      <= term;
         {valid_q, first_q, last_q}    <= {word_valid && !rst_i, word_first, word_last};
         {valid_2q, first_2q, last_2q} <= {valid_q && !rst_i, first_q, last_q};
         done_q <= valid_2q && last_2q && !rst_i;

@@ -13,12 +13,16 @@ module raster_pulse #(
 
     generate
         if (DEPTH == 0) begin : g_none
+            wire unused_inputs = clk_i || rst_i;
             assign bit_o = bit_i;
+        end else if (DEPTH == 1) begin : g_one
+            reg bit_q;
+            always @(posedge clk_i) bit_q <= bit_i && !rst_i;
+            assign bit_o = bit_q;
         end else begin : g_some
-            reg [DEPTH:1] bits_q;
-            wire [DEPTH:0] bits = {bits_q, bit_i};
-            always @(posedge clk_i) bits_q <= rst_i ? {DEPTH{1'b0}} : bits[DEPTH-1:0];
-            assign bit_o = bits_q[DEPTH];
+            reg [DEPTH-1:0] bits_q;
+            always @(posedge clk_i) bits_q <= rst_i ? {DEPTH{1'b0}} : {bits_q[DEPTH-2:0], bit_i};
+            assign bit_o = bits_q[DEPTH-1];
         end
     endgenerate
 

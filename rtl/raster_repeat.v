@@ -16,10 +16,10 @@ module raster_repeat #(
     output wire [WORD_BITS-1:0] word_o     // the word
 );
 
-    localparam [ADDRESS_BITS-1:0] LAST = ROW_WORDS - 1;
+    localparam LAST = ROW_WORDS - 1;
 
     reg [ADDRESS_BITS-1:0] place_q;
-    wire [ADDRESS_BITS-1:0] next = place_q == LAST ? {ADDRESS_BITS{1'b0}} : place_q + 1'b1;
+    wire [ADDRESS_BITS-1:0] next = place_q == LAST[ADDRESS_BITS-1:0] ? {ADDRESS_BITS{1'b0}} : place_q + 1'b1;
     wire [WORD_BITS-1:0] above;
 
     always @(posedge clk_i) begin

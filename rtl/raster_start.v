@@ -21,11 +21,11 @@ module raster_start #(
 );
 
     localparam COLUMN_BITS = $clog2(COLUMNS);
-    localparam [COLUMN_BITS-1:0] BEFORE_LAST = COLUMNS - 2;
+    localparam BEFORE_LAST = COLUMNS - 2;
     localparam ROW_WORDS = COLUMNS * SEGMENT;
-    localparam [START_BITS-1:0] LAST_START = (BANKS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
-    localparam [START_BITS-1:0] NEXT = SEGMENT;
-    localparam [START_BITS-1:0] NEXT_ROW = SEGMENT + (SIDE - 1) * ROW_WORDS;
+    localparam LAST_START = (BANKS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
+    localparam NEXT = SEGMENT;
+    localparam NEXT_ROW = SEGMENT + (SIDE - 1) * ROW_WORDS;
 
     reg [COLUMN_BITS-1:0] column_q;
     reg last_column_q;
@@ -33,9 +33,9 @@ module raster_start #(
     always @(posedge clk_i) begin
         if (step_i) begin
             column_q      <= last_column_q ? {COLUMN_BITS{1'b0}} : column_q + 1'b1;
-            last_column_q <= column_q == BEFORE_LAST;
+            last_column_q <= column_q == BEFORE_LAST[COLUMN_BITS-1:0];
             row_o         <= row_o + {2'd0, last_column_q};
-            start_o       <= start_o == LAST_START ? {START_BITS{1'b0}} : start_o + (last_column_q ? NEXT_ROW : NEXT);
+            start_o       <= start_o == LAST_START[START_BITS-1:0] ? {START_BITS{1'b0}} : start_o + (last_column_q ? NEXT_ROW[START_BITS-1:0] : NEXT[START_BITS-1:0]);
         end
         if (rst_i) begin
             column_q      <= {COLUMN_BITS{1'b0}};
@@ -47,14 +47,14 @@ module raster_start #(
 
     generate
         if (FRAME) begin : g_frame
-            localparam [PLACE_BITS-1:0] LAST_PLACE = (ROWS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
-            localparam [PLACE_BITS-1:0] STEP = SEGMENT;
-            localparam [PLACE_BITS-1:0] ROW_STEP = SEGMENT + (SIDE - 1) * ROW_WORDS;
+            localparam LAST_PLACE = (ROWS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
+            localparam STEP = SEGMENT;
+            localparam ROW_STEP = SEGMENT + (SIDE - 1) * ROW_WORDS;
             reg [PLACE_BITS-1:0] place_q;
             always @(posedge clk_i) begin
                 if (rst_i) place_q <= {PLACE_BITS{1'b0}};
                 else if (step_i)
-                    place_q <= place_q == LAST_PLACE ? {PLACE_BITS{1'b0}} : place_q + (last_column_q ? ROW_STEP : STEP);
+                    place_q <= place_q == LAST_PLACE[PLACE_BITS-1:0] ? {PLACE_BITS{1'b0}} : place_q + (last_column_q ? ROW_STEP[PLACE_BITS-1:0] : STEP[PLACE_BITS-1:0]);
             end
             assign place_o = place_q;
         end else begin : g_none

@@ -19,7 +19,7 @@ module raster_store #(
     input  wire [   WORD_BITS-1:0] word_i        // that word
 );
 
-    localparam [ADDRESS_BITS-1:0] BEFORE_LAST = WORDS - 2;
+    localparam BEFORE_LAST = WORDS - 2;
 
     reg [ADDRESS_BITS-1:0] read_q;
     reg read_end_q;
@@ -28,7 +28,7 @@ module raster_store #(
     always @(posedge clk_i) begin
         if (read_i) begin
             read_q     <= read_end_q ? {ADDRESS_BITS{1'b0}} : read_q + 1'b1;
-            read_end_q <= read_q == BEFORE_LAST;
+            read_end_q <= read_q == BEFORE_LAST[ADDRESS_BITS-1:0];
         end
         if (rst_i) begin
             read_q     <= {ADDRESS_BITS{1'b0}};
@@ -46,7 +46,7 @@ module raster_store #(
             always @(posedge clk_i) begin
                 if (write_i) begin
                     write_q     <= write_end_q ? {ADDRESS_BITS{1'b0}} : write_q + 1'b1;
-                    write_end_q <= write_q == BEFORE_LAST;
+                    write_end_q <= write_q == BEFORE_LAST[ADDRESS_BITS-1:0];
                 end
                 if (rst_i) begin
                     write_q     <= {ADDRESS_BITS{1'b0}};

@@ -22,10 +22,10 @@ module raster_walk #(
 );
 
     localparam SEGMENT_BITS = SEGMENT > 1 ? $clog2(SEGMENT) : 1;
-    localparam [POSITION_BITS-1:0] LAST_POSITION = SIDE * SIDE - LANES;
-    localparam [SEGMENT_BITS-1:0] LAST_IN_SEGMENT = SEGMENT - 1;
-    localparam [PLACE_BITS-1:0] JUMP = ROW_WORDS - SEGMENT + 1;
-    localparam [PLACE_BITS-1:0] NEXT = 1;
+    localparam LAST_POSITION = SIDE * SIDE - LANES;
+    localparam LAST_IN_SEGMENT = SEGMENT - 1;
+    localparam JUMP = ROW_WORDS - SEGMENT + 1;
+    localparam NEXT = 1;
 
     reg [PLACE_BITS-1:0] place_q;
     reg [POSITION_BITS-1:0] position_q;
@@ -37,7 +37,7 @@ module raster_walk #(
             position_q   <= {POSITION_BITS{1'b0}};
             in_segment_q <= {SEGMENT_BITS{1'b0}};
         end else if (step_i) begin
-            place_q      <= place_q + (segment_end_o ? JUMP : NEXT);
+            place_q      <= place_q + (segment_end_o ? JUMP[PLACE_BITS-1:0] : NEXT[PLACE_BITS-1:0]);
             position_q   <= position_q + LANES[POSITION_BITS-1:0];
             in_segment_q <= segment_end_o ? {SEGMENT_BITS{1'b0}} : in_segment_q + 1'b1;
         end
@@ -46,8 +46,8 @@ module raster_walk #(
     assign place_o = place_q;
     assign position_o = position_q;
     assign first_o = position_q == {POSITION_BITS{1'b0}};
-    assign segment_end_o = SEGMENT == 1 || in_segment_q == LAST_IN_SEGMENT;
-    assign last_o = position_q == LAST_POSITION;
+    assign segment_end_o = SEGMENT == 1 || in_segment_q == LAST_IN_SEGMENT[SEGMENT_BITS-1:0];
+    assign last_o = position_q == LAST_POSITION[POSITION_BITS-1:0];
 
 endmodule
 

@@ -30,7 +30,6 @@ module raster_window #(
         if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
     endgenerate
 
-    localparam LAST = ROW_WORDS - 1;
     localparam BEFORE_LAST = ROW_WORDS - 2;
 
     // Where in the row: any place will do to begin with, as nothing of an earlier frame is ever seen.
