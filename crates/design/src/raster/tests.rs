@@ -23,19 +23,19 @@ fn a_frame_of_full_hd_takes_what_the_page_says() {
     let timing = RasterTiming::of(&design);
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (1920, 1920, 2));
     assert_eq!((timing.region_row_words, timing.region_words), (8, 64));
-    assert_eq!((timing.store_latency, timing.decision_latency), (8, 12));
+    assert_eq!((timing.store_latency, timing.decision_latency), (7, 11));
     assert_eq!((timing.buffer_rows, timing.second_pass), (2, None));
     assert_eq!((timing.words(), timing.tail_delay()), (2_073_600, 3_842));
     assert_eq!((timing.advances(), timing.flush_clocks()), (2_077_442, 3_842));
-    assert_eq!(timing.clocks_per_frame(), 2_077_454);
+    assert_eq!(timing.clocks_per_frame(), 2_077_453);
     let answers = design.timing();
-    assert_eq!(answers.clocks_per_frame(), 2_077_454);
+    assert_eq!(answers.clocks_per_frame(), 2_077_453);
     assert_eq!(answers.pixels_per_frame(), 2_073_600);
     let departure = answers.departure();
-    assert_eq!((departure.take_clocks, departure.decision_clocks), (2_073_600, 3_854));
-    // The first region of the last row is decided at 3842 - 1920 + 8 + 12 = 1942. Its words are on the
-    // ports from 1947 on, and 15,360 words follow each other.
-    assert_eq!(departure.forward_clocks, 1_947 + 15_360 - 1);
+    assert_eq!((departure.take_clocks, departure.decision_clocks), (2_073_600, 3_853));
+    // The first region of the last row is decided at 3842 - 1920 + 8 + 11 = 1941. Its words are on the
+    // ports from 1946 on, and 15,360 words follow each other.
+    assert_eq!(departure.forward_clocks, 1_946 + 15_360 - 1);
     assert_eq!((departure.decision_frames, departure.forward_frames), (0, 0));
     assert_eq!((departure.slot_clocks, departure.alone), (0, false));
 }
@@ -53,16 +53,16 @@ fn the_second_pass_of_a_ragged_frame() {
     ]);
     let timing = RasterTiming::of(&design);
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (16, 16, 0));
-    assert_eq!((timing.store_latency, timing.decision_latency), (1, 10));
-    assert_eq!(timing.second_pass, Some(SecondPass { after_store: 6, decision_latency: 5 }));
+    assert_eq!((timing.store_latency, timing.decision_latency), (4, 13));
+    assert_eq!(timing.second_pass, Some(SecondPass { after_store: 12, decision_latency: 6 }));
     assert_eq!((timing.buffer_rows, timing.region_words), (3, 16));
     assert_eq!((timing.advances(), timing.flush_clocks()), (640, 48));
-    assert_eq!((timing.taken(), timing.clocks_per_frame()), (37 * 16, 650));
-    // The last word of the first region of the last row comes at T0 + 48 - 14, its pass begins 7 later;
-    // the eight passes take 128 clocks, and the decision comes 5 after the last edge.
+    assert_eq!((timing.taken(), timing.clocks_per_frame()), (37 * 16, 653));
+    // The last word of the first region of the last row comes at T0 + 48 - 14, its pass begins 16 later;
+    // the eight passes take 128 clocks, and the decision comes 6 after the last edge.
     let departure = design.timing().departure();
-    assert_eq!(departure.decision_clocks, 34 + 7 + 127 + 5);
-    assert_eq!(departure.forward_clocks, 173 + 5 + 15);
+    assert_eq!(departure.decision_clocks, 34 + 16 + 127 + 6);
+    assert_eq!(departure.forward_clocks, 183 + 5 + 15);
 }
 
 /// 50x20 pixels in words of two: 7x3 regions; three words of a row and four rows are made by the core.
@@ -76,12 +76,12 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
     ];
     let timing = RasterTiming::of(&design(&overrides));
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (28, 25, 1));
-    assert_eq!((timing.store_latency, timing.decision_latency), (4, 11));
+    assert_eq!((timing.store_latency, timing.decision_latency), (6, 13));
     assert_eq!((timing.advances(), timing.flush_clocks()), (24 * 28 + 29, 3 + 4 * 28 + 29));
     let departure = design(&overrides).timing().departure();
-    assert_eq!((departure.take_clocks, departure.decision_clocks), (19 * 28 + 25, 144 + 11));
-    assert_eq!(timing.clocks_per_frame(), 557 + 144 + 11);
-    assert_eq!(timing.edges_to_ready(), 155);
+    assert_eq!((departure.take_clocks, departure.decision_clocks), (19 * 28 + 25, 144 + 13));
+    assert_eq!(timing.clocks_per_frame(), 557 + 144 + 13);
+    assert_eq!(timing.edges_to_ready(), 157);
 }
 
 #[test]
@@ -95,11 +95,11 @@ fn latencies_follow_filter_features_and_pipelining() {
         (timing.store_latency, timing.decision_latency)
     };
     for (filter, feature, plain, deep) in [
-        ("none", "mad", (1, 5), (1, 7)),
-        ("none", "corner", (5, 9), (8, 14)),
-        ("median3x3", "mad", (4, 8), (9, 15)),
-        ("median3x3", "edge", (8, 12), (16, 22)),
-        ("none", "variance", (1, 8), (1, 10)),
+        ("none", "mad", (2, 6), (4, 10)),
+        ("none", "corner", (3, 7), (7, 13)),
+        ("median3x3", "mad", (6, 10), (13, 19)),
+        ("median3x3", "edge", (7, 11), (16, 22)),
+        ("none", "variance", (2, 9), (4, 13)),
     ] {
         assert_eq!(latencies(filter, feature, "plain"), plain, "{filter} {feature}");
         assert_eq!(latencies(filter, feature, "deep"), deep, "{filter} {feature}");

@@ -138,10 +138,9 @@ impl<'a> Oracle<'a> {
         if !self.recipe.has_mad() {
             return edge + self.recipe.decided();
         }
-        let first =
-            (edge + self.recipe.stored() + 6 + self.recipe.misread.pass).max(self.passed + 1);
+        let first = (edge + self.recipe.passing()).max(self.passed + 1);
         self.passed = first + self.recipe.region_words() - 1;
-        self.passed + 5
+        self.passed + self.recipe.decided_after_pass()
     }
 
     /// Looks at all edges up to that one that have not been looked at.

@@ -91,14 +91,28 @@ impl RasterRecipe {
     /// S.
     pub(crate) fn stored(&self) -> i64 {
         let (m, f) = (self.median(), self.window());
-        self.misread.stored + if self.deep { 1 + 8 * m + 7 * f } else { 1 + 3 * m + 4 * f }
+        self.misread.stored + if self.deep { 4 + 9 * m + 3 * f } else { 2 + 4 * m + f }
     }
 
     /// D.
     pub(crate) fn decided(&self) -> i64 {
-        let variance = if self.base.has("variance") { 3 } else { 0 };
         let stored = self.stored() - self.misread.stored;
-        self.misread.decided + stored + if self.deep { 6 } else { 4 } + variance
+        self.misread.decided + stored + if self.deep { 6 } else { 4 } + self.of_variance()
+    }
+
+    /// Clocks that the variance takes more.
+    fn of_variance(&self) -> i64 {
+        if self.base.has("variance") { 3 } else { 0 }
+    }
+
+    /// From e(a(i)) to the first edge of the second pass, if it does not wait.
+    pub(crate) fn passing(&self) -> i64 {
+        self.misread.pass + self.stored() + if self.deep { 9 } else { 8 } + self.of_variance()
+    }
+
+    /// From the last edge of the second pass to the decision.
+    pub(crate) fn decided_after_pass(&self) -> i64 {
+        if self.deep { 6 } else { 4 }
     }
 
     /// n/K.
