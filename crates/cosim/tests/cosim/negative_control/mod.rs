@@ -4,6 +4,7 @@
 
 mod faults;
 mod planted;
+mod raster_faults;
 mod serial_faults;
 
 use crate::common::{agrees, cosimulate, directed, in_parallel, simulators};
@@ -73,6 +74,16 @@ fn every_planted_fault_of_the_serial_organization_is_caught() {
     all_are_caught(serial_faults::FAULTS);
 }
 
+#[test]
+fn every_planted_fault_of_the_raster_organization_is_caught() {
+    all_are_caught(raster_faults::FAULTS);
+}
+
+/// The faults of every organization.
+fn all_faults() -> impl Iterator<Item = &'static Fault> {
+    [faults::FAULTS, serial_faults::FAULTS, raster_faults::FAULTS].into_iter().flatten()
+}
+
 /// Else a fault would be caught that is none.
 #[test]
 fn every_design_passes_without_a_fault() {
@@ -81,7 +92,7 @@ fn every_design_passes_without_a_fault() {
     }
     let output = tempfile::tempdir().unwrap();
     let mut designs = Vec::new();
-    for fault in faults::FAULTS.iter().chain(serial_faults::FAULTS) {
+    for fault in all_faults() {
         if !designs.contains(&fault.design) {
             designs.push(fault.design);
         }
@@ -98,12 +109,11 @@ fn every_design_passes_without_a_fault() {
 /// A module that nobody has thought of needs faults of its own.
 #[test]
 fn every_module_has_a_fault() {
-    let all = || faults::FAULTS.iter().chain(serial_faults::FAULTS);
-    let covered: BTreeSet<&str> = all().map(|fault| fault.module).collect();
+    let covered: BTreeSet<&str> = all_faults().map(|fault| fault.module).collect();
     let modules = foveate_emit::LEAVES.iter().map(|leaf| leaf.name).chain(["rpu", "rcm"]);
     let missing: Vec<&str> = modules.filter(|module| !covered.contains(module)).collect();
     assert!(missing.is_empty(), "no fault is planted in {missing:?}");
-    let kinds: BTreeSet<&str> = all().map(|fault| fault.what).collect();
+    let kinds: BTreeSet<&str> = all_faults().map(|fault| fault.what).collect();
     assert_eq!(kinds, BTreeSet::from(["constant", "index", "operator", "reset", "width"]));
 }
 

@@ -48,6 +48,15 @@ pub(crate) enum Planted {
     SerialMany,
     /// Serial: median, edges and corners, thresholds built in.
     SerialConstant,
+    /// Raster: the paper's scores, in a frame that the core completes on the right and below.
+    RasterPaper,
+    /// Raster: words of two pixels, edges and corners, raw pixels that leave, the pixels last sent, and few
+    /// rows of regions, so that frames wait; more registers.
+    RasterSent,
+    /// Raster: both moments, with a second pass, and no window.
+    RasterMoments,
+    /// Raster: the pixels last sent, of regions that may be lost.
+    RasterLost,
 }
 
 impl Planted {
@@ -116,6 +125,26 @@ impl Planted {
                  feature = \"corner\"\n[hardware]\norganization = \"serial\"\n\
                  thresholds = \"constant\"\n"
             }
+            Self::RasterPaper => {
+                "[frame]\nwidth = 13\nheight = 14\n[region]\nsize = 4\nneighborhood = \"shared\"\n\
+                 [hardware]\norganization = \"raster\"\n"
+            }
+            Self::RasterSent => {
+                "[frame]\nwidth = 31\nheight = 7\n[region]\nsize = 4\n[[spatial]]\n\
+                 feature = \"edge\"\n[[spatial]]\nfeature = \"corner\"\n[decision]\n\
+                 combine = \"all\"\n[temporal]\nreference = \"last-sent\"\n[render]\n\
+                 payload = \"raw\"\nirrelevant = \"zero\"\n[hardware]\norganization = \"raster\"\n\
+                 pixels_per_clock = 2\npipelining = \"deep\"\n"
+            }
+            Self::RasterLost => {
+                "[frame]\nwidth = 16\nheight = 16\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+                 [temporal]\nreference = \"last-sent\"\n[hardware]\norganization = \"raster\"\n"
+            }
+            Self::RasterMoments => {
+                "[frame]\nwidth = 16\nheight = 15\n[region]\nsize = 4\n[denoise]\n\
+                 filter = \"none\"\n[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 2\n\
+                 [[spatial]]\nfeature = \"variance\"\n[hardware]\norganization = \"raster\"\n"
+            }
         }
     }
 
@@ -137,12 +166,24 @@ impl Planted {
         }
     }
 
+    /// Whether the frame is that of its configuration, ragged, and not a grid.
+    fn has_frame(self) -> bool {
+        matches!(
+            self,
+            Self::RasterPaper | Self::RasterSent | Self::RasterMoments | Self::RasterLost
+        )
+    }
+
     pub(crate) fn design(self) -> Design {
-        design(&Config::from_toml(self.toml()).unwrap(), self.grid())
+        let config = Config::from_toml(self.toml()).unwrap();
+        if self.has_frame() { config.validate().unwrap() } else { design(&config, self.grid()) }
     }
 
     /// Where a fault of a module is looked for.
     pub(crate) fn level(self, module: &str) -> Level {
+        if self.has_frame() {
+            return Level::Full;
+        }
         match (self.grid(), module) {
             ((1, 1), "rcm") => Level::Rcm { columns: 3, rows: 2 },
             ((1, 1), _) => Level::Rpu,

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The faults of the raster organization.
+//!
+//! The flags of the lower border change nothing in frames that the core completes below: the rows that it adds
+//! repeat the last one.
+
+use super::faults::{Fault, fault};
+use super::planted::Planted::{
+    RasterLost as Lost, RasterMoments as Moments, RasterPaper as Paper, RasterSent as Sent,
+};
+
+/// Every fault, by module.
+#[rustfmt::skip]
+pub(crate) const FAULTS: &[Fault] = &[
+    fault("constant", Paper, "raster_memory", "if (write_i) words_q", "words_q"),
+    fault("index", Paper, "raster_memory", "words_q[read_address_i]", "words_q[write_address_i]"),
+    fault("width", Paper, "raster_memory", "<= data_i;", "<= {1'b0, data_i[WIDTH-2:0]};"),
+    fault("index", Sent, "raster_memory", "assign data_o = output_q;", "assign data_o = read_q;"),
+
+    fault("index", Paper, "raster_delay", "line_q[WIDTH*(DEPTH-1)+:WIDTH]", "line_q[WIDTH*(DEPTH-2)+:WIDTH]"),
+    fault("index", Paper, "raster_pulse", "bits_q[DEPTH-1]", "bits_q[DEPTH-2]"),
+    fault("reset", Paper, "raster_pulse", "rst_i ? {DEPTH{1'b0}} : {bits_q", "{bits_q"),
+
+    fault("index", Sent, "raster_pad", "word_i[(REST-1)*WIDTH+:WIDTH]", "word_i[REST*WIDTH+:WIDTH]"),
+    fault("constant", Paper, "raster_pad", "pad_i ? {LANES{last_q}} : filled", "filled"),
+    fault("operator", Paper, "raster_pad", "step_i && !pad_i", "step_i"),
+
+    fault("constant", Paper, "raster_control", "BEFORE_LAST_WORD = ROW_WORDS - 2;", "BEFORE_LAST_WORD = ROW_WORDS - 3;"),
+    fault("operator", Paper, "raster_control", "own_q || (ready_o && valid_i)", "own_q || valid_i"),
+    fault("index", Paper, "raster_control", "left_o = unit_end_q[3:2]", "left_o = unit_end_q[2:1]"),
+    fault("index", Paper, "raster_control", "top_o = {top_2q, old_top_q[1]}", "top_o = {old_top_q[2], old_top_q[1]}"),
+    fault("constant", Sent, "raster_control", "&& !busy_i;", ";"),
+    fault("reset", Paper, "raster_control", "            taken_row_q     <= 1'b1;\n", ""),
+
+    fault("operator", Paper, "raster_window", "upper_o = top_q ? middle : above", "upper_o = above"),
+    fault("operator", Paper, "raster_window", "REPEATS && repeat_q ? middle : word_q", "word_q"),
+    fault("index", Paper, "raster_window", "write_place = old_place_q;", "write_place = place_q;"),
+    fault("constant", Sent, "raster_window", "bottom_2q ? middle : incoming", "incoming"),
+
+    fault("index", Sent, "raster_line", ".write_address_i(old_place_q)", ".write_address_i(place_q)"),
+    fault("constant", Sent, "raster_line", "BEFORE_LAST = ROW_WORDS - 2", "BEFORE_LAST = ROW_WORDS - 3"),
+
+    fault("operator", Paper, "raster_median", "ab ? (bc ? c : b) : (ac ? c : a)", "ab ? (bc ? c : b) : (ac ? a : c)"),
+    fault("constant", Paper, "raster_median", "next_above[3*LANES-2] || merge_right_q", "next_above[3*LANES-2]"),
+    fault("width", Paper, "raster_median", "{no_right, b} > {1'b0, c}", "b > c"),
+    fault("index", Sent, "raster_median", "earlier = next_above[3*(lane-1)+level]", "earlier = last_q[level]"),
+
+    fault("operator", Paper, "raster_edge", "{1'b0, lower_2q[(lane+1)*FOUR+:FOUR]} - {", "{1'b0, lower_2q[(lane+1)*FOUR+:FOUR]} + {"),
+    fault("index", Paper, "raster_edge", "left_2q ? {first_upper_2q, 1'b0} : upper_2q[FOUR-1:0]", "upper_2q[FOUR-1:0]"),
+    fault("operator", Paper, "raster_edge", "hit_q <= sum_above || diff_above;", "hit_q <= sum_above;"),
+    fault("width", Paper, "raster_edge", "level_i[LEVEL_BITS-1:1]", "{1'b0, level_i[LEVEL_BITS-2:1]}"),
+    fault("operator", Sent, "raster_edge", "sum_above_4q || diff_above_4q", "diff_above_4q"),
+
+    fault("operator", Sent, "raster_corner", "neighbor > high[WIDTH-1:0]", "neighbor >= high[WIDTH-1:0]"),
+    fault("index", Sent, "raster_corner", "&& brighter[(i+3)%8] && brighter[(i+4)%8]", "&& brighter[(i+3)%8]"),
+    fault("constant", Sent, "raster_corner", "on_left ? flags[1] : flags[0]", "flags[0]"),
+
+    fault("operator", Paper, "raster_change", "word_i[lane*WIDTH+:WIDTH]} - {", "word_i[lane*WIDTH+:WIDTH]} + {"),
+    fault("width", Paper, "raster_change", "{1'b0, word_i[lane*WIDTH+:WIDTH]}", "{2'b0, word_i[lane*WIDTH+:WIDTH-1]}"),
+
+    fault("operator", Paper, "raster_counts", "top ? {KEPT_BITS{1'b0}} : above", "above"),
+    fault("reset", Paper, "raster_counts", "            fresh_q  <= 1'b1;\n", ""),
+    fault("index", Sent, "raster_counts", "hits_i[feature*LANES+lane]", "hits_i[feature*LANES]"),
+    fault("width", Paper, "raster_counts", "$clog2((SIDE - 1) * SIDE + 1);", "$clog2((SIDE - 1) * SIDE + 1) - 1;"),
+
+    fault("constant", Paper, "raster_store", "BEFORE_LAST = WORDS - 2", "BEFORE_LAST = WORDS - 3"),
+    fault("index", Sent, "raster_store", "write_place = place_i;", "write_place = read_q;"),
+    fault("reset", Paper, "raster_store", "            read_q     <= {ADDRESS_BITS{1'b0}};\n", ""),
+
+    fault("constant", Paper, "raster_start", "NEXT_ROW = SEGMENT + (SIDE - 1) * ROW_WORDS", "NEXT_ROW = SEGMENT + SIDE * ROW_WORDS"),
+    fault("constant", Sent, "raster_start", "ROW_STEP = SEGMENT + (SIDE - 1) * ROW_WORDS", "ROW_STEP = SEGMENT + SIDE * ROW_WORDS"),
+    fault("reset", Paper, "raster_start", "            start_o       <= {START_BITS{1'b0}};\n", ""),
+
+    fault("operator", Lost, "raster_valid", "(decided_bit_q ^ lost_bit_q)", "decided_bit_q"),
+    fault("reset", Sent, "raster_valid", " && !none_i;", ";"),
+
+    fault("constant", Paper, "raster_walk", "JUMP = ROW_WORDS - SEGMENT + 1", "JUMP = ROW_WORDS - SEGMENT"),
+    fault("constant", Sent, "raster_walk", "LAST_POSITION = SIDE * SIDE - LANES", "LAST_POSITION = SIDE * SIDE - 2 * LANES"),
+    fault("index", Moments, "raster_walk", "if (begin_i) begin\n            place_q      <= start_i;", "if (begin_i) begin\n            place_q      <= place_q;"),
+
+    fault("operator", Moments, "raster_repeat", "repeat_i ? above : word_i", "word_i"),
+    fault("index", Moments, "raster_repeat", "(step_i ? next : place_q)", "(place_q)"),
+
+    fault("operator", Moments, "raster_sums", "top ? {SUM_BITS{1'b0}} : above", "above"),
+    fault("constant", Moments, "raster_sums", "fresh_q ? {SUM_BITS{1'b0}} : row_q", "row_q"),
+
+    fault("operator", Moments, "raster_variance", "multiple_q - square_q", "multiple_q + square_q"),
+    fault("constant", Moments, "raster_variance", "FACTOR = PIXELS;", "FACTOR = PIXELS - 1;"),
+
+    fault("operator", Moments, "raster_pass", "scaled < mean ? mean - scaled : scaled - mean", "scaled - mean"),
+    fault("operator", Moments, "raster_pass", "(!reading_q || last);", "!reading_q;"),
+    fault("constant", Moments, "raster_pass", "first_2q ? {SUM_BITS{1'b0}} : sum_q", "sum_q"),
+
+    fault("operator", Paper, "raster_readout", "oldest_age >= AGE", "oldest_age > AGE"),
+    fault("operator", Paper, "raster_readout", "held_age >= AGE", "held_age > AGE"),
+    fault("index", Lost, "raster_readout", "held_stale ? held_region_q : oldest_region", "oldest_region"),
+    fault("operator", Paper, "raster_readout", "assign step_o = !valid_o || ready_i;", "assign step_o = ready_i;"),
+    fault("reset", Paper, "raster_readout", "        if (rst_i) held_q <= 1'b0;\n", ""),
+
+    fault("constant", Paper, "raster_core", "changes | {LANES{first_frame_q}}", "changes"),
+    fault("operator", Sent, "raster_core", "srs = ALL ? &(decided_votes | ~PRESENT)", "srs = ALL ? |(decided_votes & PRESENT)"),
+    fault("constant", Sent, "raster_core", "BLANKS && !srs ? 1'b0 : decided_valid", "decided_valid"),
+    fault("constant", Sent, "raster_core", "!LAST_SENT || reference_valid ? judged_counts", "1'b1 ? judged_counts"),
+    fault("index", Moments, "raster_core", ".OUTPUT_STAGE(DEEP)\n            ) u_copy", ".OUTPUT_STAGE(1)\n            ) u_copy"),
+    fault("reset", Paper, "raster_core", "            lost_o       <= 1'b0;\n", ""),
+];
