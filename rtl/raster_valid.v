@@ -4,8 +4,8 @@
 `default_nettype none
 
 module raster_valid #(
-    parameter REGIONS = 32400,  // regions of the frame
-    parameter REGION_BITS = 15, // ceil(log2(REGIONS))
+    parameter REGIONS = 64,     // regions of the frame
+    parameter REGION_BITS = 6,  // ceil(log2(REGIONS))
     parameter DEEP = 0          // clocks from valid_o to the decision
 ) (
     input  wire                   clk_i,             // clock, rising edge
