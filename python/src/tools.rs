@@ -47,7 +47,6 @@ pub(crate) fn generate(
 pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(String, String)> {
     let design = design(camera)?;
     let report = interruptible(py, |cancel| {
-        foveate_emit::check(&design).map_err(raise)?;
         let toolchain = Toolchain::system().cancelled_by(cancel);
         let job = EstimateJob {
             leaves_of: Some(design.unit().split.to_owned()),

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use foveate_cosim::{CosimError, Level as Simulated, Recording, Stimulus, check_verilog};
+use foveate_cosim::{CosimError, Level as Simulated, Recording, Stimulus};
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_toolchain::{Tool, Toolchain};
@@ -57,14 +57,14 @@ impl Bench {
         rows.push(clear::clear(design, frames, &recording, &vectors, timer)?);
         rows.extend(clear::fast(design, &recording, &vectors, timer)?);
         progress("RTL: building and running Verilator's model");
-        rows.push(match missing(design, tools.toolchain, &[Tool::Verilator, Tool::Cxx])? {
+        rows.push(match missing(tools.toolchain, &[Tool::Verilator, Tool::Cxx])? {
             Some(why) => Row::missing(Level::Rtl, "Verilator", why),
             None => rtl::rtl(design, &recording, &vectors, tools, timer)?,
         });
         if self.netlist {
             progress("netlist: Yosys and Icarus");
             let needed = [Tool::Yosys, Tool::Iverilog, Tool::Vvp];
-            rows.push(match missing(design, tools.toolchain, &needed)? {
+            rows.push(match missing(tools.toolchain, &needed)? {
                 Some(why) => Row::missing(Level::Netlist, netlist::NAME, why),
                 None => netlist::netlist(design, frames, self.seed, tools)?,
             });
@@ -98,16 +98,8 @@ impl Bench {
     }
 }
 
-/// Why a level cannot run, if there is no Verilog of the design, or a tool that it needs is not there or too
-/// old.
-fn missing(
-    design: &Design,
-    toolchain: &Toolchain,
-    needed: &[Tool],
-) -> Result<Option<String>, BenchError> {
-    if let Err(none) = check_verilog(design) {
-        return Ok(Some(none.to_string()));
-    }
+/// Why a level cannot run, if a tool that it needs is not there or too old.
+fn missing(toolchain: &Toolchain, needed: &[Tool]) -> Result<Option<String>, BenchError> {
     for &tool in needed {
         match toolchain.find(tool) {
             Ok(_) => {}

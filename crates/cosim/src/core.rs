@@ -43,15 +43,13 @@ impl WrittenCore {
 /// earlier core.
 ///
 /// # Errors
-/// When there is no Verilog of the organization, when the folder cannot be written or holds something else,
-/// and when `cancel` is set.
+/// When the folder cannot be written or holds something else, and when `cancel` is set.
 pub fn write_core(
     design: &Design,
     folder: &Path,
     overwrite: bool,
     cancel: &AtomicBool,
 ) -> Result<WrittenCore, CosimError> {
-    foveate_emit::check(design)?;
     let staged = StagedFolder::new(folder, CORE, overwrite)?;
     let mut files = foveate_emit::core(design);
     let bench = |top| ShippedBench::new(design, top, cancel);

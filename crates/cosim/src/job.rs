@@ -63,10 +63,8 @@ impl Job {
     /// A job with the Verilog that the emitter makes for the level of the stimulus.
     ///
     /// # Errors
-    /// When there is no Verilog of the organization, and when the level's grid makes a frame that no design
-    /// can have.
+    /// When the level's grid makes a frame that no design can have.
     pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, DesignError> {
-        foveate_emit::check(design)?;
         stimulus.level.design(design)?;
         Ok(Self {
             // The array takes its grid from its parameters, so that its Verilog is that of the design.

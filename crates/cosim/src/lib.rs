@@ -42,7 +42,6 @@ pub use compare::Difference;
 pub use diagram::timing_diagram;
 pub use error::CosimError;
 pub use field::Field;
-pub use foveate_emit::check as check_verilog;
 pub use gate::Gate;
 pub use harness::{bench_file, bench_name, cpp_harness, replay_bench};
 pub use hierarchy::{NotSimulated, not_simulated};

@@ -21,7 +21,6 @@ mod verilog;
 
 pub use crate::core::core;
 pub use leaf::{LEAVES, Leaf};
-pub use organization::{check, has_verilog};
 pub use top::{Parameter, Top};
 pub use verilog::verilog;
 

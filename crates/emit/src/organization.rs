@@ -2,7 +2,7 @@
 //! What the Verilog of an organization is made of; the only place that lists them here.
 
 use crate::{SourceFile, Top, leaf, raster, rcm, readme, serial};
-use foveate_design::{Design, DesignError, Organization};
+use foveate_design::{Design, Organization};
 
 /// What an organization brings.
 pub(crate) struct Emitter {
@@ -12,31 +12,6 @@ pub(crate) struct Emitter {
     pub(crate) modules: fn(&Design, Top) -> Vec<SourceFile>,
     /// The README of the core.
     pub(crate) readme: fn(&Design) -> String,
-}
-
-/// Whether there is Verilog of an organization.
-#[must_use]
-pub fn has_verilog(organization: Organization) -> bool {
-    match organization {
-        Organization::Pipelined | Organization::Serial | Organization::Raster => true,
-    }
-}
-
-/// Refuses a design of which there is no Verilog; whoever asks for some asks this first.
-///
-/// # Errors
-/// When there is none.
-pub fn check(design: &Design) -> Result<(), DesignError> {
-    let organization = design.organization();
-    if has_verilog(organization) {
-        return Ok(());
-    }
-    Err(DesignError::Combination {
-        key: "hardware.organization".to_owned(),
-        value: format!("\"{organization}\""),
-        with: "a command that needs Verilog".to_owned(),
-        remedy: format!("{organization} has no Verilog yet; use \"pipelined\" or \"serial\""),
-    })
 }
 
 impl Emitter {
@@ -53,7 +28,6 @@ impl Emitter {
                 modules: serial::modules,
                 readme: readme::serial_readme,
             },
-            // Nothing yet; `check` refuses the design before anybody asks.
             Organization::Raster => Self {
                 leaves: |_| vec!["raster_core"],
                 modules: raster::modules,

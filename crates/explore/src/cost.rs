@@ -77,21 +77,16 @@ impl Synthesizer {
     ) -> Result<Areas, ExploreError> {
         let mut jobs = BTreeMap::new();
         let keys = designs.map(|design| {
-            if let Err(none) = foveate_emit::check(design) {
-                let key = none.to_string();
-                jobs.entry(key.clone()).or_insert(Err(none));
-                return key;
-            }
             let job = EstimateJob::of(design, Top::Rcm);
             let key = format!("{} {:?}", sources_sha256(&job.sources), job.parameters);
-            jobs.entry(key.clone()).or_insert(Ok(job));
+            jobs.entry(key.clone()).or_insert(job);
             key
         });
         let keys = keys.collect();
         let (done, all) = (AtomicUsize::new(0), jobs.len());
         let jobs = jobs.into_par_iter().filter(|_| !hooks.cancelled());
         let areas = jobs.map(|(key, job)| {
-            let area = job.map_err(ExploreError::from).and_then(|job| self.area(&job));
+            let area = self.area(&job);
             let done = 1 + done.fetch_add(1, Ordering::Relaxed);
             hooks.progress(Progress::Synthesizing { done, all });
             (key, area)

@@ -266,7 +266,7 @@ fn hard_cases_give_the_same_in_both_organizations() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// What the vectors of a raster core say; it has no Verilog yet that could be simulated.
+/// What the vectors of a raster core say.
 #[test]
 fn the_vectors_of_a_raster_core_give_the_same() {
     for (turn, mut config) in configs().into_iter().enumerate() {

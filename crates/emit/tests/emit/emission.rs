@@ -195,17 +195,3 @@ fn file_lists_name_every_file_once_in_order() {
     let fusesoc = contents(&files, "foveate_rcm.core");
     assert!(expected.iter().all(|path| fusesoc.contains(&format!("- {path}\n"))));
 }
-
-/// A design without Verilog is refused in one line, which says what would be right.
-#[test]
-fn an_organization_without_verilog_is_refused() {
-    let raster = design("[hardware]\norganization = \"raster\"\n");
-    assert_eq!(
-        foveate_emit::check(&raster).unwrap_err().to_string(),
-        "`hardware.organization` = \"raster\" cannot be combined with a command that needs Verilog; raster has \
-         no Verilog yet; use \"pipelined\" or \"serial\""
-    );
-    for toml in [matrix(), serial_matrix()].concat() {
-        assert_eq!(foveate_emit::check(&design(&toml)), Ok(()));
-    }
-}

@@ -227,8 +227,7 @@ fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
         };
         config.validate().ok()
     };
-    let organizations = Organization::ALL.iter().filter(|&&one| foveate_emit::has_verilog(one));
-    let (folding, others): (Vec<_>, Vec<_>) = organizations.partition(|o| o.folds());
+    let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());
     let mut found = Vec::new();
     let fed = |&organization: &Organization| {
         organization.feeds().iter().filter_map(move |&feed| with(organization, Some(feed)))

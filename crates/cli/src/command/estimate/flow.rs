@@ -16,7 +16,6 @@ pub(super) struct Flow {
 
 impl Flow {
     pub(super) fn estimate(&self, design: &Design, leaves: bool) -> Result<Report, CliError> {
-        foveate_emit::check(design)?;
         let job = EstimateJob {
             leaves_of: leaves.then(|| design.unit().split.to_owned()),
             ..EstimateJob::of(design, Top::Rcm)
