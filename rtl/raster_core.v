@@ -9,6 +9,7 @@
 // docs/raster.md says what happens when.
 `default_nettype none
 
+(* keep_hierarchy = "yes" *)
 module raster_core #(
     parameter WIDTH = 8,             // bits of a pixel
     parameter LANES = 1,             // pixels of a word
