@@ -68,6 +68,8 @@ module raster_control #(
     reg [3:1] unit_end_q, old_segment_end_q, old_row_end_q;
     reg [2:1] old_top_q, old_bottom_q, old_real_q, old_region_top_q, old_region_bottom_q;
     wire frame_last;
+    wire unused_late = old_segment_end_q[3] || old_row_end_q[3] || old_top_q[2] || old_bottom_q[2] || old_real_q[2]
+                       || old_region_top_q[2] || old_region_bottom_q[2];
     wire unit_end = (ISOLATED ? segment_end : row_end_q) || frame_last;
     wire top = ISOLATED ? region_top_q : top_row_q;
     wire bottom = ISOLATED ? region_bottom_q : bottom_row_q;

@@ -326,6 +326,7 @@ module raster_core #(
         end else if (HITS > 0) begin : g_one
             assign hits = {EDGE ? edges : corners, changed};
         end else begin : g_changes
+            wire unused_hits = |edges || |corners;
             assign hits = changed;
         end
     endgenerate
@@ -434,9 +435,10 @@ module raster_core #(
             wire [START_BITS-1:0] start;
             wire [2:0] unused_row;
             wire unused_place;
+            localparam HALF = SIDE * SIDE / 2;
             region_mean #(
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
-                .FACTOR_BITS(FACTOR_BITS), .HALF(SIDE * SIDE / 2), .FACTOR(FACTOR), .SHIFT(SHIFT)
+                .FACTOR_BITS(FACTOR_BITS), .HALF(HALF[DIVIDEND_BITS-1:0]), .FACTOR(FACTOR), .SHIFT(SHIFT)
             ) u_mean (
                 .clk_i(clk_i), .done_i(done), .sum_i(sum), .mean_o(mean)
             );
@@ -625,6 +627,7 @@ module raster_core #(
                 .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
             );
         end else begin : g_scored
+            wire unused_raw = |scored_raw;
             raster_memory #(.WIDTH(WORD), .WORDS(BUFFER_WORDS), .ADDRESS_BITS(START_BITS)) u_buffer (
                 .clk_i(clk_i), .write_i(store_step), .write_address_i(store_place_q), .data_i(center),
                 .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
@@ -642,8 +645,8 @@ module raster_core #(
                 .read_i(pass_read), .read_address_i(pass_place), .data_o(pass_word)
             );
         end else begin : g_no_copy
-            wire unused_pass = pass_read || |pass_place;
             assign pass_word = {WORD{1'b0}};
+            wire unused_pass = pass_read || |pass_place || |pass_word || |sum;
         end
     endgenerate
 
@@ -666,6 +669,7 @@ module raster_core #(
             reg fetched_q;
             reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
             wire [PLACE_BITS-1:0] start = held_extra[PLACE_BITS-1:0];
+            wire unused_mark = held_extra[PLACE_BITS];
             wire [PLACE_BITS-1:0] place = fetch_first ? start : next_place_q;
             localparam JUMP = ROW_WORDS - SEGMENT + 1;
             always @(posedge clk_i) begin
@@ -701,6 +705,7 @@ module raster_core #(
             assign reference_write = 1'b0;
             assign reference_word = {WORD{1'b0}};
             assign reference_place = {$clog2(ROW_WORDS*ROWS*SIDE){1'b0}};
+            wire unused_reference = decided_valid || no_reference_q;
             assign reference_valid = 1'b1;
         end
     endgenerate

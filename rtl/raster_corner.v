@@ -71,6 +71,7 @@ module raster_corner #(
             wire [COLUMN-1:0] left = columns[lane*COLUMN+:COLUMN];
             wire [COLUMN-1:0] center = columns[(lane+1)*COLUMN+:COLUMN];
             wire [COLUMN-1:0] right = columns[(lane+2)*COLUMN+:COLUMN];
+            wire unused_middle = |center[WIDTH+:WIDTH];  // its bounds stand for it
             wire [8*WIDTH-1:0] ring = {
                 left[WIDTH+:WIDTH],
                 left[2*WIDTH+:WIDTH],

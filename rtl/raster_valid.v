@@ -27,16 +27,10 @@ module raster_valid #(
     reg decided_bit_q, lost_bit_q;
     wire lost_bit;
 
-    // Any values will do to begin with; a simulator wants some.
-    integer i;
-    initial for (i = 0; i < REGIONS; i = i + 1) begin
-        decided_bits_q[i] = 1'b0;
-        lost_bits_q[i] = 1'b0;
-    end
-
     always @(posedge clk_i) begin
         decided_bit_q <= decided_bits_q[region_i];
-        lost_bit_q    <= lost_bits_q[region_i];
+        // Any bit will do to begin with, if it stays the same; a simulator that knows of unknown ones must choose.
+        lost_bit_q    <= lost_bits_q[region_i] === 1'b1;
         if (decided_i) decided_bits_q[decided_region_i] <= next_i ^ lost_bit;
         if (lost_i) lost_bits_q[lost_region_i] <= lost_mark_i;
         mark_o <= next_i ^ lost_bit;
