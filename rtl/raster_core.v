@@ -28,6 +28,8 @@ module raster_core #(
     parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
     parameter RAW = 0,               // 1: raw pixels leave; 0: denoised ones
+    parameter FORWARD = 1,           // 1: pixels of active regions leave; 0: only decisions do
+    parameter STORE = 0,             // references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside
     parameter DEEP = 0,              // 1: more registers, for a faster clock
     parameter SETTLE = 11,           // clocks from the last advance of a frame to its last decision
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
@@ -59,23 +61,30 @@ module raster_core #(
     input  wire [       MAD_BITS-1:0] mad_min_i,           // the mean absolute deviation
     input  wire [  VARIANCE_BITS-1:0] variance_min_i,      // the variance
     input  wire [     COUNT_BITS-1:0] temporal_min_i,      // TRS from this count on
-    output reg                        decision_valid_o,    // the decision for region_o
-    output reg  [    REGION_BITS-1:0] region_o,            // the region that is decided
-    output reg                        srs_o,               // spatial relevance
-    output reg                        trs_o,               // temporal relevance
-    output reg                        active_o,            // both
-    output reg  [     COUNT_BITS-1:0] edge_score_o,        // edges
-    output reg  [     COUNT_BITS-1:0] corner_score_o,      // corners
-    output reg  [       MAD_BITS-1:0] mad_score_o,         // mean absolute deviation, times pixels and 2^FRACTION
-    output reg  [  VARIANCE_BITS-1:0] variance_score_o,    // variance, times the square of the pixels
-    output reg  [     COUNT_BITS-1:0] temporal_count_o,    // changed pixels
+    output wire                       decision_valid_o,    // the decision for region_o
+    output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
+    output wire                       srs_o,               // spatial relevance
+    output wire                       trs_o,               // temporal relevance
+    output wire                       active_o,            // both
+    output wire [     COUNT_BITS-1:0] edge_score_o,        // edges
+    output wire [     COUNT_BITS-1:0] corner_score_o,      // corners
+    output wire [       MAD_BITS-1:0] mad_score_o,         // mean absolute deviation, times pixels and 2^FRACTION
+    output wire [  VARIANCE_BITS-1:0] variance_score_o,    // variance, times the square of the pixels
+    output wire [     COUNT_BITS-1:0] temporal_count_o,    // changed pixels
+    output wire                       reference_ready_o,   // the reference on the port is taken at the next edge (STORE 3)
+    input  wire                       reference_valid_i,   // it is there
+    input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // it
+    output wire                       store_valid_o,       // a word is to be stored (STORE 3)
+    output wire [    LANES*WIDTH-1:0] store_pixel_o,       // that word
+    output wire                       store_last_o,        // it is the last of a row
+    output wire                       underrun_o,          // a reference was not there since reset (STORE 3)
     input  wire                       forward_ready_i,     // the word on the port is taken
     output wire                       forward_valid_o,     // a word of an active region leaves
     output wire [    REGION_BITS-1:0] forward_region_o,    // its region
     output wire [  POSITION_BITS-1:0] forward_position_o,  // number in its region of its first pixel
-    output reg  [    LANES*WIDTH-1:0] forward_pixel_o,     // that word
-    output reg                        lost_o,              // a region was lost since reset
-    output reg  [               15:0] lost_count_o         // how many, up to the largest number
+    output wire [    LANES*WIDTH-1:0] forward_pixel_o,     // that word
+    output wire                       lost_o,              // a region was lost since reset
+    output wire [               15:0] lost_count_o         // how many, up to the largest number
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.
@@ -97,6 +106,9 @@ module raster_core #(
         if (REGION_BITS != $clog2(COLUMNS * ROWS)) begin : g_region_bits
             REGION_BITS_must_be_clog2_of_the_regions u_refused ();
         end
+        if (LAST_SENT && !FORWARD) begin : g_forward_limit FORWARD_must_be_1_with_LAST_SENT u_refused (); end
+        if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
+        if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
         if (EDGE + CORNER + MAD + VARIANCE < 1) begin : g_feature a_feature_must_be_1 u_refused (); end
     endgenerate
 
@@ -109,6 +121,10 @@ module raster_core #(
     localparam HITS = EDGE + CORNER;
     localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
     localparam BANKS = MAD ? 3 : 2;
+    localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
+    localparam START_BITS = $clog2(BUFFER_WORDS);
+    localparam PLACE_BITS = $clog2(ROW_WORDS * ROWS * SIDE);
+    localparam EXTERNAL = 3;
 
     // Clocks from one place to another; see docs/raster.md.
     localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to the column of its window
@@ -218,47 +234,47 @@ module raster_core #(
     wire [WORD-1:0] center_word;  // the center of the last window
     generate
         if (HITS > 0) begin : g_window
-    wire column_step;
-    wire [WORD-1:0] upper, middle, lower;
-    wire column_top, column_bottom, column_left, column_right;
-    reg [WORD-1:0] center_q;
+            wire column_step;
+            wire [WORD-1:0] upper, middle, lower;
+            wire column_top, column_bottom, column_left, column_right;
+            reg [WORD-1:0] center_q;
 
-    always @(posedge clk_i) if (column_step) center_q <= middle;
-    assign center_word = center_q;
+            always @(posedge clk_i) if (column_step) center_q <= middle;
+            assign center_word = center_q;
 
-    raster_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
-        .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({column_top, column_bottom})
-    );
-    raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
-        .clk_i(clk_i), .data_i({left[MEDIAN], right[MEDIAN]}), .data_o({column_left, column_right})
-    );
-    raster_window #(
-        .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
-        .REPEATS(!MEDIAN && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
-    ) u_window (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_word), .top_i(column_top),
-        .bottom_i(column_bottom), .repeat_i(scored_repeated), .step_o(column_step), .upper_o(upper),
-        .middle_o(middle), .lower_o(lower)
-    );
-
-        if (EDGE) begin : g_edge
-            raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
-                .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(edge_level_i), .hit_o(edges)
+            raster_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
+                .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({column_top, column_bottom})
             );
-        end else begin : g_no_edge
-            wire unused_edge_level = |edge_level_i || |edge_min_i;
-            assign edges = {LANES{1'b0}};
-        end
-        if (CORNER) begin : g_corner
-            raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
-                .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(corner_level_i), .hit_o(corners)
+            raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
+                .clk_i(clk_i), .data_i({left[MEDIAN], right[MEDIAN]}), .data_o({column_left, column_right})
             );
-        end else begin : g_no_corner
-            wire unused_corner_level = |corner_level_i || |corner_min_i;
-            assign corners = {LANES{1'b0}};
-        end
+            raster_window #(
+                .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
+                .REPEATS(!MEDIAN && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
+            ) u_window (
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_word), .top_i(column_top),
+                .bottom_i(column_bottom), .repeat_i(scored_repeated), .step_o(column_step), .upper_o(upper),
+                .middle_o(middle), .lower_o(lower)
+            );
+
+            if (EDGE) begin : g_edge
+                raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                    .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(edge_level_i), .hit_o(edges)
+                );
+            end else begin : g_no_edge
+                wire unused_edge_level = |edge_level_i || |edge_min_i;
+                assign edges = {LANES{1'b0}};
+            end
+            if (CORNER) begin : g_corner
+                raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                    .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(corner_level_i), .hit_o(corners)
+                );
+            end else begin : g_no_corner
+                wire unused_corner_level = |corner_level_i || |corner_min_i;
+                assign corners = {LANES{1'b0}};
+            end
         end else begin : g_no_window
             wire unused_window = |edge_level_i || |edge_min_i || |corner_level_i || |corner_min_i || scored_step
                                  || scored_repeated || |top || |bottom || |left || |right;
@@ -295,22 +311,42 @@ module raster_core #(
     reg first_frame_q;
     wire [WORD-1:0] reference;
     wire [LANES-1:0] changes;
-    wire reference_write;
+    wire reference_write;  // what was sent becomes a reference (LAST_SENT)
     wire [WORD-1:0] reference_word;
-    wire [$clog2(ROW_WORDS*ROWS*SIDE)-1:0] reference_place;
+    wire [PLACE_BITS-1:0] reference_place;
 
     wire reference_read;
     raster_pulse #(.DEPTH(1)) u_reference_read (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(center_step), .bit_o(reference_read)
     );
-    raster_store #(
-        .WORD_BITS(WORD), .WORDS(ROW_WORDS * ROWS * SIDE), .ADDRESS_BITS($clog2(ROW_WORDS * ROWS * SIDE)),
-        .RANDOM(LAST_SENT), .DEEP(DEEP)
-    ) u_store (
-        .clk_i(clk_i), .rst_i(rst_i), .read_i(reference_read), .reference_o(reference),
-        .write_i(LAST_SENT ? reference_write : store_step), .place_i(reference_place),
-        .word_i(LAST_SENT ? reference_word : center)
-    );
+    generate
+        if (STORE == EXTERNAL) begin : g_external
+            wire stored_row_end;
+            wire unused_reference = reference_write || |reference_word || |reference_place;
+            raster_delay #(.WIDTH(1), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS)) u_stored_row_end (
+                .clk_i(clk_i), .data_i(row_end), .data_o(stored_row_end)
+            );
+            raster_external #(.WORD_BITS(WORD), .DEEP(DEEP)) u_external (
+                .clk_i(clk_i), .rst_i(rst_i), .first_frame_i(first_frame_q), .read_i(reference_read),
+                .reference_o(reference), .write_i(store_step), .word_i(center), .row_end_i(stored_row_end),
+                .reference_ready_o(reference_ready_o), .reference_valid_i(reference_valid_i),
+                .reference_pixel_i(reference_pixel_i), .store_valid_o(store_valid_o), .store_pixel_o(store_pixel_o),
+                .store_last_o(store_last_o), .underrun_o(underrun_o)
+            );
+        end else begin : g_inside
+            wire unused_outside = reference_valid_i || |reference_pixel_i;
+            assign {reference_ready_o, store_valid_o, store_last_o, underrun_o} = 4'd0;
+            assign store_pixel_o = {WORD{1'b0}};
+            raster_store #(
+                .WORD_BITS(WORD), .WORDS(ROW_WORDS * ROWS * SIDE), .ADDRESS_BITS(PLACE_BITS), .KIND(STORE),
+                .RANDOM(LAST_SENT), .DEEP(DEEP)
+            ) u_store (
+                .clk_i(clk_i), .rst_i(rst_i), .read_i(reference_read), .reference_o(reference),
+                .write_i(LAST_SENT ? reference_write : store_step), .place_i(reference_place),
+                .word_i(LAST_SENT ? reference_word : center)
+            );
+        end
+    endgenerate
     raster_change #(.WIDTH(WIDTH), .LANES(LANES)) u_change (
         .clk_i(clk_i), .word_i(center), .reference_i(reference), .level_i(temporal_level_i), .hit_o(changes)
     );
@@ -355,261 +391,95 @@ module raster_core #(
         .clk_i(clk_i), .data_i(counts), .data_o(settled_counts)
     );
     generate
-        if (MAD || VARIANCE) begin : g_sums
-            integer lane;
-            // Pixels and squares of a word, two clocks behind its center.
-            localparam WORD_SUM_BITS = WIDTH + $clog2(LANES);
-            localparam WORD_SQUARE_BITS = 2 * WIDTH + $clog2(LANES);
-            reg [WORD_SUM_BITS-1:0] word_sum, word_sum_q, word_sum_2q;
-            always @* begin
-                word_sum = {WORD_SUM_BITS{1'b0}};
-                for (lane = 0; lane < LANES; lane = lane + 1)
-                    word_sum = word_sum + {{(WORD_SUM_BITS - WIDTH) {1'b0}}, center[lane*WIDTH+:WIDTH]};
-            end
-            always @(posedge clk_i) begin
-                word_sum_q  <= word_sum;
-                word_sum_2q <= word_sum_q;
-            end
-            raster_sums #(
-                .VALUE_BITS(WORD_SUM_BITS), .SUM_BITS(SUM_BITS), .COLUMNS(COLUMNS), .COLUMN_BITS($clog2(COLUMNS)),
-                .DEEP(DEEP)
-            ) u_sum (
-                .clk_i(clk_i), .rst_i(rst_i), .step_i(hit_step), .value_i(word_sum_2q),
-                .segment_end_i(hit_segment_end), .row_end_i(hit_row_end), .region_top_i(hit_region_top), .sum_o(sum)
+        if (MAD || VARIANCE) begin : g_moments
+            // Hits come two clocks behind the center.
+            raster_moments #(
+                .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .COLUMNS(COLUMNS), .VARIANCE(VARIANCE),
+                .SUM_BITS(SUM_BITS), .SQUARE_SUM_BITS(SQUARE_SUM_BITS), .PRODUCT_BITS(PRODUCT_BITS),
+                .VARIANCE_BITS(VARIANCE_BITS), .DEEP(DEEP)
+            ) u_moments (
+                .clk_i(clk_i), .rst_i(rst_i), .word_i(center), .step_i(hit_step), .segment_end_i(hit_segment_end),
+                .row_end_i(hit_row_end), .region_top_i(hit_region_top), .sum_o(sum), .variance_o(variance)
             );
-
-            if (VARIANCE) begin : g_variance
-                reg [LANES*2*WIDTH-1:0] squares_q;
-                reg [WORD_SQUARE_BITS-1:0] word_square, word_square_2q;
-                wire [SQUARE_SUM_BITS-1:0] square_sum;
-                always @* begin
-                    word_square = {WORD_SQUARE_BITS{1'b0}};
-                    for (lane = 0; lane < LANES; lane = lane + 1)
-                        word_square = word_square + {{(WORD_SQUARE_BITS - 2 * WIDTH) {1'b0}}, squares_q[lane*2*WIDTH+:2*WIDTH]};
-                end
-                always @(posedge clk_i) begin
-                    for (lane = 0; lane < LANES; lane = lane + 1)
-                        squares_q[lane*2*WIDTH+:2*WIDTH] <= center[lane*WIDTH+:WIDTH] * center[lane*WIDTH+:WIDTH];
-                    word_square_2q <= word_square;
-                end
-                raster_sums #(
-                    .VALUE_BITS(WORD_SQUARE_BITS), .SUM_BITS(SQUARE_SUM_BITS), .COLUMNS(COLUMNS),
-                    .COLUMN_BITS($clog2(COLUMNS)), .DEEP(DEEP)
-                ) u_square_sum (
-                    .clk_i(clk_i), .rst_i(rst_i), .step_i(hit_step), .value_i(word_square_2q),
-                    .segment_end_i(hit_segment_end), .row_end_i(hit_row_end), .region_top_i(hit_region_top),
-                    .sum_o(square_sum)
-                );
-                raster_variance #(
-                    .PIXELS(SIDE * SIDE), .SUM_BITS(SUM_BITS), .SQUARE_SUM_BITS(SQUARE_SUM_BITS),
-                    .PRODUCT_BITS(PRODUCT_BITS), .SCORE_BITS(VARIANCE_BITS)
-                ) u_variance (
-                    .clk_i(clk_i), .sum_i(sum), .square_sum_i(square_sum), .score_o(variance)
-                );
-            end else begin : g_no_variance
-                assign variance = {VARIANCE_BITS{1'b0}};
-            end
-        end else begin : g_no_sums
+        end else begin : g_no_moments
             assign sum = {SUM_BITS{1'b0}};
             assign variance = {VARIANCE_BITS{1'b0}};
         end
     endgenerate
 
-    // ---- Second pass
-    localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
-    localparam START_BITS = $clog2(BUFFER_WORDS);
-    localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // all regions in the buffer may wait
+    // Where in the buffer of rows of regions the word goes that is stored.
+    wire [START_BITS-1:0] store_place;
+    generate
+        if (FORWARD || MAD) begin : g_ring
+            raster_ring #(.WORDS(BUFFER_WORDS), .PLACE_BITS(START_BITS)) u_ring (
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(store_step), .place_o(store_place)
+            );
+        end else begin : g_no_ring
+            assign store_place = {START_BITS{1'b0}};
+            wire unused_ring = |store_place;
+        end
+    endgenerate
+
     localparam JUDGED_BITS = VARIANCE_BITS + (HITS + 1) * COUNT_BITS;
     wire judged;  // all scores are there
     wire [MAD_BITS-1:0] judged_mad;
     wire [VARIANCE_BITS-1:0] judged_variance;
     wire [(HITS+1)*COUNT_BITS-1:0] judged_counts;
-    wire pass_read;
-    wire [START_BITS-1:0] pass_place;
-    wire [WORD-1:0] pass_word;
     generate
-        if (MAD) begin : g_mad
-            wire [MEAN_BITS-1:0] mean, settled_mean;
-            wire enter;
-            wire [JUDGED_BITS-1:0] entering;
-            wire [START_BITS-1:0] start;
-            wire [2:0] unused_row;
-            wire unused_place;
-            localparam HALF = SIDE * SIDE / 2;
-            region_mean #(
+        if (MAD) begin : g_deviation
+            raster_deviation #(
+                .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
+                .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
-                .FACTOR_BITS(FACTOR_BITS), .HALF(HALF[DIVIDEND_BITS-1:0]), .FACTOR(FACTOR), .SHIFT(SHIFT)
-            ) u_mean (
-                .clk_i(clk_i), .done_i(done), .sum_i(sum), .mean_o(mean)
+                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(MAD_BITS),
+                .OTHER_BITS(JUDGED_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
+            ) u_deviation (
+                .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .word_i(center),
+                .done_i(done), .sum_i(sum), .settled_i(settled), .other_i({variance, settled_counts}),
+                .judged_o(judged), .mad_o(judged_mad), .other_o({judged_variance, judged_counts})
             );
-            raster_delay #(.WIDTH(MEAN_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_mean (
-                .clk_i(clk_i), .data_i(mean), .data_o(settled_mean)
-            );
-            raster_pulse #(.DEPTH(1)) u_enter (.clk_i(clk_i), .rst_i(rst_i), .bit_i(settled), .bit_o(enter));
-            raster_delay #(.WIDTH(JUDGED_BITS), .DEPTH(1)) u_entering (
-                .clk_i(clk_i), .data_i({variance, settled_counts}), .data_o(entering)
-            );
-            raster_start #(
-                .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS),
-                .START_BITS(START_BITS), .PLACE_BITS(1)
-            ) u_pass_start (
-                .clk_i(clk_i), .rst_i(rst_i), .step_i(enter), .row_o(unused_row), .start_o(start),
-                .place_o(unused_place)
-            );
-            raster_pass #(
-                .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS),
-                .ROW_WORDS(ROW_WORDS), .PLACE_BITS(START_BITS), .FRACTION(FRACTION), .MEAN_BITS(MEAN_BITS),
-                .SUM_BITS(MAD_BITS), .EXTRA_BITS(JUDGED_BITS), .QUEUE_WORDS(1 << QUEUE_BITS),
-                .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
-            ) u_pass (
-                .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter), .mean_i(settled_mean), .start_i(start),
-                .extra_i(entering), .read_o(pass_read), .place_o(pass_place), .word_i(pass_word), .done_o(judged),
-                .sum_o(judged_mad), .extra_o({judged_variance, judged_counts})
-            );
-        end else begin : g_no_mad
+        end else begin : g_no_deviation
+            wire unused_sum = |sum;
             assign judged = settled;
             assign judged_mad = {MAD_BITS{1'b0}};
             assign judged_variance = variance;
             assign judged_counts = settled_counts;
-            assign pass_read = 1'b0;
-            assign pass_place = {START_BITS{1'b0}};
         end
     endgenerate
 
     // ---- Decision
-    localparam BEFORE_LAST = REGIONS - 2;
-    localparam ALL_PIXELS = SIDE * SIDE;
-    localparam [3:0] PRESENT = {VARIANCE != 0, MAD != 0, CORNER != 0, EDGE != 0};
-    localparam EDGE_PLACE = HITS > 0 ? 1 : 0;
-    reg [REGION_BITS-1:0] region_q;  // the region that is judged
-    reg last_region_q;
-    reg no_reference_q;              // in the first frame no region has one
-    wire [REGION_BITS-1:0] next_region = last_region_q ? {REGION_BITS{1'b0}} : region_q + 1'b1;
-    wire reference_valid;            // of that region (LAST_SENT)
-    wire [COUNT_BITS-1:0] temporal_count = !LAST_SENT || reference_valid ? judged_counts[COUNT_BITS-1:0] : ALL_PIXELS[COUNT_BITS-1:0];
-    wire [COUNT_BITS-1:0] edge_count = judged_counts[EDGE_PLACE*COUNT_BITS+:COUNT_BITS];
-    wire [COUNT_BITS-1:0] corner_count = judged_counts[HITS*COUNT_BITS+:COUNT_BITS];
-    wire [3:0] votes;
-    wire trs;
-    vote #(.WIDTH(COUNT_BITS)) u_edge_vote (.score_i(edge_count), .minimum_i(edge_min_i), .vote_o(votes[0]));
-    vote #(.WIDTH(COUNT_BITS)) u_corner_vote (.score_i(corner_count), .minimum_i(corner_min_i), .vote_o(votes[1]));
-    vote #(.WIDTH(MAD_BITS)) u_mad_vote (.score_i(judged_mad), .minimum_i(mad_min_i), .vote_o(votes[2]));
-    vote #(.WIDTH(VARIANCE_BITS)) u_variance_vote (
-        .score_i(judged_variance), .minimum_i(variance_min_i), .vote_o(votes[3])
-    );
-    vote #(.WIDTH(COUNT_BITS)) u_trs (.score_i(temporal_count), .minimum_i(temporal_min_i), .vote_o(trs));
+    wire decided;       // a region is decided
+    wire will_be_active;
+    wire mark;          // travels with it (LAST_SENT)
+    wire lost_reference;  // a region is lost, and its reference with it
+    wire [REGION_BITS-1:0] lost_region;
+    wire lost_mark;
 
-    wire decided, decided_trs;
-    wire [3:0] decided_votes;
-    wire [COUNT_BITS-1:0] decided_temporal, decided_edges, decided_corners;
-    wire [MAD_BITS-1:0] decided_mad;
-    wire [VARIANCE_BITS-1:0] decided_variance;
-    wire [REGION_BITS-1:0] decided_region;
-    wire decided_valid;  // its reference was valid
-    raster_pulse #(.DEPTH(DEEP)) u_decided (.clk_i(clk_i), .rst_i(rst_i), .bit_i(judged), .bit_o(decided));
-    raster_delay #(.WIDTH(6 + REGION_BITS + 3 * COUNT_BITS + MAD_BITS + VARIANCE_BITS), .DEPTH(DEEP)) u_judged (
-        .clk_i(clk_i),
-        .data_i({votes, trs, reference_valid, region_q, temporal_count, edge_count, corner_count, judged_mad,
-                 judged_variance}),
-        .data_o({decided_votes, decided_trs, decided_valid, decided_region, decided_temporal, decided_edges,
-                 decided_corners, decided_mad, decided_variance})
+    raster_decision #(
+        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .ALL(ALL), .LAST_SENT(LAST_SENT),
+        .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS), .REGIONS(REGIONS),
+        .REGION_BITS(REGION_BITS), .MAD_BITS(MAD_BITS), .VARIANCE_BITS(VARIANCE_BITS)
+    ) u_decision (
+        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .counts_i(judged_counts), .mad_i(judged_mad),
+        .variance_i(judged_variance), .edge_min_i(edge_min_i), .corner_min_i(corner_min_i), .mad_min_i(mad_min_i),
+        .variance_min_i(variance_min_i), .temporal_min_i(temporal_min_i),
+        .lost_i(lost_reference), .lost_region_i(lost_region), .lost_mark_i(lost_mark),
+        .decided_o(decided), .will_be_active_o(will_be_active), .mark_o(mark),
+        .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .edge_score_o(edge_score_o), .corner_score_o(corner_score_o), .mad_score_o(mad_score_o),
+        .variance_score_o(variance_score_o), .temporal_count_o(temporal_count_o)
     );
-    wire srs = ALL ? &(decided_votes | ~PRESENT) : |(decided_votes & PRESENT);
-    wire active = decided && srs && decided_trs;
-
-    always @(posedge clk_i) begin
-        decision_valid_o <= decided;
-        srs_o            <= decided && srs;
-        trs_o            <= decided && decided_trs;
-        active_o         <= active;
-        region_o         <= decided_region;
-        temporal_count_o <= decided_temporal;
-        edge_score_o     <= decided_edges;
-        corner_score_o   <= decided_corners;
-        mad_score_o      <= decided_mad;
-        variance_score_o <= decided_variance;
-        if (judged) begin
-            region_q      <= next_region;
-            last_region_q <= region_q == BEFORE_LAST[REGION_BITS-1:0];
-            if (last_region_q) no_reference_q <= 1'b0;
-        end
-        if (rst_i) begin
-            decision_valid_o <= 1'b0;
-            srs_o            <= 1'b0;
-            trs_o            <= 1'b0;
-            active_o         <= 1'b0;
-            region_q         <= {REGION_BITS{1'b0}};
-            last_region_q    <= 1'b0;
-            no_reference_q   <= 1'b1;
-        end
-    end
 
     // ---- Pixels that leave
-    localparam LAST_PLACE = BUFFER_WORDS - 1;
-    localparam PLACE_BITS = LAST_SENT ? $clog2(ROW_WORDS * ROWS * SIDE) : 1;
-    localparam EXTRA_BITS = LAST_SENT ? PLACE_BITS + 1 : 1;
-
-    // Where in the buffer the word that is stored goes, and in which row of regions it is.
-    reg [START_BITS-1:0] store_place_q;
-    reg store_end_q;
-    reg fresh_row_q;  // the next word is the first of a row of regions
-    reg [2:0] stored_row_q;
-    wire store_row_end, store_region_bottom;
-    raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS - 1)) u_store_places (
-        .clk_i(clk_i), .data_i({row_end, region_bottom}), .data_o({store_row_end, store_region_bottom})
-    );
-    always @(posedge clk_i) begin
-        if (store_step) begin
-            store_place_q <= store_end_q ? {START_BITS{1'b0}} : store_place_q + 1'b1;
-            store_end_q   <= store_place_q == LAST_PLACE[START_BITS-1:0] - 1'b1;
-        end
-        if (arriving_step) begin
-            fresh_row_q <= store_row_end && store_region_bottom;
-            if (fresh_row_q) stored_row_q <= stored_row_q + 1'b1;
-        end
-        if (rst_i) begin
-            store_place_q <= {START_BITS{1'b0}};
-            store_end_q   <= 1'b0;
-            fresh_row_q   <= 1'b0;
-            stored_row_q  <= 3'd0;
-        end
-    end
-
-    // Where in the buffer and in the frame the region starts that is decided.
-    wire [2:0] decided_row;
-    wire [START_BITS-1:0] decided_start;
-    wire [PLACE_BITS-1:0] decided_place;
-
-    raster_start #(
-        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
-        .FRAME(LAST_SENT), .PLACE_BITS(PLACE_BITS)
-    ) u_start (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(decision_valid_o), .row_o(decided_row), .start_o(decided_start),
-        .place_o(decided_place)
-    );
-    wire fetch, out_step, lost, idle, fetch_first, fetch_segment_end;
-    wire [START_BITS-1:0] fetch_place;
-    wire [REGION_BITS-1:0] lost_region;
-    wire [EXTRA_BITS-1:0] entered_extra, lost_extra, held_extra;
-
-    raster_readout #(
-        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
-        .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .EXTRA_BITS(EXTRA_BITS),
-        .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS)
-    ) u_readout (
-        .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_o), .row_i(decided_row), .region_i(region_o),
-        .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .ready_i(forward_ready_i),
-        .fetch_o(fetch), .place_o(fetch_place), .step_o(out_step), .valid_o(forward_valid_o),
-        .region_o(forward_region_o), .position_o(forward_position_o), .lost_o(lost), .lost_region_o(lost_region),
-        .lost_extra_o(lost_extra), .held_extra_o(held_extra), .first_o(fetch_first),
-        .segment_end_o(fetch_segment_end), .idle_o(idle)
-    );
-
-    wire [WORD-1:0] fetched;
+    wire idle;  // nothing waits to leave
     generate
-        if (RAW) begin : g_raw
+        if (FORWARD) begin : g_forward
+            wire store_row_end, store_region_bottom;
             wire [WORD-1:0] stored_raw;
-            if (HITS > 0) begin : g_line
+            raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS - 1)) u_store_places (
+                .clk_i(clk_i), .data_i({row_end, region_bottom}), .data_o({store_row_end, store_region_bottom})
+            );
+            if (RAW && HITS > 0) begin : g_line
                 wire [WORD-1:0] raw_center;
                 raster_line #(.WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS)) u_line (
                     .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_raw), .word_o(raw_center)
@@ -617,96 +487,40 @@ module raster_core #(
                 raster_delay #(.WIDTH(WORD), .DEPTH(COLUMN_CLOCKS + STORE_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(raw_center), .data_o(stored_raw)
                 );
-            end else begin : g_beside
+            end else if (RAW) begin : g_beside
                 raster_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(scored_raw), .data_o(stored_raw)
                 );
-            end
-            raster_memory #(.WIDTH(WORD), .WORDS(BUFFER_WORDS), .ADDRESS_BITS(START_BITS)) u_buffer (
-                .clk_i(clk_i), .write_i(store_step), .write_address_i(store_place_q), .data_i(stored_raw),
-                .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
-            );
-        end else begin : g_scored
-            wire unused_raw = |scored_raw;
-            raster_memory #(.WIDTH(WORD), .WORDS(BUFFER_WORDS), .ADDRESS_BITS(START_BITS)) u_buffer (
-                .clk_i(clk_i), .write_i(store_step), .write_address_i(store_place_q), .data_i(center),
-                .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
-            );
-        end
-    endgenerate
-
-    // The second pass reads a copy.
-    generate
-        if (MAD) begin : g_copy
-            raster_memory #(
-                .WIDTH(WORD), .WORDS(BUFFER_WORDS), .ADDRESS_BITS(START_BITS), .OUTPUT_STAGE(DEEP)
-            ) u_copy (
-                .clk_i(clk_i), .write_i(store_step), .write_address_i(store_place_q), .data_i(center),
-                .read_i(pass_read), .read_address_i(pass_place), .data_o(pass_word)
-            );
-        end else begin : g_no_copy
-            assign pass_word = {WORD{1'b0}};
-            wire unused_pass = pass_read || |pass_place || |pass_word || |sum;
-        end
-    endgenerate
-
-    always @(posedge clk_i) begin
-        if (out_step) forward_pixel_o <= fetched;
-        if (lost) begin
-            lost_o <= 1'b1;
-            if (lost_count_o != 16'hFFFF) lost_count_o <= lost_count_o + 1'b1;
-        end
-        if (rst_i) begin
-            lost_o       <= 1'b0;
-            lost_count_o <= 16'd0;
-        end
-    end
-
-    // ---- References of what was sent
-    generate
-        if (LAST_SENT) begin : g_sent
-            // What is sent becomes the reference, a clock after it was fetched.
-            reg fetched_q;
-            reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
-            wire [PLACE_BITS-1:0] start = held_extra[PLACE_BITS-1:0];
-            wire unused_mark = held_extra[PLACE_BITS];
-            wire [PLACE_BITS-1:0] place = fetch_first ? start : next_place_q;
-            localparam JUMP = ROW_WORDS - SEGMENT + 1;
-            always @(posedge clk_i) begin
-                fetched_q <= fetch && !rst_i;
-                if (fetch) begin
-                    sent_place_q <= place;
-                    next_place_q <= place + (fetch_segment_end ? JUMP[PLACE_BITS-1:0] : {{(PLACE_BITS - 1) {1'b0}}, 1'b1});
-                end
-            end
-            assign reference_write = fetched_q;
-            assign reference_place = sent_place_q;
-            if (RAW) begin : g_denoised
-                raster_memory #(.WIDTH(WORD), .WORDS(BUFFER_WORDS), .ADDRESS_BITS(START_BITS)) u_denoised (
-                    .clk_i(clk_i), .write_i(store_step), .write_address_i(store_place_q), .data_i(center),
-                    .read_i(fetch), .read_address_i(fetch_place), .data_o(reference_word)
-                );
-            end else begin : g_same
-                assign reference_word = fetched;
+            end else begin : g_scored
+                wire unused_raw = |scored_raw;
+                assign stored_raw = {WORD{1'b0}};
             end
 
-            wire mark;
-            raster_valid #(.REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .DEEP(DEEP)) u_valid (
-                .clk_i(clk_i), .rst_i(rst_i), .none_i(no_reference_q), .region_i(judged ? next_region : region_q),
-                .valid_o(reference_valid),
-                .decided_i(decided), .decided_region_i(decided_region),
-                .next_i(srs && decided_trs ? 1'b1 : BLANKS && !srs ? 1'b0 : decided_valid), .mark_o(mark),
-                .lost_i(lost), .lost_region_i(lost_region), .lost_mark_i(lost_extra[PLACE_BITS])
+            raster_forward #(
+                .WORD_BITS(WORD), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
+                .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .RAW(RAW), .LAST_SENT(LAST_SENT),
+                .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS), .START_BITS(START_BITS),
+                .PLACE_BITS(PLACE_BITS)
+            ) u_forward (
+                .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .scored_i(center),
+                .raw_i(stored_raw), .arriving_i(arriving_step), .rows_end_i(store_row_end && store_region_bottom),
+                .decision_i(decision_valid_o), .active_i(active_o), .region_i(region_o), .mark_i(mark),
+                .ready_i(forward_ready_i), .valid_o(forward_valid_o), .region_o(forward_region_o),
+                .position_o(forward_position_o), .pixel_o(forward_pixel_o), .lost_o(lost_o),
+                .lost_count_o(lost_count_o), .idle_o(idle), .reference_write_o(reference_write),
+                .reference_place_o(reference_place), .reference_word_o(reference_word),
+                .lost_reference_o(lost_reference), .lost_region_o(lost_region), .lost_mark_o(lost_mark)
             );
-            assign entered_extra = {mark, decided_place};
-        end else begin : g_previous
-            wire unused_places = |decided_place || |lost_region || |lost_extra || |held_extra || fetch_first || fetch_segment_end;
-            assign entered_extra = 1'b0;
-            assign reference_write = 1'b0;
+        end else begin : g_no_forward
+            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark;
+            assign {forward_valid_o, forward_region_o, forward_position_o, forward_pixel_o} =
+                {(1 + REGION_BITS + POSITION_BITS + WORD) {1'b0}};
+            assign {lost_o, lost_count_o, idle, reference_write} = {19{1'b0}};
+            assign reference_place = {PLACE_BITS{1'b0}};
             assign reference_word = {WORD{1'b0}};
-            assign reference_place = {$clog2(ROW_WORDS*ROWS*SIDE){1'b0}};
-            wire unused_reference = decided_valid || no_reference_q;
-            assign reference_valid = 1'b1;
+            assign lost_reference = 1'b0;
+            assign lost_region = {REGION_BITS{1'b0}};
+            assign lost_mark = 1'b0;
         end
     endgenerate
 
@@ -715,19 +529,20 @@ module raster_core #(
         if (LAST_SENT && ROWS <= BANKS) begin : g_waits
             wire undecided;
             if (MAD) begin : g_undecided
-                reg [QUEUE_BITS:0] regions_q;  // regions that wait for their second pass, and are in it
-                wire [QUEUE_BITS:0] waiting = regions_q - {{QUEUE_BITS{1'b0}}, decided};
+                localparam REGIONS_BITS = $clog2(BANKS * COLUMNS) + 1;
+                reg [REGIONS_BITS-1:0] regions_q;  // regions that wait for their second pass, and are in it
+                wire [REGIONS_BITS-1:0] waiting = regions_q - {{(REGIONS_BITS - 1) {1'b0}}, decided};
                 always @(posedge clk_i) begin
-                    if (rst_i) regions_q <= {(QUEUE_BITS + 1) {1'b0}};
-                    else regions_q <= waiting + {{QUEUE_BITS{1'b0}}, settled};
+                    if (rst_i) regions_q <= {REGIONS_BITS{1'b0}};
+                    else regions_q <= waiting + {{(REGIONS_BITS - 1) {1'b0}}, settled};
                 end
-                assign undecided = settled || waiting != {(QUEUE_BITS + 1) {1'b0}};
+                assign undecided = settled || waiting != {REGIONS_BITS{1'b0}};
             end else begin : g_decided
                 assign undecided = 1'b0;
             end
-            assign busy = !idle || active_o || active || undecided;
+            assign busy = !idle || active_o || will_be_active || undecided;
         end else begin : g_goes_on
-            wire unused_idle = idle;
+            wire unused_idle = idle || decided || will_be_active;
             assign busy = 1'b0;
         end
     endgenerate

@@ -14,6 +14,11 @@ module raster_line #(
     output wire [WORD_BITS-1:0] word_o   // the one of ROW_WORDS + 1 steps ago
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
+    endgenerate
+
     localparam BEFORE_LAST = ROW_WORDS - 2;
 
     reg [ADDRESS_BITS-1:0] place_q, old_place_q;

@@ -7,7 +7,8 @@ module raster_memory #(
     parameter WIDTH = 16,         // bits of a word
     parameter WORDS = 240,        // words, at least 2
     parameter ADDRESS_BITS = 8,   // ceil(log2(WORDS))
-    parameter OUTPUT_STAGE = 0    // 1: a word is on data_o two edges after its address, not one
+    parameter OUTPUT_STAGE = 0,   // 1: a word is on data_o two edges after its address, not one
+    parameter STYLE = "block"     // of what it is built: "block" or "ultra" RAM
 ) (
     input  wire                    clk_i,            // clock, rising edge
     input  wire                    write_i,          // write at this edge
@@ -27,9 +28,10 @@ module raster_memory #(
         if (OUTPUT_STAGE != 0 && OUTPUT_STAGE != 1) begin : g_output_stage
             OUTPUT_STAGE_must_be_0_or_1 u_refused ();
         end
+        if (STYLE != "block" && STYLE != "ultra") begin : g_style STYLE_must_be_block_or_ultra u_refused (); end
     endgenerate
 
-    (* ram_style = "block", no_rw_check *) reg [WIDTH-1:0] words_q[0:WORDS-1];
+    (* ram_style = STYLE, no_rw_check *) reg [WIDTH-1:0] words_q[0:WORDS-1];
     reg [WIDTH-1:0] read_q;
 
     always @(posedge clk_i) begin

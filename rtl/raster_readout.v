@@ -43,6 +43,12 @@ module raster_readout #(
     output wire                     idle_o           // after this edge nothing waits, is held, fetched or on the port
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (BANKS != 2 && BANKS != 3) begin : g_banks BANKS_must_be_2_or_3 u_refused (); end
+        if (QUEUE_WORDS != 1 << QUEUE_BITS) begin : g_queue QUEUE_WORDS_must_be_2_to_the_QUEUE_BITS u_refused (); end
+    endgenerate
+
     localparam ENTRY_BITS = 3 + REGION_BITS + START_BITS + EXTRA_BITS;
     localparam [2:0] AGE = BANKS;
 

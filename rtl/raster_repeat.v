@@ -16,6 +16,11 @@ module raster_repeat #(
     output wire [WORD_BITS-1:0] word_o     // the word
 );
 
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
+    endgenerate
+
     localparam LAST = ROW_WORDS - 1;
 
     reg [ADDRESS_BITS-1:0] place_q;

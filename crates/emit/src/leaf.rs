@@ -75,7 +75,10 @@ leaves! {
     "raster_corner" => [],
     "raster_change" => ["magnitude_above"],
     "raster_counts" => ["raster_memory"],
-    "raster_store" => ["raster_memory"],
+    "raster_pairs" => [],
+    "raster_store" => ["raster_memory", "raster_pairs", "raster_delay"],
+    "raster_external" => ["raster_delay"],
+    "raster_ring" => [],
     "raster_start" => [],
     "raster_valid" => ["raster_delay"],
     "raster_walk" => [],
@@ -84,11 +87,15 @@ leaves! {
     "raster_variance" => [],
     "raster_pass" => ["raster_memory", "raster_walk", "raster_delay", "raster_pulse"],
     "raster_readout" => ["raster_memory", "raster_walk"],
+    "raster_moments" => ["raster_sums", "raster_variance"],
+    "raster_deviation" => ["region_mean", "raster_delay", "raster_pulse", "raster_start", "raster_pass", "raster_memory"],
+    "raster_decision" => ["vote", "raster_delay", "raster_pulse", "raster_valid"],
+    "raster_forward" => ["raster_start", "raster_readout", "raster_memory"],
     "raster_core" => [
         "raster_control", "raster_pad", "raster_pulse", "raster_delay", "raster_window", "raster_median",
-        "raster_edge", "raster_corner", "raster_store", "raster_change", "raster_counts", "vote",
-        "raster_start", "raster_readout", "raster_line", "raster_memory", "raster_valid", "raster_repeat", "raster_sums",
-        "raster_variance", "region_mean", "raster_pass"
+        "raster_edge", "raster_corner", "raster_store", "raster_external", "raster_change", "raster_counts",
+        "raster_moments", "raster_ring", "raster_deviation", "raster_decision", "raster_forward", "raster_line",
+        "raster_repeat"
     ],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",

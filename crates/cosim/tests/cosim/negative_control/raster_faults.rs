@@ -97,10 +97,18 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Paper, "raster_readout", "assign step_o = !valid_o || ready_i;", "assign step_o = ready_i;"),
     fault("reset", Paper, "raster_readout", "        if (rst_i) held_q <= 1'b0;\n", ""),
 
+    fault("operator", Sent, "raster_decision", "srs = ALL ? &(decided_votes | ~PRESENT)", "srs = ALL ? |(decided_votes & PRESENT)"),
+    fault("constant", Sent, "raster_decision", "blanked = BLANKS && !srs;", "blanked = 1'b0;"),
+    fault("constant", Sent, "raster_decision", "!LAST_SENT || reference_valid ? counts_i", "1'b1 ? counts_i"),
+
+    fault("reset", Paper, "raster_forward", "            lost_o       <= 1'b0;\n", ""),
+    fault("constant", Sent, "raster_forward", "RAW ? raw_i : scored_i", "scored_i"),
+    fault("constant", Sent, "raster_forward", "JUMP = ROW_WORDS - SEGMENT + 1", "JUMP = ROW_WORDS - SEGMENT"),
+
+    fault("constant", Paper, "raster_ring", "BEFORE_LAST = WORDS - 2", "BEFORE_LAST = WORDS - 3"),
+    fault("index", Moments, "raster_deviation", ".OUTPUT_STAGE(DEEP)\n    ) u_copy", ".OUTPUT_STAGE(1)\n    ) u_copy"),
+    fault("constant", Moments, "raster_deviation", "HALF = SIDE * SIDE / 2", "HALF = 0"),
+    fault("operator", Moments, "raster_moments", "word_i[lane*WIDTH+:WIDTH] * word_i[lane*WIDTH+:WIDTH]", "word_i[lane*WIDTH+:WIDTH] + word_i[lane*WIDTH+:WIDTH]"),
+
     fault("constant", Paper, "raster_core", "changes | {LANES{first_frame_q}}", "changes"),
-    fault("operator", Sent, "raster_core", "srs = ALL ? &(decided_votes | ~PRESENT)", "srs = ALL ? |(decided_votes & PRESENT)"),
-    fault("constant", Sent, "raster_core", "BLANKS && !srs ? 1'b0 : decided_valid", "decided_valid"),
-    fault("constant", Sent, "raster_core", "!LAST_SENT || reference_valid ? judged_counts", "1'b1 ? judged_counts"),
-    fault("index", Moments, "raster_core", ".OUTPUT_STAGE(DEEP)\n            ) u_copy", ".OUTPUT_STAGE(1)\n            ) u_copy"),
-    fault("reset", Paper, "raster_core", "            lost_o       <= 1'b0;\n", ""),
 ];
