@@ -29,6 +29,9 @@ pub struct Departure {
     pub forward_clocks: u64,
     /// Clocks from one slot to the next.
     pub slot_clocks: u64,
+    /// Rows of regions whose pixels wait for a sink that stalls; a region further behind is lost. None where
+    /// no region is ever lost.
+    pub kept_rows: Option<u32>,
     /// Whether a unit alone can work on its region while the others wait for theirs.
     pub alone: bool,
 }

@@ -31,7 +31,7 @@ impl Emitter {
             Organization::Raster => Self {
                 leaves: |_| vec!["raster_core"],
                 modules: raster::modules,
-                readme: |_| String::new(),
+                readme: readme::raster_readme,
             },
         }
     }

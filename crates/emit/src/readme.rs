@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The README of a core, one for each organization.
 
+mod raster;
+
+pub(crate) use raster::raster_readme;
+
 use crate::instance::instance;
 use crate::text::text_of;
 use crate::thresholds::threshold_value;
@@ -36,6 +40,8 @@ struct Readme {
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
+    /// When the bench for `rpu` compares an output, beside "at every clock".
+    compared: &'static str,
 }
 
 #[derive(Template)]
@@ -77,6 +83,8 @@ struct SerialReadme {
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
+    /// When the bench for `rpu` compares an output, beside "at every clock".
+    compared: &'static str,
 }
 
 struct PortRow {
@@ -145,6 +153,7 @@ fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
         instance: instance(design),
+        compared: " at which it is valid",
     }
 }
 
@@ -202,6 +211,7 @@ fn pipelined_view(design: &Design, timing: PipelinedTiming) -> Readme {
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
         instance: instance(design),
+        compared: "",
     }
 }
 

@@ -76,7 +76,11 @@ fn part(design: &Design) -> Result<(Design, String), CosimError> {
     if design.regions() <= MAX_REGIONS {
         let words = format!("{} regions of {size}x{size} pixels", design.regions());
         let unit = design.unit();
-        return Ok((design.clone(), format!("{words} in {} {}s", unit.count, unit.name)));
+        let units = match unit.count {
+            1 => format!("one {}", unit.name),
+            count => format!("{count} {}s", unit.name),
+        };
+        return Ok((design.clone(), format!("{words} in {units}")));
     }
     let part = design.lone_unit();
     let words = format!("{} regions of {size}x{size} pixels, module rpu", part.regions());

@@ -81,6 +81,7 @@ impl PipelinedTiming {
                 // The last pixel leaves at the tail step that ends the later frame, as a decision does.
                 forward_clocks: self.decision_latency.into(),
                 slot_clocks: 0,
+                kept_rows: None,
                 alone: true,
             },
         }

@@ -2,10 +2,12 @@
 //! The raster organization: one core for all regions, K pixels at every clock; the numbers behind
 //! `docs/raster.md`.
 
+mod memory;
 mod ports;
 mod rules;
 mod timing;
 
+pub use memory::RasterMemory;
 pub(crate) use rules::Raster;
 pub use timing::{RasterTiming, SecondPass};
 

@@ -84,6 +84,51 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
     assert_eq!(timing.edges_to_ready(), 157);
 }
 
+/// What a source and a sink must keep to: 3,853 clocks are three rows of 1,920 and a little less; of the ragged
+/// frame below 157 clocks less the 3 of the last row are six of 28.
+#[test]
+fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row() {
+    let full_hd = RasterTiming::of(&design(&["frame.width=1920", "frame.height=1080"]));
+    assert_eq!((full_hd.blank_rows(), full_hd.stall_clocks()), (3, 1920 - 8 - 4 - 3));
+    assert_eq!(full_hd.decided_after(), 3_842 + 11);
+    let ragged = RasterTiming::of(&design(&[
+        "frame.width=50",
+        "frame.height=20",
+        "hardware.pixels_per_clock=2",
+        "spatial=[{feature=\"variance\"}]",
+    ]));
+    assert_eq!((ragged.blank_rows(), ragged.stall_clocks()), (6, 28 - 4 - 7 - 3));
+    let mad = |more: &[&str]| {
+        let features = "spatial=[{feature=\"mad\"},{feature=\"variance\"}]";
+        let frame = ["frame.width=64", "frame.height=32", features];
+        RasterTiming::of(&design(&[&frame, more].concat())).stall_clocks()
+    };
+    assert_eq!(mad(&[]), 9 * 64 - 72 - 17);
+    assert_eq!(mad(&["hardware.pipelining=deep"]), 9 * 64 - 72 - 20);
+}
+
+/// 64x64 pixels with edges and a median: three rows of windows and counts, two rows of regions, a frame.
+#[test]
+fn memories_of_the_paper_on_a_small_frame() {
+    let of = |more: &[&str]| {
+        let frame = ["frame.width=64", "frame.height=64"];
+        let memories = RasterMemory::all_of(&design(&[&frame, more].concat()));
+        memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
+    };
+    // A queue entry: 3 bits of the row, 6 of the region, 10 of the place in the buffer, 1 more.
+    let plain = [(4096, 8), (1024, 8), (64, 16), (64, 16), (8, 12), (16, 20)];
+    assert_eq!(of(&[]), plain);
+    let sent = of(&["temporal.reference=last-sent", "render.payload=raw"]);
+    let raw = [(4096, 8), (1024, 8), (1024, 8), (64, 16), (64, 16), (64, 8), (8, 12)];
+    // 13 bits of the place in the frame and its mark.
+    assert_eq!(sent, [&raw[..], &[(16, 32), (64, 1), (64, 1)]].concat());
+    let total: u64 = RasterMemory::all_of(&design(&["frame.width=64", "frame.height=64"]))
+        .iter()
+        .map(RasterMemory::total_bits)
+        .sum();
+    assert_eq!(total, 32_768 + 8_192 + 2 * 1_024 + 96 + 320);
+}
+
 #[test]
 fn latencies_follow_filter_features_and_pipelining() {
     let latencies = |filter: &str, feature: &str, pipelining: &str| {

@@ -4,9 +4,9 @@
 use crate::timing::Departure;
 use crate::{Design, Filter, Pipelining, Reference, Timing};
 
-/// Clocks from the decision of a region to its first word on the ports, where it does not wait: the queue,
-/// holding, fetching.
-const TO_FIRST_WORD: u64 = 5;
+/// Clocks of a stalling sink that the readout needs for itself, without and with a second pass.
+const STALL_MARGIN: u32 = 3;
+const PASS_STALL_MARGIN: u32 = 2;
 
 /// The numbers of a raster core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +49,10 @@ pub struct SecondPass {
 }
 
 impl RasterTiming {
+    /// Clocks from the decision of a region to its first word on the ports, where it does not wait: the
+    /// queue, holding, fetching.
+    pub const TO_FIRST_WORD: u64 = 5;
+
     /// The numbers of the design, as if it were a raster design.
     #[must_use]
     pub fn of(design: &Design) -> Self {
@@ -126,6 +130,43 @@ impl RasterTiming {
         self.flush_clocks() + u64::from(self.decision_latency)
     }
 
+    /// Rows of L clocks that a source must leave between two frames so that no word of it waits: those of
+    /// [`Self::edges_to_ready`] but the rest of the last row.
+    #[must_use]
+    pub fn blank_rows(&self) -> u64 {
+        let rest = u64::from(self.row_words - self.taken_words);
+        (self.edges_to_ready() - rest).div_ceil(self.row_words.into())
+    }
+
+    /// Clocks from the edge that takes the last word of a region, inside the frame, to its decision, where
+    /// words come at every clock and the second pass does not wait.
+    #[must_use]
+    pub fn decided_after(&self) -> u64 {
+        self.tail_delay()
+            + match self.second_pass {
+                None => u64::from(self.decision_latency),
+                Some(pass) => u64::from(self.stored_to_decided(pass)),
+            }
+    }
+
+    /// Clocks for which a sink may stall in all without loss, while all regions are active and words come at
+    /// every clock.
+    #[must_use]
+    pub fn stall_clocks(&self) -> u32 {
+        let row = self.row_words;
+        match self.second_pass {
+            None => {
+                let late = self.decision_latency - self.store_latency;
+                row - self.region_row_words - late - STALL_MARGIN
+            }
+            Some(pass) => {
+                let rows = self.region_words / self.region_row_words;
+                let late = pass.after_store + pass.decision_latency + PASS_STALL_MARGIN;
+                (rows + 1) * row - self.region_words - self.region_row_words - late
+            }
+        }
+    }
+
     /// Clocks from one frame to the next that follows at once; more where a frame waits for pending regions.
     #[must_use]
     pub fn clocks_per_frame(&self) -> u64 {
@@ -165,7 +206,10 @@ impl RasterTiming {
             text: vec![
                 ("cycles per frame", shown),
                 ("decision", decision),
-                ("pixels leave", format!("from {TO_FIRST_WORD} clocks after their decision on")),
+                (
+                    "pixels leave",
+                    format!("from {} clocks after their decision on", Self::TO_FIRST_WORD),
+                ),
             ],
             departure: Departure {
                 take_clocks: take,
@@ -174,19 +218,10 @@ impl RasterTiming {
                 forward_frames: 0,
                 forward_clocks: self.last_word(),
                 slot_clocks: 0,
+                kept_rows: (!self.waits_for_pending).then_some(self.buffer_rows),
                 alone: false,
             },
         }
-    }
-
-    /// Clocks from the edge that takes the last word of a region, inside the frame, to its decision, where
-    /// words come at every clock and the second pass does not wait.
-    fn decided_after(&self) -> u64 {
-        self.tail_delay()
-            + match self.second_pass {
-                None => u64::from(self.decision_latency),
-                Some(pass) => u64::from(self.stored_to_decided(pass)),
-            }
     }
 
     /// Clocks from the advance of a region's last word in the tail to its decision, if its pass does not wait.
@@ -221,9 +256,13 @@ impl RasterTiming {
             // The words of a row of regions follow each other.
             None => {
                 let first = self.first_of_last_row() + u64::from(self.decision_latency);
-                first + TO_FIRST_WORD + self.words_of_regions() - 1 - u64::from(self.row_words)
+                first + Self::TO_FIRST_WORD + self.words_of_regions()
+                    - 1
+                    - u64::from(self.row_words)
             }
-            Some(_) => self.last_decision() + TO_FIRST_WORD + u64::from(self.region_words) - 1,
+            Some(_) => {
+                self.last_decision() + Self::TO_FIRST_WORD + u64::from(self.region_words) - 1
+            }
         }
     }
 

@@ -171,6 +171,7 @@ impl SerialTiming {
                 forward_frames: 0,
                 forward_clocks: self.edges_to_step(slot - 1),
                 slot_clocks: slot,
+                kept_rows: None,
                 alone: false,
             },
         }

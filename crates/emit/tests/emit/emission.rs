@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{design, matrix, serial_matrix};
-use foveate_design::{Direction, FeatureKind, SerialTiming};
+use crate::common::{design, matrix, raster_matrix, serial_matrix};
+use foveate_design::{Direction, FeatureKind, RasterTiming, SerialTiming};
 use foveate_emit::{LEAVES, SourceFile, Top, core, verilog};
 
 fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
@@ -52,14 +52,14 @@ fn every_leaf_says_what_it_uses_and_stands_after_it() {
 
 #[test]
 fn emission_is_deterministic() {
-    for toml in [matrix(), serial_matrix()].concat() {
+    for toml in [matrix(), serial_matrix(), raster_matrix()].concat() {
         assert_eq!(core(&design(&toml)), core(&design(&toml)), "{toml}");
     }
 }
 
 #[test]
 fn exactly_the_modules_that_are_used_are_emitted() {
-    for toml in [matrix(), serial_matrix()].concat() {
+    for toml in [matrix(), serial_matrix(), raster_matrix()].concat() {
         let files = verilog(&design(&toml), Top::Rcm);
         let emitted: BTreeSet<&str> = files
             .iter()
@@ -73,7 +73,9 @@ fn exactly_the_modules_that_are_used_are_emitted() {
 
 #[test]
 fn every_feature_is_in_the_matrices() {
-    for (name, designs) in [("pipelined", matrix()), ("serial", serial_matrix())] {
+    let matrices =
+        [("pipelined", matrix()), ("serial", serial_matrix()), ("raster", raster_matrix())];
+    for (name, designs) in matrices {
         for &kind in FeatureKind::ALL {
             let has = |text: &String| design(text).feature(kind).is_some();
             assert!(designs.iter().any(has), "no {name} design has {kind}; see tests/emit/common");
@@ -111,8 +113,8 @@ fn module_headers_are_the_port_lists() {
 }
 
 #[test]
-fn serial_headers_are_the_port_lists() {
-    for toml in serial_matrix() {
+fn headers_of_other_organizations_are_the_port_lists() {
+    for toml in [serial_matrix(), raster_matrix()].concat() {
         let design = design(&toml);
         for top in [Top::Rpu, Top::Rcm] {
             let files = verilog(&design, top);
@@ -163,6 +165,67 @@ fn the_readme_of_a_folded_core_says_where_regions_are_and_how_long_a_stream_wait
         }
         assert_eq!(design.region_of(156, 3), Some(783));
         assert_eq!(design.region_of(156, 4), None);
+    }
+}
+
+#[test]
+fn a_raster_core_has_itself_and_the_smallest_one() {
+    let files = core(&design("[hardware]\norganization = 'raster'\n"));
+    let rpu = contents(&files, "rtl/rpu.v");
+    assert!(rpu.contains("parameter COLUMNS = 4,") && rpu.contains("parameter ROWS = 3 "), "{rpu}");
+    let listed = |list: &str, path: &str| contents(&files, list).lines().any(|line| line == path);
+    assert!(listed("rpu.f", "rtl/rpu.v") && !listed("rpu.f", "rtl/rcm.v"));
+    assert!(listed("rcm.f", "rtl/rcm.v") && !listed("rcm.f", "rtl/rpu.v"));
+}
+
+/// For how long a stream waits, when a region is lost, and what the memories hold: 50x20 pixels in words of two
+/// are 7x3 regions, rows of 28 words, 25 of them taken, and two windows.
+#[test]
+fn the_readme_of_a_raster_core_says_how_long_a_source_waits_and_a_sink_may_stall() {
+    let frame = "frame = { width = 50, height = 20 }\n[hardware]\norganization = 'raster'\n";
+    let design = design(&format!("{frame}pixels_per_clock = 2\n"));
+    let readme = core(&design).pop().unwrap();
+    assert_eq!(readme.path, "README.md");
+    let readme = readme.contents;
+    // 3 words of the last row, 4 rows, 2 * 29 for the windows, and 11 clocks to the decision.
+    let stall = 3 + 4 * 28 + 2 * 29 + 11;
+    assert_eq!(RasterTiming::of(&design).edges_to_ready(), stall);
+    for part in [
+        &format!("`ready_o` is 0 for **{stall} clocks**"),
+        "7 blank rows of 28 clocks are enough",
+        "except for **3 clocks** after the last word of every row",
+        "**region = row * 7 + column**",
+        "comes 69 clocks after the last word of the region",
+        "from 5 clocks after its decision on",
+        "stalls for at most **17 clocks** in all",
+        "whose last word, `forward_position_o` = 62, never comes",
+        "Pixels beyond the frame leave, too",
+        "| references: the frame store | 672 | 16 | 10752 |",
+        "| two rows of pixels, for the median | 28 | 32 | 896 |",
+        "| `edge_level_i` | 100 |",
+        "    .edge_level_i(11'd100),",
+        "until `ready_o` is 1 again after its last word.",
+        "sh tb/replay.sh",
+    ] {
+        assert!(readme.contains(part), "{part}: {readme}");
+    }
+}
+
+/// Small frames whose references are what was sent wait for the sink, so nothing is lost.
+#[test]
+fn the_readme_of_a_raster_core_that_waits_for_its_sink_says_so() {
+    let toml = "frame = { width = 64, height = 16 }\ntemporal.reference = 'last-sent'\n\
+                spatial = [{ feature = 'edge' }]\nhardware.organization = 'raster'\n";
+    let readme = core(&design(toml)).pop().unwrap().contents;
+    for (part, is_there) in [
+        ("a source waits for the sink", true),
+        ("So no region is ever lost", true),
+        ("**lost**", false),
+        ("Pixels beyond the frame", false),
+        ("except for", false),
+        ("which regions have a reference, by losses | 16 | 1 | 16 |", true),
+    ] {
+        assert_eq!(readme.contains(part), is_there, "{part}: {readme}");
     }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Emitted Verilog has no warning in Verilator, Icarus and Yosys, over the matrix of designs.
 
-use crate::common::{design, matrix, serial_matrix};
+use crate::common::{design, matrix, raster_matrix, serial_matrix};
+use foveate_design::RasterMemory;
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
 use foveate_toolchain::testing::require_tools;
@@ -9,7 +10,7 @@ use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
 
-/// Every design of both matrices.
+/// Every design of two matrices.
 fn every_design() -> Vec<String> {
     [matrix(), serial_matrix()].concat()
 }
@@ -42,7 +43,7 @@ fn icarus_has_nothing_to_say() {
         return;
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
-    each_design(&every_design(), |sources| {
+    each_design(&[every_design(), raster_matrix()].concat(), |sources| {
         let job = IverilogJob {
             sources: sources.to_vec(),
             top: "rcm".to_owned(),
@@ -75,6 +76,45 @@ fn yosys_has_nothing_to_say() {
         assert!(warnings.is_empty(), "{}", warnings.join("\n"));
         Ok(())
     });
+}
+
+/// What a raster design says of its memories is what Yosys finds in its Verilog.
+#[test]
+fn the_memories_of_a_raster_core_are_those_that_it_says() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let designs: Vec<String> = raster_matrix().into_iter().skip(1).step_by(7).collect();
+    let has = |part: &str| designs.iter().any(|toml| toml.contains(part));
+    assert!(has("feature='mad'") && has("'variance'") && has("'last-sent'") && has("'raw'"));
+    for toml in &designs {
+        let design = design(toml);
+        let sources: Vec<Source> =
+            verilog(&design, Top::Rcm).into_iter().map(|file| (file.path, file.contents)).collect();
+        let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
+        let script = format!(
+            "read_verilog {}\nhierarchy -check -top rcm\nproc\nflatten\nopt_clean\n\
+             memory_collect\ndump t:$mem*\n",
+            names.join(" ")
+        );
+        let job = YosysJob { sources, script, outputs: Vec::new() };
+        let log = yosys::run(&toolchain, &cache, &job).unwrap().log;
+        let numbers = |name: &str| -> Vec<u64> {
+            let named = log.lines().filter_map(|line| {
+                line.trim().strip_prefix(&format!("parameter \\{name} "))?.parse().ok()
+            });
+            named.collect()
+        };
+        let mut found: Vec<_> = numbers("SIZE").into_iter().zip(numbers("WIDTH")).collect();
+        let mut said: Vec<_> = RasterMemory::all_of(&design)
+            .iter()
+            .map(|memory| (memory.words, u64::from(memory.bits)))
+            .collect();
+        found.sort_unstable();
+        said.sort_unstable();
+        assert_eq!(found, said, "{toml}");
+    }
 }
 
 /// The check can fail: a width that does not fit is seen by all three.

@@ -92,3 +92,46 @@ pub(crate) fn serial_matrix() -> Vec<String> {
     }
     list
 }
+
+/// Sizes of regions of the raster organization, each with pixels of a word that divide it.
+const RASTER_SHAPES: [(u32, u32); 9] =
+    [(8, 1), (4, 2), (2, 1), (8, 4), (3, 1), (16, 2), (5, 1), (64, 4), (6, 2)];
+/// Rows of regions, and pixels that the last column and row of regions lack.
+const RASTER_ENDS: [(u32, u32, u32); 5] = [(3, 0, 0), (1, 1, 0), (2, 0, 1), (4, 1, 1), (5, 1, 0)];
+
+/// Configurations of raster designs as TOML, as narrow as they may be.
+pub(crate) fn raster_matrix() -> Vec<String> {
+    let mut list = Vec::new();
+    for (index, features) in FEATURES.iter().enumerate() {
+        for choice in 0..16 {
+            let (size, word) = RASTER_SHAPES[(index * 2 + choice) % RASTER_SHAPES.len()];
+            let depth = SERIAL_DEPTHS[(index + choice * 3) % SERIAL_DEPTHS.len()];
+            let (rows, beside, below) = RASTER_ENDS[(index * 3 + choice) % RASTER_ENDS.len()];
+            let columns = (16 * word).div_ceil(size).max(4);
+            let pick = |bit: usize, off: &'static str, on: &'static str| {
+                if (choice >> bit) & 1 == 0 { off } else { on }
+            };
+            list.push(format!(
+                "spatial = {features}\n\
+                 [frame]\nwidth = {width}\nheight = {height}\npixel_bits = {depth}\n\
+                 [region]\nsize = {size}\nneighborhood = '{neighborhood}'\n\
+                 [denoise]\nfilter = '{filter}'\n\
+                 [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
+                 [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
+                 [hardware]\norganization = 'raster'\npixels_per_clock = {word}\n\
+                 pipelining = '{pipelining}'\nstore = '{store}'\nthresholds = '{thresholds}'\n",
+                width = columns * size - beside,
+                height = rows * size - below,
+                neighborhood = pick(0, "isolated", "shared"),
+                filter = pick(1, "median3x3", "none"),
+                reference = pick(2, "previous", "last-sent"),
+                pipelining = pick(3, "plain", "deep"),
+                payload = pick((index + 1) % 4, "denoised", "raw"),
+                irrelevant = pick(index % 4, "zero", "hold"),
+                thresholds = pick((index + 2) % 4, "runtime", "constant"),
+                store = pick((index + 3) % 4, "block", "ultra"),
+            ));
+        }
+    }
+    list
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The memories of a raster core, as its Verilog declares them: each has a port to write and a port to read.
+
+use super::RasterTiming;
+use crate::width::{bits_for, index_bits};
+use crate::{Design, FeatureKind, Filter, Reference, SpatialFeature, Store};
+
+/// Bits of the row of regions that waits in a queue, modulo 8.
+const ROW_BITS: u32 = 3;
+
+/// A memory of a raster core.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RasterMemory {
+    /// What it holds, for people.
+    pub holds: &'static str,
+    /// Words.
+    pub words: u64,
+    /// Bits of a word.
+    pub bits: u32,
+}
+
+impl RasterMemory {
+    /// All bits.
+    #[must_use]
+    pub fn total_bits(&self) -> u64 {
+        self.words * u64::from(self.bits)
+    }
+
+    /// The memories of the design, as if it were a raster design; the frame store first.
+    #[must_use]
+    pub fn all_of(design: &Design) -> Vec<Self> {
+        let sizes = Sizes::of(design);
+        [sizes.pixels(design), sizes.rows(design), sizes.scores(design), sizes.queues(design)]
+            .concat()
+    }
+}
+
+/// What the sizes of the memories are made of.
+struct Sizes {
+    timing: RasterTiming,
+    /// Bits of a word of pixels.
+    word: u32,
+    /// Words of the buffer for pixels that leave.
+    buffer: u64,
+    columns: u64,
+    regions: u64,
+    last_sent: bool,
+    /// Features that count hits, `edge` and `corner`.
+    hits: u32,
+}
+
+impl Sizes {
+    fn of(design: &Design) -> Self {
+        let timing = RasterTiming::of(design);
+        let rows = u64::from(timing.buffer_rows * design.region_size());
+        let hits = design.features().iter().filter(|feature| feature.kind().has_window()).count();
+        Self {
+            word: design.pixels_per_clock() * design.pixel_bits(),
+            buffer: rows * u64::from(timing.row_words),
+            columns: design.columns().into(),
+            regions: design.regions().into(),
+            last_sent: design.temporal().reference == Reference::LastSent,
+            hits: u32::try_from(hits).expect("no more than there are kinds"),
+            timing,
+        }
+    }
+
+    /// Frame store and buffers.
+    fn pixels(&self, design: &Design) -> Vec<RasterMemory> {
+        let buffer = |holds| RasterMemory { holds, words: self.buffer, bits: self.word };
+        let store = match design.store() {
+            Store::Block | Store::Ultra => RasterMemory {
+                holds: "references: the frame store",
+                words: self.timing.words(),
+                bits: self.word,
+            },
+        };
+        let mut list = vec![store, buffer("pixels that may leave")];
+        if design.has_second_pass() {
+            list.push(buffer("a copy for the second pass"));
+        }
+        if self.last_sent && design.keeps_raw() {
+            list.push(buffer("denoised pixels, which become references when raw ones leave"));
+        }
+        list
+    }
+
+    /// Rows of pixels in front of the windows.
+    fn rows(&self, design: &Design) -> Vec<RasterMemory> {
+        let row = |holds, bits| RasterMemory { holds, words: self.timing.row_words.into(), bits };
+        let mut list = Vec::new();
+        if design.filter() != Filter::None {
+            list.push(row("two rows of pixels, for the median", 2 * self.word));
+        }
+        if self.hits > 0 {
+            list.push(row("two rows of pixels, for the features", 2 * self.word));
+        }
+        if self.hits > 0 && design.keeps_raw() {
+            list.push(row("a row of raw pixels", self.word));
+        }
+        if self.timing.windows == 0 && self.timing.rows > self.timing.taken_rows {
+            list.push(row("a row of pixels, repeated below the frame", self.word));
+        }
+        list
+    }
+
+    /// Scores of the regions of a row.
+    fn scores(&self, design: &Design) -> Vec<RasterMemory> {
+        let side = u64::from(design.region_size());
+        let column = |holds, bits| RasterMemory { holds, words: self.columns, bits };
+        let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
+        let variance = design.features().iter().find_map(SpatialFeature::variance);
+        if variance.is_some() || design.has_second_pass() {
+            list.push(column("sums of pixels", design.pixel_sum_bits()));
+        }
+        list.extend(variance.map(|variance| column("sums of squares", variance.square_sum_bits)));
+        list
+    }
+
+    /// Regions that wait, and which regions have a reference.
+    fn queues(&self, design: &Design) -> Vec<RasterMemory> {
+        let waiting = 1 << index_bits(u64::from(self.timing.buffer_rows) * self.columns);
+        let queue = |holds, bits| RasterMemory { holds, words: waiting, bits };
+        let start = index_bits(self.buffer);
+        let extra = if self.last_sent { index_bits(self.timing.words()) + 1 } else { 1 };
+        let mut list = vec![queue(
+            "active regions that wait for the sink",
+            ROW_BITS + design.region_bits() + start + extra,
+        )];
+        if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
+            // A design without variance has as many bits for it as a count.
+            let variance = design.feature(FeatureKind::Variance);
+            let variance = variance.map_or(design.count_bits(), SpatialFeature::score_bits);
+            let judged = variance + (self.hits + 1) * design.count_bits();
+            list.push(queue(
+                "regions that wait for the second pass",
+                mean.mean_bits + start + judged,
+            ));
+        }
+        if self.last_sent {
+            let bit = |holds| RasterMemory { holds, words: self.regions, bits: 1 };
+            list.extend([
+                bit("which regions have a reference, by decisions"),
+                bit("which regions have a reference, by losses"),
+            ]);
+        }
+        list
+    }
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The README of a raster core: how long a source waits, and when a region is lost.
+
+use super::{PortRow, ThresholdRow, port_row, rate, score_names, threshold};
+use crate::banner;
+use crate::instance::instance;
+use crate::text::text_of;
+use askama::Template;
+use foveate_design::{Design, RasterMemory, RasterTiming, Reference, Thresholds};
+
+#[derive(Template)]
+#[template(path = "raster_README.md")]
+struct Readme {
+    banner: String,
+    width: u32,
+    height: u32,
+    p: u32,
+    n: u32,
+    columns: u32,
+    rows: u32,
+    regions: u32,
+    scores: String,
+    combine: &'static str,
+    reference: &'static str,
+    neighborhood: &'static str,
+    filter: &'static str,
+    word_pixels: u32,
+    taken_words: u32,
+    row_words: u32,
+    /// Pixels of the last word of a row that lie in the frame; 0 where all do.
+    tail_pixels: u32,
+    /// Clocks after a row in which no word is taken.
+    row_pause: u32,
+    clocks: u64,
+    rate: String,
+    /// Clocks after a frame in which no word is taken.
+    stall: u64,
+    blank_rows: u64,
+    /// Whether a frame waits until the one before has left.
+    waits: bool,
+    decided_after: u64,
+    second_pass: bool,
+    region_words: u32,
+    first_word: u64,
+    last_position: u32,
+    /// Whether regions have pixels beyond the frame.
+    padded: bool,
+    buffer_rows: u32,
+    sink_stall: u32,
+    memories: Vec<RasterMemory>,
+    memory_bits: u64,
+    store_bits: u64,
+    last_sent: bool,
+    store: &'static str,
+    lone_width: u32,
+    lone_height: u32,
+    runtime: bool,
+    rcm_ports: Vec<PortRow>,
+    thresholds: Vec<ThresholdRow>,
+    instance: Vec<String>,
+    compared: &'static str,
+}
+
+pub(crate) fn raster_readme(design: &Design) -> String {
+    text_of(&view(design, &RasterTiming::of(design)))
+}
+
+fn view(design: &Design, timing: &RasterTiming) -> Readme {
+    let n = design.region_size();
+    let lone = design.lone_unit();
+    let memories = RasterMemory::all_of(design);
+    Readme {
+        banner: banner(design),
+        width: design.width(),
+        height: design.height(),
+        p: design.pixel_bits(),
+        n,
+        columns: design.columns(),
+        rows: design.rows(),
+        regions: design.regions(),
+        scores: score_names(design),
+        combine: design.combine().name(),
+        reference: design.temporal().reference.name(),
+        neighborhood: design.neighborhood().name(),
+        filter: design.filter().name(),
+        word_pixels: timing.word_pixels,
+        taken_words: timing.taken_words,
+        row_words: timing.row_words,
+        tail_pixels: design.width() % timing.word_pixels,
+        row_pause: timing.row_words - timing.taken_words,
+        clocks: timing.clocks_per_frame(),
+        rate: rate(timing.clocks_per_frame()),
+        stall: timing.edges_to_ready(),
+        blank_rows: timing.blank_rows(),
+        waits: timing.waits_for_pending,
+        decided_after: timing.decided_after(),
+        second_pass: timing.second_pass.is_some(),
+        region_words: timing.region_words,
+        first_word: RasterTiming::TO_FIRST_WORD,
+        last_position: design.region_pixels() - timing.word_pixels,
+        padded: design.columns() * n > design.width() || design.rows() * n > design.height(),
+        buffer_rows: timing.buffer_rows,
+        sink_stall: timing.stall_clocks(),
+        memory_bits: memories.iter().map(RasterMemory::total_bits).sum(),
+        store_bits: memories[0].total_bits(),
+        memories,
+        last_sent: design.temporal().reference == Reference::LastSent,
+        store: design.store().name(),
+        lone_width: lone.width(),
+        lone_height: lone.height(),
+        runtime: design.thresholds() == Thresholds::Runtime,
+        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        thresholds: design.rcm_ports().iter().filter_map(|port| threshold(design, port)).collect(),
+        instance: instance(design),
+        compared: " at which it is valid",
+    }
+}
