@@ -113,8 +113,11 @@ fn the_instance_of_the_readme_fits_the_core() {
     let serial = "hardware={organization='serial',fold=5,feed='raster'}";
     let lanes = "hardware={organization='serial',fold=5}";
     let constant = "hardware.thresholds='constant'";
+    let raster = "hardware={organization='raster',pixels_per_clock=2}";
     let frame = "frame={width=30,height=20}";
-    for settings in [&[frame][..], &[frame, constant], &[frame, serial], &[frame, lanes]] {
+    for settings in
+        [&[frame][..], &[frame, constant], &[frame, serial], &[frame, lanes], &[frame, raster]]
+    {
         let folder = dir.path().join("core");
         // What the last round compiled there is none of Foveate's files.
         let _ = fs::remove_dir_all(&folder);
@@ -198,5 +201,33 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
             code == Some(1) && text.contains(": FAIL ") && text.contains(port),
             "{leaf}: {text}"
         );
+    }
+}
+
+#[test]
+fn the_bench_of_a_raster_core_finds_an_edited_leaf() {
+    if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let raster = "hardware={organization='raster',pixels_per_clock=2}";
+    let folder = dir.path().join("core");
+    core(dir.path(), &[raster]);
+    let (code, text) = replay(&folder, &[]);
+    assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{text}");
+    let readme = fs::read_to_string(folder.join("README.md")).unwrap();
+    assert!(readme.contains("## A live stream"), "{readme}");
+    // Votes, and a region that is lost.
+    for (leaf, from, to, port) in [
+        ("vote", "score_i >= minimum_i", "score_i > minimum_i", "_o expected"),
+        ("raster_readout", "assign lost_o = held_stale ||", "assign lost_o = 1'b0 &&", "lost_o"),
+    ] {
+        core(dir.path(), &[raster]);
+        edit(&folder.join(format!("rtl/{leaf}.v")), from, to);
+        for top in ["rpu", "rcm"] {
+            let (code, text) = replay(&folder, &[top, "iverilog"]);
+            let fails = code == Some(1) && text.contains(": FAIL ") && text.contains(port);
+            assert!(fails, "{leaf}: {text}");
+        }
     }
 }

@@ -46,6 +46,8 @@ fn array(design: &Design) -> (u32, u32) {
     let lanes = if fold <= MANY_SLOTS { 2 * fold + fold.div_ceil(2) } else { fold + least };
     let wanted = lanes.max(least).min(columns * rows);
     let side = (1..=columns).find(|side| side * side >= wanted).unwrap_or(columns);
-    let high = wanted.div_ceil(side).min(rows);
+    // A region can be lost where there is one row more than wait for the sink.
+    let kept = design.timing().departure().kept_rows.map_or(0, |kept| kept + 1);
+    let high = wanted.div_ceil(side).max(kept).min(rows);
     (wanted.div_ceil(high).min(columns), high)
 }

@@ -20,7 +20,7 @@ mod tape;
 
 use crate::error::CosimError;
 use crate::harness::{bench_file, told_bench};
-use foveate_design::{Design, Port};
+use foveate_design::{Design, Port, PortRole};
 use foveate_emit::{SourceFile, Top};
 pub(crate) use model::{Model, Record};
 pub(crate) use picture::Picture;
@@ -70,7 +70,7 @@ impl ShippedBench {
             take = Take::of(&part, top, &ports, true, cancel)?;
         }
         let Take { tally, clocks, vectors, is_played } = take;
-        let remarks = tally::impossible(design);
+        let remarks = tally::impossible(&part);
         let shortcoming = if is_played {
             tally.shortcoming(&part)
         } else {
@@ -126,6 +126,11 @@ impl Take {
         let (tally, clocks, vectors) = tape.finish()?;
         Ok(Self { tally, clocks, vectors, is_played })
     }
+}
+
+/// Whether somebody takes the pixels that leave, and may stall.
+fn has_sink(design: &Design) -> bool {
+    design.rcm_ports().iter().any(|port| port.role == PortRole::ForwardReady)
 }
 
 /// Whether the frames of a bench are few enough clocks and lines.

@@ -37,6 +37,10 @@ pub(super) struct Player<'a> {
     cancel: &'a AtomicBool,
     /// What is at the pixel port while it shows nothing of use.
     garbage: Vec<u16>,
+    /// Whether the sink takes nothing.
+    stalls: bool,
+    /// Whether a frame waits for the sink, which must then not stall between frames.
+    waits: bool,
 }
 
 impl<'a> Player<'a> {
@@ -48,7 +52,8 @@ impl<'a> Player<'a> {
     ) -> Self {
         let model = model(part.organization())(part, top);
         let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-        Self { part, garbage: vec![max; model.width()], model, tape, cancel }
+        let waits = part.timing().departure().kept_rows.is_none();
+        Self { part, garbage: vec![max; model.width()], model, tape, cancel, stalls: false, waits }
     }
 
     /// Plays all sequences. The first begins twice: a reset forgets what was under way.
@@ -84,6 +89,7 @@ impl<'a> Player<'a> {
                 self.settle(&before.thresholds, is_new || number % 2 == 0)?;
             }
             let beats = self.model.beats(self.part, &shot.frame);
+            self.stalls = shot.stalls;
             self.stream(&beats, &shot.thresholds)?;
             before = Some(shot);
         }
@@ -107,6 +113,7 @@ impl<'a> Player<'a> {
     /// Between two frames: what must be done is done, pixels that are offered meanwhile are refused; with
     /// `is_long` everything is decided before it goes on.
     fn settle(&mut self, thresholds: &Thresholds, is_long: bool) -> Result<(), CosimError> {
+        self.stalls &= !self.waits;
         let garbage = self.garbage.clone();
         for _ in 0..REFUSED {
             if !self.model.is_ready() {
@@ -154,7 +161,8 @@ impl<'a> Player<'a> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        self.model.clock(applied, &mut self.tape.record);
+        let applied = Applied { forward_ready: !self.stalls, ..*applied };
+        self.model.clock(&applied, &mut self.tape.record);
         self.tape.push(1)
     }
 

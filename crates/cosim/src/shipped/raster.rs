@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A raster core in front of a sink that is always ready: decisions and pixels leave while a frame is taken.
+//! A raster core in front of a sink: decisions and pixels leave while a frame is taken.
 
 use super::model::{Model, Record};
 use crate::stimulus::{Applied, RasterCodec, words};

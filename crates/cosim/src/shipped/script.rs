@@ -2,6 +2,7 @@
 //! Which frames a bench shows: pictures that the design finds relevant, the same again, others, and
 //! nothing, so that regions become active, are held, and are blanked.
 
+use super::has_sink;
 use super::picture::{Picture, TEXTURES};
 use super::studio::{Look, Studio};
 use crate::stimulus::{Artist, Motif, Random};
@@ -34,6 +35,8 @@ pub(super) struct Script {
 pub(super) struct Shot {
     pub(super) frame: Frame,
     pub(super) thresholds: Thresholds,
+    /// Whether the sink takes nothing meanwhile, where there is one.
+    pub(super) stalls: bool,
 }
 
 /// Thresholds under which there is something relevant, and those under which nothing is.
@@ -81,7 +84,7 @@ impl Script {
         let flat = Picture::Flat.draw(stage.side, stage.max, false, &mut random);
         let shot = |thresholds, square: &dyn Fn(usize, &Actor) -> Vec<u16>| {
             let squares: Vec<_> = cast.iter().enumerate().map(|(i, a)| square(i, a)).collect();
-            Shot { frame: stage.frame(&squares, &flat), thresholds }
+            Shot { frame: stage.frame(&squares, &flat), thresholds, stalls: false }
         };
         let mixed = |number: usize, actor: &Actor| match number % 3 {
             0 => actor.other.clone(),
@@ -95,6 +98,17 @@ impl Script {
             shot(plan.blank, &|_, _| flat.clone()),
             shot(plan.usual, &|_, actor| actor.last.clone()),
         ]];
+        // First, so that a reset follows.
+        let pictures = [|actor: &Actor| actor.first.clone(), |actor: &Actor| actor.other.clone()];
+        let stalled = (0..stalled_frames(part)).map(|number| Shot {
+            stalls: true,
+            ..shot(plan.usual, &|_, actor| pictures[number % pictures.len()](actor))
+        });
+        let stalled: Vec<Shot> = stalled.collect();
+        if !stalled.is_empty() {
+            let last = shot(plan.usual, &|_, actor| actor.last.clone());
+            sequences.insert(0, stalled.into_iter().chain([last]).collect());
+        }
         let drawn = cast.len() * stage.side * stage.side;
         if drawn <= FEW_PIXELS && part.timing().clocks_per_frame() <= FEW_CLOCKS {
             let mut artists: Vec<Artist> =
@@ -102,7 +116,7 @@ impl Script {
             let near = NEAR.iter().map(|&motif| {
                 artists.iter_mut().for_each(|artist| artist.draw_near_minimum(motif));
                 let squares: Vec<_> = artists.iter().map(|artist| artist.pixels.clone()).collect();
-                Shot { frame: stage.frame(&squares, &flat), thresholds: plan.usual }
+                Shot { frame: stage.frame(&squares, &flat), thresholds: plan.usual, stalls: false }
             });
             sequences.push(near.collect());
             for more in [0, 1].into_iter().filter(|_| part.thresholds() == Mode::Runtime) {
@@ -114,10 +128,22 @@ impl Script {
             }
         }
         if is_wide {
-            let shot = |turn| Shot { frame: stage.wide(turn), thresholds: plan.usual };
+            let shot =
+                |turn| Shot { frame: stage.wide(turn), thresholds: plan.usual, stalls: false };
             sequences.push((0..WIDE_FRAMES).map(shot).collect());
         }
         Self { sequences }
+    }
+}
+
+/// Frames during which a sink must stall for a region to be lost; one where none is ever lost; none without
+/// a sink.
+fn stalled_frames(part: &Design) -> usize {
+    let kept = part.timing().departure().kept_rows;
+    match (has_sink(part), kept) {
+        (false, _) => 0,
+        (true, None) => 1,
+        (true, Some(kept)) => (kept + 1).div_ceil(part.rows()) as usize,
     }
 }
 

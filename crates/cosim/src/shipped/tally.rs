@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What vectors show, counted from the expected outputs alone.
 
+use super::has_sink;
 use crate::layout::Layout;
 use foveate_design::{Combine, Design, PortRole, Thresholds};
 use foveate_emit::Top;
@@ -21,6 +22,8 @@ pub struct Tally {
     pub blank: u64,
     /// Comparisons with an earlier frame: temporal counts below that of a region without a reference.
     pub compared: u64,
+    /// Regions lost to a sink that stalls, the most after one reset.
+    pub lost: u64,
     /// Outputs that are never compared with anything but 0, though they can show something else.
     pub silent: Vec<String>,
 }
@@ -29,6 +32,7 @@ pub struct Tally {
 pub(super) struct Counter {
     regions: u64,
     region_pixels: u64,
+    never_lost: bool,
     tally: Tally,
     /// Every bit that is expected to be 1 where it is compared.
     seen: Vec<u8>,
@@ -39,6 +43,7 @@ impl Counter {
         Self {
             regions: part.regions().into(),
             region_pixels: part.region_pixels().into(),
+            never_lost: never_lost(part),
             tally: Tally::default(),
             seen: outputs.record(),
         }
@@ -67,6 +72,8 @@ impl Counter {
             let count = at(PortRole::AnyScore).map(|field| field.get(expected, 0));
             self.tally.compared += u64::from(count.is_some_and(|c| c < self.region_pixels));
         }
+        let lost = at(PortRole::LostCount).map_or(0, |field| field.get(expected, 0));
+        self.tally.lost = self.tally.lost.max(lost);
         for field in outputs.fields() {
             for lane in outputs.compared_lanes(field, expected) {
                 let value = field.get(expected, lane);
@@ -79,13 +86,14 @@ impl Counter {
     }
 
     pub(super) fn finish(self, outputs: &Layout) -> Tally {
-        let Self { regions, mut tally, seen, .. } = self;
+        let Self { regions, never_lost, mut tally, seen, .. } = self;
         tally.frames = (tally.active + tally.held + tally.blank) / regions.max(1);
         for field in outputs.fields() {
             let port = &field.port;
             // The number of the only region is 0.
             let is_numbered = matches!(port.role, PortRole::Region | PortRole::ForwardRegion);
-            if is_numbered && regions == 1 {
+            let is_loss = matches!(port.role, PortRole::Lost | PortRole::LostCount);
+            if (is_numbered && regions == 1) || (is_loss && never_lost) {
                 continue;
             }
             let silent = (0..port.lanes).filter(|&lane| field.get(&seen, lane) == 0);
@@ -126,13 +134,17 @@ impl Tally {
             }
             Top::Rcm | Top::Rpu => String::new(),
         };
-        vec![
+        let mut lines = vec![
             format!("The vectors show {} frames of {} regions{of}.", self.frames, grid(part)),
             format!(
                 "Decisions: {} active, {} held, {} blank; {} comparisons with an earlier frame.",
                 self.active, self.held, self.blank, self.compared
             ),
-        ]
+        ];
+        if self.lost > 0 {
+            lines.push(format!("The sink stalls until {} regions are lost.", self.lost));
+        }
+        lines
     }
 }
 
@@ -145,7 +157,14 @@ pub(super) fn impossible(design: &Design) -> Vec<String> {
     if always_relevant(design) {
         list.push("No region is ever blank: a min_score of 0 always votes.".to_owned());
     }
+    if has_sink(design) && never_lost(design) {
+        list.push("No region is ever lost: a frame waits for the sink.".to_owned());
+    }
     list
+}
+
+fn never_lost(design: &Design) -> bool {
+    design.timing().departure().kept_rows.is_none()
 }
 
 fn always_changed(design: &Design) -> bool {

@@ -2,7 +2,7 @@
 //! The benches that come with a core: what their vectors show, and that they fail when any output does.
 
 use foveate_cosim::ShippedBench;
-use foveate_design::{Config, Design, FeatureKind};
+use foveate_design::{Config, Design, FeatureKind, Organization};
 use foveate_emit::{SourceFile, Top, verilog};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
@@ -57,11 +57,30 @@ fn designs() -> Vec<String> {
                         );
                         list.push(format!("{}{toml}{serial}{features}", frame((4, 3), size)));
                     }
+                    // The model of large regions is slow; one of them is enough.
+                    if size < 64 || number == 93 {
+                        let raster =
+                            raster(size, [1, 2, 4][number % 3], ["plain", "deep"][number % 2]);
+                        let rows = [3, 5, 1, 4][number % 4];
+                        let columns = (64 / size).max(4);
+                        list.push(format!(
+                            "{}{toml}{raster}{features}",
+                            frame((columns, rows), size)
+                        ));
+                    }
                 }
             }
         }
     }
     list
+}
+
+/// A raster design for words of at most so many pixels.
+fn raster(size: u32, most: u32, pipelining: &str) -> String {
+    let word = (1..=most).rev().find(|word| [1, 2, 4].contains(word) && size % word == 0).unwrap();
+    format!(
+        "hardware.organization = 'raster'\nhardware.pixels_per_clock = {word}\nhardware.pipelining = '{pipelining}'\n"
+    )
 }
 
 /// One feature, two, or all, with levels that the depth allows.
@@ -106,6 +125,9 @@ fn every_design_shows_active_held_and_blank_regions() {
             assert_eq!(bench.shortcoming, None, "{top:?}\n{toml}");
             assert!(tally.frames >= 3 && tally.active > 0 && tally.held > 0, "{tally:?}\n{toml}");
             assert!(tally.blank > 0 && tally.compared > 0, "{tally:?}\n{toml}");
+            let is_kept = bench.remarks.iter().any(|remark| remark.contains("waits for the sink"));
+            let loses = design.organization() == Organization::Raster && !is_kept;
+            assert_eq!(tally.lost > 0, loses, "{tally:?}\n{toml}");
             let size = bench.files[1].contents.len();
             assert!(size < 4 << 20, "{size} bytes\n{toml}");
         }
@@ -167,6 +189,31 @@ fn what_vectors_cannot_show_is_said() {
         let runtime = bench(&design(toml), Top::Rpu);
         assert!(runtime.remarks.is_empty() && runtime.shortcoming.is_none(), "{toml}");
         assert!(runtime.tally.held > 0 && runtime.tally.blank > 0, "{toml}");
+    }
+}
+
+/// A sink stalls for so long that regions are lost, with a core of the same structure; only where every frame
+/// waits for it nothing is lost, and the bench says so.
+#[test]
+fn the_benches_of_raster_cores_lose_regions_where_regions_can_be_lost() {
+    let waits = "temporal.reference = 'last-sent'";
+    // Rows of regions of the frame, what differs, rows of the bench, and whether it loses regions.
+    for (rows, more, tried, loses) in [
+        (30, "", 3, true),
+        (1, "", 1, true),
+        (30, waits, 3, true),
+        (2, waits, 2, false),
+        (3, "temporal.reference = 'last-sent'\nspatial = [{ feature = 'mad' }]", 2, false),
+    ] {
+        let frame = frame((40, rows), 8);
+        let design = design(&format!("{frame}hardware.organization = 'raster'\n{more}\n"));
+        let bench = bench(&design, Top::Rcm);
+        assert_eq!(bench.grid, (4, tried), "{rows} {more}");
+        assert_eq!(bench.shortcoming, None, "{rows} {more}");
+        let text = &bench.files[0].contents;
+        assert_eq!(text.contains("regions are lost."), loses, "{rows} {more}: {text}");
+        let says = text.contains("No region is ever lost: a frame waits for the sink.");
+        assert_eq!((bench.tally.lost > 0, says), (loses, !loses), "{rows} {more}: {text}");
     }
 }
 
@@ -307,6 +354,16 @@ fn of_organization(size: u32, serial: Option<(u32, &str)>) -> String {
     format!("region.size = {size}\n{}{hardware}", if size == 2 { small } else { "" })
 }
 
+/// Words of up to four pixels, with references of both kinds: what is sent last is lost, too.
+fn of_raster(size: u32, word: u32) -> String {
+    let (pipelining, reference) = match word {
+        2 => ("deep", "last-sent"),
+        _ => ("plain", "previous"),
+    };
+    let raster = raster(size, word, pipelining);
+    format!("region.size = {size}\ntemporal.reference = '{reference}'\n{raster}")
+}
+
 /// A sample; [`every_tied_output_fails_at_every_size`] is the whole.
 #[test]
 fn every_tied_output_fails() {
@@ -319,12 +376,15 @@ fn every_tied_output_fails() {
         format!("denoise.filter = 'none'\n{}", of_organization(20, None)),
         of_organization(8, Some((3, "raster"))),
         of_organization(4, Some((7, "parallel"))),
+        of_raster(8, 1),
+        of_raster(4, 2),
+        format!("{}spatial = [{{ feature = 'mad', min_score = 5 }}]\n", of_raster(8, 4)),
     ] {
         TOPS.into_iter().for_each(|top| negative_control(&toml, top, Player::Icarus));
     }
 }
 
-/// Sizes, folds and feeds, both organizations: `cargo test -p foveate-cosim --test cosim -- --ignored tied`.
+/// Sizes, folds, feeds and words, every organization: `cargo test -p foveate-cosim --test cosim -- --ignored tied`.
 #[test]
 #[ignore = "takes many minutes"]
 fn every_tied_output_fails_at_every_size() {
@@ -358,6 +418,8 @@ fn matrix() -> Vec<(String, Player)> {
                     designs.push(of_organization(size, Some((fold, feed))));
                 }
             }
+            let divides = |word: &u32| size % word == 0;
+            designs.extend([1, 2, 4].into_iter().filter(divides).map(|word| of_raster(size, word)));
         }
         let player = if size <= 8 { Player::Icarus } else { Player::Verilator };
         for toml in designs {
