@@ -57,8 +57,8 @@ pub(crate) fn clear(
             let before = Before::now();
             let mut rcm = RasterRcm::new(design);
             let time = timer.time(|| {
-                for (control, pixels) in vectors.words() {
-                    black_box(rcm.step(&core_input(control, pixels)));
+                for (applied, references) in vectors.words().zip(vectors.references()) {
+                    black_box(rcm.step(&core_input(applied, references)));
                 }
                 Ok(())
             })?;
@@ -126,16 +126,27 @@ fn raster_agreement(
     vectors: &Vectors,
 ) -> Result<Agreement, BenchError> {
     let (mut rcm, codec) = (RasterRcm::new(design), RasterCodec::new(design));
-    let mut inputs = vectors.words();
+    let mut inputs = vectors.words().zip(vectors.references());
     compare(recording, |record| {
-        if let Some((control, pixels)) = inputs.next() {
-            let outputs = rcm.step(&core_input(control, pixels));
+        if let Some((applied, references)) = inputs.next() {
+            let outputs = rcm.step(&core_input(applied, references));
             codec.outputs(recording.outputs(), outputs, record);
         }
     })
 }
 
-fn core_input<'a>(control: &'a Control, pixels: &'a [u16]) -> RasterInput<'a> {
-    let &Control { reset, valid, forward_ready, ref thresholds } = control;
-    RasterInput { reset, valid, pixels, forward_ready, thresholds }
+fn core_input<'a>(
+    (control, pixels): (&'a Control, &'a [u16]),
+    reference_pixels: &'a [u16],
+) -> RasterInput<'a> {
+    let &Control { reset, valid, reference_valid, forward_ready, ref thresholds } = control;
+    RasterInput {
+        reset,
+        valid,
+        pixels,
+        reference_valid,
+        reference_pixels,
+        forward_ready,
+        thresholds,
+    }
 }

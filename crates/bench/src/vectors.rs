@@ -16,6 +16,8 @@ use crate::error::BenchError;
 pub(crate) struct Vectors {
     controls: Vec<Control>,
     pixels: Vec<u16>,
+    /// The pixels at the port of references of a core that has one.
+    references: Vec<u16>,
     /// The same in bytes, where they fit.
     narrow: Vec<u8>,
     /// Pixels at the port per clock.
@@ -29,6 +31,8 @@ pub(crate) struct Vectors {
 pub(crate) struct Control {
     pub(crate) reset: bool,
     pub(crate) valid: bool,
+    /// Whether a reference is valid, where that is a port.
+    pub(crate) reference_valid: bool,
     /// Whether the sink takes what leaves, where that is a port.
     pub(crate) forward_ready: bool,
     pub(crate) thresholds: Thresholds,
@@ -40,7 +44,8 @@ impl Vectors {
         let pixel = field(layout, PortRole::Pixel).expect("an array takes pixels");
         let ready = field(recording.outputs(), PortRole::Ready);
         let held = (pixel.port.bits() / design.pixel_bits()) as usize;
-        let (mut controls, mut pixels) = (Vec::new(), Vec::new());
+        let reference = field(layout, PortRole::ReferencePixel);
+        let (mut controls, mut pixels, mut references) = (Vec::new(), Vec::new(), Vec::new());
         let (mut is_ready, mut taken) = (true, 0);
         each_clock(recording, |input, expected| {
             let control = Control::of(design, layout, input);
@@ -49,6 +54,8 @@ impl Vectors {
             controls.push(control);
             let narrow = |value: u64| u16::try_from(value).expect("a pixel has at most 16 bits");
             pixels.extend(pixel.words(input, held).map(narrow));
+            let words = reference.into_iter().flat_map(|port| port.words(input, held));
+            references.extend(words.map(narrow));
         })?;
         let byte = |&pixel| u8::try_from(pixel).expect("a pixel of at most 8 bits");
         Ok(Self {
@@ -61,6 +68,7 @@ impl Vectors {
             streamed: taken / design.timing().pixels_per_frame(),
             controls,
             pixels,
+            references,
         })
     }
 
@@ -71,6 +79,12 @@ impl Vectors {
     /// Every clock with its pixels.
     pub(crate) fn words(&self) -> impl Iterator<Item = (&Control, &[u16])> {
         self.controls.iter().zip(self.pixels.chunks_exact(self.width.max(1)))
+    }
+
+    /// The references of every clock; no pixels where there is no such port.
+    pub(crate) fn references(&self) -> impl Iterator<Item = &[u16]> {
+        let width = if self.references.is_empty() { 0 } else { self.width };
+        (0..self.controls.len()).map(move |clock| &self.references[clock * width..][..width])
     }
 
     /// As [`Vectors::words`], where pixels fit into bytes.
@@ -84,6 +98,7 @@ impl Control {
     fn of(design: &Design, layout: &Layout, input: &[u8]) -> Self {
         let mut thresholds = Thresholds::of(design);
         let (mut reset, mut valid, mut forward_ready) = (false, false, true);
+        let mut reference_valid = false;
         let place = |kind| design.features().iter().position(|feature| feature.kind() == kind);
         let word = |value: u64| u32::try_from(value).expect("a level has at most 32 bits");
         for field in layout.fields() {
@@ -91,6 +106,7 @@ impl Control {
             match field.port.role {
                 PortRole::Reset => reset = value() == 1,
                 PortRole::Valid => valid = value() == 1,
+                PortRole::ReferenceValid => reference_valid = value() == 1,
                 PortRole::ForwardReady => forward_ready = value() == 1,
                 PortRole::Level(kind) => {
                     if let Some(place) = place(kind) {
@@ -108,7 +124,7 @@ impl Control {
                 _ => {}
             }
         }
-        Self { reset, valid, forward_ready, thresholds }
+        Self { reset, valid, reference_valid, forward_ready, thresholds }
     }
 }
 

@@ -43,6 +43,12 @@ fn in_array(
     let has = |role| of_role(role).is_some();
     let role = fields.iter().find(|field| field.port.name == difference.port)?.port.role;
     match role {
+        // A word of a frame store outside is of no region that is shown.
+        PortRole::ReferenceReady
+        | PortRole::StoreValid
+        | PortRole::StorePixel
+        | PortRole::StoreLast
+        | PortRole::Underrun => None,
         PortRole::ForwardPosition | PortRole::ForwardSlot | PortRole::ForwardRegion => {
             says(PortRole::ForwardRegion)
         }
@@ -95,6 +101,18 @@ mod tests {
         assert_eq!(found(&design, &shown, "score_o", 0), Some(4));
         assert_eq!(found(&design, &shown, "trs_o", 0), Some(4));
         assert_eq!(found(&design, &shown[1..], "score_valid_o", 0), None);
+    }
+
+    #[test]
+    fn a_word_of_a_store_outside_belongs_to_no_region() {
+        let toml = "[frame]\nwidth = 40\nheight = 16\n[hardware]\norganization = \"raster\"\n\
+                    store = \"external\"\n";
+        let design = Config::from_toml(toml).unwrap().validate().unwrap();
+        let shown = [(PortRole::DecisionValid, 0, 1), (PortRole::Region, 0, 4)];
+        assert_eq!(found(&design, &shown, "temporal_count_o", 0), Some(4));
+        for port in ["reference_ready_o", "store_valid_o", "underrun_o"] {
+            assert_eq!(found(&design, &shown, port, 0), None, "{port}");
+        }
     }
 
     #[test]

@@ -80,7 +80,9 @@ impl<'a> Follower<'a> {
         // An array that says one score after the other takes a frame and then works on it.
         let serial = has(PortRole::AnyScore).then(|| SerialTiming::of(design));
         let is_raster = has(PortRole::ForwardRegion);
-        let words = has(PortRole::ForwardReady).then(|| {
+        // A core that decides one region after the other with all its scores takes words.
+        let is_core = has(PortRole::Region) && serial.is_none();
+        let words = is_core.then(|| {
             let timing = RasterTiming::of(design);
             (timing.taken_words.into(), timing.word_pixels.into())
         });
@@ -287,6 +289,12 @@ mod tests {
     fn the_words_of_a_raster_core_are_counted() {
         let toml = "[frame]\nwidth = 31\nheight = 7\n[region]\nsize = 4\n[hardware]\n\
                     organization = \"raster\"\npixels_per_clock = 2\n";
+        for more in ["", "store = \"external\"\nforward = false\n"] {
+            words_are_counted(&format!("{toml}{more}"));
+        }
+    }
+
+    fn words_are_counted(toml: &str) {
         let last = Moment::Pixel { unit: "word", frame: 0, number: 111, of: 112, x: 30, y: 6 };
         assert_eq!(last.to_string(), "word 111 of 112 (x 30, y 6) of frame 0 enters");
         let (mut frames, mut decisions) = (0, 0);

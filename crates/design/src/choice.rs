@@ -166,7 +166,7 @@ choice! {
     }
 }
 choice! {
-    /// Of what the frame store of the raster organization is built.
+    /// Where the frame store of the raster organization is, and of what it is built.
     #[derive(Default)]
     Store {
         /// Block RAM.
@@ -174,6 +174,10 @@ choice! {
         Block = "block",
         /// Ultra RAM.
         Ultra = "ultra",
+        /// RAM of one port.
+        SinglePort = "single-port",
+        /// Memory outside of the core, by two streams of words.
+        External = "external",
     }
 }
 choice! {

@@ -228,15 +228,19 @@ pub struct HardwareConfig {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryKind>,
     /// Pixels that the raster organization takes at a clock, K: 1, 2 or 4; left out it is 1. Only a raster
-    /// design has it, as the two below.
+    /// design has it, as the three below.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixels_per_clock: Option<u32>,
     /// How finely the arithmetic of the raster organization is cut by registers; left out it is `plain`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pipelining: Option<Pipelining>,
-    /// Of what the frame store of the raster organization is built; left out it is `block`.
+    /// Where the frame store of the raster organization is, and of what it is built; left out it is `block`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub store: Option<Store>,
+    /// Whether the pixels of active regions leave a raster core; left out they do. A design has it only where
+    /// they do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub forward: Option<bool>,
     /// Whether thresholds are inputs of the core or constants in it.
     pub thresholds: Thresholds,
 }
@@ -251,6 +255,7 @@ impl Default for HardwareConfig {
             pixels_per_clock: None,
             pipelining: None,
             store: None,
+            forward: None,
             thresholds: Thresholds::Runtime,
         }
     }

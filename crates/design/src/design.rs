@@ -140,10 +140,16 @@ impl Design {
         self.config.hardware.pipelining.unwrap_or_default()
     }
 
-    /// Of what the frame store of the raster organization is built.
+    /// Where the frame store of the raster organization is, and of what it is built.
     #[must_use]
     pub fn store(&self) -> Store {
         self.config.hardware.store.unwrap_or_default()
+    }
+
+    /// Whether the pixels of active regions leave the array or core.
+    #[must_use]
+    pub fn forwards(&self) -> bool {
+        self.config.hardware.forward.unwrap_or(true)
     }
 
     /// Where the thresholds come from.

@@ -41,6 +41,7 @@ const KEYS: &[(&str, Takes)] = &[
     ("hardware.pixels_per_clock", Text("1, 2 or 4")),
     ("hardware.pipelining", Names(Pipelining::one_of)),
     ("hardware.store", Names(Store::one_of)),
+    ("hardware.forward", Text("true or false")),
     ("hardware.thresholds", Names(Thresholds::one_of)),
 ];
 

@@ -35,10 +35,24 @@ pub enum PortRole {
     TemporalLevel,
     /// Per-region threshold of the temporal score.
     TemporalMinCount,
+    /// A reference is on the port below (`raster`, store outside).
+    ReferenceValid,
+    /// The word with which the next word is compared (`raster`, store outside).
+    ReferencePixel,
     /// The sink takes what is on the forward ports (`raster`).
     ForwardReady,
     /// A pixel would be taken (`serial`, `raster`).
     Ready,
+    /// A reference is taken at the next edge (`raster`, store outside).
+    ReferenceReady,
+    /// A word is stored (`raster`, store outside).
+    StoreValid,
+    /// That word (`raster`, store outside).
+    StorePixel,
+    /// It is the last of a row (`raster`, store outside).
+    StoreLast,
+    /// A reference was taken without being valid since reset (`raster`, store outside).
+    Underrun,
     /// A score stands at the score port (`serial`).
     ScoreValid,
     /// Which score: 0 the temporal count, 1.. the features in the order of the design (`serial`).
@@ -161,8 +175,15 @@ fn port_name(role: PortRole) -> String {
         PortRole::MinScore(kind) => format!("{kind}_min_i"),
         PortRole::TemporalLevel => "temporal_level_i".to_owned(),
         PortRole::TemporalMinCount => "temporal_min_i".to_owned(),
+        PortRole::ReferenceValid => "reference_valid_i".to_owned(),
+        PortRole::ReferencePixel => "reference_pixel_i".to_owned(),
         PortRole::ForwardReady => "forward_ready_i".to_owned(),
         PortRole::Ready => "ready_o".to_owned(),
+        PortRole::ReferenceReady => "reference_ready_o".to_owned(),
+        PortRole::StoreValid => "store_valid_o".to_owned(),
+        PortRole::StorePixel => "store_pixel_o".to_owned(),
+        PortRole::StoreLast => "store_last_o".to_owned(),
+        PortRole::Underrun => "underrun_o".to_owned(),
         PortRole::ScoreValid => "score_valid_o".to_owned(),
         PortRole::ScoreIndex => "score_index_o".to_owned(),
         PortRole::Region => "region_o".to_owned(),

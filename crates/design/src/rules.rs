@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The questions that every organization answers; [`crate::organization`] asks them.
 
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Reference, Timing};
 
 /// What an array is made of, as often as it needs: an RPU, a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub struct Unit {
     pub split: &'static str,
 }
 
-/// A frame and its regions, as far as `[hardware]` depends on them.
+/// A frame, its regions and their reference, as far as `[hardware]` depends on them.
 pub(crate) struct Grid {
     /// Width of the frame in pixels.
     pub(crate) width: u32,
@@ -31,6 +31,8 @@ pub(crate) struct Grid {
     pub(crate) columns: u32,
     /// Regions of the frame.
     pub(crate) regions: u32,
+    /// What a frame is compared with.
+    pub(crate) reference: Reference,
 }
 
 /// What an organization answers.

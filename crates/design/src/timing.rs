@@ -25,7 +25,7 @@ pub struct Departure {
     pub decision_clocks: u64,
     /// Frames that must be taken after a frame before its pixels leave.
     pub forward_frames: u32,
-    /// Clocks to the last pixel of slot 0.
+    /// Clocks to the last pixel of slot 0; to its last decision where no pixels leave.
     pub forward_clocks: u64,
     /// Clocks from one slot to the next.
     pub slot_clocks: u64,

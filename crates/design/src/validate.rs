@@ -35,7 +35,8 @@ impl Config {
         let regions = self.check_regions(width, height)?;
         let rules = self.hardware.organization.rules();
         let size = self.region.size;
-        let grid = Grid { width, size, columns: width.div_ceil(size), regions };
+        let reference = self.temporal.reference;
+        let grid = Grid { width, size, columns: width.div_ceil(size), regions, reference };
         let hardware = rules.hardware(&self.hardware, &grid)?;
         let n = self.region.size * self.region.size;
         let pixel_max = (1 << self.frame.pixel_bits) - 1;
@@ -150,6 +151,7 @@ impl HardwareConfig {
             ("hardware.pixels_per_clock", self.pixels_per_clock.map(|pixels| pixels.to_string())),
             ("hardware.pipelining", self.pipelining.map(|pipelining| format!("\"{pipelining}\""))),
             ("hardware.store", self.store.map(|store| format!("\"{store}\""))),
+            ("hardware.forward", self.forward.map(|forward| forward.to_string())),
         ];
         match given.into_iter().find_map(|(key, value)| Some((key, value?))) {
             None => Ok(()),

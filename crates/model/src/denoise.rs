@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The filter in front of every score.
 
+use std::ops::Range;
+
 use foveate_design::{Design, Filter};
 
 use crate::region::{Area, black_padded};
@@ -44,13 +46,29 @@ pub(crate) fn denoise_into(design: &Design, padded: &Frame, denoised: &mut Frame
         Filter::None => denoised.clone_from(padded),
         Filter::Median3x3 => {
             for region in 0..design.regions() {
-                let view = RegionView::new(design, padded, region);
                 let area = Area::of(design, region);
                 for y in area.rows() {
-                    let row: Vec<_> = area.columns().map(|x| median(&view.window(x, y))).collect();
+                    let row = denoised_run(design, padded, region, area.columns(), y);
                     denoised.write(area.left, y, &row);
                 }
             }
+        }
+    }
+}
+
+/// Some pixels of row `y` of one region of a padded frame, denoised; all that their windows see must be there.
+pub(crate) fn denoised_run(
+    design: &Design,
+    padded: &Frame,
+    region: u32,
+    columns: Range<u32>,
+    y: u32,
+) -> Vec<u16> {
+    match design.filter() {
+        Filter::None => columns.map(|x| padded.get(x, y)).collect(),
+        Filter::Median3x3 => {
+            let view = RegionView::new(design, padded, region);
+            columns.map(|x| median(&view.window(x, y))).collect()
         }
     }
 }

@@ -15,6 +15,9 @@ pub(crate) struct Applied<'a> {
     pub(crate) pixels: &'a [u16],
     /// The sides of the region at the frame's border, where that is a port.
     pub(crate) border: u8,
+    /// Whether the word below is a reference, where these are ports.
+    pub(crate) reference_valid: bool,
+    pub(crate) reference_pixels: &'a [u16],
     /// Whether the sink takes what leaves, where that is a port.
     pub(crate) forward_ready: bool,
     pub(crate) thresholds: Thresholds,
@@ -29,7 +32,16 @@ impl<'a> Applied<'a> {
     /// No pixel, whatever the pixel port shows.
     pub(crate) fn idle(pixels: &'a [u16], thresholds: &Thresholds) -> Self {
         let thresholds = *thresholds;
-        Self { reset: false, valid: false, pixels, border: 0, forward_ready: true, thresholds }
+        Self {
+            reset: false,
+            valid: false,
+            pixels,
+            border: 0,
+            reference_valid: false,
+            reference_pixels: &[],
+            forward_ready: true,
+            thresholds,
+        }
     }
 
     /// To a serial array.
@@ -41,7 +53,16 @@ impl<'a> Applied<'a> {
     /// To a raster core.
     pub(crate) fn of_core(&self) -> RasterInput<'_> {
         let &Self { reset, valid, pixels, forward_ready, ref thresholds, .. } = self;
-        RasterInput { reset, valid, pixels, forward_ready, thresholds }
+        let &Self { reference_valid, reference_pixels, .. } = self;
+        RasterInput {
+            reset,
+            valid,
+            pixels,
+            reference_valid,
+            reference_pixels,
+            forward_ready,
+            thresholds,
+        }
     }
 
     pub(crate) fn write(&self, kinds: &Kinds, layout: &Layout, record: &mut [u8]) {
@@ -50,6 +71,7 @@ impl<'a> Applied<'a> {
                 PortRole::Reset => self.reset.into(),
                 PortRole::Valid => self.valid.into(),
                 PortRole::Border => self.border.into(),
+                PortRole::ReferenceValid => self.reference_valid.into(),
                 PortRole::ForwardReady => self.forward_ready.into(),
                 PortRole::Level(kind) => self.thresholds.level[kinds.index(kind)].into(),
                 PortRole::MinScore(kind) => self.thresholds.min_score[kinds.index(kind)],
@@ -57,6 +79,10 @@ impl<'a> Applied<'a> {
                 PortRole::TemporalMinCount => self.thresholds.temporal_min_count.into(),
                 PortRole::Pixel => {
                     field.set_words(record, self.pixels);
+                    continue;
+                }
+                PortRole::ReferencePixel => {
+                    field.set_words(record, self.reference_pixels);
                     continue;
                 }
                 // The clock, which is in no record, and outputs.
@@ -70,6 +96,11 @@ impl<'a> Applied<'a> {
                 | PortRole::ForwardValid
                 | PortRole::ForwardPixel
                 | PortRole::Ready
+                | PortRole::ReferenceReady
+                | PortRole::StoreValid
+                | PortRole::StorePixel
+                | PortRole::StoreLast
+                | PortRole::Underrun
                 | PortRole::ScoreValid
                 | PortRole::ScoreIndex
                 | PortRole::Region

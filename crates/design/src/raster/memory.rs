@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memories of a raster core, as its Verilog declares them: each has a port to write and a port to read.
+//! The memories of a raster core, as its Verilog declares them: each has a port to write and a port to read, but a
+//! store of a single one.
 
 use super::RasterTiming;
 use crate::width::{bits_for, index_bits};
@@ -26,7 +27,7 @@ impl RasterMemory {
         self.words * u64::from(self.bits)
     }
 
-    /// The memories of the design, as if it were a raster design; the frame store first.
+    /// The memories of the design, as if it were a raster design; a frame store inside first.
     #[must_use]
     pub fn all_of(design: &Design) -> Vec<Self> {
         let sizes = Sizes::of(design);
@@ -68,14 +69,18 @@ impl Sizes {
     /// Frame store and buffers.
     fn pixels(&self, design: &Design) -> Vec<RasterMemory> {
         let buffer = |holds| RasterMemory { holds, words: self.buffer, bits: self.word };
-        let store = match design.store() {
-            Store::Block | Store::Ultra => RasterMemory {
-                holds: "references: the frame store",
-                words: self.timing.words(),
-                bits: self.word,
-            },
-        };
-        let mut list = vec![store, buffer("pixels that may leave")];
+        let mut list = Vec::new();
+        let (holds, words) = ("references: the frame store", self.timing.words());
+        match design.store() {
+            Store::Block | Store::Ultra => list.push(RasterMemory { holds, words, bits: self.word }),
+            Store::SinglePort => {
+                list.push(RasterMemory { holds, words: words.div_ceil(2), bits: 2 * self.word });
+            }
+            Store::External => {}
+        }
+        if design.forwards() {
+            list.push(buffer("pixels that may leave"));
+        }
         if design.has_second_pass() {
             list.push(buffer("a copy for the second pass"));
         }
@@ -95,7 +100,7 @@ impl Sizes {
         if self.hits > 0 {
             list.push(row("two rows of pixels, for the features", 2 * self.word));
         }
-        if self.hits > 0 && design.keeps_raw() {
+        if self.hits > 0 && design.keeps_raw() && design.forwards() {
             list.push(row("a row of raw pixels", self.word));
         }
         if self.timing.windows == 0 && self.timing.rows > self.timing.taken_rows {
@@ -123,10 +128,13 @@ impl Sizes {
         let queue = |holds, bits| RasterMemory { holds, words: waiting, bits };
         let start = index_bits(self.buffer);
         let extra = if self.last_sent { index_bits(self.timing.words()) + 1 } else { 1 };
-        let mut list = vec![queue(
-            "active regions that wait for the sink",
-            ROW_BITS + design.region_bits() + start + extra,
-        )];
+        let mut list = Vec::new();
+        if design.forwards() {
+            list.push(queue(
+                "active regions that wait for the sink",
+                ROW_BITS + design.region_bits() + start + extra,
+            ));
+        }
         if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
             // A design without variance has as many bits for it as a count.
             let variance = design.feature(FeatureKind::Variance);

@@ -4,7 +4,9 @@
 use super::{RasterTiming, ports::ports};
 use crate::rules::{Grid, Rules, Unit};
 use crate::validate::in_range;
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use crate::{
+    Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Reference, Store, Timing,
+};
 
 /// Pixels that a word may have.
 const WORDS: [u32; 3] = [1, 2, 4];
@@ -52,6 +54,7 @@ impl Rules for Raster {
         refuse_lanes(asked)?;
         let pixels = asked.pixels_per_clock.unwrap_or(WORDS[0]);
         check_word(asked, pixels, grid)?;
+        check_reference(asked, grid.reference)?;
         let why = " for organization = \"raster\"; use a narrower frame, or \"serial\"";
         in_range("frame.width", grid.width, 1..=MAX_WIDTH, why)?;
         let columns = least_columns(grid.size, pixels);
@@ -67,6 +70,8 @@ impl Rules for Raster {
             pixels_per_clock: Some(pixels),
             pipelining: Some(asked.pipelining.unwrap_or_default()),
             store: Some(asked.store.unwrap_or_default()),
+            // The default is left out, so that designs have the fingerprints from before there was this key.
+            forward: asked.forward.filter(|forward| !forward),
             ..asked.clone()
         })
     }
@@ -127,6 +132,34 @@ fn check_word(asked: &HardwareConfig, pixels: u32, grid: &Grid) -> Result<(), De
     }
     let remedy = format!("it must divide region.size = {}; use fewer pixels", grid.size);
     Err(asked.clash(key, pixels.to_string(), &remedy))
+}
+
+/// Refuses what cannot keep the references of `last-sent`.
+fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), DesignError> {
+    if reference == Reference::Previous {
+        return Ok(());
+    }
+    let clash = |key: &str, value: String, remedy: &str| {
+        Err(DesignError::Combination {
+            key: key.to_owned(),
+            value,
+            with: format!("temporal.reference = \"{reference}\""),
+            remedy: remedy.to_owned(),
+        })
+    };
+    if asked.forward == Some(false) {
+        let remedy = "its references are the pixels that leave; leave the key out, or use \
+                      reference = \"previous\"";
+        return clash("hardware.forward", false.to_string(), remedy);
+    }
+    match asked.store.unwrap_or_default() {
+        Store::Block | Store::Ultra => Ok(()),
+        store @ (Store::SinglePort | Store::External) => {
+            let remedy = "it also writes regions that leave while others come, for which such a \
+                          store has no port; use \"block\" or \"ultra\", or reference = \"previous\"";
+            clash("hardware.store", format!("\"{store}\""), remedy)
+        }
+    }
 }
 
 /// The fewest regions side by side, for regions and words of so many pixels.

@@ -2,6 +2,8 @@
 //! Numbers of `docs/raster.md`, worked out by hand, and what the organization takes and refuses.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod stores;
+
 use super::*;
 use crate::{Config, Design, Direction, Pipelining, PortRole, Qualifier, Store};
 

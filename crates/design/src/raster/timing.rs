@@ -29,10 +29,15 @@ pub struct RasterTiming {
     pub windows: u32,
     /// S: clocks from the advance of a word in the tail to its storing.
     pub store_latency: u32,
+    /// Clocks from the advance of a word in the tail to the edge at which its reference is taken, where the
+    /// frame store is outside of the core.
+    pub lookup_latency: u32,
     /// D: clocks from the advance of the last word of a region in the tail to its decision.
     pub decision_latency: u32,
-    /// B: rows of regions whose pixels are kept.
+    /// B: rows of regions whose pixels are kept; 0 where nobody reads them back.
     pub buffer_rows: u32,
+    /// Whether pixels leave.
+    pub forwards: bool,
     /// The second pass, of designs with `mad`.
     pub second_pass: Option<SecondPass>,
     /// Whether a frame of at most B rows of regions waits until no region of the frame before is pending.
@@ -60,9 +65,9 @@ impl RasterTiming {
         let median = u32::from(design.filter() == Filter::Median3x3);
         let feature = u32::from(design.has_feature_window());
         let has_variance = design.features().iter().any(|feature| feature.variance().is_some());
-        let (store_latency, after_store) = match design.pipelining() {
-            Pipelining::Plain => (2 + 4 * median + feature, 4),
-            Pipelining::Deep => (4 + 9 * median + 3 * feature, 6),
+        let (store_latency, after_store, lookup_to_store) = match design.pipelining() {
+            Pipelining::Plain => (2 + 4 * median + feature, 4, 1),
+            Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2),
         };
         let variance_latency = if has_variance { 3 } else { 0 };
         let (pass_after_store, pass_to_decision) = match design.pipelining() {
@@ -73,7 +78,11 @@ impl RasterTiming {
             after_store: pass_after_store + variance_latency,
             decision_latency: pass_to_decision,
         });
-        let buffer_rows = if second_pass.is_some() { 3 } else { 2 };
+        let buffer_rows = match (second_pass, design.forwards()) {
+            (Some(_), _) => 3,
+            (None, true) => 2,
+            (None, false) => 0,
+        };
         let last_sent = design.temporal().reference == Reference::LastSent;
         Self {
             word_pixels,
@@ -85,8 +94,10 @@ impl RasterTiming {
             region_words: design.region_pixels() / word_pixels,
             windows: median + feature,
             store_latency,
+            lookup_latency: store_latency - lookup_to_store,
             decision_latency: store_latency + after_store + variance_latency,
             buffer_rows,
+            forwards: design.forwards(),
             second_pass,
             waits_for_pending: last_sent && design.rows() <= buffer_rows,
         }
@@ -198,6 +209,11 @@ impl RasterTiming {
             self.advances(),
             self.decision_latency
         );
+        let leave = if self.forwards {
+            format!("from {} clocks after their decision on", Self::TO_FIRST_WORD)
+        } else {
+            "never: only decisions do".to_owned()
+        };
         Timing {
             clocks_per_frame: clocks,
             pixels_per_frame: self.taken(),
@@ -206,10 +222,7 @@ impl RasterTiming {
             text: vec![
                 ("cycles per frame", shown),
                 ("decision", decision),
-                (
-                    "pixels leave",
-                    format!("from {} clocks after their decision on", Self::TO_FIRST_WORD),
-                ),
+                ("pixels leave", leave),
             ],
             departure: Departure {
                 take_clocks: take,
@@ -250,9 +263,10 @@ impl RasterTiming {
     }
 
     /// Clocks from T0 to the last word that leaves, if all regions of the last row are active and the sink
-    /// takes a word at every clock.
+    /// takes a word at every clock; to the last decision where no word leaves.
     fn last_word(&self) -> u64 {
         match self.second_pass {
+            _ if !self.forwards => self.last_decision(),
             // The words of a row of regions follow each other.
             None => {
                 let first = self.first_of_last_row() + u64::from(self.decision_latency);

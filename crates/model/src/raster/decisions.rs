@@ -2,18 +2,28 @@
 //! When a region that has been judged is decided on the ports: a fixed number of clocks after its last word
 //! has come to the tail, or after its second pass.
 
-use std::collections::VecDeque;
-
 use foveate_design::RasterTiming;
 
+use super::due::{Due, take_due};
 use crate::verdict::Verdict;
+
+/// A region of one frame, all of whose words have come to the tail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Complete {
+    /// Its number.
+    pub(super) region: u32,
+    /// The number of its row of regions, counted on through all frames since reset.
+    pub(super) row: u64,
+    /// The edge at which the last of them came.
+    pub(super) came: u64,
+}
 
 /// A region of one frame, judged.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Judged {
     /// Its number.
     pub(super) region: u32,
-    /// The number of its row of regions, counted on through all frames since reset.
+    /// The number of its row of regions, as of [`Complete`].
     pub(super) row: u64,
     pub(super) verdict: Verdict,
     /// Its pixels as they were scored, row by row.
@@ -26,14 +36,14 @@ pub(super) struct Judged {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Decisions {
     timing: RasterTiming,
-    due: VecDeque<(u64, Judged)>,
+    due: Due<Judged>,
     /// The first edge at which a second pass may begin: that after the pass before.
     pass_free: u64,
 }
 
 impl Decisions {
     pub(super) fn new(timing: RasterTiming) -> Self {
-        Self { timing, due: VecDeque::new(), pass_free: 0 }
+        Self { timing, due: Due::new(), pass_free: 0 }
     }
 
     pub(super) fn forget(&mut self) {
@@ -46,12 +56,12 @@ impl Decisions {
         self.due.is_empty()
     }
 
-    /// The last word of the region has come to the tail at edge `now`.
-    pub(super) fn push(&mut self, now: u64, judged: Judged) {
+    /// A region has been judged, whose last word has come to the tail at edge `came`.
+    pub(super) fn push(&mut self, came: u64, judged: Judged) {
         let due = match self.timing.second_pass {
-            None => now + u64::from(self.timing.decision_latency),
+            None => came + u64::from(self.timing.decision_latency),
             Some(pass) => {
-                let stored = now + u64::from(self.timing.store_latency);
+                let stored = came + u64::from(self.timing.store_latency);
                 let first = self.pass_free.max(stored + u64::from(pass.after_store));
                 let last = first + u64::from(self.timing.region_words) - 1;
                 self.pass_free = last + 1;
@@ -63,7 +73,6 @@ impl Decisions {
 
     /// The region whose decision is on the ports after edge `now`.
     pub(super) fn step(&mut self, now: u64) -> Option<Judged> {
-        let is_due = self.due.front().is_some_and(|(due, _)| *due == now);
-        is_due.then(|| self.due.pop_front()).flatten().map(|(_, judged)| judged)
+        take_due(&mut self.due, now)
     }
 }

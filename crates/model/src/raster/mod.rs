@@ -20,9 +20,13 @@
 //!           forward_ready_i ------>|         |---------------------> forward ports, lost_o
 //!                                  +---------+
 //! ```
+//!
+//! Where the frame store is outside, a region is judged when the reference of its last word is taken there.
 
 mod advances;
 mod decisions;
+mod due;
+mod outside;
 mod picture;
 mod ports;
 mod rcm;

@@ -4,6 +4,7 @@
 use foveate_design::FeatureKind;
 
 use super::decisions::Judged;
+use super::outside::Stored;
 use super::readout::Word;
 use crate::Thresholds;
 
@@ -16,17 +17,32 @@ pub struct RasterInput<'a> {
     pub valid: bool,
     /// `pixel_i`: a word of K pixels, the left one first.
     pub pixels: &'a [u16],
-    /// `forward_ready_i`.
+    /// `reference_valid_i`; without meaning where the frame store is inside, as the next.
+    pub reference_valid: bool,
+    /// `reference_pixel_i`: a word of K pixels, the left one first.
+    pub reference_pixels: &'a [u16],
+    /// `forward_ready_i`; without meaning where no pixels leave.
     pub forward_ready: bool,
     /// The threshold inputs; without meaning where the design has constants.
     pub thresholds: &'a Thresholds,
 }
 
-/// What the outputs of the core show after an edge. A port that means nothing shows 0.
+/// What the outputs of the core show after an edge. A port that means nothing, or that the core does not have,
+/// shows 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RasterOutput {
     /// `ready_o`.
     pub ready: bool,
+    /// `reference_ready_o`.
+    pub reference_ready: bool,
+    /// `store_valid_o`.
+    pub store_valid: bool,
+    /// `store_pixel_o`: a word of K pixels, the left one first.
+    pub store_pixels: Vec<u16>,
+    /// `store_last_o`.
+    pub store_last: bool,
+    /// `underrun_o`.
+    pub underrun: bool,
     /// `decision_valid_o`.
     pub decision_valid: bool,
     /// `region_o`.
@@ -60,6 +76,11 @@ impl RasterOutput {
     pub(super) fn fresh(word_pixels: usize) -> Self {
         Self {
             ready: true,
+            reference_ready: false,
+            store_valid: false,
+            store_pixels: vec![0; word_pixels],
+            store_last: false,
+            underrun: false,
             decision_valid: false,
             region: 0,
             srs: false,
@@ -73,6 +94,16 @@ impl RasterOutput {
             forward_pixels: vec![0; word_pixels],
             lost: false,
             lost_count: 0,
+        }
+    }
+
+    /// Shows a word that is to be stored, or none.
+    pub(super) fn show_stored(&mut self, word: Option<&Stored>) {
+        self.store_valid = word.is_some();
+        self.store_last = word.is_some_and(|word| word.is_last);
+        match word {
+            Some(word) => self.store_pixels.copy_from_slice(&word.pixels),
+            None => self.store_pixels.fill(0),
         }
     }
 

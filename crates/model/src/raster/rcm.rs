@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The core: what an edge does to each of its parts, and what its outputs show after it.
 
-use foveate_design::{Design, RasterTiming};
+use foveate_design::{Design, RasterTiming, Store};
 
 use super::advances::{Advances, Place};
-use super::decisions::{Decisions, Judged};
+use super::decisions::{Complete, Decisions, Judged};
+use super::outside::Outside;
 use super::picture::Picture;
 use super::ports::{RasterInput, RasterOutput};
 use super::readout::Readout;
@@ -27,6 +28,8 @@ pub struct RasterRcm {
     picture: Picture,
     staleness: Staleness,
     regions: Regions,
+    /// The streams of a frame store outside, where it is there.
+    outside: Option<Outside>,
     decisions: Decisions,
     readout: Readout,
     /// The region whose decision is on the ports.
@@ -52,6 +55,7 @@ impl RasterRcm {
             picture: Picture::new(design),
             staleness: Staleness::new(&timing),
             regions: Regions::new(design),
+            outside: (design.store() == Store::External).then(|| Outside::new(design)),
             decisions: Decisions::new(timing),
             readout: Readout::new(timing.word_pixels),
             decided: None,
@@ -64,7 +68,7 @@ impl RasterRcm {
     /// One rising edge; returns what every output shows after it.
     ///
     /// # Panics
-    /// When there are not as many pixels as `pixel_i` has.
+    /// When there are not as many pixels as `pixel_i` has, or as `reference_pixel_i` where that is a port.
     pub fn step(&mut self, input: &RasterInput<'_>) -> &RasterOutput {
         let word = index(self.timing.word_pixels);
         assert_eq!(input.pixels.len(), word, "a word has K pixels");
@@ -74,12 +78,14 @@ impl RasterRcm {
         }
         self.now += 1;
         self.closed = self.closed.saturating_sub(1);
+        self.take_reference(input);
         self.advance(input);
         self.read(input.forward_ready);
         self.decided = self.decisions.step(self.now);
         if let Some(judged) = &self.decided {
             self.regions.decide(judged);
         }
+        self.store();
         self.show();
         &self.output
     }
@@ -91,7 +97,8 @@ impl RasterRcm {
     }
 
     /// What the next frame of a region will be compared with: scored pixels, row by row; `None` where there
-    /// is no valid reference. With `last-sent` it is known when nothing is [pending](Self::is_pending).
+    /// is no valid reference. With `last-sent` it is known when nothing is [pending](Self::is_pending); where
+    /// the frame store is outside, it is what that was given to store.
     ///
     /// # Panics
     /// When the design has no such region.
@@ -105,19 +112,22 @@ impl RasterRcm {
     #[must_use]
     pub fn is_pending(&self) -> bool {
         let is_active = self.decided.as_ref().is_some_and(|judged| judged.verdict.active());
-        is_active || self.is_deciding() || !self.readout.is_empty()
+        is_active && self.timing.forwards || self.is_deciding() || !self.readout.is_empty()
     }
 
     /// Whether a region is not yet decided though its last word has come to the tail.
     #[must_use]
     pub fn is_deciding(&self) -> bool {
-        !self.decisions.is_empty()
+        !self.decisions.is_empty() || self.outside.as_ref().is_some_and(Outside::is_asking)
     }
 
     fn reset(&mut self) {
         self.advances.forget();
         self.staleness.forget();
         self.regions.forget();
+        if let Some(outside) = &mut self.outside {
+            outside.forget();
+        }
         self.decisions.forget();
         self.readout = Readout::new(self.timing.word_pixels);
         self.decided = None;
@@ -141,24 +151,63 @@ impl RasterRcm {
 
     /// A word comes to the tail: the first of a row of regions, the last of a region, or any other.
     fn tail(&mut self, place: Place, applied: &Thresholds) {
-        let (row, last_row) = (place.row % self.side, self.side - 1);
-        if row == 0 && place.column == 0 {
+        if place.row % self.side == 0 && place.column == 0 {
             self.staleness.begin_row(self.now);
         }
-        let wide = self.timing.region_row_words;
-        if row == last_row && place.column % wide == wide - 1 {
-            let region = place.row / self.side * self.columns + place.column / wide;
-            let thresholds = self.constants.as_ref().unwrap_or(applied);
-            let (row, padded) = (self.staleness.row(), self.picture.padded());
-            let judged = self.regions.judge(region, row, padded, thresholds);
-            self.decisions.push(self.now, judged);
+        let complete = self.complete(place);
+        match (&mut self.outside, complete) {
+            (Some(outside), _) => outside.come(self.now, place, complete, self.picture.padded()),
+            (None, Some(complete)) => self.judge(complete, applied),
+            (None, None) => {}
         }
     }
 
-    /// An edge of the readout. The decision that was on the ports before it stands there no more.
+    /// The region whose last word is at this place.
+    fn complete(&self, place: Place) -> Option<Complete> {
+        let wide = self.timing.region_row_words;
+        let is_last = place.row % self.side == self.side - 1 && place.column % wide == wide - 1;
+        is_last.then(|| Complete {
+            region: place.row / self.side * self.columns + place.column / wide,
+            row: self.staleness.row(),
+            came: self.now,
+        })
+    }
+
+    /// An edge of the stream from outside.
+    fn take_reference(&mut self, input: &RasterInput<'_>) {
+        let Some(outside) = &mut self.outside else { return };
+        let pixels = input.reference_pixels;
+        assert_eq!(pixels.len(), index(self.timing.word_pixels), "a word has K pixels");
+        if let Some(complete) = outside.take(self.now, input.reference_valid, pixels) {
+            self.judge(complete, input.thresholds);
+        }
+    }
+
+    /// Judges a region, all of whose references are there.
+    fn judge(&mut self, complete: Complete, applied: &Thresholds) {
+        let thresholds = self.constants.as_ref().unwrap_or(applied);
+        let taken = self.outside.as_ref().map(Outside::references);
+        let padded = self.picture.padded();
+        let judged = self.regions.judge(complete, padded, taken, thresholds);
+        self.decisions.push(complete.came, judged);
+    }
+
+    /// An edge of the stream to the outside.
+    fn store(&mut self) {
+        if let Some(outside) = &mut self.outside {
+            let word = outside.store(self.now);
+            self.output.show_stored(word.as_ref());
+            self.output.reference_ready = outside.asks_after(self.now);
+            self.output.underrun = outside.underrun();
+        }
+    }
+
+    /// An edge of the readout, in which there is never anything where no pixels leave. The decision that was on
+    /// the ports before it stands there no more.
     fn read(&mut self, sink_takes: bool) {
         if let Some(judged) = self.decided.take()
             && judged.verdict.active()
+            && self.timing.forwards
         {
             self.readout.enter(self.now, judged);
         }

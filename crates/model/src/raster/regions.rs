@@ -4,7 +4,7 @@
 use foveate_design::{Action, Design, Payload, Reference};
 use foveate_frame::Frame;
 
-use super::decisions::Judged;
+use super::decisions::{Complete, Judged};
 use super::readout::Word;
 use crate::number::index;
 use crate::verdict::Verdict;
@@ -46,18 +46,20 @@ impl Regions {
         self.referenced[region].then(|| &self.references[region * self.pixels..][..self.pixels])
     }
 
-    /// Judges a region of a frame; `row` is the number of its row of regions since reset.
+    /// Judges a region of a frame. Where references come from outside, it is compared with those that were
+    /// `taken`, whatever they are.
     pub(super) fn judge(
         &mut self,
-        region: u32,
-        row: u64,
+        Complete { region, row, .. }: Complete,
         padded: &Frame,
+        taken: Option<&Frame>,
         thresholds: &Thresholds,
     ) -> Judged {
         let mut stream = Vec::new();
         region_stream(&self.design, padded, region, &mut stream);
         self.scorer.take(stream.into_iter(), region_border(&self.design, region));
-        let reference = self.reference(region);
+        let taken = taken.map(|frame| self.pixels_of(frame, region));
+        let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
         let verdict = Verdict::of(&self.design, &self.scorer, reference, thresholds);
         let scored: Vec<u16> = self.scorer.pixels().collect();
         if self.design.temporal().reference == Reference::Previous {
@@ -66,11 +68,7 @@ impl Regions {
         }
         let payload = match self.design.payload() {
             Payload::Denoised => scored.clone(),
-            Payload::Raw => {
-                let mut raw = Vec::new();
-                region_pixels(&self.design, padded, region, &mut raw);
-                raw
-            }
+            Payload::Raw => self.pixels_of(padded, region),
         };
         Judged { region, row, verdict, scored, payload }
     }
@@ -99,6 +97,13 @@ impl Regions {
         if self.design.temporal().reference == Reference::LastSent {
             self.referenced[index(region)] = false;
         }
+    }
+
+    /// The pixels of a region in a padded frame, row by row.
+    fn pixels_of(&self, padded: &Frame, region: u32) -> Vec<u16> {
+        let mut pixels = Vec::with_capacity(self.pixels);
+        region_pixels(&self.design, padded, region, &mut pixels);
+        pixels
     }
 
     fn remember(&mut self, region: u32, position: u32, pixels: &[u16]) {

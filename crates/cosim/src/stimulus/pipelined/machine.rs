@@ -77,6 +77,13 @@ impl PipelinedCodec {
                     | PortRole::TemporalLevel
                     | PortRole::TemporalMinCount
                     | PortRole::Ready
+                    | PortRole::ReferenceValid
+                    | PortRole::ReferencePixel
+                    | PortRole::ReferenceReady
+                    | PortRole::StoreValid
+                    | PortRole::StorePixel
+                    | PortRole::StoreLast
+                    | PortRole::Underrun
                     | PortRole::ScoreValid
                     | PortRole::ScoreIndex
                     | PortRole::Region

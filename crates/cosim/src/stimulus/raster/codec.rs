@@ -29,6 +29,14 @@ impl RasterCodec {
         for field in layout.fields() {
             let value = match field.port.role {
                 PortRole::Ready => output.ready.into(),
+                PortRole::ReferenceReady => output.reference_ready.into(),
+                PortRole::StoreValid => output.store_valid.into(),
+                PortRole::StorePixel => {
+                    field.set_words(record, &output.store_pixels);
+                    continue;
+                }
+                PortRole::StoreLast => output.store_last.into(),
+                PortRole::Underrun => output.underrun.into(),
                 PortRole::DecisionValid => output.decision_valid.into(),
                 PortRole::Region => output.region.into(),
                 PortRole::Srs => output.srs.into(),

@@ -2,7 +2,7 @@
 //! Whole films: scores, decisions and the rendered frame, against the functional camera, over a matrix of
 //! designs that has every value of every choice beside every other.
 
-use foveate_design::Design;
+use foveate_design::{Design, Payload, Store};
 use foveate_frame::Frame;
 use foveate_model::{Camera, Outcome, RasterOutput};
 
@@ -22,7 +22,8 @@ fn compare(shown: &RasterOutput, outcome: &Outcome) {
     assert!(scores.eq(shown.scores.into_iter().take(outcome.scores.len())), "region {at}");
 }
 
-/// `Departure` says when the last decision comes, and when the last word leaves if all regions are active.
+/// `Departure` says when the last decision comes, and when the last word leaves if all regions are active and any
+/// leaves.
 fn check_departure(design: &Design, outcome: &Outcome, trace: &Trace) {
     let departure = design.timing().departure();
     let last = |which: fn(&RasterOutput) -> bool| trace.shown.iter().rposition(which);
@@ -30,8 +31,23 @@ fn check_departure(design: &Design, outcome: &Outcome, trace: &Trace) {
     assert_eq!(last(|shown| shown.decision_valid), Some(decided));
     let left = (departure.take_clocks + departure.forward_clocks) as usize;
     match last(|shown| shown.forward_valid) {
+        found if !design.forwards() => assert_eq!(found, None),
         found if outcome.active.iter().all(|&active| active) => assert_eq!(found, Some(left)),
         found => assert!(found <= Some(left)),
+    }
+}
+
+/// Whoever keeps the frame elsewhere, raw or as it is scored, has the pixels of an active region.
+fn keep(screen: &mut Screen, driver: &Driver, frame: &Frame, region: u32) {
+    let scored = driver.rcm.reference(region).unwrap();
+    let width = screen.design.columns() * screen.design.region_size();
+    for (position, &pixel) in (0..).zip(scored) {
+        let place = screen.place(region, position);
+        let (x, y) = (place as u32 % width, place as u32 / width);
+        screen.pixels[place] = match screen.design.payload() {
+            Payload::Denoised => pixel,
+            Payload::Raw => frame.clamped(x.into(), y.into()),
+        };
     }
 }
 
@@ -52,6 +68,9 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
                 compare(shown, outcome);
                 screen.act(shown.region, shown.srs, shown.trs);
                 decisions += 1;
+            }
+            if shown.active && !recipe.forward {
+                keep(&mut screen, &driver, frame, shown.region);
             }
             if shown.forward_valid {
                 for (position, &pixel) in (shown.forward_position..).zip(&shown.forward_pixels) {
@@ -109,6 +128,8 @@ fn recipe(number: usize) -> RasterRecipe {
         },
         pixels,
         deep: on(7),
+        store: Store::Block,
+        forward: true,
         misread: Misread::default(),
     }
 }
@@ -117,6 +138,19 @@ fn recipe(number: usize) -> RasterRecipe {
 fn every_kind_of_core_shows_what_the_camera_shows() {
     for number in 0..56 {
         let recipe = recipe(number);
+        let film = hard_frames(&recipe.base);
+        check(&recipe, &film);
+    }
+}
+
+/// A store of one port and one outside, in cores that forward and in cores that do not.
+#[test]
+fn a_core_with_any_store_shows_what_the_camera_shows() {
+    for number in 0..56 {
+        let mut recipe = recipe(number);
+        recipe.base.last_sent = false;
+        recipe.store = [Store::External, Store::SinglePort, Store::External][number % 3];
+        recipe.forward = number % 5 > 1;
         let film = hard_frames(&recipe.base);
         check(&recipe, &film);
     }

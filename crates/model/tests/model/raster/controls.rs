@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Wrong expectations must be noticed: the same check, with one thing changed in what it expects.
 
+use foveate_design::Store;
+
 use super::driver::{Driver, Manner, Sink};
 use super::expected::{Check, Oracle};
+use super::memory::Faults;
 use super::properties::Film;
 use super::recipe::{Misread, RasterRecipe};
 use crate::frames::{Content, Script};
@@ -33,6 +36,8 @@ fn recipe(last: FeatureRecipe) -> RasterRecipe {
         },
         pixels: 1,
         deep: false,
+        store: Store::Block,
+        forward: true,
         misread: Misread::default(),
     }
 }
@@ -44,7 +49,10 @@ fn script() -> Script {
 }
 
 /// A sink that loses regions.
-const SLOW: Manner = Manner { gaps: 3, pushing: 50, sink: Sink::Often(45), ..Manner::DENSE };
+const SLOW: Manner =
+    Manner { gaps: 3, pushing: 50, sink: Sink::Often(45), faults: FEW, ..Manner::DENSE };
+/// A memory outside that fails now and then.
+const FEW: Faults = Faults { missing: 4, wrong: 4 };
 
 /// Runs the core of a recipe against what another expects.
 fn expect(built: &RasterRecipe, change: impl Fn(&mut RasterRecipe)) -> Check {
@@ -109,6 +117,35 @@ fn faults_of_small_frames_in_wide_words_are_noticed() {
     ];
     for (fault, spoil) in faults {
         assert!(expect(&built, spoil).is_err(), "{fault} goes unnoticed");
+    }
+}
+
+/// A store outside that fails now and then, in both pipelinings and with a second pass.
+#[test]
+fn faults_of_a_store_outside_are_noticed() {
+    for (last, deep) in [
+        (feature("variance", 0, 900_000), false),
+        (feature("variance", 0, 900_000), true),
+        (feature("mad", 0, 18_000), false),
+    ] {
+        let mut built = recipe(last);
+        (built.base.last_sent, built.store, built.deep) = (false, Store::External, deep);
+        for forward in [true, false] {
+            built.forward = forward;
+            assert_eq!(expect(&built, |_| {}), Ok(()));
+            let faults: [Fault; 6] = [
+                ("taking later", |recipe| recipe.misread.taken = 1),
+                ("taking earlier", |recipe| recipe.misread.taken = -1),
+                ("taking always", |recipe| recipe.misread.always_takes = true),
+                ("trusting", |recipe| recipe.misread.trusts = true),
+                ("S", |recipe| recipe.misread.stored = 1),
+                ("median", |recipe| recipe.base.median = false),
+            ];
+            for (fault, spoil) in faults {
+                assert!(expect(&built, spoil).is_err(), "{fault} goes unnoticed");
+            }
+            assert!(expect(&built, |recipe| recipe.forward ^= true).is_err(), "forwarding");
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use foveate_design::FeatureKind;
 use foveate_frame::Frame;
 use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
 
+use super::memory::{Faults, Memory};
 use super::recipe::RasterRecipe;
 use crate::frames::Random;
 
@@ -28,12 +29,20 @@ pub(crate) struct Manner {
     /// Percent of clocks with a word though the core is not ready.
     pub(crate) pushing: i64,
     pub(crate) sink: Sink,
+    /// Of the memory outside, where there is one.
+    pub(crate) faults: Faults,
     pub(crate) seed: u64,
 }
 
 impl Manner {
-    pub(crate) const DENSE: Self =
-        Self { gaps: 0, between: 0, pushing: 0, sink: Sink::Often(100), seed: 0 };
+    pub(crate) const DENSE: Self = Self {
+        gaps: 0,
+        between: 0,
+        pushing: 0,
+        sink: Sink::Often(100),
+        faults: Faults::NONE,
+        seed: 0,
+    };
 }
 
 /// A frame and its thresholds.
@@ -47,6 +56,8 @@ pub(crate) struct Job {
 pub(crate) struct Trace {
     pub(crate) valid: Vec<bool>,
     pub(crate) sink: Vec<bool>,
+    /// Whether a reference was valid, and the reference, where these are ports.
+    pub(crate) references: Vec<(bool, Vec<u16>)>,
     pub(crate) shown: Vec<RasterOutput>,
 }
 
@@ -61,6 +72,7 @@ pub(crate) struct Driver {
     recipe: RasterRecipe,
     pub(crate) rcm: RasterRcm,
     manner: Manner,
+    memory: Memory,
     random: Random,
     trace: Trace,
     /// Clocks that are left before everything ends.
@@ -79,6 +91,7 @@ impl Driver {
             recipe: recipe.clone(),
             rcm,
             manner,
+            memory: Memory::new(recipe, manner.faults, manner.seed),
             random: Random(manner.seed),
             trace: Trace::default(),
             left: i64::MAX,
@@ -99,11 +112,14 @@ impl Driver {
                 reset: true,
                 valid,
                 pixels: &word,
+                reference_valid: false,
+                reference_pixels: &word,
                 forward_ready,
                 thresholds: &thresholds,
             };
             self.rcm.step(&input);
         }
+        self.memory.forget();
         self.begin();
     }
 
@@ -111,7 +127,8 @@ impl Driver {
     pub(crate) fn begin(&mut self) {
         self.decisions = 0;
         let shown = vec![self.rcm.output().clone()];
-        self.trace = Trace { valid: vec![false], sink: vec![false], shown };
+        let references = vec![(false, Vec::new())];
+        self.trace = Trace { valid: vec![false], sink: vec![false], references, shown };
     }
 
     /// Feeds frame after frame, lets `rest` clocks pass, and says what was seen; ends after `clocks` clocks,
@@ -167,8 +184,19 @@ impl Driver {
         }
         self.left -= 1;
         let forward_ready = self.sink();
-        let input = RasterInput { reset: false, valid, pixels, forward_ready, thresholds };
+        let (reference_valid, reference) = self.memory.show(self.rcm.output());
+        let input = RasterInput {
+            reset: false,
+            valid,
+            pixels,
+            reference_valid,
+            reference_pixels: &reference,
+            forward_ready,
+            thresholds,
+        };
         let shown = self.rcm.step(&input).clone();
+        self.memory.store(&shown);
+        self.trace.references.push((reference_valid, reference));
         self.decisions += i64::from(shown.decision_valid);
         self.trace.valid.push(valid);
         self.trace.sink.push(forward_ready);

@@ -33,6 +33,8 @@ fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<Raste
             reset: false,
             valid,
             pixels: &ones,
+            reference_valid: false,
+            reference_pixels: &[],
             forward_ready,
             thresholds: &thresholds,
         };
@@ -177,6 +179,8 @@ fn after_a_reset_nothing_is_shown() {
         reset: false,
         valid: true,
         pixels: &[1],
+        reference_valid: false,
+        reference_pixels: &[],
         forward_ready: false,
         thresholds: &thresholds,
     };

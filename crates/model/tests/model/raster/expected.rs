@@ -10,6 +10,7 @@ use foveate_model::RasterOutput;
 use super::driver::Trace;
 use super::reading::Readings;
 use super::recipe::RasterRecipe;
+use super::streams::Streams;
 use crate::oracle::{Seen, begin, look_at_region};
 
 /// What differs, and where.
@@ -22,6 +23,7 @@ pub(crate) struct Oracle<'a> {
     /// Edges at which regions are decided, with frame and region.
     decisions: BTreeMap<i64, (usize, i64)>,
     readings: Readings,
+    streams: Streams,
     /// Edges from which on rows of regions are stale, counted through all frames.
     begun: Vec<i64>,
     ready: Vec<bool>,
@@ -44,6 +46,7 @@ impl<'a> Oracle<'a> {
             history: Vec::new(),
             decisions: BTreeMap::new(),
             readings: Readings::new(recipe.region_words(), recipe.misread.rest),
+            streams: Streams::default(),
             begun: Vec::new(),
             ready: vec![false; trace.shown.len()],
             passed: 0,
@@ -71,8 +74,12 @@ impl<'a> Oracle<'a> {
     ) -> Result<i64, String> {
         let recipe = self.recipe;
         let edges = self.advances(ready);
-        self.history.push(begin(&recipe.base, frame));
+        let seen = begin(&recipe.base, frame);
         let tail = |word: i64| edges.get((word + recipe.flush()) as usize).copied();
+        if recipe.is_outside() {
+            self.streams.frame(recipe, self.trace, &seen.denoised, tail);
+        }
+        self.history.push(seen);
         for row in 0..recipe.base.rows() {
             let stored =
                 tail(row * recipe.base.side * recipe.row()).map(|edge| edge + recipe.stored());
@@ -162,8 +169,10 @@ impl<'a> Oracle<'a> {
         }
         let Some(&(frame, region)) = self.decisions.get(&edge) else { return Ok(()) };
         let (before, from) = self.history.split_at(frame);
-        let seen = look_at_region(&recipes[frame].base, before, &from[0], region);
-        if seen.active {
+        let trusts = !self.recipe.is_outside() || self.recipe.misread.trusts;
+        let compared = if trusts { before } else { self.streams.history(frame) };
+        let seen = look_at_region(&recipes[frame].base, compared, &from[0], region);
+        if seen.active && self.recipe.forward {
             self.readings.enter(frame, region, edge);
         }
         self.history[frame].regions.push(seen);
@@ -189,6 +198,7 @@ impl<'a> Oracle<'a> {
         if got.ready != ready {
             return Err(format!("ready_o is {} after edge {edge}", got.ready));
         }
+        self.streams.compare(edge, self.trace.end(), got)?;
         self.compare_decision(edge, got)?;
         self.compare_word(edge, got)?;
         let lost = self.readings.lost[edge as usize];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every port after every edge, for every kind of design: with gaps, pauses, words that are not taken, sinks
-//! that stall, thresholds that change between frames, and resets at any edge.
+//! that stall, memories that fail, thresholds that change between frames, and resets at any edge.
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
@@ -9,6 +9,7 @@ use proptest::prelude::*;
 
 use super::driver::{Driver, Job, Manner, Sink};
 use super::expected::{Check, Oracle};
+use super::memory::Faults;
 use super::recipe::{RasterRecipe, raster_recipes};
 use crate::frames::{Random, Script, film, scripts};
 
@@ -22,8 +23,21 @@ fn manners() -> impl Strategy<Value = Manner> {
         2 => (2i64..60).prop_map(Sink::Turns),
         2 => (60i64..3000).prop_map(Sink::Turns),
     ];
-    (gaps, 0i64..20, pushing, sink, any::<u64>()).prop_map(
-        |(gaps, between, pushing, sink, seed)| Manner { gaps, between, pushing, sink, seed },
+    let faults = prop_oneof![
+        2 => Just(Faults::NONE),
+        1 => (0i64..20, 0i64..20).prop_map(|(missing, wrong)| Faults { missing, wrong }),
+        1 => (0i64..500, 0i64..500).prop_map(|(missing, wrong)| Faults { missing, wrong }),
+    ];
+    let source = (gaps, 0i64..20, pushing);
+    (source, sink, faults, any::<u64>()).prop_map(
+        |((gaps, between, pushing), sink, faults, seed)| Manner {
+            gaps,
+            between,
+            pushing,
+            sink,
+            faults,
+            seed,
+        },
     )
 }
 

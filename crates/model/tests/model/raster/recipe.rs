@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow.
 
-use foveate_design::{Design, Organization, Pipelining};
+use foveate_design::{Design, Organization, Pipelining, Store};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -13,6 +13,10 @@ pub(crate) struct RasterRecipe {
     /// K.
     pub(crate) pixels: i64,
     pub(crate) deep: bool,
+    /// `hardware.store`.
+    pub(crate) store: Store,
+    /// `hardware.forward`.
+    pub(crate) forward: bool,
     pub(crate) misread: Misread,
 }
 
@@ -31,6 +35,12 @@ pub(crate) struct Misread {
     pub(crate) rows: i64,
     /// A region that was lost keeps its reference.
     pub(crate) keeps_reference: bool,
+    /// The edge at which a reference is taken.
+    pub(crate) taken: i64,
+    /// The first frame takes references, too.
+    pub(crate) always_takes: bool,
+    /// References are what was stored, whatever came.
+    pub(crate) trusts: bool,
     /// A frame does not wait for pending regions.
     pub(crate) never_waits: bool,
 }
@@ -42,6 +52,8 @@ impl RasterRecipe {
         config.hardware.pixels_per_clock = Some(self.pixels as u32);
         config.hardware.pipelining =
             Some(if self.deep { Pipelining::Deep } else { Pipelining::Plain });
+        config.hardware.store = Some(self.store);
+        config.hardware.forward = Some(self.forward);
         config.validate().unwrap_or_else(|error| panic!("{error}\n{self:?}"))
     }
 
@@ -92,6 +104,16 @@ impl RasterRecipe {
     pub(crate) fn stored(&self) -> i64 {
         let (m, f) = (self.median(), self.window());
         self.misread.stored + if self.deep { 4 + 9 * m + 3 * f } else { 2 + 4 * m + f }
+    }
+
+    /// From e(a(i)) to the edge that takes the reference of word i, of a store outside.
+    pub(crate) fn taking(&self) -> i64 {
+        let stored = self.stored() - self.misread.stored;
+        self.misread.taken + stored - if self.deep { 2 } else { 1 }
+    }
+
+    pub(crate) fn is_outside(&self) -> bool {
+        self.store == Store::External
     }
 
     /// D.
@@ -149,15 +171,19 @@ impl RasterRecipe {
 pub(crate) fn raster_recipes() -> impl Strategy<Value = RasterRecipe> {
     let sides = prop_oneof![6 => select(vec![2i64, 3, 4, 4, 5, 6, 8, 8]), 1 => 2i64..=9];
     let size = (0i64..=100, 0i64..=100, 0i64..=1);
-    (recipes_of(sides), select(vec![1i64, 2, 4]), any::<bool>(), size).prop_map(
-        |(mut base, pixels, deep, (wide, high, more))| {
+    let stores = select(vec![Store::Block, Store::Ultra, Store::SinglePort, Store::External]);
+    let built = (any::<bool>(), stores, select(vec![true, true, false]));
+    (recipes_of(sides), select(vec![1i64, 2, 4]), built, size).prop_map(
+        |(mut base, pixels, (deep, store, forward), (wide, high, more))| {
             let side = base.side;
             let pixels = if side % pixels == 0 { pixels } else { 1 };
             let columns = 4.max((16 * pixels + side - 1) / side) + more;
             base.width = (columns - 1) * side + 1 + wide % side;
             // Up to five rows of regions.
             base.height = 1 + high % (5 * side);
-            RasterRecipe { base, pixels, deep, misread: Misread::default() }
+            // Others need the previous frame.
+            base.last_sent &= forward && matches!(store, Store::Block | Store::Ultra);
+            RasterRecipe { base, pixels, deep, store, forward, misread: Misread::default() }
         },
     )
 }

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Where the frame store may be, and what a core without forwarding has.
+
+use super::{config, design, refusal};
+use crate::raster::RasterTiming;
+use crate::{Design, Direction, PortRole, Qualifier, Store};
+
+const LAST_SENT: &str = "temporal.reference=last-sent";
+
+#[test]
+fn stores_without_a_second_port_and_cores_that_forward_nothing_need_the_previous_frame() {
+    let reference = "cannot be combined with temporal.reference = \"last-sent\"";
+    for store in ["single-port", "external"] {
+        let key = format!("hardware.store={store}");
+        assert_eq!(
+            refusal(&[&key, LAST_SENT]),
+            format!(
+                "`hardware.store` = \"{store}\" {reference}; it also writes regions that leave \
+                 while others come, for which such a store has no port; use \"block\" or \
+                 \"ultra\", or reference = \"previous\""
+            )
+        );
+        design(&[&key]);
+    }
+    assert_eq!(
+        refusal(&["hardware.forward=false", LAST_SENT]),
+        format!(
+            "`hardware.forward` = false {reference}; its references are the pixels that leave; \
+             leave the key out, or use reference = \"previous\""
+        )
+    );
+    for key in ["hardware.store=block", "hardware.store=ultra", "hardware.forward=true"] {
+        design(&[key, LAST_SENT]);
+    }
+    design(&["hardware.forward=false", "hardware.store=external"]);
+}
+
+#[test]
+fn only_a_raster_core_has_the_keys() {
+    for organization in ["pipelined", "serial"] {
+        let other = format!("hardware.organization={organization}");
+        for (key, value) in [("store", "\"external\""), ("forward", "false"), ("forward", "true")] {
+            assert_eq!(
+                refusal(&[&other, &format!("hardware.{key}={value}")]),
+                format!(
+                    "`hardware.{key}` = {value} cannot be combined with organization = \
+                     \"{organization}\"; only the raster organization has it; leave the key out"
+                )
+            );
+        }
+        assert!(design(&[&other]).forwards());
+    }
+    let error = crate::Config::from_toml_with("", &["hardware.forward=1"]).unwrap_err();
+    assert_eq!(error.to_string(), "`hardware.forward`: 1 is not valid; it takes true or false");
+}
+
+#[test]
+fn forwarding_is_the_default_and_changes_no_fingerprint() {
+    let plain = design(&[]);
+    let named = design(&["hardware.forward=true"]);
+    assert_eq!((named.fingerprint(), named.config()), (plain.fingerprint(), plain.config()));
+    assert!(plain.forwards() && !plain.config().to_toml().contains("forward"));
+    let alone = design(&["hardware.forward=false", "hardware.store=external"]);
+    assert!(!alone.forwards() && alone.store() == Store::External);
+    assert_eq!(
+        alone.config().hardware.in_words(),
+        "raster, 1 pixel per clock, plain pipelining, external store, no forwarding"
+    );
+    let again = crate::Config::from_toml(&alone.config().to_toml()).unwrap();
+    assert_eq!(again, *alone.config());
+    let prints: std::collections::BTreeSet<String> = ["block", "ultra", "single-port", "external"]
+        .iter()
+        .flat_map(|store| ["true", "false"].map(|forward| (store, forward)))
+        .map(|(store, forward)| {
+            let keys = [format!("hardware.store={store}"), format!("hardware.forward={forward}")];
+            config(&keys.each_ref().map(String::as_str)).validate().unwrap().fingerprint()
+        })
+        .collect();
+    assert_eq!(prints.len(), 8);
+}
+
+fn named(design: &Design, direction: Direction) -> Vec<(String, u32)> {
+    let ports = design.rcm_ports();
+    let own = ports.iter().filter(|port| port.direction == direction);
+    own.map(|port| (port.name.clone(), port.bits())).collect()
+}
+
+/// 64x40 pixels in words of four: 8x5 regions.
+fn ports_of(more: &[&str], direction: Direction) -> Vec<(String, u32)> {
+    let own = [
+        "frame.width=64",
+        "frame.height=40",
+        "hardware.pixels_per_clock=4",
+        "hardware.thresholds=constant",
+    ];
+    named(&design(&[&own, more].concat()), direction)
+}
+
+#[test]
+fn a_store_outside_has_two_streams() {
+    let more = ["hardware.store=external"];
+    let inputs = [
+        ("clk_i", 1),
+        ("rst_i", 1),
+        ("valid_i", 1),
+        ("pixel_i", 32),
+        ("reference_valid_i", 1),
+        ("reference_pixel_i", 32),
+        ("forward_ready_i", 1),
+    ];
+    let own = |list: &[(&str, u32)]| -> Vec<(String, u32)> {
+        list.iter().map(|&(name, bits)| (name.to_owned(), bits)).collect()
+    };
+    assert_eq!(ports_of(&more, Direction::Input), own(&inputs));
+    let outputs = [
+        ("ready_o", 1),
+        ("reference_ready_o", 1),
+        ("store_valid_o", 1),
+        ("store_pixel_o", 32),
+        ("store_last_o", 1),
+        ("underrun_o", 1),
+        ("decision_valid_o", 1),
+        ("region_o", 6),
+        ("srs_o", 1),
+        ("trs_o", 1),
+        ("active_o", 1),
+        ("edge_score_o", 7),
+        ("temporal_count_o", 7),
+        ("forward_valid_o", 1),
+        ("forward_region_o", 6),
+        ("forward_position_o", 6),
+        ("forward_pixel_o", 32),
+        ("lost_o", 1),
+        ("lost_count_o", 16),
+    ];
+    assert_eq!(ports_of(&more, Direction::Output), own(&outputs));
+    for port in design(&more).rcm_ports() {
+        let is_stored = matches!(port.role, PortRole::StorePixel | PortRole::StoreLast);
+        let with_store = port.qualifier == Qualifier::With(PortRole::StoreValid);
+        assert_eq!(is_stored, with_store, "{}", port.name);
+        let is_streamed = port.name.starts_with("reference") || port.name == "underrun_o";
+        assert!(!is_streamed || port.qualifier == Qualifier::Always, "{}", port.name);
+    }
+    // A store inside has the same ports, of whatever it is built.
+    for direction in [Direction::Input, Direction::Output] {
+        let block = ports_of(&[], direction);
+        for store in ["ultra", "single-port"] {
+            assert_eq!(ports_of(&[&format!("hardware.store={store}")], direction), block);
+        }
+    }
+}
+
+#[test]
+fn without_forwarding_decisions_are_all_that_leaves() {
+    let more = ["hardware.forward=false"];
+    for direction in [Direction::Input, Direction::Output] {
+        let mut whole = ports_of(&[], direction);
+        whole.retain(|(name, _)| !name.starts_with("forward_") && !name.starts_with("lost_"));
+        assert_eq!(ports_of(&more, direction), whole);
+    }
+    assert_eq!(ports_of(&more, Direction::Output).len(), 8);
+}
+
+/// Every number but those of the buffer and of the last word is that of the core that forwards.
+#[test]
+fn numbers_follow_the_store_and_forwarding() {
+    let timing = |more: &[&str]| RasterTiming::of(&design(more));
+    let plain = timing(&[]);
+    for store in ["ultra", "single-port", "external"] {
+        assert_eq!(timing(&[&format!("hardware.store={store}")]), plain);
+    }
+    let alone = timing(&["hardware.forward=false"]);
+    assert_eq!(alone, RasterTiming { buffer_rows: 0, forwards: false, ..plain });
+    let mad = "spatial=[{feature=\"mad\"}]";
+    assert_eq!(timing(&["hardware.forward=false", mad]).buffer_rows, 3);
+    // S - 1 and S - 2.
+    assert_eq!((plain.store_latency, plain.lookup_latency), (7, 6));
+    let deep = timing(&["hardware.pipelining=deep"]);
+    assert_eq!((deep.store_latency, deep.lookup_latency), (16, 14));
+    let least = timing(&["denoise.filter=none", mad]);
+    assert_eq!((least.store_latency, least.lookup_latency), (2, 1));
+
+    let answers = design(&["hardware.forward=false"]).timing();
+    let departure = answers.departure();
+    assert_eq!(departure.forward_clocks, departure.decision_clocks);
+    let leaves = answers.text().iter().find(|(heading, _)| *heading == "pixels leave");
+    assert_eq!(leaves.map(|(_, text)| text.as_str()), Some("never: only decisions do"));
+}
+
+#[test]
+fn the_lone_core_keeps_its_store() {
+    let lone = design(&["hardware.store=external", "hardware.forward=false"]).lone_unit();
+    assert!(!lone.forwards() && lone.store() == Store::External);
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The two streams of a core whose frame store is outside: when it takes the references of words, and when it
+//! gives words away to be stored. Both are a fixed number of clocks after a word has come to the tail.
+
+use foveate_design::{Design, RasterTiming};
+use foveate_frame::Frame;
+
+use super::advances::Place;
+use super::decisions::Complete;
+use super::due::{Due, take_due};
+use crate::denoise::denoised_run;
+use crate::region::black_padded;
+
+/// The streams.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Outside {
+    design: Design,
+    timing: RasterTiming,
+    /// Words whose references have not been taken, in order, with the edges at which that is due.
+    asking: Due<Asking>,
+    /// Words that have not been stored, in order, with the edges at which that is due.
+    storing: Due<Stored>,
+    /// The references of the frame that is in the tail, as they were taken.
+    references: Frame,
+    /// Frames that have begun to come to the tail since reset.
+    frames: u64,
+    /// Whether a reference was taken that was not valid.
+    underrun: bool,
+}
+
+/// A word whose reference is due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Asking {
+    place: Place,
+    /// Not in the first frame.
+    has_reference: bool,
+    /// The region whose last word it is.
+    complete: Option<Complete>,
+}
+
+/// A word on its way to the store.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Stored {
+    /// As it is scored.
+    pub(super) pixels: Vec<u16>,
+    /// Whether it is the last of its row.
+    pub(super) is_last: bool,
+}
+
+impl Outside {
+    pub(super) fn new(design: &Design) -> Self {
+        Self {
+            timing: RasterTiming::of(design),
+            asking: Due::new(),
+            storing: Due::new(),
+            references: black_padded(design),
+            frames: 0,
+            underrun: false,
+            design: design.clone(),
+        }
+    }
+
+    /// Nothing is under way, and the next frame is the first.
+    pub(super) fn forget(&mut self) {
+        self.asking.clear();
+        self.storing.clear();
+        (self.frames, self.underrun) = (0, false);
+    }
+
+    /// A word comes to the tail at edge `now`, perhaps the last of a region.
+    pub(super) fn come(
+        &mut self,
+        now: u64,
+        place: Place,
+        complete: Option<Complete>,
+        padded: &Frame,
+    ) {
+        self.frames += u64::from(place == Place { row: 0, column: 0 });
+        let asking = Asking { place, has_reference: self.frames > 1, complete };
+        self.asking.push_back((now + u64::from(self.timing.lookup_latency), asking));
+        let stored = Stored {
+            pixels: self.scored(place, padded),
+            is_last: place.column == self.timing.row_words - 1,
+        };
+        self.storing.push_back((now + u64::from(self.timing.store_latency), stored));
+    }
+
+    /// Edge `now`, at which the port shows this word: it is taken as a reference, if one is due. Returns the
+    /// region that has all that it is compared with from now on.
+    pub(super) fn take(&mut self, now: u64, valid: bool, port: &[u16]) -> Option<Complete> {
+        let asking = take_due(&mut self.asking, now)?;
+        if asking.has_reference {
+            let left = asking.place.column * self.timing.word_pixels;
+            self.references.write(left, asking.place.row, port);
+            self.underrun |= !valid;
+        }
+        asking.complete
+    }
+
+    /// The word that is given away after edge `now`.
+    pub(super) fn store(&mut self, now: u64) -> Option<Stored> {
+        take_due(&mut self.storing, now)
+    }
+
+    /// Whether a reference is taken at the edge after `now`.
+    pub(super) fn asks_after(&self, now: u64) -> bool {
+        self.asking.front().is_some_and(|(due, asking)| *due == now + 1 && asking.has_reference)
+    }
+
+    /// Whether a region waits for the reference of its last word.
+    pub(super) fn is_asking(&self) -> bool {
+        self.asking.iter().any(|(_, asking)| asking.complete.is_some())
+    }
+
+    /// The references as they were taken.
+    pub(super) fn references(&self) -> &Frame {
+        &self.references
+    }
+
+    pub(super) fn underrun(&self) -> bool {
+        self.underrun
+    }
+
+    /// A word of the frame as it is scored.
+    fn scored(&self, place: Place, padded: &Frame) -> Vec<u16> {
+        let Self { design, timing, .. } = self;
+        let region = place.row / design.region_size() * design.columns()
+            + place.column / timing.region_row_words;
+        let left = place.column * timing.word_pixels;
+        denoised_run(design, padded, region, left..left + timing.word_pixels, place.row)
+    }
+}

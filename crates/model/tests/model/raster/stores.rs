@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The frame store outside and cores without forwarding, with every clock worked out by hand from
+//! `docs/raster.md`. The edge that takes the first word is number 1.
+
+use std::collections::VecDeque;
+use std::ops::RangeInclusive;
+
+use foveate_design::{Config, Design};
+use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+
+/// A design with one feature and regions of 4x4 pixels, all of which are relevant.
+fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
+    let toml = format!(
+        "[frame]\nwidth = {}\nheight = {}\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+         [[spatial]]\nfeature = \"{feature}\"\nmin_score = 0\n[temporal]\nlevel = 8\nmin_count = 1\n\
+         [hardware]\norganization = \"raster\"\n",
+        frame.0, frame.1
+    );
+    Config::from_toml_with(&toml, more).unwrap().validate().unwrap()
+}
+
+fn outside(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
+    design(feature, frame, &[more, &["hardware.store=external"]].concat())
+}
+
+/// A core with a queue behind it whose words fall through.
+struct Play {
+    rcm: RasterRcm,
+    thresholds: Thresholds,
+    width: u64,
+    pixels: usize,
+    queue: VecDeque<Vec<u16>>,
+    /// After every edge.
+    outputs: Vec<RasterOutput>,
+}
+
+impl Play {
+    fn new(design: &Design) -> Self {
+        let rcm = RasterRcm::new(design);
+        Self {
+            thresholds: Thresholds::of(design),
+            width: u64::from(design.width()).div_ceil(design.pixels_per_clock().into()),
+            pixels: design.pixels_per_clock() as usize,
+            queue: VecDeque::new(),
+            outputs: vec![rcm.output().clone()],
+            rcm,
+        }
+    }
+
+    /// Edges up to `last` at which frames come as fast as they are taken, with no word at the edges of `gaps`.
+    /// Word x of a row has pixels of `picture(x)`; `fault` says what is wrong at an edge.
+    fn run(
+        &mut self,
+        last: usize,
+        gaps: &[usize],
+        picture: impl Fn(u64) -> u16,
+        fault: impl Fn(usize) -> Fault,
+    ) {
+        let mut taken = 0;
+        for edge in self.outputs.len()..=last {
+            let valid = !gaps.contains(&edge);
+            let pixels = vec![picture(taken % self.width); self.pixels];
+            let is_asked = self.rcm.output().reference_ready;
+            let oldest = self.queue.front().cloned();
+            let (reference_valid, reference) = match fault(edge) {
+                Fault::None => (oldest.is_some(), oldest.unwrap_or(vec![0; self.pixels])),
+                Fault::Late => (false, vec![0; self.pixels]),
+                Fault::Wrong(pixel) => (true, vec![pixel; self.pixels]),
+            };
+            if is_asked && reference_valid {
+                self.queue.pop_front();
+            }
+            taken += u64::from(valid && self.rcm.output().ready);
+            let input = RasterInput {
+                reset: false,
+                valid,
+                pixels: &pixels,
+                reference_valid,
+                reference_pixels: &reference,
+                forward_ready: true,
+                thresholds: &self.thresholds,
+            };
+            let shown = self.rcm.step(&input).clone();
+            self.queue.extend(shown.store_valid.then(|| shown.store_pixels.clone()));
+            self.outputs.push(shown);
+        }
+    }
+
+    fn reset(&mut self) {
+        let word = vec![0; self.pixels];
+        let input = RasterInput {
+            reset: true,
+            valid: true,
+            pixels: &word,
+            reference_valid: true,
+            reference_pixels: &word,
+            forward_ready: true,
+            thresholds: &self.thresholds,
+        };
+        self.outputs = vec![self.rcm.step(&input).clone()];
+        self.queue.clear();
+    }
+
+    fn edges(&self, which: impl Fn(&RasterOutput) -> bool) -> Vec<usize> {
+        (0..self.outputs.len()).filter(|&edge| which(&self.outputs[edge])).collect()
+    }
+
+    fn asks(&self) -> Vec<usize> {
+        self.edges(|output| output.reference_ready)
+    }
+
+    fn stores(&self) -> Vec<usize> {
+        self.edges(|output| output.store_valid)
+    }
+
+    /// The changed pixels of every region of the second frame.
+    fn counts(&self, regions: usize) -> Vec<u32> {
+        let decided = self.edges(|output| output.decision_valid);
+        let second = decided[regions..2 * regions].iter();
+        second.map(|&edge| self.outputs[edge].temporal_count).collect()
+    }
+}
+
+/// What the memory does wrong at an edge.
+#[derive(Clone, Copy)]
+enum Fault {
+    None,
+    /// It has no word; the same comes at the next.
+    Late,
+    /// It has a word of this pixel.
+    Wrong(u16),
+}
+
+fn quiet(_: usize) -> Fault {
+    Fault::None
+}
+
+fn list(ranges: &[RangeInclusive<usize>]) -> Vec<usize> {
+    ranges.iter().cloned().flatten().collect()
+}
+
+/// 16x8 pixels, one window: word i of a frame that begins at edge b + 1 comes to the tail at edge b + i + 18. S is
+/// 3: it is stored after edge b + i + 21, and its reference is taken at edge b + i + 20, so `reference_ready_o` is
+/// 1 after the edge before. The second frame begins at edge 153, b is 152.
+#[test]
+fn words_are_stored_and_references_taken_in_plain_pipelining() {
+    let mut play = Play::new(&outside("edge", (16, 8), &[]));
+    play.run(320, &[], |_| 1, quiet);
+    assert_eq!(play.stores(), list(&[21..=148, 173..=300]));
+    assert_eq!(play.asks(), list(&[171..=298]));
+    let rows = |first: usize| (0..8).map(move |row| first + 15 + 16 * row);
+    let last = play.edges(|output| output.store_valid && output.store_last);
+    assert_eq!(last, rows(21).chain(rows(173)).collect::<Vec<_>>());
+    assert!(play.edges(|output| output.underrun).is_empty());
+    assert_eq!(play.counts(8), [0; 8]);
+    // 128 words of the first frame were taken, those of the second wait.
+    assert_eq!(play.queue.len(), 128);
+}
+
+/// The same without a word at two edges of the second frame. Word 10 comes at edge 164 instead of 163, before there
+/// is a word in the tail, so all of the frame is a clock later. Word 39 comes at 194 instead of 193, and with it word
+/// 22 of the tail: that and what follows are another clock later.
+#[test]
+fn a_gap_delays_what_the_tail_does() {
+    let mut play = Play::new(&outside("edge", (16, 8), &[]));
+    play.run(320, &[163, 193], |_| 1, quiet);
+    assert_eq!(play.asks(), list(&[172..=193, 195..=300]));
+    assert_eq!(play.stores(), list(&[21..=148, 174..=195, 197..=302]));
+}
+
+/// 29x7 pixels in words of two, regions of 8x8, one median, `deep`: word i comes to the tail at edge b + i + 18, S
+/// is 13, references are taken 11 later, D is 22. T0 is 111, Z is 34: the second frame begins at edge 168, b is 167.
+#[test]
+fn references_are_taken_a_clock_earlier_in_deep_pipelining() {
+    let more = [
+        "region.size=8",
+        "denoise.filter=median3x3",
+        "hardware.pixels_per_clock=2",
+        "hardware.pipelining=deep",
+    ];
+    let mut play = Play::new(&outside("variance", (29, 7), &more));
+    play.run(340, &[], |x| if x < 15 { 7 } else { 9 }, quiet);
+    let decided = play.edges(|output| output.decision_valid);
+    assert_eq!(decided[..4], [155, 159, 163, 167]);
+    // A row has 16 words, of which the core makes one, and makes a row.
+    assert_eq!(play.stores(), list(&[31..=158, 198..=325]));
+    assert_eq!(play.asks(), list(&[195..=322]));
+    let last = play.edges(|output| output.store_valid && output.store_last);
+    assert_eq!(last[..8], [46, 62, 78, 94, 110, 126, 142, 158]);
+    assert!(play.outputs[31..=158].iter().all(|output| output.store_pixels == [7, 7]));
+}
+
+/// No window: word i comes to the tail at edge b + i + 1 and is stored after b + i + 3, the least S there is; its
+/// reference is taken at the edge after that of the tail. D is 6, the second frame begins at edge 135.
+#[test]
+fn the_least_latency_asks_at_once() {
+    let mut play = Play::new(&outside("mad", (16, 8), &[]));
+    // The third frame begins at edge 269, before the last decision of the second at 327.
+    play.run(330, &[], |_| 1, quiet);
+    assert_eq!(play.asks(), list(&[135..=262, 269..=330]));
+    assert_eq!(play.stores(), list(&[3..=130, 137..=264, 271..=330]));
+    assert_eq!(play.counts(8), [0; 8]);
+}
+
+/// Word 5 of the second frame is in region 1. Its reference is taken at edge 177.
+#[test]
+fn what_comes_from_outside_is_what_counts() {
+    let design = outside("edge", (16, 8), &[]);
+    let counts = |fault: &dyn Fn(usize) -> Fault| {
+        let mut play = Play::new(&design);
+        play.run(320, &[], |_| 1, fault);
+        (play.counts(8), play.edges(|output| output.underrun))
+    };
+    let wrong = counts(&|edge| if edge == 177 { Fault::Wrong(200) } else { Fault::None });
+    assert_eq!(wrong, (vec![0, 1, 0, 0, 0, 0, 0, 0], vec![]));
+    // 9 levels differ from 1 by the level, which is no change; nobody asks at 171 and 300.
+    for (edge, pixel) in [(177, 9), (171, 200), (300, 200)] {
+        let same = counts(&|at| if at == edge { Fault::Wrong(pixel) } else { Fault::None });
+        assert_eq!(same, (vec![0; 8], vec![]), "{edge}");
+    }
+}
+
+/// Column 3 is 200 and others are 1. One reference is late, that of word 0: from there on a word is compared with
+/// that on its left, so columns 3 and 4 have changed in every row. (0 instead of 1 is no change.)
+#[test]
+fn a_reference_that_is_late_shifts_all_that_follow() {
+    let mut play = Play::new(&outside("edge", (16, 8), &[]));
+    let picture = |x| if x == 3 { 200 } else { 1 };
+    play.run(320, &[], picture, |edge| if edge == 172 { Fault::Late } else { Fault::None });
+    assert_eq!(play.counts(8), [4, 4, 0, 0, 4, 4, 0, 0]);
+    // From the edge on that took it.
+    assert_eq!(play.edges(|output| output.underrun), list(&[172..=320]));
+    assert_eq!(play.queue.len(), 129, "one is left");
+    // An edge at which nobody asks has no underrun: the last reference is taken at 299.
+    for (late, first) in [(171, None), (299, Some(299)), (300, None)] {
+        let mut play = Play::new(&outside("edge", (16, 8), &[]));
+        play.run(320, &[], picture, |edge| if edge == late { Fault::Late } else { Fault::None });
+        assert_eq!(play.edges(|output| output.underrun).first().copied(), first, "{late}");
+    }
+}
+
+#[test]
+fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
+    let mut play = Play::new(&outside("edge", (16, 8), &[]));
+    play.run(200, &[], |_| 1, |edge| if edge == 180 { Fault::Late } else { Fault::None });
+    let shown = &play.outputs[200];
+    assert!(shown.reference_ready && shown.store_valid && shown.underrun);
+    play.reset();
+    let fresh = RasterRcm::new(&outside("edge", (16, 8), &[])).output().clone();
+    assert_eq!(play.outputs[0], fresh);
+    assert!(!fresh.reference_ready && !fresh.store_valid && !fresh.underrun);
+    // The frame after it is a first frame.
+    play.run(320, &[], |_| 1, quiet);
+    assert_eq!(play.stores(), list(&[21..=148, 173..=300]));
+    assert_eq!(play.asks(), list(&[171..=298]));
+    let decided = play.edges(|output| output.decision_valid);
+    assert!(decided[..8].iter().all(|&edge| play.outputs[edge].temporal_count == 16));
+    assert_eq!(play.counts(8), [0; 8]);
+}
+
+/// Inside, of whatever it is built, nothing can be told from outside.
+#[test]
+fn a_store_inside_has_no_streams() {
+    let outputs = |store: &str| {
+        let key = format!("hardware.store={store}");
+        let mut play = Play::new(&design("edge", (16, 8), &[&key]));
+        play.run(320, &[], |x| (x * 17) as u16, quiet);
+        assert!(play.stores().is_empty() && play.asks().is_empty());
+        play.outputs
+    };
+    let block = outputs("block");
+    assert_eq!((outputs("ultra") == block, outputs("single-port") == block), (true, true));
+}
+
+/// Decisions and `ready_o` as with forwarding, at the edges of `a_frame_with_one_window`; all regions are active in
+/// the first frame, and nothing of them leaves or is pending.
+#[test]
+fn without_forwarding_only_decisions_leave() {
+    for feature in ["edge", "mad"] {
+        let play = |more: &[&str]| {
+            let mut play = Play::new(&design(feature, (16, 8), more));
+            play.run(320, &[], |_| 1, quiet);
+            play
+        };
+        let (alone, whole) = (play(&["hardware.forward=false"]), play(&[]));
+        assert!(whole.edges(|output| output.forward_valid).len() == 128);
+        assert!(alone.edges(|output| output.forward_valid || output.lost).is_empty());
+        for (alone, whole) in alone.outputs.iter().zip(&whole.outputs) {
+            let of = |output: &RasterOutput| {
+                let RasterOutput { ready, decision_valid, region, srs, trs, active, .. } = *output;
+                let counts = (output.scores, output.temporal_count);
+                (ready, decision_valid, region, srs, trs, active, counts)
+            };
+            assert_eq!(of(alone), of(whole));
+        }
+        assert_eq!(alone.edges(|output| output.active).len(), 8);
+    }
+    let mut play = Play::new(&design("edge", (16, 8), &["hardware.forward=false"]));
+    play.run(152, &[], |_| 1, quiet);
+    // The last decision of the frame is on the ports, and its region is active.
+    assert!(play.outputs[152].active && !play.rcm.is_pending());
+    let mut play = Play::new(&design("edge", (16, 8), &[]));
+    play.run(152, &[], |_| 1, quiet);
+    assert!(play.rcm.is_pending());
+}
