@@ -21,7 +21,7 @@ module {= module =} #(
     localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
 {%- endfor %}
 {%- for port in unused %}
-    wire [{= port.width - 1 =}:0] unused_{= port.name =};
+    wire {% if port.range.len() > 0 %}{= port.range =} {% endif %}unused_{= port.name =};
 {%- endfor %}
 
     raster_core #(
@@ -41,9 +41,9 @@ module {= module =} #(
         .{= score.0 =}({= score.1 =}),
 {%- endfor %}
         .temporal_count_o(temporal_count_o),
-        .forward_ready_i(forward_ready_i), .forward_valid_o(forward_valid_o), .forward_region_o(forward_region_o),
-        .forward_position_o(forward_position_o), .forward_pixel_o(forward_pixel_o),
-        .lost_o(lost_o), .lost_count_o(lost_count_o)
+{%- for stream in streams %}
+        .{= stream.0 =}({= stream.1 =}){% if !loop.last %},{% endif %}
+{%- endfor %}
     );
 
 endmodule

@@ -7,7 +7,7 @@ use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Pipelining, Port, PortRole,
-    RasterTiming, Reference, SpatialFeature, bits_for,
+    RasterTiming, Reference, SpatialFeature, Store, bits_for,
 };
 
 #[derive(Template)]
@@ -33,11 +33,14 @@ struct Raster {
     thresholds: Vec<(String, String)>,
     /// The scores of the core, and what they are connected to.
     scores: Vec<(String, String)>,
+    /// The ports of the core to a frame store outside and for pixels that leave, and what they are connected to.
+    streams: Vec<(&'static str, String)>,
 }
 
 struct Unused {
-    name: &'static str,
-    width: u32,
+    name: String,
+    /// Empty where it is one bit.
+    range: String,
 }
 
 /// The core, or the one for the smallest frame.
@@ -65,12 +68,14 @@ fn view(design: &Design, named: &Design, top: Top) -> Raster {
         let connected = match design.feature(kind) {
             Some(_) => port.clone(),
             None => {
-                unused.push(Unused { name: kind.name(), width: score_bits(design, kind) });
+                let range = bits(score_bits(design, kind));
+                unused.push(Unused { name: kind.to_string(), range });
                 format!("unused_{kind}")
             }
         };
         scores.push((port, connected));
     }
+    let streams = streams(design, &mut unused);
     Raster {
         banner: banner(named),
         what: format!(
@@ -93,7 +98,52 @@ fn view(design: &Design, named: &Design, top: Top) -> Raster {
         parameters: parameters(design, &timing),
         thresholds: thresholds(design),
         scores,
+        streams,
     }
+}
+
+/// The range of so many bits; nothing for one.
+fn bits(width: u32) -> String {
+    if width == 1 { String::new() } else { format!("[{}:0]", width - 1) }
+}
+
+/// Connects the streams of the core to those ports that the design has.
+fn streams(design: &Design, unused: &mut Vec<Unused>) -> Vec<(&'static str, String)> {
+    let word = design.pixels_per_clock() * design.pixel_bits();
+    let has: Vec<String> = design.rcm_ports().into_iter().map(|port| port.name).collect();
+    let mut list = Vec::new();
+    for (port, width) in
+        [("reference_valid_i", 1), ("reference_pixel_i", word), ("forward_ready_i", 1)]
+    {
+        let given = has.iter().any(|name| name == port);
+        list.push((port, if given { port.to_owned() } else { format!("{width}'d0") }));
+    }
+    let region = "[$clog2(COLUMNS*ROWS)-1:0]".to_owned();
+    for (name, range) in [
+        ("reference_ready_o", String::new()),
+        ("store_valid_o", String::new()),
+        ("store_pixel_o", bits(word)),
+        ("store_last_o", String::new()),
+        ("underrun_o", String::new()),
+        ("forward_valid_o", String::new()),
+        ("forward_region_o", region),
+        ("forward_position_o", bits(design.position_bits())),
+        ("forward_pixel_o", bits(word)),
+        ("lost_o", String::new()),
+        ("lost_count_o", bits(16)),
+    ] {
+        let given = has.iter().any(|port| port == name);
+        let signal = if given {
+            name.to_owned()
+        } else {
+            let name = name.trim_end_matches("_o").to_owned();
+            let signal = format!("unused_{name}");
+            unused.push(Unused { name, range });
+            signal
+        };
+        list.push((name, signal));
+    }
+    list
 }
 
 /// Bits of a score of the core; of one that the design does not have, some.
@@ -119,6 +169,8 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, Stri
         ("LAST_SENT", flag(design.temporal().reference == Reference::LastSent)),
         ("BLANKS", flag(design.irrelevant() == Irrelevant::Zero)),
         ("RAW", flag(design.keeps_raw())),
+        ("FORWARD", flag(design.forwards())),
+        ("STORE", store(design)),
         ("DEEP", flag(design.pipelining() == Pipelining::Deep)),
         ("SETTLE", timing.decision_latency),
         ("COUNT_BITS", design.count_bits()),
@@ -150,6 +202,16 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, Stri
     }
     let list = list.into_iter().map(|(name, value)| (name, value.to_string()));
     list.chain(wide).collect()
+}
+
+/// The number of its store in the core.
+fn store(design: &Design) -> u32 {
+    match design.store() {
+        Store::Block => 0,
+        Store::Ultra => 1,
+        Store::SinglePort => 2,
+        Store::External => 3,
+    }
 }
 
 /// What is connected to the threshold inputs of the core.

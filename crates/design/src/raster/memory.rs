@@ -72,7 +72,9 @@ impl Sizes {
         let mut list = Vec::new();
         let (holds, words) = ("references: the frame store", self.timing.words());
         match design.store() {
-            Store::Block | Store::Ultra => list.push(RasterMemory { holds, words, bits: self.word }),
+            Store::Block | Store::Ultra => {
+                list.push(RasterMemory { holds, words, bits: self.word })
+            }
             Store::SinglePort => {
                 list.push(RasterMemory { holds, words: words.div_ceil(2), bits: 2 * self.word });
             }
