@@ -157,10 +157,16 @@ impl<'a> Take<'a> {
 
     fn keep(&mut self, clocks: u64) {
         let Record { inputs, outputs, input, expected } = &self.record;
-        let valid = inputs.fields().iter().find(|field| field.port.role == PortRole::Valid);
-        let is_valid = valid.is_some_and(|field| field.get(input, 0) == 1);
+        let is_high = |role| {
+            let valid = inputs.fields().iter().find(|field| field.port.role == role);
+            valid.is_some_and(|field| field.get(input, 0) == 1)
+        };
         let input = inputs.fields().iter().filter(|field| is_shown(&field.port)).map(|field| {
-            let says = field.port.role != PortRole::Pixel || is_valid;
+            let says = match field.port.role {
+                PortRole::Pixel => is_high(PortRole::Valid),
+                PortRole::ReferencePixel => is_high(PortRole::ReferenceValid),
+                _ => true,
+            };
             says.then(|| field.get(input, 0))
         });
         let output = outputs.fields().iter().map(|field| {
@@ -179,7 +185,9 @@ impl<'a> Take<'a> {
 
 /// Thresholds, resets and borders stand still.
 fn is_shown(port: &Port) -> bool {
-    port.direction == Direction::Output || matches!(port.role, PortRole::Valid | PortRole::Pixel)
+    use PortRole::{Pixel, ReferencePixel, ReferenceValid, Valid};
+    let is_stream = matches!(port.role, Valid | Pixel | ReferenceValid | ReferencePixel);
+    port.direction == Direction::Output || is_stream
 }
 
 fn signal(port: &Port) -> Signal {
@@ -191,6 +199,8 @@ fn signal(port: &Port) -> Signal {
     let is_number = matches!(
         port.role,
         PortRole::Pixel
+            | PortRole::ReferencePixel
+            | PortRole::StorePixel
             | PortRole::Score(_)
             | PortRole::TemporalCount
             | PortRole::ForwardPixel

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A raster core in front of a sink: decisions and pixels leave while a frame is taken.
+//! A raster core in front of a sink: decisions and pixels leave while a frame is taken. A frame store outside gives
+//! back what was stored.
 
 use super::model::{Model, Record};
-use crate::stimulus::{Applied, RasterCodec, words};
-use foveate_design::Design;
+use super::script::FRAMES;
+use crate::stimulus::{Applied, Queue, RasterCodec, words};
+use foveate_design::{Design, RasterTiming, Store};
 use foveate_emit::Top;
 use foveate_frame::Frame;
 use foveate_model::RasterRcm;
@@ -13,6 +15,7 @@ pub(super) fn model(part: &Design, _: Top) -> Box<dyn Model> {
     Box::new(Raster {
         core: RasterRcm::new(part),
         codec: RasterCodec::new(part),
+        outside: (part.store() == Store::External).then(|| Outside::new(part)),
         word_pixels: part.pixels_per_clock() as usize,
         settling: departure.decision_clocks.max(departure.forward_clocks),
     })
@@ -21,6 +24,7 @@ pub(super) fn model(part: &Design, _: Top) -> Box<dyn Model> {
 struct Raster {
     core: RasterRcm,
     codec: RasterCodec,
+    outside: Option<Outside>,
     word_pixels: usize,
     /// Clocks from the last word of a frame until all has left.
     settling: u64,
@@ -36,7 +40,20 @@ impl Model for Raster {
     }
 
     fn clock(&mut self, applied: &Applied<'_>, record: &mut Record) {
+        let is_asked = self.core.output().reference_ready;
+        let outside = self.outside.as_mut();
+        let reference = outside.map(|outside| outside.show(applied.reset, is_asked));
+        let applied = match &reference {
+            Some((reference_valid, word)) => {
+                let reference_valid = *reference_valid;
+                &Applied { reference_valid, reference_pixels: word, ..*applied }
+            }
+            None => applied,
+        };
         let shown = self.core.step(&applied.of_core());
+        if let Some(outside) = &mut self.outside {
+            outside.queue.keep(shown);
+        }
         self.codec.inputs(&record.inputs, applied, &mut record.input);
         self.codec.outputs(&record.outputs, shown, &mut record.expected);
     }
@@ -55,5 +72,43 @@ impl Model for Raster {
 
     fn frames_behind(&self) -> u32 {
         0
+    }
+}
+
+/// A frame store outside: a queue whose words fall through.
+struct Outside {
+    queue: Queue,
+    /// A word that nobody may look at.
+    nothing: Vec<u16>,
+    /// Words that were taken since reset.
+    taken: u64,
+    /// The number of the word that is not said to be valid, though it is: the last of the frames that every script
+    /// has. So the bench sees an underrun, and the decisions of its frames are those of references that are right.
+    withheld: u64,
+}
+
+impl Outside {
+    fn new(part: &Design) -> Self {
+        Self {
+            queue: Queue::default(),
+            nothing: vec![0; part.pixels_per_clock() as usize],
+            taken: 0,
+            withheld: (FRAMES - 1) * RasterTiming::of(part).words() - 1,
+        }
+    }
+
+    /// What is at the ports of references at the next edge, and whether the core takes it.
+    fn show(&mut self, reset: bool, is_asked: bool) -> (bool, Vec<u16>) {
+        if reset {
+            self.queue.forget();
+            self.taken = 0;
+        }
+        let word = self.queue.oldest().map(<[u16]>::to_vec);
+        let is_valid = word.is_some() && !(is_asked && self.taken == self.withheld);
+        if is_asked && !reset {
+            self.queue.pop();
+            self.taken += 1;
+        }
+        (is_valid, word.unwrap_or_else(|| self.nothing.clone()))
     }
 }

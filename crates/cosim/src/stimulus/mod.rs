@@ -34,7 +34,7 @@ pub(crate) use pipelined::Machine;
 pub use pipelined::PipelinedCodec;
 pub(crate) use random::Random;
 pub use raster::RasterCodec;
-pub(crate) use raster::words;
+pub(crate) use raster::{Queue, words};
 use run::Run;
 pub(crate) use serial::Feed;
 pub use serial::SerialCodec;

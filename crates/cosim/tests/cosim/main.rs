@@ -13,6 +13,7 @@ mod matrix;
 mod negative_control;
 mod netlist;
 mod raster_stimulus;
+mod raster_stores;
 mod report;
 mod same_results;
 mod serial_matrix;

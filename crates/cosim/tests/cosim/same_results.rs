@@ -10,7 +10,7 @@ use crate::common::{cosimulate, feature, in_parallel};
 use foveate_cosim::{Level, Recording, Simulator, Stimulus};
 use foveate_design::{
     Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization,
-    Payload, PortRole, Reference,
+    Payload, Pipelining, PortRole, Reference, Store,
 };
 use foveate_frame::Frame;
 use foveate_model::{Camera, region_pixels};
@@ -281,6 +281,34 @@ fn the_vectors_of_a_raster_core_give_the_same() {
         let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone() };
         let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
         assert!(raster(&design, &recording) == functional(&design, &frames), "{config:?}");
+    }
+}
+
+/// The same of cores whose frame store is of one port or outside, and of cores from which no pixels leave.
+#[test]
+fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
+    for (turn, mut config) in configs().into_iter().enumerate() {
+        let side = config.region.size;
+        let frames = hard_cases(5 * side - 1, 4 * side - 2, config.frame.pixel_bits);
+        (config.frame.width, config.frame.height) = (Some(5 * side - 1), Some(4 * side - 2));
+        config.temporal.reference = Reference::Previous;
+        config.hardware.organization = Organization::Raster;
+        config.hardware.pipelining = Some(Pipelining::ALL[turn % 2]);
+        for (store, forward) in
+            [(Store::SinglePort, true), (Store::External, true), (Store::External, false)]
+        {
+            config.hardware.store = Some(store);
+            config.hardware.forward = Some(forward);
+            let design = config.validate().unwrap();
+            let stimulus =
+                Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone() };
+            let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+            let mut expected = functional(&design, &frames);
+            if !forward {
+                expected.iter_mut().flatten().for_each(|result| result.pixels.clear());
+            }
+            assert!(raster(&design, &recording) == expected, "{config:?}");
+        }
     }
 }
 

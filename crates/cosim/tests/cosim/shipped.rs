@@ -134,6 +134,31 @@ fn every_design_shows_active_held_and_blank_regions() {
     }
 }
 
+/// The streams of a frame store outside, and an underrun at the end; without forwarding nothing is missing.
+#[test]
+fn a_raster_core_with_an_external_store_shows_its_streams() {
+    for more in ["", "hardware.pipelining = 'deep'\nhardware.pixels_per_clock = 2\n"] {
+        let toml = format!(
+            "frame.width = 64\nframe.height = 24\nhardware.organization = 'raster'\n\
+             hardware.store = 'external'\n{more}"
+        );
+        for top in TOPS {
+            let alone = bench(&design(&format!("hardware.forward = false\n{toml}")), top);
+            assert_eq!(alone.shortcoming, None, "{top:?} {toml}");
+            let tally = &alone.tally;
+            assert!(tally.active > 0 && tally.held > 0 && tally.blank > 0, "{tally:?}");
+            // What is decided is not changed by the underrun.
+            let block = toml.replace("'external'", "'block'");
+            let block = bench(&design(&format!("hardware.forward = false\n{block}")), top);
+            assert_eq!((&block.tally, block.clocks), (tally, alone.clocks));
+            let whole = bench(&design(&toml), top);
+            for port in ["reference_ready_o", "store_pixel_o", "store_last_o", "underrun_o"] {
+                assert!(!whole.tally.silent.iter().any(|silent| silent == port), "{port}");
+            }
+        }
+    }
+}
+
 /// A frame of a large array shows the same with large folds, in files that stay small.
 #[test]
 fn large_folds_show_everything() {

@@ -151,7 +151,7 @@ impl RasterRcm {
 
     /// A word comes to the tail: the first of a row of regions, the last of a region, or any other.
     fn tail(&mut self, place: Place, applied: &Thresholds) {
-        if place.row % self.side == 0 && place.column == 0 {
+        if place.row.is_multiple_of(self.side) && place.column == 0 {
             self.staleness.begin_row(self.now);
         }
         let complete = self.complete(place);

@@ -8,6 +8,7 @@ use super::super::manners::Manners;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
 use super::codec::RasterCodec;
+use super::memory::{Lapse, Memory};
 use super::sink::{Mood, Sink};
 use super::words::words;
 use crate::error::CosimError;
@@ -37,6 +38,8 @@ pub(crate) struct Driver<'a> {
     turn: u32,
     manners: Manners,
     sink: Sink,
+    /// The frame store, where it is outside.
+    memory: Option<Memory>,
     max: u16,
     garbage: Vec<u16>,
     input: Vec<u8>,
@@ -47,10 +50,11 @@ impl<'a> Driver<'a> {
     pub(crate) fn new(
         design: &Design,
         recorder: &'a mut Recorder,
-        random: Random,
+        mut random: Random,
         cancel: &'a AtomicBool,
     ) -> Self {
         let configured = Thresholds::of(design);
+        let max = u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits");
         Self {
             model: RasterRcm::new(design),
             aimer: Aimer::new(design),
@@ -59,6 +63,7 @@ impl<'a> Driver<'a> {
             expected: recorder.outputs().record(),
             recorder,
             codec: RasterCodec::new(design),
+            memory: Memory::of(design, max, &mut random),
             random,
             configured,
             thresholds: configured,
@@ -67,14 +72,14 @@ impl<'a> Driver<'a> {
             turn: 0,
             manners: Manners::Quiet,
             sink: Sink::new(Mood::Willing),
-            max: u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits"),
+            max,
             garbage: vec![0; design.pixels_per_clock() as usize],
             design: design.clone(),
         }
     }
 
     /// Starts over: a reset, during which anything may be on the other inputs.
-    pub(super) fn begin(&mut self, aim: Aim, mood: Mood) -> Result<(), CosimError> {
+    pub(super) fn begin(&mut self, aim: Aim, mood: Mood, lapse: Lapse) -> Result<(), CosimError> {
         let constant = self.design.thresholds() == Mode::Constant;
         self.aim = if constant { Aim::Design } else { aim };
         self.sink = Sink::new(mood);
@@ -83,6 +88,9 @@ impl<'a> Driver<'a> {
         for _ in 0..=self.random.up_to(1) {
             let valid = self.random.one_in(2);
             self.clock(true, valid, None)?;
+        }
+        if let Some(memory) = &mut self.memory {
+            memory.begin(lapse);
         }
         let pause = self.random.up_to(2);
         self.idle(pause)
@@ -216,8 +224,18 @@ impl<'a> Driver<'a> {
         let forward_ready = self.sink.next(&mut self.random);
         let pixels = word.unwrap_or(&self.garbage);
         let idle = Applied::idle(pixels, &self.thresholds);
-        let applied = Applied { reset, valid, forward_ready, ..idle };
+        let before = self.model.output();
+        let reference = self.memory.as_mut().map(|memory| memory.show(before));
+        let (reference_valid, reference_pixels) = match &reference {
+            Some((valid, word)) => (*valid, word.as_slice()),
+            None => (false, &[][..]),
+        };
+        let core = Applied { reference_valid, reference_pixels, forward_ready, ..idle };
+        let applied = Applied { reset, valid, ..core };
         let output = self.model.step(&applied.of_core());
+        if let Some(memory) = &mut self.memory {
+            memory.keep(output);
+        }
         self.codec.inputs(self.recorder.inputs(), &applied, &mut self.input);
         self.codec.outputs(self.recorder.outputs(), output, &mut self.expected);
         self.recorder.push(&self.input, &self.expected)

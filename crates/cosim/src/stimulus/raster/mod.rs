@@ -4,10 +4,13 @@
 //! A recording is a row of sequences that a reset begins, as for the serial array: every region of a frame
 //! shows another motif, and the thresholds of a frame are aimed at a region of it. They must stand still
 //! while the frame is under way; between frames they are shaken. A core has a sink, too: the
-//! [sink] is ready always, now and then, or in turns so long that regions are lost.
+//! [sink] is ready always, now and then, or in turns so long that regions are lost. Where the frame store is
+//! outside, the driver plays the [memory] there, which in sequences of its own fails.
 
 mod codec;
 mod driver;
+mod memory;
+mod queue;
 mod sequence;
 mod session;
 mod sink;
@@ -18,6 +21,7 @@ use super::run::Run;
 use crate::error::CosimError;
 pub use codec::RasterCodec;
 use driver::Driver;
+pub(crate) use queue::Queue;
 use session::Session;
 pub(crate) use words::words;
 

@@ -4,6 +4,8 @@
 
 use super::super::ahead::Aim;
 use super::super::motif::Motif::{self, *};
+use super::memory::Lapse;
+use foveate_design::{Design, Store};
 
 /// A sequence of frames with one thing in common.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +22,8 @@ pub(super) struct Sequence {
     pub(super) aim: Aim,
     /// Whether its sink stalls so long that regions are lost.
     pub(super) stalls: bool,
+    /// What a memory outside does wrong.
+    pub(super) lapse: Lapse,
 }
 
 /// Where the reset that begins the next sequence comes.
@@ -36,16 +40,30 @@ pub(super) enum End {
 }
 
 const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Sequence {
-    Sequence { name, motifs, mixed: true, end: End::Drained, aim: Aim::Exact, stalls: false }
+    Sequence {
+        name,
+        motifs,
+        mixed: true,
+        end: End::Drained,
+        aim: Aim::Exact,
+        stalls: false,
+        lapse: Lapse::None,
+    }
 }
 
 const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Sequence {
-    Sequence { name, motifs, mixed: true, end, aim: Aim::Least, stalls: false }
+    Sequence { end, aim: Aim::Least, ..mixed(name, motifs) }
 }
 
-/// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
+/// The sequences of a design.
+pub(super) fn sequences(design: &Design) -> Vec<&'static Sequence> {
+    let failing = if design.store() == Store::External { FAILING } else { &[] };
+    SEQUENCES.iter().chain(failing).collect()
+}
+
+/// Every sequence that any core has, the most telling first. Resets that cut a frame short alternate with the others, so
 /// that what they leave behind meets another kind of frame each time.
-pub(super) const SEQUENCES: &[Sequence] = &[
+const SEQUENCES: &[Sequence] = &[
     Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
     cut("reset while loading", &[Noise, Ramp], End::Loading),
     Sequence {
@@ -76,4 +94,27 @@ pub(super) const SEQUENCES: &[Sequence] = &[
         aim: Aim::Largest,
         ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
     },
+];
+
+/// What a core must survive whose frame store is outside.
+const FAILING: &[Sequence] = &[
+    Sequence { lapse: Lapse::Late, ..mixed("late references", &[Smooth, Bump, Same, Noise, Same]) },
+    Sequence {
+        lapse: Lapse::Late,
+        ..cut("reset after an underrun", &[Noise, Binary, Ramp, Noise], End::Loading)
+    },
+    Sequence {
+        lapse: Lapse::Gone,
+        aim: Aim::Least,
+        ..mixed("lost references", &[Noise, Same, Same, Noise])
+    },
+    cut("reset while references come", &[Noise, Same, Same], End::Loading),
+    Sequence { lapse: Lapse::Wrong, ..mixed("wrong references", &[Ramp, Same, Same, Noise, Same]) },
+    Sequence {
+        lapse: Lapse::Wrong,
+        mixed: false,
+        aim: Aim::Design,
+        ..mixed("wrong references of extremes", &[Max, Max, Zero, Zero])
+    },
+    cut("reset after wrong references", &[Smooth, Same], End::Flushing),
 ];

@@ -7,7 +7,8 @@ use super::super::parts::{self, MAX_CLOCKS};
 use super::super::random::Random;
 use super::super::sequence::Gaps;
 use super::driver::Driver;
-use super::sequence::{End, SEQUENCES, Sequence};
+use super::memory::Lapse;
+use super::sequence::{End, Sequence, sequences};
 use super::sink::Mood;
 use crate::error::CosimError;
 use crate::level::Level;
@@ -49,11 +50,12 @@ impl<'a> Session<'a> {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
         let parts = self.parts(frames);
-        let total = u64::from(rounds) * SEQUENCES.len() as u64 + parts.len() as u64;
+        let sequences = sequences(self.design);
+        let total = u64::from(rounds) * sequences.len() as u64 + parts.len() as u64;
         let mut done = 0;
         progress(done, total);
         for round in 0..rounds as usize {
-            for (number, sequence) in SEQUENCES.iter().enumerate() {
+            for (number, sequence) in sequences.iter().enumerate() {
                 self.directed(sequence, round, number)?;
                 done += 1;
                 progress(done, total);
@@ -77,7 +79,7 @@ impl<'a> Session<'a> {
         let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
         let mood = self.mood(sequence.stalls, round + number / Gaps::ALL.len());
         self.driver.name(sequence.name, 0);
-        self.driver.begin(sequence.aim, mood)?;
+        self.driver.begin(sequence.aim, mood, sequence.lapse)?;
         let last = sequence.motifs.len() - 1;
         for frame in 0..=last {
             let configured = self.driver.thresholds_are_configured();
@@ -187,7 +189,7 @@ impl<'a> Session<'a> {
             Level::Rcm { .. } | Level::Full => "frames".to_owned(),
         };
         self.driver.name(&name, 0);
-        self.driver.begin(Aim::Design, mood)?;
+        self.driver.begin(Aim::Design, mood, Lapse::None)?;
         let size = (self.design.width(), self.design.height());
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {

@@ -57,6 +57,10 @@ pub(crate) enum Planted {
     RasterMoments,
     /// Raster: the pixels last sent, of regions that may be lost.
     RasterLost,
+    /// Raster: a frame of an odd number of words, in a memory of one port.
+    RasterPairs,
+    /// Raster: the store outside, and no pixels that leave.
+    RasterOutside,
 }
 
 impl Planted {
@@ -140,6 +144,15 @@ impl Planted {
                 "[frame]\nwidth = 16\nheight = 16\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
                  [temporal]\nreference = \"last-sent\"\n[hardware]\norganization = \"raster\"\n"
             }
+            Self::RasterPairs => {
+                "[frame]\nwidth = 25\nheight = 5\n[region]\nsize = 5\n[hardware]\n\
+                 organization = \"raster\"\nstore = \"single-port\"\n"
+            }
+            Self::RasterOutside => {
+                "[frame]\nwidth = 16\nheight = 8\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+                 [hardware]\norganization = \"raster\"\npipelining = \"deep\"\nstore = \"external\"\n\
+                 forward = false\n"
+            }
             Self::RasterMoments => {
                 "[frame]\nwidth = 16\nheight = 15\n[region]\nsize = 4\n[denoise]\n\
                  filter = \"none\"\n[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 2\n\
@@ -170,7 +183,12 @@ impl Planted {
     fn has_frame(self) -> bool {
         matches!(
             self,
-            Self::RasterPaper | Self::RasterSent | Self::RasterMoments | Self::RasterLost
+            Self::RasterPaper
+                | Self::RasterSent
+                | Self::RasterMoments
+                | Self::RasterLost
+                | Self::RasterPairs
+                | Self::RasterOutside
         )
     }
 

@@ -6,7 +6,8 @@
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
-    RasterLost as Lost, RasterMoments as Moments, RasterPaper as Paper, RasterSent as Sent,
+    RasterLost as Lost, RasterMoments as Moments, RasterOutside as Outside, RasterPairs as Pairs,
+    RasterPaper as Paper, RasterSent as Sent,
 };
 
 /// Every fault, by module.
@@ -62,6 +63,18 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("reset", Paper, "raster_counts", "            fresh_q  <= 1'b1;\n", ""),
     fault("index", Sent, "raster_counts", "hits_i[feature*LANES+lane]", "hits_i[feature*LANES]"),
     fault("width", Paper, "raster_counts", "$clog2((SIDE - 1) * SIDE + 1);", "$clog2((SIDE - 1) * SIDE + 1) - 1;"),
+
+    fault("constant", Pairs, "raster_pairs", "asked_q[0] || asked_end_q;", "asked_q[0];"),
+    fault("constant", Pairs, "raster_pairs", "come_q[0] || come_end_q;", "come_q[0];"),
+    fault("operator", Pairs, "raster_pairs", "write = waits_q && !read;", "write = waits_q;"),
+    fault("index", Pairs, "raster_pairs", "come_q[0] ? first_q : word_i", "word_i"),
+    fault("reset", Pairs, "raster_pairs", "            come_q      <= {WORD_NUMBER_BITS{1'b0}};\n", ""),
+
+    fault("operator", Outside, "raster_external", "read_i && !first_frame_i", "read_i"),
+    fault("constant", Outside, "raster_external", ".DEPTH(1 + DEEP)", ".DEPTH(1)"),
+    fault("operator", Outside, "raster_external", "reference_ready_o && !reference_valid_i", "!reference_valid_i"),
+    fault("reset", Outside, "raster_external", "if (rst_i) underrun_o <= 1'b0;\n        else if", "if"),
+    fault("reset", Outside, "raster_external", "write_i && !rst_i", "write_i"),
 
     fault("constant", Paper, "raster_store", "BEFORE_LAST = WORDS - 2", "BEFORE_LAST = WORDS - 3"),
     fault("index", Sent, "raster_store", "write_place = place_i;", "write_place = read_q;"),

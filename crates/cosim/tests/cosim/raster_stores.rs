@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Raster cores whose frame store is outside or of one port, and cores without forwarding: what their vectors hold,
+//! and whether model and RTL agree.
+
+use std::collections::VecDeque;
+
+use crate::common::vectors::{clocks, field, value};
+use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
+use foveate_cosim::{Level, Recording, Simulator};
+use foveate_design::{
+    Config, Design, FeatureKind, Filter, Neighborhood, Organization, Payload, Pipelining, PortRole,
+    RasterTiming, Store, Thresholds,
+};
+
+/// Regions of 4x4 pixels with these features.
+fn config(kinds: &[FeatureKind]) -> Config {
+    let spatial = kinds.iter().map(|&kind| feature(kind, 1)).collect();
+    let mut config = Config { spatial, ..Config::default() };
+    config.hardware.organization = Organization::Raster;
+    config.hardware.store = Some(Store::External);
+    config.region.size = 4;
+    config
+}
+
+/// A store outside: in both pipelinings, in words of one and two pixels, with a second pass.
+fn outside() -> [Design; 3] {
+    let plain = config(&[FeatureKind::Edge, FeatureKind::Variance]);
+    let mut deep = config(&[FeatureKind::Corner]);
+    deep.hardware.pipelining = Some(Pipelining::Deep);
+    deep.hardware.pixels_per_clock = Some(2);
+    deep.region.neighborhood = Neighborhood::Shared;
+    deep.hardware.forward = Some(false);
+    let mut pass = config(&[FeatureKind::Mad]);
+    pass.denoise.filter = Filter::None;
+    [design(&plain, (4, 3)), design(&deep, (8, 2)), design(&pass, (4, 3))]
+}
+
+fn record(design: &Design, rounds: u32) -> Recording {
+    directed(Level::Full, rounds).record(design, &mut |_, _| {}).unwrap()
+}
+
+/// What a sequence did with the references that the core asked for.
+#[derive(Debug, Default)]
+struct Story {
+    name: String,
+    /// Words that were valid and those that were stored a frame before.
+    right: u64,
+    /// Words that were valid and are not.
+    wrong: u64,
+    /// Words that were not valid.
+    missing: u64,
+    /// Words that were valid at edges at which the core asked for none.
+    unasked: u64,
+    /// The number of the first that was missing or wrong.
+    first: Option<u64>,
+    /// Whether the sequence ended with `reference_ready_o`.
+    ends_asking: bool,
+    /// Whether it ended with `underrun_o`.
+    ends_in_underrun: bool,
+}
+
+/// Checks at every clock what the contract says about the ports, and tells every sequence.
+fn stories(design: &Design, recording: &Recording) -> Vec<Story> {
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let words = RasterTiming::of(design).words();
+    let mut before = outputs.record();
+    let (mut stories, mut stored) = (Vec::<Story>::new(), VecDeque::new());
+    let (mut asked, mut underrun) = (0, false);
+    for (clock, (input, output)) in (0..).zip(clocks(recording)) {
+        let shows = |role| value(outputs, role, &output) == 1;
+        let was_asked = value(outputs, PortRole::ReferenceReady, &before) == 1;
+        if value(inputs, PortRole::Reset, &input) == 1 {
+            if let Some(story) = stories.last_mut().filter(|_| asked + stored.len() as u64 > 0) {
+                (story.ends_asking, story.ends_in_underrun) = (was_asked, underrun);
+            }
+            (asked, underrun) = (0, false);
+            stored.clear();
+            let name = recording.span(clock).unwrap().sequence.clone();
+            stories.push(Story { name, ..Story::default() });
+            assert!(!shows(PortRole::ReferenceReady) && !shows(PortRole::StoreValid));
+        } else {
+            let story = stories.last_mut().unwrap();
+            let valid = value(inputs, PortRole::ReferenceValid, &input) == 1;
+            if was_asked {
+                let due: u64 = stored.pop_front().expect("only what was stored is asked for");
+                let is_right = value(inputs, PortRole::ReferencePixel, &input) == due;
+                match (valid, is_right) {
+                    (true, true) => story.right += 1,
+                    (true, false) => story.wrong += 1,
+                    (false, _) => story.missing += 1,
+                }
+                if !valid || !is_right {
+                    story.first.get_or_insert(asked);
+                }
+                underrun |= !valid;
+                asked += 1;
+            } else {
+                story.unasked += u64::from(valid);
+            }
+        }
+        assert_eq!(shows(PortRole::Underrun), underrun, "clock {clock}");
+        if shows(PortRole::StoreValid) {
+            stored.push_back(value(outputs, PortRole::StorePixel, &output));
+        }
+        // Of a frame as many are stored as of the frame before are asked for, or it is the first.
+        assert!(stored.len() as u64 <= words + 2, "clock {clock}");
+        before = output;
+    }
+    // A reset may take two clocks.
+    stories.retain(|story| story.right + story.wrong + story.missing + story.unasked > 0);
+    stories
+}
+
+#[test]
+fn the_memory_gives_back_what_was_stored_but_where_it_fails() {
+    for design in outside() {
+        let stories = stories(&design, &record(&design, 3));
+        let of = |name: &'static str| stories.iter().filter(move |story| story.name == name);
+        let (mut right, mut underruns) = (0, 0);
+        for story in &stories {
+            let fails = story.name.contains("references") && !story.name.contains("while")
+                || story.name.contains("underrun");
+            assert!(fails || story.wrong + story.missing == 0, "{story:?}");
+            right += story.right;
+            underruns += u32::from(story.missing > 0);
+            assert!(story.unasked > 0, "{story:?}");
+        }
+        assert!(right > 10_000 && underruns >= 9, "{right} {underruns}");
+        for story in of("late references") {
+            // From the first on that was late, words are off by one; two were.
+            assert!(story.missing == 2 && story.wrong > 100, "{story:?}");
+        }
+        for story in of("lost references") {
+            // Those that come are those that are due.
+            assert!(story.missing == 2 && story.wrong == 0, "{story:?}");
+        }
+        for story in of("wrong references") {
+            assert!(story.missing == 0 && story.wrong > 20 && story.right > 100, "{story:?}");
+        }
+        assert!(of("reset after an underrun").all(|story| story.ends_in_underrun), "{stories:?}");
+        let asking = stories.iter().filter(|story| story.ends_asking).count();
+        assert!(asking > 2, "{asking} resets while references come");
+        let firsts: std::collections::BTreeSet<_> =
+            stories.iter().filter_map(|story| story.first).collect();
+        assert!(firsts.contains(&0) && firsts.len() > 3, "{firsts:?}");
+    }
+}
+
+/// What a reference that is wrong does is seen in the scores.
+#[test]
+fn wrong_references_change_what_is_decided() {
+    let [design, ..] = outside();
+    let (recording, inside) = (record(&design, 1), {
+        let mut config = design.config().clone();
+        config.hardware.store = Some(Store::Block);
+        record(&config.validate().unwrap(), 1)
+    });
+    // The sequences of both are the same until the first that fails.
+    let counts = |recording: &Recording| -> Vec<(String, u64)> {
+        let outputs = recording.outputs();
+        let decided = (0..)
+            .zip(clocks(recording))
+            .filter(|(_, (_, output))| value(outputs, PortRole::DecisionValid, output) == 1);
+        let count = |(clock, (_, output)): (u64, (Vec<u8>, Vec<u8>))| {
+            let name = recording.span(clock).unwrap().sequence.clone();
+            (name, value(outputs, PortRole::TemporalCount, &output))
+        };
+        decided.map(count).collect()
+    };
+    let (own, block) = (counts(&recording), counts(&inside));
+    assert!(own.len() > block.len());
+    let flat =
+        |(name, count): &&(String, u64)| name == "wrong references of extremes" && *count > 0;
+    let changed = own.iter().filter(flat).count();
+    assert!(changed > 12 + 12, "more than the first frame and the step: {changed}");
+}
+
+#[test]
+fn without_forwarding_there_are_no_forward_columns() {
+    let mut config = config(&[FeatureKind::Edge]);
+    config.hardware.store = Some(Store::SinglePort);
+    config.hardware.forward = Some(false);
+    let design = design(&config, (4, 3));
+    let recording = record(&design, 1);
+    let layouts = [recording.inputs(), recording.outputs()];
+    let names: Vec<&str> = layouts
+        .iter()
+        .flat_map(|layout| layout.fields())
+        .map(|field| field.port.name.as_str())
+        .collect();
+    for part in ["forward", "lost", "reference", "store", "underrun"] {
+        assert!(names.iter().all(|name| !name.contains(part)), "{names:?}");
+    }
+    let active = field(recording.outputs(), PortRole::Active);
+    let seen = clocks(&recording).iter().filter(|(_, output)| active.get(output, 0) == 1).count();
+    assert!(seen > 100, "{seen} active regions");
+}
+
+/// Designs of one store, with or without forwarding: features x words x pipelining, and the other keys in turn.
+fn matrix(store: Store, forward: bool) -> Vec<Design> {
+    use FeatureKind::{Corner, Edge, Mad, Variance};
+    let sets: [&[FeatureKind]; 5] =
+        [&[Edge], &[Mad], &[Edge, Variance], &[Variance], &[Mad, Corner, Variance]];
+    let mut designs = Vec::new();
+    for kinds in sets {
+        for pipelining in [Pipelining::Plain, Pipelining::Deep] {
+            let turn = designs.len();
+            let mut config = config(kinds);
+            config.hardware.store = Some(store);
+            config.hardware.forward = Some(forward);
+            config.hardware.pipelining = Some(pipelining);
+            let (size, pixels) = [(4, 1), (4, 2), (5, 1), (8, 4)][turn % 4];
+            (config.region.size, config.hardware.pixels_per_clock) = (size, Some(pixels));
+            config.denoise.filter = Filter::ALL[turn / 2 % 2];
+            config.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
+            config.render.payload = Payload::ALL[turn / 2 % 2];
+            config.hardware.thresholds =
+                [Thresholds::Runtime, Thresholds::Runtime, Thresholds::Constant][turn % 3];
+            let columns = (16 * pixels).div_ceil(size).max(4);
+            // Ragged on the right and below, every other one.
+            let odd = u32::try_from(turn % 2).unwrap();
+            config.frame.width = Some(columns * size - odd);
+            config.frame.height = Some(3 * size - 2 * odd);
+            designs.push(config.validate().unwrap());
+        }
+    }
+    designs
+}
+
+fn check_all(store: Store, forward: bool) {
+    if !simulators() {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let failures = in_parallel(&matrix(store, forward), |design| {
+        let folder = output.path().join(design.fingerprint());
+        let what = format!("{} {}", name(design.config()), design.config().hardware.in_words());
+        agrees(&what, design, Simulator::Iverilog, directed(Level::Full, 1), &folder)
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+#[test]
+fn the_rtl_of_a_raster_core_with_a_store_of_one_port_agrees() {
+    check_all(Store::SinglePort, true);
+}
+
+#[test]
+fn the_rtl_of_a_raster_core_with_an_external_store_agrees() {
+    check_all(Store::External, true);
+}
+
+#[test]
+fn the_rtl_of_a_raster_core_without_forwarding_agrees() {
+    check_all(Store::Block, false);
+    check_all(Store::SinglePort, false);
+}
+
+#[test]
+fn the_rtl_of_a_raster_core_with_an_external_store_and_without_forwarding_agrees() {
+    check_all(Store::External, false);
+}
