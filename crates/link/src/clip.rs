@@ -71,6 +71,9 @@ pub(crate) fn watch(
     }
     let (width, height) = source.size();
     let design = config.for_frames(width, height)?;
+    if !design.forwards() {
+        return Err(LinkError::NoPixels);
+    }
     if design.pixel_bits() != 8 {
         return Err(LinkError::Depth { bits: design.pixel_bits() });
     }

@@ -100,6 +100,11 @@ pub enum LinkError {
         /// Bits per pixel.
         bits: u32,
     },
+    /// A design that sends nothing.
+    #[error(
+        "no pixels leave a design with hardware.forward = false, so it sends nothing over a link; leave the key out"
+    )]
+    NoPixels,
     /// A design that cannot follow its frames.
     #[error(
         "`{clip}` has a frame every {interval_ns} ns, but the design needs {needed_ns} ns for one at {clock_hz} Hz; give a faster --clock, or a design that takes fewer clocks"
