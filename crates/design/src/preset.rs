@@ -51,6 +51,11 @@ pub const PRESETS: &[Preset] = &[
         summary: "the paper's scores from small lanes under one sequencer, one region per lane",
         toml: "[hardware]\norganization = \"serial\"\n",
     },
+    Preset {
+        name: "raster",
+        summary: "the paper's scores in one core for ordinary video: 640x480 pixels row by row, one per clock",
+        toml: "[frame]\nwidth = 640\nheight = 480\n\n[hardware]\norganization = \"raster\"\n",
+    },
 ];
 
 impl Preset {

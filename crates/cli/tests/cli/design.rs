@@ -171,6 +171,7 @@ fn the_committed_cores_are_not_stale() {
     for (folder, options) in [
         ("paper", &["--preset", "paper"][..]),
         ("serial", &["--preset", "serial", "--set", "hardware.fold=4"]),
+        ("raster", &["--preset", "raster"]),
     ] {
         let command = format!("generate {} -o rtl/generated/{folder} --force", options.join(" "));
         assert!(contributing.contains(&command), "{command}");

@@ -22,10 +22,11 @@ fn agrees(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str)
 #[test]
 fn every_preset_agrees_at_rpu_level_in_both_simulators() {
     for preset in PRESETS {
-        let design = design(&preset.config().unwrap(), (3, 2));
+        // Every organization takes four regions side by side.
+        let design = design(&preset.config().unwrap(), (4, 3));
         for simulator in Simulator::ALL {
             let scene = Scene::find("street").unwrap();
-            let size = SceneSize { width: 24, height: 16, bits: 8, region_size: 8, frames: 4 };
+            let size = SceneSize { width: 32, height: 24, bits: 8, region_size: 8, frames: 4 };
             let stimulus = Stimulus { frames: scene.frames(size).collect(), ..Stimulus::default() };
             agrees(&design, simulator, stimulus, preset.name);
         }

@@ -35,6 +35,7 @@ fn designs_of_8_bits_are_what_they_were() {
         ("steady", "ba7daa8b3b091ae1"),
         ("seamless", "dec984bdadd23ebc"),
         ("serial", "0d4380c4bb901499"),
+        ("raster", "4b4e10c6be056718"),
         ("feature edge", "255bc91bb78cefb8"),
         ("feature corner", "95e675a6e3999482"),
         ("feature mad", "a08d32530e3ba710"),

@@ -1,0 +1,552 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The whole camera for a frame that comes row by row, LANES pixels at every clock: windows, scores, decisions,
+// and the pixels of active regions.
+//
+//     word -> rows -> median -> rows -> edge, corner -> counts -> votes -> decision
+//                                  `-> center -> change <-> frame store
+//                                          `-> buffer -> readout of active regions
+//
+// docs/raster.md says what happens when.
+`default_nettype none
+
+(* keep_hierarchy = "yes" *)
+module raster_core #(
+    parameter WIDTH = 8,             // bits of a pixel
+    parameter LANES = 1,             // pixels of a word
+    parameter SIDE = 8,              // rows of a region
+    parameter COLUMNS = 240,         // regions side by side
+    parameter ROWS = 135,            // regions one below the other
+    parameter FRAME_WIDTH = 1920,    // pixels of a row of the frame
+    parameter FRAME_HEIGHT = 1080,   // rows of the frame
+    parameter ISOLATED = 0,          // 1: windows end at the borders of regions, not of the frame
+    parameter MEDIAN = 1,            // 1: pixels are denoised
+    parameter EDGE = 1,              // 1: edges are counted
+    parameter CORNER = 0,            // 1: corners are counted
+    parameter MAD = 0,               // 1: the mean absolute deviation is a score
+    parameter VARIANCE = 0,          // 1: the variance is a score
+    parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
+    parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
+    parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
+    parameter RAW = 0,               // 1: raw pixels leave; 0: denoised ones
+    parameter FORWARD = 1,           // 1: pixels of active regions leave; 0: only decisions do
+    parameter STORE = 0,             // references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside
+    parameter DEEP = 0,              // 1: more registers, for a faster clock
+    parameter SETTLE = 11,           // clocks from the last advance of a frame to its last decision
+    parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
+    parameter EDGE_LEVEL_BITS = 11,  // bits of the level of edges
+    parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
+    parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
+    parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
+    parameter FRACTION = 0,          // fraction bits of the mean (MAD)
+    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum + half of the pixels
+    parameter MEAN_BITS = 8,         // bits of the mean
+    parameter FACTOR_BITS = 1,       // bits of FACTOR
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // dividend * FACTOR >> SHIFT is dividend / pixels
+    parameter SHIFT = 6,             // bits that are dropped of the product
+    parameter MAD_BITS = 14,         // bits of the score of MAD
+    parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (VARIANCE)
+    parameter PRODUCT_BITS = 28,     // bits of its products
+    parameter VARIANCE_BITS = 26     // bits of its score
+) (
+    input  wire                       clk_i,               // clock, rising edge
+    input  wire                       rst_i,               // synchronous reset, active high
+    input  wire                       valid_i,             // a word is taken at this edge, if ready_o
+    input  wire [    LANES*WIDTH-1:0] pixel_i,             // it, the left pixel in the lowest bits
+    output wire                       ready_o,             // a word would be taken
+    input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a pixel is an edge above this
+    input  wire [          WIDTH-1:0] corner_level_i,      // ... a corner
+    input  wire [          WIDTH-1:0] temporal_level_i,    // ... has changed
+    input  wire [     COUNT_BITS-1:0] edge_min_i,          // edges vote from this count on
+    input  wire [     COUNT_BITS-1:0] corner_min_i,        // corners
+    input  wire [       MAD_BITS-1:0] mad_min_i,           // the mean absolute deviation
+    input  wire [  VARIANCE_BITS-1:0] variance_min_i,      // the variance
+    input  wire [     COUNT_BITS-1:0] temporal_min_i,      // TRS from this count on
+    output wire                       decision_valid_o,    // the decision for region_o
+    output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
+    output wire                       srs_o,               // spatial relevance
+    output wire                       trs_o,               // temporal relevance
+    output wire                       active_o,            // both
+    output wire [     COUNT_BITS-1:0] edge_score_o,        // edges
+    output wire [     COUNT_BITS-1:0] corner_score_o,      // corners
+    output wire [       MAD_BITS-1:0] mad_score_o,         // mean absolute deviation, times pixels and 2^FRACTION
+    output wire [  VARIANCE_BITS-1:0] variance_score_o,    // variance, times the square of the pixels
+    output wire [     COUNT_BITS-1:0] temporal_count_o,    // changed pixels
+    output wire                       reference_ready_o,   // the reference on the port is taken at the next edge (STORE 3)
+    input  wire                       reference_valid_i,   // it is there
+    input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // it
+    output wire                       store_valid_o,       // a word is to be stored (STORE 3)
+    output wire [    LANES*WIDTH-1:0] store_pixel_o,       // that word
+    output wire                       store_last_o,        // it is the last of a row
+    output wire                       underrun_o,          // a reference was not there since reset (STORE 3)
+    input  wire                       forward_ready_i,     // the word on the port is taken
+    output wire                       forward_valid_o,     // a word of an active region leaves
+    output wire [    REGION_BITS-1:0] forward_region_o,    // its region
+    output wire [  POSITION_BITS-1:0] forward_position_o,  // number in its region of its first pixel
+    output wire [    LANES*WIDTH-1:0] forward_pixel_o,     // that word
+    output wire                       lost_o,              // a region was lost since reset
+    output wire [               15:0] lost_count_o         // how many, up to the largest number
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (LANES != 1 && LANES != 2 && LANES != 4) begin : g_lanes LANES_must_be_1_2_or_4 u_refused (); end
+        if (SIDE % LANES != 0) begin : g_side SIDE_must_be_a_multiple_of_LANES u_refused (); end
+        if (COLUMNS < 4) begin : g_columns COLUMNS_must_be_4_or_more u_refused (); end
+        if (COLUMNS * SIDE < 16 * LANES) begin : g_row a_row_must_have_16_words_or_more u_refused (); end
+        if (FRAME_WIDTH > COLUMNS * SIDE || FRAME_WIDTH + SIDE <= COLUMNS * SIDE) begin : g_width
+            FRAME_WIDTH_must_need_COLUMNS u_refused ();
+        end
+        if (FRAME_HEIGHT > ROWS * SIDE || FRAME_HEIGHT + SIDE <= ROWS * SIDE) begin : g_height
+            FRAME_HEIGHT_must_need_ROWS u_refused ();
+        end
+        if (COUNT_BITS != $clog2(SIDE * SIDE + 1)) begin : g_count_bits COUNT_BITS_must_hold_SIDE_squared u_refused (); end
+        if (POSITION_BITS != $clog2(SIDE * SIDE)) begin : g_position_bits
+            POSITION_BITS_must_be_clog2_of_SIDE_squared u_refused ();
+        end
+        if (REGION_BITS != $clog2(COLUMNS * ROWS)) begin : g_region_bits
+            REGION_BITS_must_be_clog2_of_the_regions u_refused ();
+        end
+        if (LAST_SENT && !FORWARD) begin : g_forward_limit FORWARD_must_be_1_with_LAST_SENT u_refused (); end
+        if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
+        if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
+        if (EDGE + CORNER + MAD + VARIANCE < 1) begin : g_feature a_feature_must_be_1 u_refused (); end
+    endgenerate
+
+    localparam WORD = LANES * WIDTH;
+    localparam SEGMENT = SIDE / LANES;
+    localparam ROW_WORDS = COLUMNS * SEGMENT;
+    localparam TAKEN_WORDS = (FRAME_WIDTH + LANES - 1) / LANES;
+    localparam REGIONS = COLUMNS * ROWS;
+    localparam WORD_BITS = $clog2(ROW_WORDS);
+    localparam HITS = EDGE + CORNER;
+    localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
+    localparam BANKS = MAD ? 3 : 2;
+    localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
+    localparam START_BITS = $clog2(BUFFER_WORDS);
+    localparam PLACE_BITS = $clog2(ROW_WORDS * ROWS * SIDE);
+    localparam EXTERNAL = 3;
+
+    // Clocks from one place to another; see docs/raster.md.
+    localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to the column of its window
+    localparam MEDIAN_CLOCKS = MEDIAN ? COLUMN_CLOCKS + (DEEP ? 6 : 3) : 0;
+    localparam CENTER_CLOCKS = MEDIAN_CLOCKS + (HITS > 0 ? COLUMN_CLOCKS : 0);  // ... to the center of the last window
+    localparam STORE_CLOCKS = 2 + DEEP;                                // from there to the stores
+    localparam HIT_CLOCKS = 4 + DEEP;                                  // ... to the hits
+
+    // ---- When and where
+    wire advance, pad, taken_end, repeated, in_tail;
+    wire advance_segment_end, advance_row_end, advance_region_top, advance_region_bottom;
+    wire [1:0] advance_left, advance_right, advance_top, advance_bottom;
+    wire busy, frame_over;
+
+    raster_control #(
+        .ROW_WORDS(ROW_WORDS), .TAKEN_WORDS(TAKEN_WORDS), .ROWS(ROWS * SIDE), .TAKEN_ROWS(FRAME_HEIGHT),
+        .WORD_BITS(WORD_BITS), .ROW_BITS($clog2(ROWS * SIDE)), .SIDE(SIDE), .SIDE_BITS($clog2(SIDE)),
+        .SEGMENT(SEGMENT), .SEGMENT_BITS(SEGMENT > 1 ? $clog2(SEGMENT) : 1), .ISOLATED(ISOLATED), .WINDOWS(WINDOWS),
+        .SETTLE(SETTLE), .SETTLE_BITS($clog2(SETTLE))
+    ) u_control (
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .busy_i(busy), .ready_o(ready_o),
+        .step_o(advance), .pad_o(pad), .taken_end_o(taken_end), .repeat_o(repeated),
+        .left_o(advance_left), .right_o(advance_right), .top_o(advance_top), .bottom_o(advance_bottom),
+        .tail_o(in_tail), .segment_end_o(advance_segment_end), .row_end_o(advance_row_end),
+        .region_top_o(advance_region_top), .region_bottom_o(advance_region_bottom),
+        .frame_over_o(frame_over)
+    );
+
+    wire [WORD-1:0] made;
+    raster_pad #(
+        .WIDTH(WIDTH), .LANES(LANES), .REST(FRAME_WIDTH % LANES), .PADS(TAKEN_WORDS != ROW_WORDS)
+    ) u_pad (
+        .clk_i(clk_i), .step_i(advance), .pad_i(pad), .end_i(taken_end), .word_i(pixel_i), .word_o(made)
+    );
+
+    // ---- The words of the frame, a clock later if deep
+    wire step, tail, segment_end, row_end, region_top, region_bottom, row_repeated;
+    wire [1:0] left, right, top, bottom;
+    wire [WORD-1:0] word;
+
+    raster_pulse #(.DEPTH(DEEP)) u_step (.clk_i(clk_i), .rst_i(rst_i), .bit_i(advance), .bit_o(step));
+    raster_pulse #(.DEPTH(DEEP)) u_in_tail (.clk_i(clk_i), .rst_i(rst_i), .bit_i(in_tail), .bit_o(tail));
+    raster_delay #(.WIDTH(WORD + 13), .DEPTH(DEEP)) u_word (
+        .clk_i(clk_i),
+        .data_i({made, advance_left, advance_right, advance_top, advance_bottom, repeated,
+                 advance_segment_end, advance_row_end, advance_region_top, advance_region_bottom}),
+        .data_o({word, left, right, top, bottom, row_repeated, segment_end, row_end, region_top, region_bottom})
+    );
+
+    // ---- Denoise
+    wire scored_step;              // the word of the last window
+    wire [WORD-1:0] scored_word;
+    wire [WORD-1:0] scored_raw;    // what it was before (RAW)
+    wire scored_repeated;
+    generate
+        if (MEDIAN) begin : g_median
+            wire column_step;
+            wire [WORD-1:0] upper, middle, lower;
+            wire column_left, column_right;
+
+            raster_window #(
+                .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
+                .REPEATS(ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
+            ) u_raw_window (
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .word_i(word), .top_i(top[0]), .bottom_i(bottom[0]),
+                .repeat_i(row_repeated), .step_o(column_step), .upper_o(upper), .middle_o(middle), .lower_o(lower)
+            );
+            raster_delay #(.WIDTH(2), .DEPTH(COLUMN_CLOCKS)) u_sides (
+                .clk_i(clk_i), .data_i({left[0], right[0]}), .data_o({column_left, column_right})
+            );
+            raster_median #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_median (
+                .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
+            );
+            raster_pulse #(.DEPTH(MEDIAN_CLOCKS)) u_scored_step (
+                .clk_i(clk_i), .rst_i(rst_i), .bit_i(step), .bit_o(scored_step)
+            );
+            assign scored_repeated = 1'b0;
+            if (RAW) begin : g_raw
+                reg [WORD-1:0] raw_q;
+                always @(posedge clk_i) if (column_step) raw_q <= middle;
+                // With the step that makes a word the center its column is in raw_q a clock later.
+                raster_delay #(.WIDTH(WORD), .DEPTH(MEDIAN_CLOCKS - COLUMN_CLOCKS)) u_raw (
+                    .clk_i(clk_i), .data_i(raw_q), .data_o(scored_raw)
+                );
+            end else begin : g_denoised
+                assign scored_raw = scored_word;
+            end
+        end else begin : g_none
+            assign scored_step = step;
+            assign scored_raw = scored_word;
+            if (HITS == 0 && ROWS * SIDE != FRAME_HEIGHT) begin : g_repeat
+                raster_repeat #(.WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS)) u_repeat (
+                    .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .repeat_i(row_repeated), .word_i(word),
+                    .word_o(scored_word)
+                );
+            end else begin : g_word
+                assign scored_word = word;
+            end
+            assign scored_repeated = row_repeated;
+        end
+    endgenerate
+
+    // ---- The windows of the features
+    wire [LANES-1:0] edges;
+    wire [LANES-1:0] corners;
+    wire [WORD-1:0] center_word;  // the center of the last window
+    generate
+        if (HITS > 0) begin : g_window
+            wire column_step;
+            wire [WORD-1:0] upper, middle, lower;
+            wire column_top, column_bottom, column_left, column_right;
+            reg [WORD-1:0] center_q;
+
+            always @(posedge clk_i) if (column_step) center_q <= middle;
+            assign center_word = center_q;
+
+            raster_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
+                .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({column_top, column_bottom})
+            );
+            raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
+                .clk_i(clk_i), .data_i({left[MEDIAN], right[MEDIAN]}), .data_o({column_left, column_right})
+            );
+            raster_window #(
+                .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
+                .REPEATS(!MEDIAN && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
+            ) u_window (
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_word), .top_i(column_top),
+                .bottom_i(column_bottom), .repeat_i(scored_repeated), .step_o(column_step), .upper_o(upper),
+                .middle_o(middle), .lower_o(lower)
+            );
+
+            if (EDGE) begin : g_edge
+                raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                    .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(edge_level_i), .hit_o(edges)
+                );
+            end else begin : g_no_edge
+                wire unused_edge_level = |edge_level_i || |edge_min_i;
+                assign edges = {LANES{1'b0}};
+            end
+            if (CORNER) begin : g_corner
+                raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                    .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(corner_level_i), .hit_o(corners)
+                );
+            end else begin : g_no_corner
+                wire unused_corner_level = |corner_level_i || |corner_min_i;
+                assign corners = {LANES{1'b0}};
+            end
+        end else begin : g_no_window
+            wire unused_window = |edge_level_i || |edge_min_i || |corner_level_i || |corner_min_i || scored_step
+                                 || scored_repeated || |top || |bottom || |left || |right;
+            assign edges = {LANES{1'b0}};
+            assign corners = {LANES{1'b0}};
+            assign center_word = scored_word;
+        end
+    endgenerate
+
+    // ---- The center of the last window, its place in the frame, and the frame before
+    wire [WORD-1:0] center;
+    wire center_step, store_step, arriving_step, hit_step;
+
+    raster_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_center (.clk_i(clk_i), .data_i(center_word), .data_o(center));
+    raster_pulse #(.DEPTH(CENTER_CLOCKS)) u_center_step (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(tail), .bit_o(center_step)
+    );
+    raster_pulse #(.DEPTH(STORE_CLOCKS - 1)) u_arriving_step (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(center_step), .bit_o(arriving_step)
+    );
+    raster_pulse #(.DEPTH(1)) u_store_step (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(arriving_step), .bit_o(store_step)
+    );
+    raster_pulse #(.DEPTH(HIT_CLOCKS - STORE_CLOCKS)) u_hit_step (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(store_step), .bit_o(hit_step)
+    );
+
+    wire hit_segment_end, hit_row_end, hit_region_top, hit_region_bottom;
+    raster_delay #(.WIDTH(4), .DEPTH(CENTER_CLOCKS + HIT_CLOCKS)) u_places (
+        .clk_i(clk_i), .data_i({segment_end, row_end, region_top, region_bottom}),
+        .data_o({hit_segment_end, hit_row_end, hit_region_top, hit_region_bottom})
+    );
+
+    reg first_frame_q;
+    wire [WORD-1:0] reference;
+    wire [LANES-1:0] changes;
+    wire reference_write;  // what was sent becomes a reference (LAST_SENT)
+    wire [WORD-1:0] reference_word;
+    wire [PLACE_BITS-1:0] reference_place;
+
+    wire reference_read;
+    raster_pulse #(.DEPTH(1)) u_reference_read (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(center_step), .bit_o(reference_read)
+    );
+    generate
+        if (STORE == EXTERNAL) begin : g_external
+            wire stored_row_end;
+            wire unused_reference = reference_write || |reference_word || |reference_place;
+            raster_delay #(.WIDTH(1), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS)) u_stored_row_end (
+                .clk_i(clk_i), .data_i(row_end), .data_o(stored_row_end)
+            );
+            raster_external #(.WORD_BITS(WORD), .DEEP(DEEP)) u_external (
+                .clk_i(clk_i), .rst_i(rst_i), .first_frame_i(first_frame_q), .read_i(reference_read),
+                .reference_o(reference), .write_i(store_step), .word_i(center), .row_end_i(stored_row_end),
+                .reference_ready_o(reference_ready_o), .reference_valid_i(reference_valid_i),
+                .reference_pixel_i(reference_pixel_i), .store_valid_o(store_valid_o), .store_pixel_o(store_pixel_o),
+                .store_last_o(store_last_o), .underrun_o(underrun_o)
+            );
+        end else begin : g_inside
+            wire unused_outside = reference_valid_i || |reference_pixel_i;
+            assign {reference_ready_o, store_valid_o, store_last_o, underrun_o} = 4'd0;
+            assign store_pixel_o = {WORD{1'b0}};
+            raster_store #(
+                .WORD_BITS(WORD), .WORDS(ROW_WORDS * ROWS * SIDE), .ADDRESS_BITS(PLACE_BITS), .KIND(STORE),
+                .RANDOM(LAST_SENT), .DEEP(DEEP)
+            ) u_store (
+                .clk_i(clk_i), .rst_i(rst_i), .read_i(reference_read), .reference_o(reference),
+                .write_i(LAST_SENT ? reference_write : store_step), .place_i(reference_place),
+                .word_i(LAST_SENT ? reference_word : center)
+            );
+        end
+    endgenerate
+    raster_change #(.WIDTH(WIDTH), .LANES(LANES)) u_change (
+        .clk_i(clk_i), .word_i(center), .reference_i(reference), .level_i(temporal_level_i), .hit_o(changes)
+    );
+
+    // ---- Scores of a region whose last word has come
+    wire [(HITS+1)*LANES-1:0] hits;
+    wire [LANES-1:0] changed = LAST_SENT ? changes : changes | {LANES{first_frame_q}};
+    wire done;
+    wire [(HITS+1)*COUNT_BITS-1:0] counts;
+    generate
+        if (EDGE && CORNER) begin : g_both
+            assign hits = {corners, edges, changed};
+        end else if (HITS > 0) begin : g_one
+            assign hits = {EDGE ? edges : corners, changed};
+        end else begin : g_changes
+            wire unused_hits = |edges || |corners;
+            assign hits = changed;
+        end
+    endgenerate
+
+    always @(posedge clk_i) begin
+        if (rst_i) first_frame_q <= 1'b1;
+        else if (frame_over) first_frame_q <= 1'b0;
+    end
+
+    raster_counts #(
+        .LANES(LANES), .FEATURES(HITS + 1), .SIDE(SIDE), .COUNT_BITS(COUNT_BITS), .COLUMNS(COLUMNS),
+        .COLUMN_BITS($clog2(COLUMNS)), .DEEP(DEEP)
+    ) u_counts (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(hit_step), .hits_i(hits),
+        .segment_end_i(hit_segment_end), .row_end_i(hit_row_end), .region_top_i(hit_region_top),
+        .region_bottom_i(hit_region_bottom), .done_o(done), .counts_o(counts)
+    );
+
+    localparam VARIANCE_CLOCKS = VARIANCE ? 3 : 0;
+    wire [SUM_BITS-1:0] sum;
+    wire [VARIANCE_BITS-1:0] variance;
+    wire settled;  // all scores but that of MAD are there
+    wire [(HITS+1)*COUNT_BITS-1:0] settled_counts;
+    raster_pulse #(.DEPTH(VARIANCE_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
+    raster_delay #(.WIDTH((HITS + 1) * COUNT_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
+        .clk_i(clk_i), .data_i(counts), .data_o(settled_counts)
+    );
+    generate
+        if (MAD || VARIANCE) begin : g_moments
+            // Hits come two clocks behind the center.
+            raster_moments #(
+                .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .COLUMNS(COLUMNS), .VARIANCE(VARIANCE),
+                .SUM_BITS(SUM_BITS), .SQUARE_SUM_BITS(SQUARE_SUM_BITS), .PRODUCT_BITS(PRODUCT_BITS),
+                .VARIANCE_BITS(VARIANCE_BITS), .DEEP(DEEP)
+            ) u_moments (
+                .clk_i(clk_i), .rst_i(rst_i), .word_i(center), .step_i(hit_step), .segment_end_i(hit_segment_end),
+                .row_end_i(hit_row_end), .region_top_i(hit_region_top), .sum_o(sum), .variance_o(variance)
+            );
+        end else begin : g_no_moments
+            assign sum = {SUM_BITS{1'b0}};
+            assign variance = {VARIANCE_BITS{1'b0}};
+        end
+    endgenerate
+
+    // Where in the buffer of rows of regions the word goes that is stored.
+    wire [START_BITS-1:0] store_place;
+    generate
+        if (FORWARD || MAD) begin : g_ring
+            raster_ring #(.WORDS(BUFFER_WORDS), .PLACE_BITS(START_BITS)) u_ring (
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(store_step), .place_o(store_place)
+            );
+        end else begin : g_no_ring
+            assign store_place = {START_BITS{1'b0}};
+            wire unused_ring = |store_place;
+        end
+    endgenerate
+
+    localparam JUDGED_BITS = VARIANCE_BITS + (HITS + 1) * COUNT_BITS;
+    wire judged;  // all scores are there
+    wire [MAD_BITS-1:0] judged_mad;
+    wire [VARIANCE_BITS-1:0] judged_variance;
+    wire [(HITS+1)*COUNT_BITS-1:0] judged_counts;
+    generate
+        if (MAD) begin : g_deviation
+            raster_deviation #(
+                .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
+                .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
+                .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
+                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(MAD_BITS),
+                .OTHER_BITS(JUDGED_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
+            ) u_deviation (
+                .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .word_i(center),
+                .done_i(done), .sum_i(sum), .settled_i(settled), .other_i({variance, settled_counts}),
+                .judged_o(judged), .mad_o(judged_mad), .other_o({judged_variance, judged_counts})
+            );
+        end else begin : g_no_deviation
+            wire unused_sum = |sum;
+            assign judged = settled;
+            assign judged_mad = {MAD_BITS{1'b0}};
+            assign judged_variance = variance;
+            assign judged_counts = settled_counts;
+        end
+    endgenerate
+
+    // ---- Decision
+    wire decided;       // a region is decided
+    wire will_be_active;
+    wire mark;          // travels with it (LAST_SENT)
+    wire lost_reference;  // a region is lost, and its reference with it
+    wire [REGION_BITS-1:0] lost_region;
+    wire lost_mark;
+
+    raster_decision #(
+        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .ALL(ALL), .LAST_SENT(LAST_SENT),
+        .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS), .REGIONS(REGIONS),
+        .REGION_BITS(REGION_BITS), .MAD_BITS(MAD_BITS), .VARIANCE_BITS(VARIANCE_BITS)
+    ) u_decision (
+        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .counts_i(judged_counts), .mad_i(judged_mad),
+        .variance_i(judged_variance), .edge_min_i(edge_min_i), .corner_min_i(corner_min_i), .mad_min_i(mad_min_i),
+        .variance_min_i(variance_min_i), .temporal_min_i(temporal_min_i),
+        .lost_i(lost_reference), .lost_region_i(lost_region), .lost_mark_i(lost_mark),
+        .decided_o(decided), .will_be_active_o(will_be_active), .mark_o(mark),
+        .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .edge_score_o(edge_score_o), .corner_score_o(corner_score_o), .mad_score_o(mad_score_o),
+        .variance_score_o(variance_score_o), .temporal_count_o(temporal_count_o)
+    );
+
+    // ---- Pixels that leave
+    wire idle;  // nothing waits to leave
+    generate
+        if (FORWARD) begin : g_forward
+            wire store_row_end, store_region_bottom;
+            wire [WORD-1:0] stored_raw;
+            raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS - 1)) u_store_places (
+                .clk_i(clk_i), .data_i({row_end, region_bottom}), .data_o({store_row_end, store_region_bottom})
+            );
+            if (RAW && HITS > 0) begin : g_line
+                wire [WORD-1:0] raw_center;
+                raster_line #(.WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS)) u_line (
+                    .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_raw), .word_o(raw_center)
+                );
+                raster_delay #(.WIDTH(WORD), .DEPTH(COLUMN_CLOCKS + STORE_CLOCKS)) u_raw (
+                    .clk_i(clk_i), .data_i(raw_center), .data_o(stored_raw)
+                );
+            end else if (RAW) begin : g_beside
+                raster_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_raw (
+                    .clk_i(clk_i), .data_i(scored_raw), .data_o(stored_raw)
+                );
+            end else begin : g_scored
+                wire unused_raw = |scored_raw;
+                assign stored_raw = {WORD{1'b0}};
+            end
+
+            raster_forward #(
+                .WORD_BITS(WORD), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
+                .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .RAW(RAW), .LAST_SENT(LAST_SENT),
+                .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS), .START_BITS(START_BITS),
+                .PLACE_BITS(PLACE_BITS)
+            ) u_forward (
+                .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .scored_i(center),
+                .raw_i(stored_raw), .arriving_i(arriving_step), .rows_end_i(store_row_end && store_region_bottom),
+                .decision_i(decision_valid_o), .active_i(active_o), .region_i(region_o), .mark_i(mark),
+                .ready_i(forward_ready_i), .valid_o(forward_valid_o), .region_o(forward_region_o),
+                .position_o(forward_position_o), .pixel_o(forward_pixel_o), .lost_o(lost_o),
+                .lost_count_o(lost_count_o), .idle_o(idle), .reference_write_o(reference_write),
+                .reference_place_o(reference_place), .reference_word_o(reference_word),
+                .lost_reference_o(lost_reference), .lost_region_o(lost_region), .lost_mark_o(lost_mark)
+            );
+        end else begin : g_no_forward
+            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark;
+            assign {forward_valid_o, forward_region_o, forward_position_o, forward_pixel_o} =
+                {(1 + REGION_BITS + POSITION_BITS + WORD) {1'b0}};
+            assign {lost_o, lost_count_o, idle, reference_write} = {19{1'b0}};
+            assign reference_place = {PLACE_BITS{1'b0}};
+            assign reference_word = {WORD{1'b0}};
+            assign lost_reference = 1'b0;
+            assign lost_region = {REGION_BITS{1'b0}};
+            assign lost_mark = 1'b0;
+        end
+    endgenerate
+
+    // With few rows of regions the next frame waits until no region is under way.
+    generate
+        if (LAST_SENT && ROWS <= BANKS) begin : g_waits
+            wire undecided;
+            if (MAD) begin : g_undecided
+                localparam REGIONS_BITS = $clog2(BANKS * COLUMNS) + 1;
+                reg [REGIONS_BITS-1:0] regions_q;  // regions that wait for their second pass, and are in it
+                wire [REGIONS_BITS-1:0] waiting = regions_q - {{(REGIONS_BITS - 1) {1'b0}}, decided};
+                always @(posedge clk_i) begin
+                    if (rst_i) regions_q <= {REGIONS_BITS{1'b0}};
+                    else regions_q <= waiting + {{(REGIONS_BITS - 1) {1'b0}}, settled};
+                end
+                assign undecided = settled || waiting != {REGIONS_BITS{1'b0}};
+            end else begin : g_decided
+                assign undecided = 1'b0;
+            end
+            assign busy = !idle || active_o || will_be_active || undecided;
+        end else begin : g_goes_on
+            wire unused_idle = idle || decided || will_be_active;
+            assign busy = 1'b0;
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Counts the hits of regions, of all features side by side. A row of regions is under way at a time.
+//
+// The hits of a row of a region are counted in registers, and added to those of the rows above it from a
+// memory with a word for each column of regions. The sum of a region's last row is never written, so a word
+// of the memory has no room for it.
+`default_nettype none
+
+module raster_counts #(
+    parameter LANES = 1,        // pixels of a word
+    parameter FEATURES = 2,     // hits that are counted side by side
+    parameter SIDE = 8,         // rows of a region
+    parameter COUNT_BITS = 7,   // bits of a count, 0..SIDE * SIDE
+    parameter COLUMNS = 240,    // regions side by side
+    parameter COLUMN_BITS = 8,  // ceil(log2(COLUMNS))
+    parameter DEEP = 0          // 0: counts two clocks after their last hits; 1: three
+) (
+    input  wire                           clk_i,            // clock, rising edge
+    input  wire                           rst_i,            // synchronous reset, active high
+    input  wire                           step_i,           // hits of a word come in
+    input  wire [     FEATURES*LANES-1:0] hits_i,           // they
+    input  wire                           segment_end_i,    // the word is the last of a row of its region
+    input  wire                           row_end_i,        // ... of its row
+    input  wire                           region_top_i,     // it is in the first row of its region
+    input  wire                           region_bottom_i,  // it is in the last row of its region
+    output wire                           done_o,           // the counts are those of a whole region
+    output wire [FEATURES*COUNT_BITS-1:0] counts_o          // of one region
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (COUNT_BITS != $clog2(SIDE * SIDE + 1)) begin : g_count_bits
+            COUNT_BITS_must_hold_SIDE_squared u_refused ();
+        end
+        if (COLUMNS < 4) begin : g_columns COLUMNS_must_be_4_or_more u_refused (); end
+    endgenerate
+
+    localparam ROW_BITS = $clog2(SIDE + 1);                 // hits of a row of a region
+    localparam KEPT_BITS = $clog2((SIDE - 1) * SIDE + 1);   // ... of all rows but the last
+
+    // The hits of a row of a region.
+    reg [FEATURES*ROW_BITS-1:0] row_q;
+    reg fresh_q;  // the next word is the first of a row of its region
+    reg ended_q, top_q, bottom_q;
+    reg [COLUMN_BITS-1:0] column_q, old_column_q;
+
+    integer feature, lane;
+    reg [FEATURES*ROW_BITS-1:0] row;
+    always @* begin
+        row = fresh_q ? {FEATURES * ROW_BITS{1'b0}} : row_q;
+        for (feature = 0; feature < FEATURES; feature = feature + 1)
+            for (lane = 0; lane < LANES; lane = lane + 1)
+                row[feature*ROW_BITS+:ROW_BITS] = row[feature*ROW_BITS+:ROW_BITS]
+                    + {{(ROW_BITS - 1) {1'b0}}, hits_i[feature*LANES+lane]};
+    end
+
+    always @(posedge clk_i) begin
+        ended_q      <= step_i && segment_end_i && !rst_i;
+        top_q        <= region_top_i;
+        bottom_q     <= region_bottom_i;
+        old_column_q <= column_q;
+        if (step_i) begin
+            fresh_q <= segment_end_i;
+            row_q   <= row;
+            if (segment_end_i) column_q <= row_end_i ? {COLUMN_BITS{1'b0}} : column_q + 1'b1;
+        end
+        if (rst_i) begin
+            fresh_q  <= 1'b1;
+            column_q <= {COLUMN_BITS{1'b0}};
+        end
+    end
+
+    // Those of the rows above it.
+    wire [FEATURES*KEPT_BITS-1:0] above;
+    wire [FEATURES*KEPT_BITS-1:0] kept;
+    wire write;
+    wire [COLUMN_BITS-1:0] write_column;
+
+    raster_memory #(
+        .WIDTH(FEATURES * KEPT_BITS), .WORDS(COLUMNS), .ADDRESS_BITS(COLUMN_BITS), .OUTPUT_STAGE(DEEP)
+    ) u_rows (
+        .clk_i(clk_i), .write_i(write), .write_address_i(write_column), .data_i(kept),
+        .read_i(1'b1), .read_address_i(column_q), .data_o(above)
+    );
+
+    wire [FEATURES*ROW_BITS-1:0] last_row;
+    wire ended, top, bottom;
+    wire [COLUMN_BITS-1:0] column;
+    generate
+        if (DEEP) begin : g_deep
+            reg [FEATURES*ROW_BITS-1:0] row_2q;
+            reg ended_2q, top_2q, bottom_2q;
+            reg [COLUMN_BITS-1:0] old_column_2q;
+            always @(posedge clk_i) begin
+                row_2q        <= row_q;
+                ended_2q      <= ended_q && !rst_i;
+                top_2q        <= top_q;
+                bottom_2q     <= bottom_q;
+                old_column_2q <= old_column_q;
+            end
+            assign last_row = row_2q;
+            assign ended = ended_2q;
+            assign top = top_2q;
+            assign bottom = bottom_2q;
+            assign column = old_column_2q;
+        end else begin : g_plain
+            assign last_row = row_q;
+            assign ended = ended_q;
+            assign top = top_q;
+            assign bottom = bottom_q;
+            assign column = old_column_q;
+        end
+    endgenerate
+
+    reg [FEATURES*COUNT_BITS-1:0] counts_q;
+    reg written_q, done_q;
+    reg [COLUMN_BITS-1:0] write_column_q;
+    genvar each;
+    generate
+        for (each = 0; each < FEATURES; each = each + 1) begin : g_feature
+            wire [COUNT_BITS-1:0] hits = {{(COUNT_BITS - ROW_BITS) {1'b0}}, last_row[each*ROW_BITS+:ROW_BITS]};
+            wire [KEPT_BITS-1:0] others = top ? {KEPT_BITS{1'b0}} : above[each*KEPT_BITS+:KEPT_BITS];
+            always @(posedge clk_i)
+                counts_q[each*COUNT_BITS+:COUNT_BITS] <= hits + {{(COUNT_BITS - KEPT_BITS) {1'b0}}, others};
+            assign kept[each*KEPT_BITS+:KEPT_BITS] = counts_q[each*COUNT_BITS+:KEPT_BITS];
+        end
+    endgenerate
+
+    always @(posedge clk_i) begin
+        written_q      <= ended && !rst_i;
+        done_q         <= ended && bottom && !rst_i;
+        write_column_q <= column;
+    end
+
+    assign write = written_q;
+    assign write_column = write_column_q;
+    assign done_o = done_q;
+    assign counts_o = counts_q;
+
+endmodule
+
+`default_nettype wire

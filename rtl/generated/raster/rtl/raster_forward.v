@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The pixels of active regions leave, from a buffer that holds the last rows of regions. With LAST_SENT what
+// leaves becomes the reference, a clock after it was fetched.
+`default_nettype none
+
+module raster_forward #(
+    parameter WORD_BITS = 8,       // bits of a word
+    parameter LANES = 1,           // pixels of a word
+    parameter SIDE = 8,            // rows of a region
+    parameter SEGMENT = 8,         // words of a row of a region: SIDE / LANES
+    parameter COLUMNS = 240,       // regions side by side
+    parameter ROWS = 135,          // regions one below the other
+    parameter ROW_WORDS = 1920,    // words of a row of the frame
+    parameter BANKS = 2,           // rows of regions in the buffer, 2 or 3
+    parameter RAW = 0,             // 1: raw pixels leave; 0: what was scored
+    parameter LAST_SENT = 0,       // 1: the reference is what was last sent
+    parameter POSITION_BITS = 6,   // ceil(log2(SIDE * SIDE))
+    parameter REGION_BITS = 15,    // ceil(log2(COLUMNS * ROWS))
+    parameter START_BITS = 15,     // ceil(log2(BANKS * SIDE * ROW_WORDS))
+    parameter PLACE_BITS = 21      // ceil(log2(ROW_WORDS * ROWS * SIDE))
+) (
+    input  wire                     clk_i,              // clock, rising edge
+    input  wire                     rst_i,              // synchronous reset, active high
+    input  wire                     store_i,            // a word is stored at this edge
+    input  wire [   START_BITS-1:0] store_place_i,      // where in the buffer
+    input  wire [    WORD_BITS-1:0] scored_i,           // the word, as it was scored
+    input  wire [    WORD_BITS-1:0] raw_i,              // and raw (RAW)
+    input  wire                     arriving_i,         // a word is stored at the next edge
+    input  wire                     rows_end_i,         // it is the last of a row of regions
+    input  wire                     decision_i,         // a region is decided, in the order of the regions
+    input  wire                     active_i,           // it is active: its pixels leave
+    input  wire [  REGION_BITS-1:0] region_i,           // which
+    input  wire                     mark_i,             // travels with it
+    input  wire                     ready_i,            // the word on the port is taken
+    output wire                     valid_o,            // a word of an active region leaves
+    output wire [  REGION_BITS-1:0] region_o,           // its region
+    output wire [POSITION_BITS-1:0] position_o,         // number in its region of its first pixel
+    output reg  [    WORD_BITS-1:0] pixel_o,            // that word
+    output reg                      lost_o,             // a region was lost since reset
+    output reg  [             15:0] lost_count_o,       // how many, up to the largest number
+    output wire                     idle_o,             // after this edge nothing waits, is held, fetched or on the port
+    output wire                     reference_write_o,  // a word becomes a reference (LAST_SENT)
+    output wire [   PLACE_BITS-1:0] reference_place_o,  // its number in the frame
+    output wire [    WORD_BITS-1:0] reference_word_o,   // it
+    output wire                     lost_reference_o,   // a region is lost at this edge (LAST_SENT)
+    output wire [  REGION_BITS-1:0] lost_region_o,      // which
+    output wire                     lost_mark_o         // what travelled with it
+);
+
+    localparam WORDS = BANKS * SIDE * ROW_WORDS;
+    localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // all regions in the buffer may wait
+    localparam FRAME_BITS = LAST_SENT ? PLACE_BITS : 1;
+    localparam EXTRA_BITS = LAST_SENT ? PLACE_BITS + 1 : 1;
+
+    // In which row of regions the word is that is stored, modulo 8.
+    reg fresh_row_q;  // the next word is the first of a row of regions
+    reg [2:0] stored_row_q;
+    always @(posedge clk_i) begin
+        if (arriving_i) begin
+            fresh_row_q <= rows_end_i;
+            if (fresh_row_q) stored_row_q <= stored_row_q + 1'b1;
+        end
+        if (rst_i) begin
+            fresh_row_q  <= 1'b0;
+            stored_row_q <= 3'd0;
+        end
+    end
+
+    // Where in the buffer and in the frame the region starts that is decided.
+    wire [2:0] decided_row;
+    wire [START_BITS-1:0] decided_start;
+    wire [FRAME_BITS-1:0] decided_place;
+    wire [EXTRA_BITS-1:0] entered_extra, lost_extra, held_extra;
+
+    raster_start #(
+        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
+        .FRAME(LAST_SENT), .PLACE_BITS(FRAME_BITS)
+    ) u_start (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(decision_i), .row_o(decided_row), .start_o(decided_start),
+        .place_o(decided_place)
+    );
+
+    wire fetch, step, lost, fetch_first, fetch_segment_end;
+    wire [START_BITS-1:0] fetch_place;
+    wire [WORD_BITS-1:0] fetched;
+
+    raster_readout #(
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
+        .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .EXTRA_BITS(EXTRA_BITS),
+        .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS)
+    ) u_readout (
+        .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i), .row_i(decided_row), .region_i(region_i),
+        .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .ready_i(ready_i),
+        .fetch_o(fetch), .place_o(fetch_place), .step_o(step), .valid_o(valid_o), .region_o(region_o),
+        .position_o(position_o), .lost_o(lost), .lost_region_o(lost_region_o), .lost_extra_o(lost_extra),
+        .held_extra_o(held_extra), .first_o(fetch_first), .segment_end_o(fetch_segment_end), .idle_o(idle_o)
+    );
+
+    raster_memory #(.WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS)) u_buffer (
+        .clk_i(clk_i), .write_i(store_i), .write_address_i(store_place_i), .data_i(RAW ? raw_i : scored_i),
+        .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
+    );
+
+    always @(posedge clk_i) begin
+        if (step) pixel_o <= fetched;
+        if (lost) begin
+            lost_o <= 1'b1;
+            if (lost_count_o != 16'hFFFF) lost_count_o <= lost_count_o + 1'b1;
+        end
+        if (rst_i) begin
+            lost_o       <= 1'b0;
+            lost_count_o <= 16'd0;
+        end
+    end
+
+    generate
+        if (!RAW) begin : g_scored
+            wire unused_raw = |raw_i;
+        end
+        if (LAST_SENT) begin : g_sent
+            reg fetched_q;
+            reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
+            wire [PLACE_BITS-1:0] place = fetch_first ? held_extra[PLACE_BITS-1:0] : next_place_q;
+            localparam JUMP = ROW_WORDS - SEGMENT + 1;
+            always @(posedge clk_i) begin
+                fetched_q <= fetch && !rst_i;
+                if (fetch) begin
+                    sent_place_q <= place;
+                    next_place_q <= place + (fetch_segment_end ? JUMP[PLACE_BITS-1:0] : {{(PLACE_BITS - 1) {1'b0}}, 1'b1});
+                end
+            end
+            assign reference_write_o = fetched_q;
+            assign reference_place_o = sent_place_q;
+            if (RAW) begin : g_denoised
+                raster_memory #(.WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS)) u_denoised (
+                    .clk_i(clk_i), .write_i(store_i), .write_address_i(store_place_i), .data_i(scored_i),
+                    .read_i(fetch), .read_address_i(fetch_place), .data_o(reference_word_o)
+                );
+            end else begin : g_same
+                assign reference_word_o = fetched;
+            end
+            wire unused_mark = held_extra[PLACE_BITS] || |lost_extra;
+            assign entered_extra = {mark_i, decided_place};
+            assign lost_reference_o = lost;
+            assign lost_mark_o = lost_extra[PLACE_BITS];
+        end else begin : g_previous
+            wire unused_places = |decided_place || |lost_extra || |held_extra || fetch_first || fetch_segment_end || mark_i;
+            assign entered_extra = 1'b0;
+            assign reference_write_o = 1'b0;
+            assign reference_word_o = {WORD_BITS{1'b0}};
+            assign reference_place_o = {PLACE_BITS{1'b0}};
+            assign lost_reference_o = 1'b0;
+            assign lost_mark_o = 1'b0;
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// A row of words that wait: with a word that comes in, the one before the word that came in a row ago is there.
+`default_nettype none
+
+module raster_line #(
+    parameter WORD_BITS = 8,    // bits of a word
+    parameter ROW_WORDS = 240,  // words of a row, at least 8
+    parameter ADDRESS_BITS = 8  // ceil(log2(ROW_WORDS))
+) (
+    input  wire                 clk_i,   // clock, rising edge
+    input  wire                 rst_i,   // synchronous reset, active high
+    input  wire                 step_i,  // a word comes in
+    input  wire [WORD_BITS-1:0] word_i,  // it
+    output wire [WORD_BITS-1:0] word_o   // the one of ROW_WORDS + 1 steps ago
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
+    endgenerate
+
+    localparam BEFORE_LAST = ROW_WORDS - 2;
+
+    reg [ADDRESS_BITS-1:0] place_q, old_place_q;
+    reg at_end_q, step_q;
+    reg [WORD_BITS-1:0] word_q;
+
+    always @(posedge clk_i) begin
+        step_q      <= step_i && !rst_i;
+        word_q      <= word_i;
+        old_place_q <= place_q;
+        if (step_i) begin
+            place_q  <= at_end_q ? {ADDRESS_BITS{1'b0}} : place_q + 1'b1;
+            at_end_q <= place_q == BEFORE_LAST[ADDRESS_BITS-1:0];
+        end
+        if (rst_i) begin
+            place_q  <= {ADDRESS_BITS{1'b0}};
+            at_end_q <= 1'b0;
+        end
+    end
+
+    raster_memory #(.WIDTH(WORD_BITS), .WORDS(ROW_WORDS), .ADDRESS_BITS(ADDRESS_BITS)) u_words (
+        .clk_i(clk_i), .write_i(step_q), .write_address_i(old_place_q), .data_i(word_q),
+        .read_i(step_i), .read_address_i(place_q), .data_o(word_o)
+    );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The fifth of the nine sorted pixels of 3x3 windows, for every pixel of a word at once.
+//
+// Each column is sorted once, as it comes in. The median of nine is then the median of the largest of the
+// three low pixels, the median of the three middle ones and the smallest of the three high ones. Three pixels
+// are put in order by three comparisons side by side and one LUT for each bit of a result. Columns that are
+// neighbors are compared once, though two windows ask. A window that lacks a column at the border needs no
+// selection of pixels: it is enough to say how the comparisons would end if the center's column stood there.
+`default_nettype none
+
+module raster_median #(
+    parameter WIDTH = 8,  // bits of a pixel
+    parameter LANES = 1,  // pixels of a word
+    parameter DEEP = 0    // 0: a result three clocks after its step; 1: six
+) (
+    input  wire                   clk_i,     // clock, rising edge
+    input  wire                   step_i,    // columns come in; the centers are those of the step earlier
+    input  wire                   left_i,    // the first center has nothing on its left
+    input  wire                   right_i,   // the last center has nothing on its right
+    input  wire [LANES*WIDTH-1:0] upper_i,   // the incoming columns, top
+    input  wire [LANES*WIDTH-1:0] middle_i,  // ... middle
+    input  wire [LANES*WIDTH-1:0] lower_i,   // ... bottom
+    output reg  [LANES*WIDTH-1:0] median_o   // of the centers
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (LANES < 1) begin : g_lanes LANES_must_be_1_or_more u_refused (); end
+    endgenerate
+
+    // Three pixels a, b, c in order, as a > b, b > c and a > c tell.
+    function [WIDTH-1:0] low_of(
+        input ab, input bc, input ac, input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
+    );
+        low_of = ab ? (bc ? c : b) : (ac ? c : a);
+    endfunction
+
+    function [WIDTH-1:0] mid_of(
+        input ab, input bc, input ac, input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
+    );
+        mid_of = ab ? (bc ? b : (ac ? c : a)) : (ac ? a : (bc ? c : b));
+    endfunction
+
+    function [WIDTH-1:0] high_of(
+        input ab, input bc, input ac, input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
+    );
+        high_of = ab ? (ac ? a : c) : (bc ? b : c);
+    endfunction
+
+    localparam COLUMN = 3 * WIDTH;
+
+    // Sorted columns {high, mid, low}: the newest word, the centers, and the one on their left.
+    reg  [LANES*COLUMN-1:0] newest_q;
+    reg  [LANES*COLUMN-1:0] center_q;
+    reg  [      COLUMN-1:0] left_q;
+    reg  merge_left_q;   // the first center has nothing on its left
+    reg  merge_right_q;  // the last one has nothing on its right
+    wire sort_step, sort_left, sort_right;
+    genvar lane, level;
+
+    generate
+        if (DEEP) begin : g_sort_deep
+            reg step_q, left_edge_q, right_edge_q;
+            always @(posedge clk_i) begin
+                step_q       <= step_i;
+                left_edge_q  <= left_i;
+                right_edge_q <= right_i;
+            end
+            assign sort_step = step_q;
+            assign sort_left = left_edge_q;
+            assign sort_right = right_edge_q;
+        end else begin : g_sort_plain
+            assign sort_step = step_i;
+            assign sort_left = left_i;
+            assign sort_right = right_i;
+        end
+
+        for (lane = 0; lane < LANES; lane = lane + 1) begin : g_sort
+            wire [WIDTH-1:0] a = upper_i[lane*WIDTH+:WIDTH];
+            wire [WIDTH-1:0] b = middle_i[lane*WIDTH+:WIDTH];
+            wire [WIDTH-1:0] c = lower_i[lane*WIDTH+:WIDTH];
+            if (DEEP) begin : g_deep
+                reg [WIDTH-1:0] a_q, b_q, c_q;
+                reg ab_q, bc_q, ac_q;
+                always @(posedge clk_i) begin
+                    {a_q, b_q, c_q} <= {a, b, c};
+                    {ab_q, bc_q, ac_q} <= {a > b, b > c, a > c};
+                    if (sort_step)
+                        newest_q[lane*COLUMN+:COLUMN] <= {
+                            high_of(ab_q, bc_q, ac_q, a_q, b_q, c_q),
+                            mid_of(ab_q, bc_q, ac_q, a_q, b_q, c_q),
+                            low_of(ab_q, bc_q, ac_q, a_q, b_q, c_q)
+                        };
+                end
+            end else begin : g_plain
+                wire ab = a > b;
+                wire bc = b > c;
+                wire ac = a > c;
+                always @(posedge clk_i) begin
+                    if (sort_step)
+                        newest_q[lane*COLUMN+:COLUMN] <= {
+                            high_of(ab, bc, ac, a, b, c), mid_of(ab, bc, ac, a, b, c), low_of(ab, bc, ac, a, b, c)
+                        };
+                end
+            end
+        end
+    endgenerate
+
+    always @(posedge clk_i) begin
+        if (sort_step) begin
+            center_q <= newest_q;
+            left_q   <= center_q[(LANES-1)*COLUMN+:COLUMN];
+            merge_left_q  <= sort_left;
+            merge_right_q <= sort_right;
+        end
+    end
+
+    // A window's columns side by side: left, the centers, the first of the newest word.
+    wire [(LANES+2)*COLUMN-1:0] columns = {newest_q[COLUMN-1:0], center_q, left_q};
+
+    // For low, mid and high pixels: a > b, b > c and a > c of a column, the next and the next but one. At a
+    // border they are made to end so that the column that is not there is never chosen. The column on the
+    // right of a border has nothing on its left, so what it finds in last_q is made at the step earlier.
+    wire [3*LANES-1:0] left_above;
+    wire [3*LANES-1:0] right_above;
+    wire [3*LANES-1:0] skip_above;
+    wire [3*LANES-1:0] next_above;  // as right_above, for the next column's left_above
+    reg  [2:0] last_q;  // b > c of the last column, one step ago
+
+    always @(posedge clk_i) begin
+        if (sort_step) begin
+            last_q[0] <= next_above[3*LANES-3] && !merge_right_q;
+            last_q[1] <= next_above[3*LANES-2] || merge_right_q;
+            last_q[2] <= next_above[3*LANES-1] || merge_right_q;
+        end
+    end
+
+    wire [(LANES+2)*COLUMN-1:0] merged;
+    wire [3*LANES-1:0] ab, bc, ac;
+
+    generate
+        for (lane = 0; lane < LANES; lane = lane + 1) begin : g_lane
+            for (level = 0; level < 3; level = level + 1) begin : g_level
+                wire [WIDTH-1:0] a = columns[lane*COLUMN+level*WIDTH+:WIDTH];
+                wire [WIDTH-1:0] b = columns[(lane+1)*COLUMN+level*WIDTH+:WIDTH];
+                wire [WIDTH-1:0] c = columns[(lane+2)*COLUMN+level*WIDTH+:WIDTH];
+                wire no_right = lane == LANES - 1 && merge_right_q;
+                wire earlier;
+                if (lane == 0) begin : g_kept
+                    assign earlier = last_q[level];
+                end else begin : g_shared
+                    assign earlier = next_above[3*(lane-1)+level];
+                end
+                assign left_above[3*lane+level] = earlier;
+                if (level == 0) begin : g_low
+                    assign next_above[3*lane+level]  = {no_right, b} > {1'b0, c};
+                    assign right_above[3*lane+level] = next_above[3*lane+level];
+                    assign skip_above[3*lane+level]  = {no_right, a} > {1'b0, c};
+                end else if (level == 1) begin : g_mid
+                    // The middle one of three is b if the comparisons of neighbors end alike, or in ab alone.
+                    assign next_above[3*lane+level]  = b > c;
+                    assign right_above[3*lane+level] =
+                        (lane == 0 && merge_left_q) || (no_right ? earlier : next_above[3*lane+level]);
+                    assign skip_above[3*lane+level]  = {1'b0, a} > {no_right, c};
+                end else begin : g_high
+                    assign next_above[3*lane+level]  = {1'b0, b} > {no_right, c};
+                    assign right_above[3*lane+level] = next_above[3*lane+level];
+                    assign skip_above[3*lane+level]  = {1'b0, a} > {no_right, c};
+                end
+            end
+        end
+
+        if (DEEP) begin : g_merge_deep
+            reg [(LANES+2)*COLUMN-1:0] columns_q;
+            reg [3*LANES-1:0] ab_q, bc_q, ac_q;
+            always @(posedge clk_i) begin
+                columns_q <= columns;
+                ab_q <= left_above;
+                bc_q <= right_above;
+                ac_q <= skip_above;
+            end
+            assign merged = columns_q;
+            assign ab = ab_q;
+            assign bc = bc_q;
+            assign ac = ac_q;
+        end else begin : g_merge_plain
+            assign merged = columns;
+            assign ab = left_above;
+            assign bc = right_above;
+            assign ac = skip_above;
+        end
+
+        for (lane = 0; lane < LANES; lane = lane + 1) begin : g_final
+            wire [COLUMN-1:0] left = merged[lane*COLUMN+:COLUMN];
+            wire [COLUMN-1:0] center = merged[(lane+1)*COLUMN+:COLUMN];
+            wire [COLUMN-1:0] right = merged[(lane+2)*COLUMN+:COLUMN];
+            reg [WIDTH-1:0] x_q, y_q, z_q;
+            always @(posedge clk_i) begin
+                x_q <= high_of(ab[3*lane], bc[3*lane], ac[3*lane],
+                               left[WIDTH-1:0], center[WIDTH-1:0], right[WIDTH-1:0]);
+                y_q <= mid_of(ab[3*lane+1], bc[3*lane+1], ac[3*lane+1],
+                              left[WIDTH+:WIDTH], center[WIDTH+:WIDTH], right[WIDTH+:WIDTH]);
+                z_q <= low_of(ab[3*lane+2], bc[3*lane+2], ac[3*lane+2],
+                              left[2*WIDTH+:WIDTH], center[2*WIDTH+:WIDTH], right[2*WIDTH+:WIDTH]);
+            end
+            if (DEEP) begin : g_deep
+                reg [WIDTH-1:0] x_2q, y_2q, z_2q;
+                reg xy_q, yz_q, xz_q;
+                always @(posedge clk_i) begin
+                    {x_2q, y_2q, z_2q} <= {x_q, y_q, z_q};
+                    {xy_q, yz_q, xz_q} <= {x_q > y_q, y_q > z_q, x_q > z_q};
+                    median_o[lane*WIDTH+:WIDTH] <= mid_of(xy_q, yz_q, xz_q, x_2q, y_2q, z_2q);
+                end
+            end else begin : g_plain
+                always @(posedge clk_i)
+                    median_o[lane*WIDTH+:WIDTH] <=
+                        mid_of(x_q > y_q, y_q > z_q, x_q > z_q, x_q, y_q, z_q);
+            end
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The pixels of active regions leave: which region is next, and which of its words.
+//
+// Active regions wait in a queue. One of them is held, and its words are fetched from the buffer, at every
+// step one; a step is an edge at which the port is free. A region of a row of regions whose place in the
+// buffer is being taken is stale: it is lost.
+`default_nettype none
+
+module raster_readout #(
+    parameter LANES = 1,          // pixels of a word
+    parameter SIDE = 8,           // rows of a region
+    parameter SEGMENT = 8,        // words of a row of a region: SIDE / LANES
+    parameter POSITION_BITS = 6,  // ceil(log2(SIDE * SIDE))
+    parameter REGION_BITS = 15,   // bits of the number of a region
+    parameter ROW_WORDS = 1920,   // words of a row of the frame
+    parameter START_BITS = 15,    // bits of a place in the buffer
+    parameter BANKS = 2,          // rows of regions in the buffer, 2 or 3
+    parameter EXTRA_BITS = 1,     // bits that travel with a region
+    parameter QUEUE_WORDS = 512,  // regions that can wait, a power of two
+    parameter QUEUE_BITS = 9      // log2 of them
+) (
+    input  wire                     clk_i,           // clock, rising edge
+    input  wire                     rst_i,           // synchronous reset, active high
+    input  wire                     enter_i,         // a region enters the queue
+    input  wire [              2:0] row_i,           // its row of regions, modulo 8
+    input  wire [  REGION_BITS-1:0] region_i,        // its number
+    input  wire [   START_BITS-1:0] start_i,         // where in the buffer its first word is
+    input  wire [   EXTRA_BITS-1:0] extra_i,         // what travels with it
+    input  wire [              2:0] stored_row_i,    // row of regions of the word that is stored at this edge, modulo 8
+    input  wire                     ready_i,         // what is on the port is taken
+    output wire                     fetch_o,         // a word is fetched at this edge
+    output wire [   START_BITS-1:0] place_o,         // where in the buffer it is
+    output wire                     step_o,          // the port takes what was fetched at the step before
+    output reg                      valid_o,         // a word is on the port
+    output reg  [  REGION_BITS-1:0] region_o,        // its region
+    output reg  [POSITION_BITS-1:0] position_o,      // number in its region of its first pixel
+    output wire                     lost_o,          // a region is lost at this edge
+    output wire [  REGION_BITS-1:0] lost_region_o,   // which
+    output wire [   EXTRA_BITS-1:0] lost_extra_o,    // what travelled with it
+    output wire [   EXTRA_BITS-1:0] held_extra_o,    // what travels with the one that is held
+    output wire                     first_o,         // the word that is fetched is the first of its region
+    output wire                     segment_end_o,   // ... the last of a row of its region
+    output wire                     idle_o           // after this edge nothing waits, is held, fetched or on the port
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (BANKS != 2 && BANKS != 3) begin : g_banks BANKS_must_be_2_or_3 u_refused (); end
+        if (QUEUE_WORDS != 1 << QUEUE_BITS) begin : g_queue QUEUE_WORDS_must_be_2_to_the_QUEUE_BITS u_refused (); end
+    endgenerate
+
+    localparam ENTRY_BITS = 3 + REGION_BITS + START_BITS + EXTRA_BITS;
+    localparam [2:0] AGE = BANKS;
+
+    // The queue. Its oldest entry is read ahead.
+    reg [QUEUE_BITS-1:0] enter_q, leave_q;
+    reg oldest_valid_q;
+    wire take;
+    wire [ENTRY_BITS-1:0] oldest;
+
+    raster_memory #(.WIDTH(ENTRY_BITS), .WORDS(QUEUE_WORDS), .ADDRESS_BITS(QUEUE_BITS)) u_queue (
+        .clk_i(clk_i), .write_i(enter_i), .write_address_i(enter_q),
+        .data_i({extra_i, start_i, region_i, row_i}),
+        .read_i(1'b1), .read_address_i(leave_q), .data_o(oldest)
+    );
+
+    always @(posedge clk_i) begin
+        if (enter_i) enter_q <= enter_q + 1'b1;
+        if (take) leave_q <= leave_q + 1'b1;
+        oldest_valid_q <= enter_q != leave_q && !take;
+        if (rst_i) begin
+            enter_q        <= {QUEUE_BITS{1'b0}};
+            leave_q        <= {QUEUE_BITS{1'b0}};
+            oldest_valid_q <= 1'b0;
+        end
+    end
+
+    wire [2:0] oldest_row = oldest[2:0];
+    wire [REGION_BITS-1:0] oldest_region = oldest[3+:REGION_BITS];
+    wire [START_BITS-1:0] oldest_start = oldest[3+REGION_BITS+:START_BITS];
+    wire [EXTRA_BITS-1:0] oldest_extra = oldest[3+REGION_BITS+START_BITS+:EXTRA_BITS];
+    wire [2:0] oldest_age = stored_row_i - oldest_row;
+    wire oldest_stale = oldest_age >= AGE;
+
+    // The region that is held.
+    reg held_q;
+    reg [2:0] row_q;
+    reg [REGION_BITS-1:0] held_region_q;
+    reg [EXTRA_BITS-1:0] extra_q;
+    wire [POSITION_BITS-1:0] position;
+    wire last;
+    wire [2:0] held_age = stored_row_i - row_q;
+    wire held_stale = held_q && held_age >= AGE;
+    wire fetch = step_o && held_q && !held_stale;
+    wire fetch_last = fetch && last;
+
+    assign take = oldest_valid_q && (!held_q || fetch_last);
+
+    raster_walk #(
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
+        .PLACE_BITS(START_BITS)
+    ) u_walk (
+        .clk_i(clk_i), .begin_i(take), .start_i(oldest_start), .step_i(fetch), .place_o(place_o),
+        .position_o(position), .first_o(first_o), .segment_end_o(segment_end_o), .last_o(last)
+    );
+
+    always @(posedge clk_i) begin
+        if (take) begin
+            row_q         <= oldest_row;
+            held_region_q <= oldest_region;
+            extra_q       <= oldest_extra;
+        end
+        held_q <= take ? !oldest_stale : held_q && !held_stale && !fetch_last;
+        if (rst_i) held_q <= 1'b0;
+    end
+
+    // What was fetched, and what is on the port.
+    reg fetched_q;
+    reg [REGION_BITS-1:0] fetched_region_q;
+    reg [POSITION_BITS-1:0] fetched_at_q;
+
+    always @(posedge clk_i) begin
+        if (step_o) begin
+            fetched_q        <= fetch;
+            fetched_region_q <= held_region_q;
+            fetched_at_q     <= position;
+            valid_o          <= fetched_q;
+            region_o         <= fetched_region_q;
+            position_o       <= fetched_at_q;
+        end
+        if (rst_i) begin
+            fetched_q <= 1'b0;
+            valid_o   <= 1'b0;
+        end
+    end
+
+    assign step_o = !valid_o || ready_i;
+    assign fetch_o = fetch;
+    assign lost_o = held_stale || (take && oldest_stale);
+    assign lost_region_o = held_stale ? held_region_q : oldest_region;
+    assign lost_extra_o = held_stale ? extra_q : oldest_extra;
+    assign held_extra_o = extra_q;
+    assign idle_o = enter_q == leave_q && !held_q && !fetched_q && step_o;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The place in the buffer of the word that is stored next: round and round.
+`default_nettype none
+
+module raster_ring #(
+    parameter WORDS = 30720,   // words of the buffer, at least 2
+    parameter PLACE_BITS = 15  // ceil(log2(WORDS))
+) (
+    input  wire                  clk_i,   // clock, rising edge
+    input  wire                  rst_i,   // synchronous reset, active high
+    input  wire                  step_i,  // a word is stored at this edge
+    output reg  [PLACE_BITS-1:0] place_o  // its place
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
+        if (PLACE_BITS != $clog2(WORDS)) begin : g_place_bits PLACE_BITS_must_be_clog2_of_WORDS u_refused (); end
+    endgenerate
+
+    localparam BEFORE_LAST = WORDS - 2;
+    reg end_q;
+
+    always @(posedge clk_i) begin
+        if (step_i) begin
+            place_o <= end_q ? {PLACE_BITS{1'b0}} : place_o + 1'b1;
+            end_q   <= place_o == BEFORE_LAST[PLACE_BITS-1:0];
+        end
+        if (rst_i) begin
+            place_o <= {PLACE_BITS{1'b0}};
+            end_q   <= 1'b0;
+        end
+    end
+
+endmodule
+
+`default_nettype wire

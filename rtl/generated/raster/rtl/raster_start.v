@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Where the first word of a region is: in the buffer, and in the frame. Regions come in their order.
+`default_nettype none
+
+module raster_start #(
+    parameter COLUMNS = 240,    // regions side by side
+    parameter ROWS = 135,       // regions one below the other
+    parameter SEGMENT = 8,      // words of a row of a region
+    parameter SIDE = 8,         // rows of a region
+    parameter BANKS = 2,        // rows of regions in the buffer
+    parameter START_BITS = 15,  // ceil(log2(BANKS * SIDE * COLUMNS * SEGMENT))
+    parameter FRAME = 0,        // 1: the place in the frame is asked for
+    parameter PLACE_BITS = 21   // ceil(log2(ROWS * SIDE * COLUMNS * SEGMENT)) (FRAME)
+) (
+    input  wire                  clk_i,    // clock, rising edge
+    input  wire                  rst_i,    // synchronous reset, active high
+    input  wire                  step_i,   // the next region is next
+    output reg  [           2:0] row_o,    // row of regions of this one, modulo 8, counted through all frames
+    output reg  [START_BITS-1:0] start_o,  // where in the buffer its first word is
+    output wire [PLACE_BITS-1:0] place_o   // ... in the frame (FRAME)
+);
+
+    localparam COLUMN_BITS = $clog2(COLUMNS);
+    localparam BEFORE_LAST = COLUMNS - 2;
+    localparam ROW_WORDS = COLUMNS * SEGMENT;
+    localparam LAST_START = (BANKS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
+    localparam NEXT = SEGMENT;
+    localparam NEXT_ROW = SEGMENT + (SIDE - 1) * ROW_WORDS;
+
+    reg [COLUMN_BITS-1:0] column_q;
+    reg last_column_q;
+
+    always @(posedge clk_i) begin
+        if (step_i) begin
+            column_q      <= last_column_q ? {COLUMN_BITS{1'b0}} : column_q + 1'b1;
+            last_column_q <= column_q == BEFORE_LAST[COLUMN_BITS-1:0];
+            row_o         <= row_o + {2'd0, last_column_q};
+            start_o       <= start_o == LAST_START[START_BITS-1:0] ? {START_BITS{1'b0}} : start_o + (last_column_q ? NEXT_ROW[START_BITS-1:0] : NEXT[START_BITS-1:0]);
+        end
+        if (rst_i) begin
+            column_q      <= {COLUMN_BITS{1'b0}};
+            last_column_q <= 1'b0;
+            row_o         <= 3'd0;
+            start_o       <= {START_BITS{1'b0}};
+        end
+    end
+
+    generate
+        if (FRAME) begin : g_frame
+            localparam LAST_PLACE = (ROWS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
+            localparam STEP = SEGMENT;
+            localparam ROW_STEP = SEGMENT + (SIDE - 1) * ROW_WORDS;
+            reg [PLACE_BITS-1:0] place_q;
+            always @(posedge clk_i) begin
+                if (rst_i) place_q <= {PLACE_BITS{1'b0}};
+                else if (step_i)
+                    place_q <= place_q == LAST_PLACE[PLACE_BITS-1:0] ? {PLACE_BITS{1'b0}} : place_q + (last_column_q ? ROW_STEP[PLACE_BITS-1:0] : STEP[PLACE_BITS-1:0]);
+            end
+            assign place_o = place_q;
+        end else begin : g_none
+            assign place_o = {PLACE_BITS{1'b0}};
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

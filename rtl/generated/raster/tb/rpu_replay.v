@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Replays recorded vectors through `rpu` and compares every output at every clock, bit by bit
+// and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
+// where that bit is expected.
+//
+// The vectors show 15 frames of 4 x 3 regions.
+// Decisions: 77 active, 35 held, 68 blank; 95 comparisons with an earlier frame.
+// The sink stalls until 7 regions are lost.
+//
+//   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
+//                  a line has a bit for each value that differs from the line before: bit 0 for the first
+//                  input declared below, then the others, then the expected outputs. These values
+//                  follow. The bit above them all says that the number of clocks comes first for which
+//                  the line is good; without it that is one. A line 0 is the end.
+//                  Inputs are applied, and outputs are expected after the rising edge with these inputs
+//                  still applied.
+//   +stop          ends at the first mismatch
+//   +waves=FILE    writes waves of everything: VCD, or FST with `vvp SIMULATION -fst`
+//
+// Prints the first mismatch of each output, then a line that starts with PASS, FAIL or INCOMPLETE (no mismatch,
+// but the vectors do not show everything). The simulator's exit code is 0 only with PASS.
+
+`default_nettype none
+
+module rpu_replay;
+
+  // Inputs, and what the vectors say that they are next. ($fscanf does not write to inputs itself
+  // because Verilator 5.006 overlooks that they change then.)
+  reg clk_i = 1'b0;
+  reg rst_i;
+  reg valid_i;
+  reg [7:0] pixel_i;
+  reg forward_ready_i;
+  reg [10:0] edge_level_i;
+  reg [6:0] edge_min_i;
+  reg [7:0] temporal_level_i;
+  reg [6:0] temporal_min_i;
+  reg rst_i_next;
+  reg valid_i_next;
+  reg [7:0] pixel_i_next;
+  reg forward_ready_i_next;
+  reg [10:0] edge_level_i_next;
+  reg [6:0] edge_min_i_next;
+  reg [7:0] temporal_level_i_next;
+  reg [6:0] temporal_min_i_next;
+
+  // Outputs, what they should be, and whether they have been wrong.
+  wire ready_o;
+  wire decision_valid_o;
+  wire [3:0] region_o;
+  wire srs_o;
+  wire trs_o;
+  wire active_o;
+  wire [6:0] edge_score_o;
+  wire [6:0] temporal_count_o;
+  wire forward_valid_o;
+  wire [3:0] forward_region_o;
+  wire [5:0] forward_position_o;
+  wire [7:0] forward_pixel_o;
+  wire lost_o;
+  wire [15:0] lost_count_o;
+  reg ready_o_expected;
+  reg decision_valid_o_expected;
+  reg [3:0] region_o_expected;
+  reg srs_o_expected;
+  reg trs_o_expected;
+  reg active_o_expected;
+  reg [6:0] edge_score_o_expected;
+  reg [6:0] temporal_count_o_expected;
+  reg forward_valid_o_expected;
+  reg [3:0] forward_region_o_expected;
+  reg [5:0] forward_position_o_expected;
+  reg [7:0] forward_pixel_o_expected;
+  reg lost_o_expected;
+  reg [15:0] lost_count_o_expected;
+  reg ready_o_failed = 1'b0;
+  reg decision_valid_o_failed = 1'b0;
+  reg region_o_failed = 1'b0;
+  reg srs_o_failed = 1'b0;
+  reg trs_o_failed = 1'b0;
+  reg active_o_failed = 1'b0;
+  reg edge_score_o_failed = 1'b0;
+  reg temporal_count_o_failed = 1'b0;
+  reg forward_valid_o_failed = 1'b0;
+  reg forward_region_o_failed = 1'b0;
+  reg forward_position_o_failed = 1'b0;
+  reg forward_pixel_o_failed = 1'b0;
+  reg lost_o_failed = 1'b0;
+  reg lost_count_o_failed = 1'b0;
+
+  rpu dut (
+    .clk_i(clk_i),
+    .rst_i(rst_i),
+    .valid_i(valid_i),
+    .pixel_i(pixel_i),
+    .forward_ready_i(forward_ready_i),
+    .edge_level_i(edge_level_i),
+    .edge_min_i(edge_min_i),
+    .temporal_level_i(temporal_level_i),
+    .temporal_min_i(temporal_min_i),
+    .ready_o(ready_o),
+    .decision_valid_o(decision_valid_o),
+    .region_o(region_o),
+    .srs_o(srs_o),
+    .trs_o(trs_o),
+    .active_o(active_o),
+    .edge_score_o(edge_score_o),
+    .temporal_count_o(temporal_count_o),
+    .forward_valid_o(forward_valid_o),
+    .forward_region_o(forward_region_o),
+    .forward_position_o(forward_position_o),
+    .forward_pixel_o(forward_pixel_o),
+    .lost_o(lost_o),
+    .lost_count_o(lost_count_o)
+  );
+
+  reg [8*1024-1:0] path;
+  integer file;
+  integer failures;
+  reg [63:0] clocks;
+  reg [31:0] run;  // clocks for which the line is good
+  reg [22:0] changes;  // the first number of the line
+  reg is_whole;  // whether every value of the line was there
+  reg has_passed = 1'b0;
+
+  // The next line of the vectors.
+  task read_line;
+    begin
+      changes = 23'd0;
+      run = 32'd1;
+      is_whole = $fscanf(file, "%h", changes) == 1;
+      if (changes[22]) is_whole = $fscanf(file, "%h", run) == 1 && is_whole;
+      if (changes[0]) is_whole = $fscanf(file, "%h", rst_i_next) == 1 && is_whole;
+      if (changes[1]) is_whole = $fscanf(file, "%h", valid_i_next) == 1 && is_whole;
+      if (changes[2]) is_whole = $fscanf(file, "%h", pixel_i_next) == 1 && is_whole;
+      if (changes[3]) is_whole = $fscanf(file, "%h", forward_ready_i_next) == 1 && is_whole;
+      if (changes[4]) is_whole = $fscanf(file, "%h", edge_level_i_next) == 1 && is_whole;
+      if (changes[5]) is_whole = $fscanf(file, "%h", edge_min_i_next) == 1 && is_whole;
+      if (changes[6]) is_whole = $fscanf(file, "%h", temporal_level_i_next) == 1 && is_whole;
+      if (changes[7]) is_whole = $fscanf(file, "%h", temporal_min_i_next) == 1 && is_whole;
+      if (changes[8]) is_whole = $fscanf(file, "%h", ready_o_expected) == 1 && is_whole;
+      if (changes[9]) is_whole = $fscanf(file, "%h", decision_valid_o_expected) == 1 && is_whole;
+      if (changes[10]) is_whole = $fscanf(file, "%h", region_o_expected) == 1 && is_whole;
+      if (changes[11]) is_whole = $fscanf(file, "%h", srs_o_expected) == 1 && is_whole;
+      if (changes[12]) is_whole = $fscanf(file, "%h", trs_o_expected) == 1 && is_whole;
+      if (changes[13]) is_whole = $fscanf(file, "%h", active_o_expected) == 1 && is_whole;
+      if (changes[14]) is_whole = $fscanf(file, "%h", edge_score_o_expected) == 1 && is_whole;
+      if (changes[15]) is_whole = $fscanf(file, "%h", temporal_count_o_expected) == 1 && is_whole;
+      if (changes[16]) is_whole = $fscanf(file, "%h", forward_valid_o_expected) == 1 && is_whole;
+      if (changes[17]) is_whole = $fscanf(file, "%h", forward_region_o_expected) == 1 && is_whole;
+      if (changes[18]) is_whole = $fscanf(file, "%h", forward_position_o_expected) == 1 && is_whole;
+      if (changes[19]) is_whole = $fscanf(file, "%h", forward_pixel_o_expected) == 1 && is_whole;
+      if (changes[20]) is_whole = $fscanf(file, "%h", lost_o_expected) == 1 && is_whole;
+      if (changes[21]) is_whole = $fscanf(file, "%h", lost_count_o_expected) == 1 && is_whole;
+    end
+  endtask
+
+  task apply;
+    begin
+      rst_i = rst_i_next;
+      valid_i = valid_i_next;
+      pixel_i = pixel_i_next;
+      forward_ready_i = forward_ready_i_next;
+      edge_level_i = edge_level_i_next;
+      edge_min_i = edge_min_i_next;
+      temporal_level_i = temporal_level_i_next;
+      temporal_min_i = temporal_min_i_next;
+    end
+  endtask
+
+  task compare;
+    begin
+      if (ready_o !== ready_o_expected && !ready_o_failed) begin
+        ready_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port ready_o expected %h got %h",
+                 clocks, ready_o_expected, ready_o);
+      end
+      if (decision_valid_o !== decision_valid_o_expected && !decision_valid_o_failed) begin
+        decision_valid_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port decision_valid_o expected %h got %h",
+                 clocks, decision_valid_o_expected, decision_valid_o);
+      end
+      if (decision_valid_o_expected && region_o !== region_o_expected && !region_o_failed) begin
+        region_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port region_o expected %h got %h",
+                 clocks, region_o_expected, region_o);
+      end
+      if (srs_o !== srs_o_expected && !srs_o_failed) begin
+        srs_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port srs_o expected %h got %h",
+                 clocks, srs_o_expected, srs_o);
+      end
+      if (trs_o !== trs_o_expected && !trs_o_failed) begin
+        trs_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port trs_o expected %h got %h",
+                 clocks, trs_o_expected, trs_o);
+      end
+      if (active_o !== active_o_expected && !active_o_failed) begin
+        active_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port active_o expected %h got %h",
+                 clocks, active_o_expected, active_o);
+      end
+      if (decision_valid_o_expected && edge_score_o !== edge_score_o_expected && !edge_score_o_failed) begin
+        edge_score_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port edge_score_o expected %h got %h",
+                 clocks, edge_score_o_expected, edge_score_o);
+      end
+      if (decision_valid_o_expected && temporal_count_o !== temporal_count_o_expected && !temporal_count_o_failed) begin
+        temporal_count_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port temporal_count_o expected %h got %h",
+                 clocks, temporal_count_o_expected, temporal_count_o);
+      end
+      if (forward_valid_o !== forward_valid_o_expected && !forward_valid_o_failed) begin
+        forward_valid_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_valid_o expected %h got %h",
+                 clocks, forward_valid_o_expected, forward_valid_o);
+      end
+      if (forward_valid_o_expected && forward_region_o !== forward_region_o_expected && !forward_region_o_failed) begin
+        forward_region_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_region_o expected %h got %h",
+                 clocks, forward_region_o_expected, forward_region_o);
+      end
+      if (forward_valid_o_expected && forward_position_o !== forward_position_o_expected && !forward_position_o_failed) begin
+        forward_position_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_position_o expected %h got %h",
+                 clocks, forward_position_o_expected, forward_position_o);
+      end
+      if (forward_valid_o_expected && forward_pixel_o !== forward_pixel_o_expected && !forward_pixel_o_failed) begin
+        forward_pixel_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_pixel_o expected %h got %h",
+                 clocks, forward_pixel_o_expected, forward_pixel_o);
+      end
+      if (lost_o !== lost_o_expected && !lost_o_failed) begin
+        lost_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port lost_o expected %h got %h",
+                 clocks, lost_o_expected, lost_o);
+      end
+      if (lost_count_o !== lost_count_o_expected && !lost_count_o_failed) begin
+        lost_count_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port lost_count_o expected %h got %h",
+                 clocks, lost_count_o_expected, lost_count_o);
+      end
+    end
+  endtask
+
+  initial begin
+    if ($value$plusargs("waves=%s", path)) begin
+      $dumpfile(path);
+      $dumpvars(0, rpu_replay);
+    end
+    if (!$value$plusargs("vectors=%s", path)) path = "vectors.hex";
+    file = $fopen(path, "r");
+    clocks = 64'd0;
+    failures = 0;
+    is_whole = 1'b0;
+    changes = 23'd0;
+    if (file != 0) read_line;
+    while (is_whole && |changes && !(failures != 0 && $test$plusargs("stop"))) begin
+      apply;
+      while (run != 32'd0 && !(failures != 0 && $test$plusargs("stop"))) begin
+        #5 clk_i = 1'b1;
+        #4 compare;
+        clocks = clocks + 64'd1;
+        run = run - 32'd1;
+        #1 clk_i = 1'b0;
+      end
+      read_line;
+    end
+    if (file == 0) $display("FAIL cannot read the vectors from %0s", path);
+    else if (failures != 0) $display("FAIL %0d of 14 outputs in %0d clocks", failures, clocks);
+    else if (!is_whole) $display("FAIL the vectors end after %0d clocks, in the middle", clocks);
+    else if (clocks == 64'd0) $display("FAIL there are no vectors in %0s", path);
+    else begin
+      $display("PASS %0d clocks", clocks);
+      has_passed = 1'b1;
+    end
+    if (has_passed) $finish;
+    else $fatal(1, "not passed");
+  end
+
+endmodule
+
+`default_nettype wire

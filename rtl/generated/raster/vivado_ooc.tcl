@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Out-of-context synthesis of a generated core in Vivado; run it in the folder of the core:
+#
+#     vivado -mode batch -source vivado_ooc.tcl                  ;# the RCM
+#     vivado -mode batch -source vivado_ooc.tcl -tclargs rpu     ;# one RPU
+#
+# It writes reports to vivado/. The part is the VCU118's. The project's own tests do not run Vivado.
+set top [expr {$argc > 0 ? [lindex $argv 0] : "rcm"}]
+if {$top ni {rpu rcm}} {
+    error "the top is rpu or rcm, not '$top'"
+}
+
+set list [open $top.f]
+foreach file [split [string trim [read $list]] "\n"] {
+    read_verilog $file
+}
+close $list
+read_xdc -mode out_of_context constraints/ooc.xdc
+
+# The hierarchy of the array is kept: flattening hundreds of equal units takes hours.
+synth_design -top $top -part xcvu9p-flga2104-2L-e -mode out_of_context -flatten_hierarchy none
+
+file mkdir vivado
+report_utilization -hierarchical -file vivado/${top}_utilization.rpt
+report_timing_summary -file vivado/${top}_timing.rpt
+write_checkpoint -force vivado/$top.dcp
