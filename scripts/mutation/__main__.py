@@ -19,7 +19,7 @@ import shutil
 import sys
 import time
 
-from design import LATER, WORK, designs, recorded
+from design import LATER, ORGANIZATIONS, USUAL, WORK, designs, recorded
 from mutants import drawn, pools, wanted
 from verdicts import REASONS, Journal, claimed_equal, judge, judge_longer, prove, reasons, replay
 
@@ -131,7 +131,7 @@ def print_counts(organization, found, mutants, open_ones, seconds):
 
 def main():
     parser = argparse.ArgumentParser(prog="mutation.sh", description="Mutants of the Verilog against the co-simulation vectors.")
-    parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help="pipelined, serial; by default both")
+    parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help=f"{', '.join(ORGANIZATIONS)}; by default {' and '.join(USUAL)}")
     parser.add_argument("--count", type=int, default=320, help="mutants of an organization (%(default)s)")
     parser.add_argument("--sample", type=int, metavar="N",
                         help="only N of them, evenly spread, in the smallest designs; the others only for survivors")
@@ -144,15 +144,15 @@ def main():
     parser.add_argument("--resume", action="store_true",
                         help="go on where a run was ended; what other designs or vectors touch is found anew")
     options = parser.parse_args()
-    organizations = options.organizations or ["pipelined", "serial"]
-    if set(organizations) - {"pipelined", "serial"}:
-        parser.error(f"an organization is pipelined or serial, not {' '.join(organizations)}")
+    organizations = options.organizations or USUAL
+    if set(organizations) - set(ORGANIZATIONS):
+        parser.error(f"an organization is one of {', '.join(ORGANIZATIONS)}, not {' '.join(organizations)}")
     if not options.resume:
         shutil.rmtree(WORK, ignore_errors=True)
     excuses, used = reasons(), set()
     open_ones = sum(examine(organization, options, excuses, used) for organization in organizations)
     unused = []
-    if not options.sample and options.prove and len(organizations) == 2 and (options.seed, options.count) == (1, 320):
+    if not options.sample and options.prove and list(organizations) == USUAL and (options.seed, options.count) == (1, 320):
         unused = [key for key in excuses if key not in used]
         for place, was, now in unused:
             print(f"{REASONS}: no survivor needs this; remove it: {place}\n    - {was}\n    + {now}")
