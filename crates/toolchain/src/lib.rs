@@ -3,7 +3,8 @@
 //!
 //! Everything goes through a [`Toolchain`], which finds each [`Tool`] once, refuses versions that are
 //! too old, and runs [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all that went
-//! into them. The modules [`verilator`], [`iverilog`] and [`yosys`] know one tool each.
+//! into them. The modules [`verilator`], [`iverilog`], [`yosys`] and [`nextpnr`]
+//! know one tool each.
 
 pub mod cache;
 mod error;
@@ -14,6 +15,7 @@ mod invocation;
 pub mod iverilog;
 mod key;
 mod located;
+pub mod nextpnr;
 mod ports;
 mod process;
 mod stream;

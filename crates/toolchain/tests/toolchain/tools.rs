@@ -9,6 +9,7 @@ use foveate_toolchain::verilator::{self, VerilatorJob};
 use foveate_toolchain::{
     Cache, Invocation, Source, Tool, ToolError, Toolchain,
     iverilog::{self, IverilogJob},
+    nextpnr::{self, NextpnrJob},
     yosys::{self, YosysJob},
 };
 
@@ -191,4 +192,40 @@ fn yosys_runs_a_script() {
     let broken = YosysJob { script: "read_verilog missing.v\n".to_owned(), ..job };
     let error = yosys::run(&tools, &cache, &broken).unwrap_err().to_string();
     assert!(error.contains("missing.v"), "{error}");
+}
+
+#[test]
+fn nextpnr_places_routes_and_caches() {
+    if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {
+        return;
+    }
+    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let synthesis = YosysJob {
+        sources: vec![source("counter.v", COUNTER)],
+        script: "read_verilog counter.v\nsynth_ice40 -top counter -json out.json\n".to_owned(),
+        outputs: vec!["out.json".to_owned()],
+    };
+    let netlist = yosys::run(&tools, &cache, &synthesis).unwrap().files["out.json"].clone();
+    let up5k = ["--up5k", "--package", "sg48", "--pcf-allow-unconstrained"].map(str::to_owned);
+    let job = NextpnrJob {
+        tool: Tool::NextpnrIce40,
+        args: up5k.to_vec(),
+        seed: 1,
+        netlist: netlist.clone(),
+    };
+    let report = nextpnr::run(&tools, &cache, &job).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&report).unwrap();
+    assert!(json["utilization"]["ICESTORM_LC"]["used"].as_u64().unwrap() >= 8, "{json}");
+    let places = fs::read_dir(cache.root()).unwrap().count();
+    assert_eq!(nextpnr::run(&tools, &cache, &job).unwrap(), report);
+    assert_eq!(fs::read_dir(cache.root()).unwrap().count(), places, "it was kept");
+    nextpnr::run(&tools, &cache, &NextpnrJob { seed: 2, ..job.clone() }).unwrap();
+    assert_eq!(fs::read_dir(cache.root()).unwrap().count(), places + 1, "the seed is in the key");
+
+    let none = NextpnrJob { args: vec!["--up6k".to_owned()], ..job };
+    let ToolError::Failed { command, full, .. } = nextpnr::run(&tools, &cache, &none).unwrap_err()
+    else {
+        panic!("it has failed in another way")
+    };
+    assert!(command.contains("--seed 1") && full.contains("up6k"), "{command}: {full}");
 }

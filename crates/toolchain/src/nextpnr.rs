@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Places and routes a netlist with nextpnr, and keeps its report and its log.
+
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use crate::cache::Cache;
+use crate::error::ToolError;
+use crate::files::{self, log_excerpt};
+use crate::key::Key;
+use crate::tool::Tool;
+use crate::toolchain::Toolchain;
+
+const NETLIST: &str = "netlist.json";
+const REPORT: &str = "report.json";
+const LIMIT: Duration = Duration::from_secs(3600);
+
+/// A netlist to place and route.
+#[derive(Debug, Clone)]
+pub struct NextpnrJob {
+    /// Which nextpnr: that of the device's family.
+    pub tool: Tool,
+    /// The device, and whatever else it is told.
+    pub args: Vec<String>,
+    /// What its choices start from.
+    pub seed: u32,
+    /// The netlist as Yosys writes it in JSON.
+    pub netlist: Vec<u8>,
+}
+
+/// Places and routes, or finds the result in the cache; returns the report that nextpnr writes as JSON.
+///
+/// # Errors
+/// When nextpnr is missing, or fails; the log in [`ToolError::Failed`] says what the device lacks.
+pub fn run(toolchain: &Toolchain, cache: &Cache, job: &NextpnrJob) -> Result<Vec<u8>, ToolError> {
+    let key = Key::builder("nextpnr")
+        .field("version", toolchain.find(job.tool)?.identity())
+        .list("arguments", &job.args)
+        .field("seed", job.seed.to_string())
+        .field("netlist", &job.netlist)
+        .finish();
+    let report = cache.get_or_build(&key, REPORT, |dir| run_in(toolchain, job, dir))?;
+    fs::read(report.path()).map_err(ToolError::io("read", report.path()))
+}
+
+/// Names without folders: the builds for WebAssembly see only some of the folders of the machine.
+fn run_in(toolchain: &Toolchain, job: &NextpnrJob, dir: &Path) -> Result<(), ToolError> {
+    let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
+    files::write(work.path(), NETLIST, &job.netlist)?;
+    let seed = job.seed.to_string();
+    let invocation = toolchain
+        .invocation(job.tool)?
+        .args(&job.args)
+        .args(["--json", NETLIST, "--report", REPORT, "--seed", &seed])
+        .dir(work.path())
+        .merge_stderr()
+        .timeout(LIMIT);
+    let output = toolchain.run_checked(&invocation)?;
+    let written = work.path().join(REPORT);
+    if !written.is_file() {
+        return Err(ToolError::NoOutput {
+            command: invocation.command_line(),
+            file: REPORT.to_owned(),
+            tail: log_excerpt(&output.log()),
+        });
+    }
+    let kept = dir.join(REPORT);
+    fs::rename(&written, &kept).map_err(ToolError::io("write", &kept))
+}
