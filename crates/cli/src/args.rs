@@ -26,6 +26,7 @@ use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
 use foveate_design::{Config, Design, DesignError, Preset};
+use foveate_estimate::{ROUTE_DEVICES, RouteDevice};
 
 use self::input::InputArgs;
 use crate::error::CliError;
@@ -213,7 +214,8 @@ pub(crate) enum SimulatorChoice {
 /// Synthesize a design with Yosys, and print its area and logic levels beside the paper's
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate estimate --preset bare
-          foveate estimate --compare --markdown")]
+          foveate estimate --compare --markdown
+          foveate estimate --preset bare --place-and-route ecp5-85k,up5k")]
 pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
@@ -221,6 +223,16 @@ pub(crate) struct EstimateArgs {
     /// without the median
     #[arg(long)]
     pub(crate) compare: bool,
+    /// Place and route the design with nextpnr instead, and print what it takes of these devices and the
+    /// clock that it reaches
+    #[arg(long, value_name = "DEVICE", value_delimiter = ',', value_parser = device, conflicts_with = "compare")]
+    pub(crate) place_and_route: Vec<&'static RouteDevice>,
+    /// How often to place it, each time from another seed
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = at_least_one(), requires = "place_and_route")]
+    pub(crate) seeds: u32,
+    /// What to place: one RPU (of `serial` and `raster`: the smallest array), or the whole array
+    #[arg(long, value_enum, default_value_t = Level::Rpu, requires = "place_and_route")]
+    pub(crate) level: Level,
     /// Assumed clock in MHz for the frame rates of --compare; the hardware may be slower
     #[arg(long, value_name = "MHZ", default_value_t = 250, value_parser = at_least_one(), requires = "compare")]
     pub(crate) clock: u32,
@@ -233,6 +245,11 @@ pub(crate) struct EstimateArgs {
     /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
+}
+
+fn device(name: &str) -> Result<&'static RouteDevice, String> {
+    let names = || ROUTE_DEVICES.iter().map(|device| device.name).collect::<Vec<_>>().join(", ");
+    RouteDevice::named(name).ok_or_else(|| format!("the devices are {}", names()))
 }
 
 /// Run a design over video or images, and write scores, decisions and rendered frames

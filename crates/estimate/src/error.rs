@@ -79,6 +79,20 @@ pub enum EstimateError {
         source: serde_json::Error,
     },
 
+    /// A design without the clock that all designs have.
+    #[error("the design has no port `{port}` for its clock, so that nothing can be timed")]
+    NoClock {
+        /// The port.
+        port: &'static str,
+    },
+
+    /// nextpnr wrote something that is not understood.
+    #[error("cannot read the report of nextpnr: {reason}; its format may have changed")]
+    Placed {
+        /// The reason.
+        reason: String,
+    },
+
     /// The report could not be turned into JSON.
     #[error("cannot write the report as JSON: {0}")]
     Json(serde_json::Error),

@@ -20,6 +20,7 @@ mod netlist;
 mod paper;
 mod render;
 mod report;
+mod route;
 mod synthesis;
 mod table;
 
@@ -33,4 +34,9 @@ pub use levels::LogicPath;
 pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
 pub use render::{ramb36, render_markdown, render_text};
 pub use report::{FORMAT_VERSION, LeafArea, Paths, Report, ToolRecord};
+pub use route::{
+    CriticalPath, Fmax, Over, PathEnd, Placed, ROUTE_DEVICES, ROUTE_FORMAT_VERSION, RouteDevice,
+    RouteJob, RouteReport, Routed, Used, place_and_route, render_routes_markdown,
+    render_routes_text,
+};
 pub use synthesis::sources;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate estimate`: area and logic levels from Yosys beside the paper's table.
+//! `foveate estimate`: area and logic levels from Yosys beside the paper's table, or the clock of a
+//! placed design.
 
 mod compare;
 mod flow;
+mod route;
 
 use foveate_estimate::{render_markdown, render_text};
 use foveate_toolchain::Cache;
@@ -15,7 +17,13 @@ use flow::Flow;
 
 pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
     let flow = Flow { toolchain: interrupt::toolchain()?, cache: Cache::from_env()? };
-    if args.compare { compare::run(args, &flow) } else { one(args, &flow) }
+    if args.compare {
+        compare::run(args, &flow)
+    } else if args.place_and_route.is_empty() {
+        one(args, &flow)
+    } else {
+        route::run(args, &flow)
+    }
 }
 
 fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {

@@ -255,6 +255,68 @@ fn estimate_and_cosim_are_about_the_same_rtl() {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("'--netlist' cannot be used"));
 }
 
+/// One small core, on a device of each family; its longest path in the words of the source.
+#[test]
+fn a_small_core_is_placed_and_routed() {
+    if !require_tools(&[Tool::Yosys, Tool::NextpnrEcp5, Tool::NextpnrIce40]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let small = ["--preset", "bare", "--set", "region.size=4", "--set", "frame={width=8,height=4}"];
+    let place = ["estimate", "--place-and-route", "ecp5-25k,hx8k", "--seeds", "2"];
+    let text = succeed_in(dir.path(), &[&place[..], &small[..]].concat());
+    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+    let json = succeed_in(dir.path(), &[&place[..], &small[..], &["--json"]].concat());
+    let report: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(report["top"], "rpu");
+    for (device, available) in [(0, 24_288), (1, 7_680)] {
+        let placed = &report["devices"][device]["placed"];
+        assert_eq!(placed["logic"]["available"], available);
+        assert!(placed["ff"]["used"].as_u64().unwrap() > 20, "{placed}");
+        let fmax = &placed["fmax"];
+        assert_eq!(fmax["seeds_mhz"].as_array().unwrap().len(), 2);
+        assert!(fmax["min_mhz"].as_f64() <= fmax["median_mhz"].as_f64(), "{fmax}");
+        assert!(fmax["median_mhz"].as_f64() > Some(20.0), "{fmax}");
+        let path = &placed["critical"];
+        for end in ["from", "to"] {
+            let [module, name] = ["module", "name"].map(|key| path[end][key].as_str().unwrap());
+            assert!(!name.contains('$') && !name.contains("_LUT4_"), "{path}");
+            let file = format!("{}/../../rtl/{module}.v", env!("CARGO_MANIFEST_DIR"));
+            assert!(module == "rpu" || fs::exists(file).unwrap(), "{path}");
+        }
+        let [ns, wires] = ["ns", "wire_ns"].map(|key| path[key].as_f64().unwrap());
+        assert!(0.0 < wires && wires < ns, "{path}");
+    }
+}
+
+/// What a device has too little of is said in one line, and the exit code says that it does not fit.
+#[test]
+fn a_core_that_does_not_fit_says_what_is_over() {
+    if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let place = ["estimate", "--place-and-route", "hx1k", "--preset", "bare", "--json"];
+    let outcome = run_in(dir.path(), &place);
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    let report: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert_eq!(report["devices"][0]["placed"], Value::Null);
+    let over = &report["devices"][0]["over"][0];
+    assert_eq!(
+        (&over["place"], &over["available"]),
+        (&"ICESTORM_LC".into(), &1280.into()),
+        "{report}"
+    );
+    let message = outcome.stderr;
+    assert!(message.contains("it does not fit hx1k: ICESTORM_LC "), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+
+    let outcome = run_in(dir.path(), &["estimate", "--place-and-route", "vcu118"]);
+    assert_eq!(outcome.code, 2);
+    let message = outcome.stderr;
+    assert!(message.contains("the devices are ecp5-85k, "), "{message}");
+}
+
 #[test]
 fn a_missing_tool_ends_with_3_and_says_how_to_install_it() {
     let dir = tempfile::tempdir().unwrap();
@@ -262,6 +324,7 @@ fn a_missing_tool_ends_with_3_and_says_how_to_install_it() {
         (&["cosim"][..], "verilator"),
         (&["cosim", "--simulator", "iverilog"], "iverilog"),
         (&["estimate"], "yosys"),
+        (&["estimate", "--place-and-route", "up5k"], "nextpnr-ice40"),
     ] {
         let command = foveate(args).current_dir(dir.path()).env("PATH", dir.path()).output();
         let output = command.unwrap();

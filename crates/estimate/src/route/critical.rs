@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The longest path of a placement, in the words of the source: modules, registers, ports.
+
+use serde::{Deserialize, Serialize};
+
+use super::hierarchy::Hierarchy;
+use super::netlist::{Cell, Netlist};
+use super::ports::port_of;
+use super::result::{Path, Pin};
+
+/// The longest path between two edges of the clock.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CriticalPath {
+    /// Where it starts.
+    pub from: PathEnd,
+    /// Where it ends.
+    pub to: PathEnd,
+    /// Its delay in nanoseconds.
+    pub ns: f64,
+    /// The part of it that is wires.
+    pub wire_ns: f64,
+    /// Wires with a delay on it.
+    pub wires: u64,
+}
+
+/// A register, memory or port at an end of a path.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PathEnd {
+    /// The module in which it is declared.
+    pub module: String,
+    /// Its name below the top, with the instances around it.
+    pub name: String,
+}
+
+/// What names mean: the netlist as it was placed, and the modules before it was flattened.
+pub(super) struct Names<'a> {
+    pub(super) top: &'a str,
+    pub(super) netlist: &'a Netlist,
+    pub(super) hierarchy: &'a Hierarchy,
+}
+
+impl Names<'_> {
+    /// The path in the words of the source.
+    pub(super) fn path(&self, path: &Path) -> Option<CriticalPath> {
+        let first = path.steps.iter().find(|step| step.is_wire())?;
+        let last = path.steps.last()?;
+        let wires = || path.steps.iter().filter(|step| step.is_wire() && step.delay > 0.0);
+        let start = first.net.as_ref().and_then(|net| self.netlist.net(net));
+        let end = self.register(&last.to).or_else(|| {
+            let last = path.steps.iter().rev().find(|step| step.is_wire())?;
+            self.netlist.name(self.netlist.net(last.net.as_ref()?)?)
+        });
+        Some(CriticalPath {
+            from: self.end(start.and_then(|net| self.netlist.name(net)), &first.from),
+            to: self.end(end, &last.to),
+            ns: path.delay(),
+            wire_ns: wires().map(|step| step.delay).sum(),
+            wires: wires().count() as u64,
+        })
+    }
+
+    /// A name with its module; that of the cell where no net has one in the source.
+    fn end(&self, name: Option<String>, pin: &Pin) -> PathEnd {
+        let name = name.unwrap_or_else(|| format!("{} ({})", pin.cell, pin.port));
+        PathEnd { module: self.hierarchy.module_of(self.top, &name), name }
+    }
+
+    /// The register, port or memory at a pin where a path ends. iCE40 packs a table and the flip-flop
+    /// behind it into one cell, which has the name of the table.
+    fn register(&self, pin: &Pin) -> Option<String> {
+        if let Some(port) = port_of(&pin.cell) {
+            return Some(port.trim_end_matches("_DFFLC").to_owned());
+        }
+        let (name, cell) = self.cell(&pin.cell)?;
+        if let Some(out) = cell.net("Q") {
+            return self.netlist.name(out);
+        }
+        if let Some(table) = cell.net("O") {
+            let mut behind =
+                self.netlist.cells.iter().filter(|(_, cell)| cell.net("D") == Some(table));
+            let (name, register) = behind.next()?;
+            return match port_of(name) {
+                Some(port) => Some(port.to_owned()),
+                None => self.netlist.name(register.net("Q")?),
+            };
+        }
+        // A memory: its name, up to what Yosys has put behind it.
+        Some(format!("{} ({} {})", memory(name), cell.kind, pin.port))
+    }
+
+    /// The cell of the netlist that became a cell of the placement, which may have a suffix.
+    fn cell<'a>(&'a self, name: &'a str) -> Option<(&'a str, &'a Cell)> {
+        let shorter = [Some(name), name.rsplit_once('$').map(|(name, _)| name)];
+        let packed = ["_LC", "_DFFLC"].map(|suffix| name.strip_suffix(suffix));
+        shorter
+            .into_iter()
+            .chain(packed)
+            .flatten()
+            .find_map(|name| Some((name, self.netlist.cells.get(name)?)))
+    }
+}
+
+/// `u_store.words_q.0.1` and `u_store.words_q_DP16KD` are `u_store.words_q`.
+fn memory(cell: &str) -> &str {
+    let numbered = cell.trim_end_matches(|c: char| c == '.' || c.is_ascii_digit());
+    let kinds = ["_DP16KD", "_TRELLIS", "_SB_", "_MULT"];
+    kinds.iter().find_map(|kind| numbered.split_once(kind)).map_or(numbered, |(name, _)| name)
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The devices that a design can be placed on. Another one that nextpnr knows is another row.
+
+use foveate_toolchain::Tool;
+
+/// What devices of a kind have in common: cells, synthesis and the program that places them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Family {
+    /// Lattice ECP5.
+    Ecp5,
+    /// Lattice iCE40 UltraPlus, with single-port RAM and multipliers.
+    Ice40Up,
+    /// Lattice iCE40 HX.
+    Ice40Hx,
+}
+
+/// A device with its package and speed grade.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RouteDevice {
+    /// What it is called on the command line.
+    pub name: &'static str,
+    /// The part.
+    pub part: &'static str,
+    /// The package; only the clock has a pin.
+    pub package: &'static str,
+    /// The speed grade, where the family has several.
+    pub speed: Option<&'static str>,
+    pub(crate) family: Family,
+    /// How nextpnr is told the part.
+    flag: &'static str,
+}
+
+const fn ecp5(
+    name: &'static str,
+    part: &'static str,
+    flag: &'static str,
+    speed: &'static str,
+) -> RouteDevice {
+    RouteDevice { name, part, package: "CABGA381", speed: Some(speed), family: Family::Ecp5, flag }
+}
+
+const fn ice40(
+    name: &'static str,
+    part: &'static str,
+    flag: &'static str,
+    package: &'static str,
+    family: Family,
+) -> RouteDevice {
+    RouteDevice { name, part, package, speed: None, family, flag }
+}
+
+/// Every device. Without a speed grade in its name, an ECP5 is one of the slowest grade, 6.
+pub const ROUTE_DEVICES: &[RouteDevice] = &[
+    ecp5("ecp5-85k", "LFE5U-85F", "--85k", "6"),
+    ecp5("ecp5-45k", "LFE5U-45F", "--45k", "6"),
+    ecp5("ecp5-25k", "LFE5U-25F", "--25k", "6"),
+    ecp5("ecp5-85k-8", "LFE5U-85F", "--85k", "8"),
+    ice40("up5k", "iCE40UP5K", "--up5k", "sg48", Family::Ice40Up),
+    ice40("hx8k", "iCE40HX8K", "--hx8k", "ct256", Family::Ice40Hx),
+    ice40("hx4k", "iCE40HX4K", "--hx4k", "tq144", Family::Ice40Hx),
+    ice40("hx1k", "iCE40HX1K", "--hx1k", "tq144", Family::Ice40Hx),
+];
+
+impl RouteDevice {
+    /// The device of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        ROUTE_DEVICES.iter().find(|device| device.name == name)
+    }
+
+    /// The part with package and speed grade, as one orders it.
+    #[must_use]
+    pub fn full_name(&self) -> String {
+        let speed = self.speed.map_or_else(String::new, |speed| format!(", speed {speed}"));
+        format!("{} in {}{speed}", self.part, self.package)
+    }
+
+    /// The nextpnr that knows the device.
+    #[must_use]
+    pub fn tool(&self) -> Tool {
+        match self.family {
+            Family::Ecp5 => Tool::NextpnrEcp5,
+            Family::Ice40Up | Family::Ice40Hx => Tool::NextpnrIce40,
+        }
+    }
+
+    /// What nextpnr is told beside netlist and seed.
+    pub(crate) fn arguments(&self) -> Vec<String> {
+        let speed = self.speed.map(|speed| ["--speed", speed]);
+        let target = self.family.target_mhz().to_string();
+        let pins = match self.family {
+            Family::Ecp5 => "--lpf-allow-unconstrained",
+            Family::Ice40Up | Family::Ice40Hx => "--pcf-allow-unconstrained",
+        };
+        [self.flag, "--package", self.package]
+            .into_iter()
+            .chain(speed.into_iter().flatten())
+            .chain([pins, "--freq", &target, "--timing-allow-fail"])
+            .map(str::to_owned)
+            .collect()
+    }
+}
+
+impl Family {
+    /// The synthesis of the family, before `-top`.
+    pub(crate) fn synthesis(self) -> &'static str {
+        match self {
+            Self::Ecp5 => "synth_ecp5 -abc9",
+            Self::Ice40Up => "synth_ice40 -device u -spram -dsp",
+            Self::Ice40Hx => "synth_ice40 -device hx",
+        }
+    }
+
+    /// Whether look-up tables can be memory. Where they cannot, a memory that asks for it becomes what the
+    /// family has.
+    pub(crate) fn has_distributed_ram(self) -> bool {
+        self == Self::Ecp5
+    }
+
+    /// A clock that no design here reaches, so that nextpnr goes on improving. The result depends on it
+    /// only weakly: paths are weighed by how far each is behind the worst.
+    fn target_mhz(self) -> u32 {
+        match self {
+            Self::Ecp5 => 400,
+            Self::Ice40Up => 100,
+            Self::Ice40Hx => 200,
+        }
+    }
+}

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Drives Yosys once for each family of devices, and nextpnr once for each device and seed.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use foveate_design::Design;
+use foveate_emit::Top;
+use foveate_toolchain::nextpnr::{self, NextpnrJob};
+use foveate_toolchain::yosys::{self, YosysJob};
+use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, sources_sha256};
+
+use super::critical::Names;
+use super::device::{Family, RouteDevice};
+use super::hierarchy::Hierarchy;
+use super::netlist::Netlist;
+use super::report::{Fmax, Placed, ROUTE_FORMAT_VERSION, RouteReport, Routed, Used};
+use super::result::{Outcome, over};
+use super::{outreg, ports};
+use crate::error::EstimateError;
+use crate::report::ToolRecord;
+use crate::synthesis::sources;
+
+const NETLIST: &str = "netlist.json";
+const HIERARCHY: &str = "hierarchy.json";
+/// Placements at a time: each takes a processor and up to a gigabyte.
+const AT_ONCE: usize = 2;
+
+/// A design to place and route.
+#[derive(Debug, Clone)]
+pub struct RouteJob {
+    /// The Verilog files.
+    pub sources: Vec<Source>,
+    /// The module on top. Its clock is `clk_i`.
+    pub top: String,
+    /// Its parameters and their values.
+    pub parameters: Vec<(String, u32)>,
+    /// How many seeds, from 1 on.
+    pub seeds: u32,
+}
+
+impl RouteJob {
+    /// The whole array of a design, or its smallest core.
+    #[must_use]
+    pub fn of(design: &Design, top: Top, seeds: u32) -> Self {
+        let parameters = top.parameters(design).into_iter();
+        Self {
+            sources: sources(foveate_emit::verilog(design, top)),
+            top: top.module().to_owned(),
+            parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
+            seeds,
+        }
+    }
+
+    /// The whole design as one module: placement crosses all borders.
+    fn synthesis(&self, family: Family) -> YosysJob {
+        let Self { top, .. } = self;
+        let read = self.sources.iter().map(|(name, _)| format!("read_verilog -I. {name}\n"));
+        let set = self.parameters.iter().map(|(name, value)| format!(" -set {name} {value}"));
+        let set = match set.collect::<String>() {
+            none if none.is_empty() => none,
+            set => format!("chparam{set} {top}\n"),
+        };
+        let memories = match family.has_distributed_ram() {
+            true => "",
+            false => "setattr -unset ram_style */m:*\n",
+        };
+        let script = format!(
+            "{}{set}hierarchy -check -top {top}\n\
+             proc\n\
+             write_json {HIERARCHY}\n\
+             {memories}setattr -mod -unset keep_hierarchy *\n\
+             {} -top {top}\n\
+             write_json {NETLIST}\n",
+            read.collect::<String>(),
+            family.synthesis(),
+        );
+        let outputs = [NETLIST, HIERARCHY].map(str::to_owned).to_vec();
+        YosysJob { sources: self.sources.clone(), script, outputs }
+    }
+}
+
+/// A design synthesized for a device, ready to be placed.
+struct Ready {
+    device: &'static RouteDevice,
+    netlist: Netlist,
+    hierarchy: Hierarchy,
+    json: Vec<u8>,
+    port_ff: u64,
+    output_registers: u64,
+}
+
+/// Places and routes a design on each of the devices, as often as it has seeds. A device that is too small
+/// is part of the report.
+///
+/// # Errors
+/// When a tool is missing or fails, or what it writes is not understood.
+pub fn place_and_route(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    job: &RouteJob,
+    devices: &[&'static RouteDevice],
+) -> Result<RouteReport, EstimateError> {
+    let ready = |&device: &&'static RouteDevice| Ready::new(toolchain, cache, job, device);
+    let ready = devices.iter().map(ready).collect::<Result<Vec<_>, _>>()?;
+    let runs: Vec<_> =
+        ready.iter().flat_map(|ready| (1..=job.seeds).map(move |seed| (ready, seed))).collect();
+    let outcomes = side_by_side(&runs, |(ready, seed)| ready.place(toolchain, cache, *seed));
+    let mut outcomes = outcomes.into_iter();
+    let synthesizer = toolchain.find(Tool::Yosys)?.banner;
+    let devices = ready.iter().map(|ready| {
+        let outcomes = outcomes.by_ref().take(job.seeds as usize).collect();
+        let router = toolchain.find(ready.device.tool())?.banner;
+        ready.routed(&job.top, [synthesizer.clone(), router], outcomes)
+    });
+    Ok(RouteReport {
+        format_version: ROUTE_FORMAT_VERSION,
+        top: job.top.clone(),
+        rtl_sha256: sources_sha256(&job.sources),
+        devices: devices.collect::<Result<_, _>>()?,
+    })
+}
+
+impl Ready {
+    fn new(
+        toolchain: &Toolchain,
+        cache: &Cache,
+        job: &RouteJob,
+        device: &'static RouteDevice,
+    ) -> Result<Self, EstimateError> {
+        // Before a synthesis of minutes: whether there is anything that places.
+        toolchain.find(device.tool())?;
+        let run = yosys::run(toolchain, cache, &job.synthesis(device.family))?;
+        let file =
+            |name: &str| run.files.get(name).expect("it is one of the wanted files").as_slice();
+        let hierarchy = Hierarchy::parse(HIERARCHY, file(HIERARCHY))?;
+        let (mut netlist, creator) = Netlist::parse(file(NETLIST), &job.top)?;
+        let output_registers = outreg::absorb(&mut netlist);
+        let port_ff = ports::become_registers(&mut netlist, device.family)?;
+        let json = netlist.to_json(&job.top, creator)?;
+        Ok(Self { device, netlist, hierarchy, json, port_ff, output_registers })
+    }
+
+    fn place(&self, toolchain: &Toolchain, cache: &Cache, seed: u32) -> Result<Vec<u8>, ToolError> {
+        let job = NextpnrJob {
+            tool: self.device.tool(),
+            args: self.device.arguments(),
+            seed,
+            netlist: self.json.clone(),
+        };
+        nextpnr::run(toolchain, cache, &job)
+    }
+
+    /// What the seeds of one device say together.
+    fn routed(
+        &self,
+        top: &str,
+        [synthesizer, router]: [String; 2],
+        outcomes: Vec<Result<Vec<u8>, ToolError>>,
+    ) -> Result<Routed, EstimateError> {
+        let mut reports = Vec::new();
+        let mut over_all = Vec::new();
+        for outcome in outcomes {
+            match outcome {
+                Ok(report) => reports.push(Outcome::parse(&report)?),
+                Err(ToolError::Failed { full, .. }) if !over(&full).is_empty() => {
+                    over_all = over(&full)
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+        let tool = |name: &str, version, flags| ToolRecord { name: name.into(), version, flags };
+        Ok(Routed {
+            device: self.device.name.to_owned(),
+            part: self.device.full_name(),
+            synthesis: tool("Yosys", synthesizer, self.device.family.synthesis().to_owned()),
+            route: tool("nextpnr", router, self.device.arguments().join(" ")),
+            placed: if over_all.is_empty() { Some(self.placed(top, &reports)?) } else { None },
+            over: over_all,
+        })
+    }
+
+    fn placed(&self, top: &str, reports: &[Outcome]) -> Result<Placed, EstimateError> {
+        let seeds = reports.iter().map(Outcome::fmax_mhz).collect::<Result<Vec<_>, _>>()?;
+        let none = || EstimateError::Placed { reason: "there is none, for no seed".to_owned() };
+        let (fmax, median) = Fmax::of(seeds).ok_or_else(none)?;
+        let report = &reports[median];
+        let names = Names { top, netlist: &self.netlist, hierarchy: &self.hierarchy };
+        let used = |place: &str| {
+            let (used, available) = report.used(place);
+            Used { used, available }
+        };
+        let without_ports = |all: Used| Used { used: all.used.saturating_sub(self.port_ff), ..all };
+        let (logic, ff, block_ram, spram, dsp) = match self.device.family {
+            Family::Ecp5 => (
+                used("TRELLIS_COMB"),
+                without_ports(used("TRELLIS_FF")),
+                used("DP16KD"),
+                Used::default(),
+                used("MULT18X18D"),
+            ),
+            Family::Ice40Up | Family::Ice40Hx => {
+                let cells = used("ICESTORM_LC");
+                let ff = Used { used: self.netlist.count("SB_DFF"), ..cells };
+                let [ram, spram, dsp] =
+                    ["ICESTORM_RAM", "ICESTORM_SPRAM", "ICESTORM_DSP"].map(used);
+                (without_ports(cells), without_ports(ff), ram, spram, dsp)
+            }
+        };
+        Ok(Placed {
+            logic,
+            ff,
+            block_ram,
+            spram,
+            dsp,
+            port_ff: self.port_ff,
+            output_registers: self.output_registers,
+            fmax,
+            critical: report.longest().and_then(|path| names.path(path)),
+        })
+    }
+}
+
+/// The result for each item in its order, a few at a time.
+fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::new());
+    let processors = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..processors.min(AT_ONCE) {
+            scope.spawn(|| {
+                while let at = next.fetch_add(1, Ordering::Relaxed)
+                    && let Some(item) = items.get(at)
+                {
+                    let result = work(item);
+                    done.lock().expect("no thread panics while it pushes").push((at, result));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().expect("no thread panics while it pushes");
+    done.sort_by_key(|(at, _)| *at);
+    done.into_iter().map(|(_, result)| result).collect()
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The synthesized netlist as it can be edited before it is placed: cells, ports and names of one module.
+//! What is not touched stays as Yosys wrote it.
+
+use std::collections::{BTreeMap, HashMap};
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::error::EstimateError;
+
+const FILE: &str = "netlist.json";
+
+#[derive(Serialize, Deserialize)]
+struct File {
+    creator: Value,
+    modules: BTreeMap<String, Value>,
+}
+
+/// The module that is placed.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Netlist {
+    pub(super) ports: BTreeMap<String, Port>,
+    pub(super) cells: BTreeMap<String, Cell>,
+    pub(super) netnames: BTreeMap<String, NetName>,
+    #[serde(flatten)]
+    rest: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct Port {
+    pub(super) direction: String,
+    pub(super) bits: Vec<Bit>,
+    #[serde(flatten)]
+    rest: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct Cell {
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    pub(super) parameters: BTreeMap<String, Value>,
+    pub(super) port_directions: BTreeMap<String, String>,
+    pub(super) connections: BTreeMap<String, Vec<Bit>>,
+    #[serde(flatten)]
+    rest: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct NetName {
+    hide_name: u8,
+    bits: Vec<Bit>,
+    #[serde(default)]
+    offset: usize,
+    #[serde(flatten)]
+    rest: Map<String, Value>,
+}
+
+/// A net by its number, or a constant.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Bit {
+    Net(u32),
+    Constant(String),
+}
+
+impl Netlist {
+    /// The module `top` of a file that Yosys wrote, and what wrote it.
+    pub(super) fn parse(json: &[u8], top: &str) -> Result<(Self, Value), EstimateError> {
+        let wrong = |source| EstimateError::Format { file: FILE, source };
+        let mut file: File = serde_json::from_slice(json).map_err(wrong)?;
+        let module = file.modules.remove(top).ok_or_else(|| EstimateError::MissingModule {
+            module: top.to_owned(),
+            present: file.modules.keys().cloned().collect::<Vec<_>>().join(", "),
+        })?;
+        Ok((serde_json::from_value(module).map_err(wrong)?, file.creator))
+    }
+
+    /// The file that nextpnr reads: this module alone.
+    pub(super) fn to_json(&self, top: &str, creator: Value) -> Result<Vec<u8>, EstimateError> {
+        let module = serde_json::to_value(self).map_err(EstimateError::Json)?;
+        let file = File { creator, modules: BTreeMap::from([(top.to_owned(), module)]) };
+        serde_json::to_vec(&file).map_err(EstimateError::Json)
+    }
+
+    /// What reads each net: cells with the port. Ports of the module are not among them.
+    pub(super) fn loads(&self) -> HashMap<u32, Vec<(String, String)>> {
+        let mut loads: HashMap<u32, Vec<(String, String)>> = HashMap::new();
+        for (name, cell) in &self.cells {
+            for (port, bits) in cell.connections.iter().filter(|(port, _)| !cell.drives(port)) {
+                for net in bits.iter().filter_map(Bit::net) {
+                    loads.entry(net).or_default().push((name.clone(), port.clone()));
+                }
+            }
+        }
+        loads
+    }
+
+    /// How many cells are of a type that starts so.
+    pub(super) fn count(&self, kind: &str) -> u64 {
+        self.cells.values().filter(|cell| cell.kind.starts_with(kind)).count() as u64
+    }
+
+    /// The highest number of a net.
+    pub(super) fn last_net(&self) -> u32 {
+        let of_cells = self.cells.values().flat_map(|cell| cell.connections.values().flatten());
+        let of_ports = self.ports.values().flat_map(|port| &port.bits);
+        of_cells.chain(of_ports).filter_map(Bit::net).max().unwrap_or(0)
+    }
+
+    /// The net of that name, which may have an index.
+    pub(super) fn net(&self, name: &str) -> Option<u32> {
+        let whole = self.netnames.get(name).and_then(|known| known.bits.first()?.net());
+        whole.or_else(|| {
+            let (vector, index) = name.strip_suffix(']')?.rsplit_once('[')?;
+            let known = self.netnames.get(vector)?;
+            known.bits.get(index.parse::<usize>().ok()?.checked_sub(known.offset)?)?.net()
+        })
+    }
+
+    /// What a net is called in the source: like a register (`_q`) if it is one, else by its shortest name.
+    pub(super) fn name(&self, net: u32) -> Option<String> {
+        let names = self.netnames.iter().filter(|(_, known)| known.hide_name == 0);
+        let best = names
+            .filter_map(|(name, known)| {
+                let index = known.bits.iter().position(|bit| bit.net() == Some(net))?;
+                Some((!name.ends_with("_q"), is_made(name), name.len(), name, index, known))
+            })
+            .min_by_key(|&(plain, made, length, name, ..)| (plain, made, length, name));
+        best.map(|(.., name, index, known)| match known.bits.len() {
+            1 => name.clone(),
+            _ => format!("{name}[{}]", index + known.offset),
+        })
+    }
+}
+
+/// Whether Yosys made the name out of those of cells around it.
+fn is_made(name: &str) -> bool {
+    ["_LUT4_", "_CCU2C_", "_TRELLIS_", "_SB_", "_PFUMX_", "_L6MUX21_"]
+        .iter()
+        .any(|part| name.contains(part))
+}
+
+impl Cell {
+    /// A cell that the source does not have.
+    pub(super) fn new(
+        kind: &str,
+        parameters: &[(&str, &str)],
+        joined: &[(&str, bool, Bit)],
+    ) -> Self {
+        let direction = |output: bool| if output { "output" } else { "input" }.to_owned();
+        let parameter = |&(name, value): &(&str, &str)| (name.to_owned(), value.into());
+        Self {
+            kind: kind.to_owned(),
+            parameters: parameters.iter().map(parameter).collect(),
+            port_directions: joined
+                .iter()
+                .map(|&(port, output, _)| (port.to_owned(), direction(output)))
+                .collect(),
+            connections: joined
+                .iter()
+                .map(|(port, _, bit)| ((*port).to_owned(), vec![bit.clone()]))
+                .collect(),
+            rest: Map::from_iter([
+                ("hide_name".to_owned(), 1.into()),
+                ("attributes".to_owned(), Map::new().into()),
+            ]),
+        }
+    }
+
+    pub(super) fn drives(&self, port: &str) -> bool {
+        self.port_directions.get(port).is_some_and(|direction| direction != "input")
+    }
+
+    /// The only bit of a port.
+    pub(super) fn bit(&self, port: &str) -> Option<&Bit> {
+        self.connections.get(port)?.first()
+    }
+
+    /// The net at a port of one bit.
+    pub(super) fn net(&self, port: &str) -> Option<u32> {
+        self.bit(port)?.net()
+    }
+
+    /// A parameter that is text.
+    pub(super) fn text(&self, parameter: &str) -> Option<&str> {
+        self.parameters.get(parameter)?.as_str().map(str::trim_end)
+    }
+}
+
+impl Bit {
+    pub(super) fn net(&self) -> Option<u32> {
+        match self {
+            Self::Net(net) => Some(*net),
+            Self::Constant(_) => None,
+        }
+    }
+
+    /// Whether it is always 0.
+    pub(super) fn is_zero(&self) -> bool {
+        *self == Self::Constant("0".to_owned())
+    }
+}

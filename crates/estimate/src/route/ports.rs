@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Ports become flip-flops. A core stands in the middle of a chip: what drives its inputs and reads its
+//! outputs are registers near it, not pins, of which there are too few.
+//!
+//! An input bit comes from a flip-flop that holds itself; an output bit goes into one that nobody reads.
+//! So paths from and to ports are timed as in a chip where the neighbour registers them, nothing pulls
+//! the placement anywhere, and no logic is added. Constants at outputs need nothing.
+
+use super::device::Family;
+use super::netlist::{Bit, Cell, Netlist};
+use crate::error::EstimateError;
+
+/// The port that keeps its pin.
+const CLOCK: &str = "clk_i";
+
+/// Replaces every port but the clock; returns the number of flip-flops that stand there instead.
+///
+/// # Errors
+/// When there is no clock.
+pub(super) fn become_registers(
+    netlist: &mut Netlist,
+    family: Family,
+) -> Result<u64, EstimateError> {
+    let clock = netlist.ports.get(CLOCK).and_then(|port| port.bits.first()).cloned();
+    let clock = clock.ok_or(EstimateError::NoClock { port: CLOCK })?;
+    let mut net = netlist.last_net();
+    let ports = std::mem::take(&mut netlist.ports);
+    let before = netlist.cells.len();
+    for (name, port) in ports {
+        if name == CLOCK {
+            netlist.ports.insert(name, port);
+            continue;
+        }
+        for (index, bit) in port.bits.iter().enumerate().filter(|(_, bit)| bit.net().is_some()) {
+            let out = if port.direction == "input" {
+                bit.clone()
+            } else {
+                net += 1;
+                Bit::Net(net)
+            };
+            let cell = register(family, clock.clone(), bit.clone(), out);
+            netlist.cells.insert(cell_name(&name, index), cell);
+        }
+    }
+    Ok((netlist.cells.len() - before) as u64)
+}
+
+const PREFIX: &str = "$port$";
+
+fn cell_name(port: &str, index: usize) -> String {
+    format!("{PREFIX}{port}[{index}]")
+}
+
+/// The port bit that a flip-flop stands for.
+pub(super) fn port_of(cell: &str) -> Option<&str> {
+    cell.strip_prefix(PREFIX)
+}
+
+/// A flip-flop without enable and reset.
+fn register(family: Family, clock: Bit, data: Bit, out: Bit) -> Cell {
+    match family {
+        Family::Ecp5 => {
+            // A space behind a text of digits says that it is text.
+            let parameters = [
+                ("CEMUX", "1 "),
+                ("CLKMUX", "CLK"),
+                ("GSR", "DISABLED"),
+                ("LSRMUX", "LSR"),
+                ("REGSET", "RESET"),
+            ];
+            let joined = [("CLK", false, clock), ("DI", false, data), ("Q", true, out)];
+            Cell::new("TRELLIS_FF", &parameters, &joined)
+        }
+        Family::Ice40Up | Family::Ice40Hx => {
+            let joined = [("C", false, clock), ("D", false, data), ("Q", true, out)];
+            Cell::new("SB_DFF", &[], &joined)
+        }
+    }
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The placed design for people: text for a terminal, Markdown for a document.
+
+use foveate_page::number::grouped;
+
+use super::critical::{CriticalPath, PathEnd};
+use super::report::{Placed, RouteReport, Routed, Used};
+use crate::table::{Table, header, wrap};
+
+const COLUMNS: [&str; 8] =
+    ["logic", "FF", "block RAM", "SPRAM", "DSP", "fmax MHz", "slowest", "fastest"];
+
+/// The report as a table for a terminal of `width` columns, with a sentence on each device.
+#[must_use]
+pub fn render_routes_text(report: &RouteReport, width: usize) -> String {
+    let sentences = sentences(report).map(|sentence| wrap(&sentence, width));
+    table(report).stacked_text(width) + "\n" + &sentences.collect::<String>()
+}
+
+/// The report as Markdown.
+#[must_use]
+pub fn render_routes_markdown(report: &RouteReport) -> String {
+    let sentences = sentences(report).map(|sentence| format!("* {sentence}\n"));
+    table(report).markdown() + "\n" + &sentences.collect::<String>()
+}
+
+fn table(report: &RouteReport) -> Table {
+    Table {
+        title: format!("{} placed and routed by nextpnr", report.top),
+        header: header("device", &COLUMNS),
+        rows: report.devices.iter().map(row).collect(),
+        note: Some(
+            "logic: LUT4 of ECP5, logic cells of iCE40. fmax: the clock of the median seed, the slowest and \
+             the fastest one. Flip-flops at the ports are left out."
+                .to_owned(),
+        ),
+    }
+}
+
+fn row(routed: &Routed) -> Vec<String> {
+    let cells = match &routed.placed {
+        None => vec!["-".to_owned(); COLUMNS.len()],
+        Some(Placed { logic, ff, block_ram, spram, dsp, fmax, .. }) => {
+            let used = [logic, ff, block_ram, spram, dsp].map(|Used { used, .. }| grouped(*used));
+            let clocks = [fmax.median_mhz, fmax.min_mhz, fmax.max_mhz];
+            used.into_iter().chain(clocks.map(|mhz| format!("{mhz:.1}"))).collect()
+        }
+    };
+    std::iter::once(routed.device.clone()).chain(cells).collect()
+}
+
+fn sentences(report: &RouteReport) -> impl Iterator<Item = String> {
+    let misfits = report.misfits().into_iter().map(|misfit| misfit + ".");
+    report.devices.iter().filter_map(sentence).chain(misfits)
+}
+
+fn sentence(routed: &Routed) -> Option<String> {
+    let placed = routed.placed.as_ref()?;
+    let Routed { device, part, .. } = routed;
+    let seeds = placed.fmax.seeds_mhz.len();
+    let path = placed.critical.as_ref().map_or_else(String::new, critical);
+    let moved = match placed.output_registers {
+        0 => String::new(),
+        moved => format!(" {} flip-flops are output registers of block RAM.", grouped(moved)),
+    };
+    let seeds = if seeds == 1 { "1 seed".to_owned() } else { format!("{seeds} seeds") };
+    Some(format!("{device} is {part}; {seeds}.{path}{moved}"))
+}
+
+fn critical(path: &CriticalPath) -> String {
+    let end = |PathEnd { module, name }: &PathEnd| format!("{name} (module {module})");
+    let share = 100.0 * path.wire_ns / path.ns;
+    format!(
+        " Longest path: {:.1} ns, {share:.0}% of it on {} wires, from {} to {}.",
+        path.ns,
+        path.wires,
+        end(&path.from),
+        end(&path.to)
+    )
+}

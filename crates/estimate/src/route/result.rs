@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What nextpnr says: its report where it came to an end, its log where a device is too small.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::report::Over;
+use crate::error::EstimateError;
+
+/// The report that nextpnr writes; only what is needed.
+#[derive(Debug, Deserialize)]
+pub(super) struct Outcome {
+    fmax: BTreeMap<String, Clock>,
+    utilization: BTreeMap<String, Taken>,
+    critical_paths: Vec<Path>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Clock {
+    achieved: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct Taken {
+    used: u64,
+    available: u64,
+}
+
+/// A path from clock edge to clock edge, or from or to what has no clock.
+#[derive(Debug, Deserialize)]
+pub(super) struct Path {
+    from: String,
+    to: String,
+    #[serde(rename = "path")]
+    pub(super) steps: Vec<Step>,
+}
+
+/// A delay in a cell or on a wire, in nanoseconds.
+#[derive(Debug, Deserialize)]
+pub(super) struct Step {
+    pub(super) delay: f64,
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    pub(super) net: Option<String>,
+    pub(super) from: Pin,
+    pub(super) to: Pin,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Pin {
+    pub(super) cell: String,
+    pub(super) port: String,
+}
+
+impl Step {
+    pub(super) fn is_wire(&self) -> bool {
+        self.kind == "routing"
+    }
+}
+
+impl Outcome {
+    pub(super) fn parse(json: &[u8]) -> Result<Self, EstimateError> {
+        serde_json::from_slice(json)
+            .map_err(|error| EstimateError::Placed { reason: error.to_string() })
+    }
+
+    /// The clock that is reached, in MHz: that of the slowest clock, of which designs have one.
+    pub(super) fn fmax_mhz(&self) -> Result<f64, EstimateError> {
+        let clocks = self.fmax.values().map(|clock| clock.achieved);
+        let slowest = clocks.min_by(f64::total_cmp);
+        slowest.ok_or_else(|| EstimateError::Placed { reason: "it names no clock".to_owned() })
+    }
+
+    /// How many of a kind of place are taken, and how many there are; none of what the device lacks.
+    pub(super) fn used(&self, place: &str) -> (u64, u64) {
+        self.utilization.get(place).map_or((0, 0), |taken| (taken.used, taken.available))
+    }
+
+    /// The longest path between two edges of the clock.
+    pub(super) fn longest(&self) -> Option<&Path> {
+        let is_clocked =
+            |path: &&Path| ![&path.from, &path.to].iter().any(|end| end.contains("async"));
+        self.critical_paths.iter().filter(is_clocked).max_by(|a, b| a.delay().total_cmp(&b.delay()))
+    }
+}
+
+impl Path {
+    pub(super) fn delay(&self) -> f64 {
+        self.steps.iter().map(|step| step.delay).sum()
+    }
+}
+
+/// What a device has too few of, from the table in nextpnr's log: `DP16KD:  155/ 108 143%`.
+pub(super) fn over(log: &str) -> Vec<Over> {
+    let row = |line: &str| {
+        let (place, counts) = line.strip_prefix("Info:")?.split_once(':')?;
+        let (used, rest) = counts.split_once('/')?;
+        let available = rest.split_whitespace().next()?;
+        let over = Over {
+            place: place.trim().to_owned(),
+            used: used.trim().parse().ok()?,
+            available: available.parse().ok()?,
+        };
+        (over.used > over.available).then_some(over)
+    };
+    log.lines().filter_map(row).collect()
+}
