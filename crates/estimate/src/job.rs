@@ -7,11 +7,12 @@ use std::thread;
 use foveate_toolchain::yosys::{self, YosysJob, YosysRun};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain, sources_sha256};
 
+use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::leaves::leaf_areas;
-use crate::levels::longest_paths;
+use crate::levels::{Library, longest_paths};
 use crate::netlist::Netlist;
-use crate::report::{Areas, Paths, Report, Rtl, ToolRecord, Units};
+use crate::report::{Areas, Paths, Report, Rtl, Timing, ToolRecord, Units};
 
 const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
 /// Shift registers, which `synth_xilinx` would make in the middle. Yosys up to 0.67 loses their enable
@@ -92,6 +93,7 @@ pub fn estimate(
     let units = job.units(&netlist)?;
     let without: Vec<&str> = units.iter().map(String::as_str).collect();
     let paths = longest_paths(NETLIST, &synthesis.json, &[without[0], &job.array])?;
+    let clock = ClockEstimate::of(NETLIST, &synthesis.json, &job.array, Library::Xilinx)?;
     let [unit, array] = paths.try_into().expect("a path for each of the two modules");
     Ok(Report::new(
         synthesis.tool,
@@ -103,7 +105,7 @@ pub fn estimate(
             glue: netlist.whole_area(&job.array, &without)?,
             array: netlist.whole_area(&job.array, &[])?,
         },
-        Paths { rpu: unit, rcm: array },
+        Timing { paths: Paths { rpu: unit, rcm: array }, clock },
         match (&job.leaves_of, leaves) {
             (Some(top), Some(run)) => {
                 leaf_areas(top, &Netlist::parse(NETLIST, file(&run, NETLIST))?)?

@@ -10,6 +10,7 @@
 
 mod area;
 mod cells;
+mod clock;
 mod comparison;
 mod device;
 mod error;
@@ -26,6 +27,7 @@ mod table;
 
 pub use area::Area;
 pub use cells::CellKind;
+pub use clock::ClockEstimate;
 pub use comparison::{Candidate, Comparison, Skipped};
 pub use device::{Device, Share, XCVU9P};
 pub use error::EstimateError;

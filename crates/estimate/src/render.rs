@@ -84,6 +84,12 @@ fn path_table(report: &Report) -> Table {
     if rcm != rpu {
         note += &format!("RCM: {}. ", way(rcm));
     }
+    if let Some(clock) = &report.clock {
+        note += &format!(
+            "Estimated clock of the RCM: {}, by Yosys' cell models, which are of the 7 series. ",
+            clock.text()
+        );
+    }
     note += "A LUT, a read of distributed RAM and a whole carry chain are a level each; CARRY4: blocks \
              of four bits in chains.";
     Table {

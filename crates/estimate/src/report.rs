@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::area::Area;
+use crate::clock::ClockEstimate;
 use crate::device::{Device, Share};
 use crate::error::EstimateError;
 use crate::levels::LogicPath;
@@ -43,6 +44,13 @@ pub struct Paths {
     pub rpu: LogicPath,
     /// That of the RCM, through RPUs and lanes.
     pub rcm: LogicPath,
+}
+
+/// Paths, and the clock that follows from the slowest.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Timing {
+    pub(crate) paths: Paths,
+    pub(crate) clock: Option<ClockEstimate>,
 }
 
 /// Areas as they are measured.
@@ -95,6 +103,9 @@ pub struct Report {
     pub rcm: Area,
     /// The longest paths.
     pub paths: Paths,
+    /// The clock that the RCM is expected to reach; nothing where it has no logic between registers.
+    #[serde(default)]
+    pub clock: Option<ClockEstimate>,
     /// The share of the device that the RCM takes.
     pub share: Share,
     /// The paper's table.
@@ -112,7 +123,7 @@ impl Report {
         regions: u64,
         units: Units,
         areas: Areas,
-        paths: Paths,
+        timing: Timing,
         leaves: Vec<LeafArea>,
     ) -> Self {
         let device = Device::xcvu9p();
@@ -134,7 +145,8 @@ impl Report {
             rpu: unit,
             rcm_glue: glue,
             rcm: array,
-            paths,
+            paths: timing.paths,
+            clock: timing.clock,
             share,
             paper,
             leaves,
@@ -205,9 +217,12 @@ pub(crate) mod tests {
             to: "count_q[0] (FDRE.D)".into(),
             through: ["LUT6", "CARRY4", "CARRY4", "LUT2"].map(str::to_owned).to_vec(),
         };
-        let paths = Paths { rpu: path.clone(), rcm: path };
+        let paths = Paths { rpu: path.clone(), rcm: path.clone() };
+        let clock =
+            ClockEstimate { mhz: 60.0, low_mhz: 48.0, high_mhz: 80.0, wiring_share: 0.65, path };
+        let timing = Timing { paths, clock: Some(clock) };
         let rtl = Rtl { sha256: "00".into(), rpu_sha256: "01".into() };
-        Report::new(tool, rtl, regions, units, areas, paths, leaves)
+        Report::new(tool, rtl, regions, units, areas, timing, leaves)
     }
 
     #[test]

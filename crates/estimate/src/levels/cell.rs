@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which inputs of a cell its outputs wait for, what starts at it and what ends at it.
 
+use super::delay;
 use super::path::Weight;
 use super::raw::{Bit, RawCell};
 use crate::cells::CellKind;
@@ -17,10 +18,10 @@ pub(super) struct CellTiming {
 }
 
 /// A net and the pin that it is joined to.
-struct Joint<'a> {
-    port: &'a str,
-    index: usize,
-    net: u32,
+pub(super) struct Joint<'a> {
+    pub(super) port: &'a str,
+    pub(super) index: usize,
+    pub(super) net: u32,
 }
 
 impl CellTiming {
@@ -35,7 +36,8 @@ impl CellTiming {
             }
             for output in &outputs {
                 if let Some(weight) = arc(kind, cell, &input, output, &chained) {
-                    timing.arcs.push((input.net, output.net, weight));
+                    let time = Weight::wired(delay::arc(kind, cell, &input, output));
+                    timing.arcs.push((input.net, output.net, weight.plus(time)));
                 }
             }
             if is_end(kind, cell, input.port) {
@@ -43,6 +45,7 @@ impl CellTiming {
             }
         }
         if let Some(weight) = start(kind, cell) {
+            let weight = weight.plus(delay::start(kind, cell));
             timing.starts.extend(outputs.iter().map(|output| (output.net, weight)));
         }
         timing
@@ -56,7 +59,7 @@ pub(super) fn carry_out(cell: &RawCell) -> Option<u32> {
         .flatten()
 }
 
-fn joints(cell: &RawCell) -> impl Iterator<Item = Joint<'_>> {
+pub(super) fn joints(cell: &RawCell) -> impl Iterator<Item = Joint<'_>> {
     cell.connections.iter().flat_map(|(port, bits)| {
         let joint = move |(index, bit): (usize, &Bit)| Some(Joint { port, index, net: bit.net()? });
         bits.iter().enumerate().filter_map(joint)

@@ -4,7 +4,9 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
+use super::Library;
 use super::cell::{CellTiming, carry_out};
+use super::ecp5;
 use super::path::Weight;
 use super::raw::{Bit, RawModule, RawNetlist};
 use crate::cells::CellKind;
@@ -63,10 +65,14 @@ struct Timed<'a> {
 type Nets = HashMap<u32, u32>;
 
 impl<'a> Graph<'a> {
-    pub(super) fn of(netlist: &'a RawNetlist, top: &str) -> Result<Self, EstimateError> {
+    pub(super) fn of(
+        netlist: &'a RawNetlist,
+        top: &str,
+        library: Library,
+    ) -> Result<Self, EstimateError> {
         let mut graph =
             Self { arcs: Vec::new(), starts: Vec::new(), ends: Vec::new(), nets: Vec::new() };
-        let mut builder = Builder { netlist, cells: BTreeMap::new() };
+        let mut builder = Builder { netlist, library, cells: BTreeMap::new() };
         let instance = builder.instance(top, "")?;
         let mut nets = Nets::new();
         for local in port_nets(instance.module, false) {
@@ -103,6 +109,7 @@ impl<'a> Graph<'a> {
 /// Makes instances of modules.
 struct Builder<'a> {
     netlist: &'a RawNetlist,
+    library: Library,
     cells: BTreeMap<String, Rc<[Timed<'a>]>>,
 }
 
@@ -115,7 +122,7 @@ impl<'a> Builder<'a> {
         })?;
         let cells = match self.cells.get(name) {
             Some(cells) => cells.clone(),
-            None => timed(netlist, name, module)?.into(),
+            None => timed(netlist, name, module, self.library)?.into(),
         };
         self.cells.insert(name.to_owned(), cells.clone());
         Ok(Instance { path: path.into(), module, cells })
@@ -190,17 +197,22 @@ fn timed<'a>(
     netlist: &RawNetlist,
     name: &str,
     module: &'a RawModule,
+    library: Library,
 ) -> Result<Vec<Timed<'a>>, EstimateError> {
     let carries: HashSet<u32> = module.cells.values().filter_map(carry_out).collect();
     let primitive = module.cells.values().filter(|cell| !netlist.modules.contains_key(&cell.kind));
     primitive
         .map(|cell| {
-            let kind = CellKind::of(&cell.kind).ok_or_else(|| EstimateError::UnknownCell {
+            let timing = match library {
+                Library::Xilinx => CellKind::of(&cell.kind)
+                    .map(|kind| CellTiming::of(kind, cell, |net| carries.contains(&net))),
+                Library::Ecp5 => ecp5::timing(cell),
+            };
+            let timing = timing.ok_or_else(|| EstimateError::UnknownCell {
                 cell: cell.kind.clone(),
                 module: name.to_owned(),
                 count: 1,
             })?;
-            let timing = CellTiming::of(kind, cell, |net| carries.contains(&net));
             let output = timing.starts.first().map(|&(net, _)| net);
             Ok(Timed { kind: &cell.kind, timing, output })
         })

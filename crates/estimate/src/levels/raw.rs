@@ -71,6 +71,11 @@ impl RawCell {
         let value = self.parameters.get(name)?;
         value.as_u64().or_else(|| u64::from_str_radix(value.as_str()?, 2).ok())
     }
+
+    /// A parameter that is text.
+    pub(super) fn text(&self, name: &str) -> Option<&str> {
+        self.parameters.get(name)?.as_str().map(str::trim_end)
+    }
 }
 
 impl RawModule {

@@ -13,22 +13,30 @@ struct Arrival {
     by: Option<usize>,
 }
 
-/// The longest path; of several the first in the order of the netlist. A module without any path has
-/// one of no levels without ends.
+/// What tells which of two paths is longer.
+pub(super) type Length = fn(Weight) -> (u32, u32);
+
+/// The longest path and its time; of several the first in the order of the netlist. A module without any
+/// path has one of no levels without ends.
 ///
 /// # Errors
 /// When logic runs in a circle.
-pub(super) fn longest(graph: &Graph<'_>) -> Result<LogicPath, EstimateError> {
-    let arrivals = arrivals(graph)?;
+pub(super) fn longest(
+    graph: &Graph<'_>,
+    length: Length,
+) -> Result<(LogicPath, u32), EstimateError> {
+    let arrivals = arrivals(graph, length)?;
     let arrives = |net: u32| arrivals[net as usize];
     let mut latest = None;
     for end in &graph.ends {
-        let longer = |arrival: &Arrival| latest.is_none_or(|(weight, _)| arrival.weight > weight);
+        let longer = |arrival: &Arrival| {
+            latest.is_none_or(|(weight, _)| length(arrival.weight) > length(weight))
+        };
         if let Some(arrival) = arrives(end.net).filter(longer) {
             latest = Some((arrival.weight, end));
         }
     }
-    let Some((weight, end)) = latest else { return Ok(LogicPath::default()) };
+    let Some((weight, end)) = latest else { return Ok((LogicPath::default(), 0)) };
     let (mut through, mut net) = (Vec::new(), end.net);
     while let Some(by) = arrives(net).and_then(|arrival| arrival.by) {
         through.extend(graph.arcs[by].cell.map(str::to_owned));
@@ -36,7 +44,7 @@ pub(super) fn longest(graph: &Graph<'_>) -> Result<LogicPath, EstimateError> {
     }
     through.reverse();
     let to = graph.name(end.named);
-    Ok(LogicPath {
+    let path = LogicPath {
         levels: weight.levels,
         carry4: weight.carry4,
         from: graph.name(net),
@@ -45,14 +53,15 @@ pub(super) fn longest(graph: &Graph<'_>) -> Result<LogicPath, EstimateError> {
             None => to,
         },
         through,
-    })
+    };
+    Ok((path, weight.ps))
 }
 
-fn arrivals(graph: &Graph<'_>) -> Result<Vec<Option<Arrival>>, EstimateError> {
+fn arrivals(graph: &Graph<'_>, length: Length) -> Result<Vec<Option<Arrival>>, EstimateError> {
     let mut arrivals = vec![None; graph.net_count()];
     for start in &graph.starts {
         let arrival = Arrival { weight: start.weight, by: None };
-        delay(&mut arrivals[start.net as usize], arrival);
+        delay(&mut arrivals[start.net as usize], arrival, length);
     }
     // Arcs by the net that they leave, as ranges of a list.
     let mut order: Vec<usize> = (0..graph.arcs.len()).collect();
@@ -72,7 +81,7 @@ fn arrivals(graph: &Graph<'_>) -> Result<Vec<Option<Arrival>>, EstimateError> {
             let arc = &graph.arcs[by];
             if let Some(Arrival { weight, .. }) = arrivals[net as usize] {
                 let arrival = Arrival { weight: weight.plus(arc.weight), by: Some(by) };
-                delay(&mut arrivals[arc.to as usize], arrival);
+                delay(&mut arrivals[arc.to as usize], arrival, length);
             }
             waiting[arc.to as usize] -= 1;
             if waiting[arc.to as usize] == 0 {
@@ -87,8 +96,8 @@ fn arrivals(graph: &Graph<'_>) -> Result<Vec<Option<Arrival>>, EstimateError> {
 }
 
 /// Of arrivals with equal weight, one by an arc says more than one that starts here.
-fn delay(slot: &mut Option<Arrival>, arrival: Arrival) {
-    let order = |arrival: Arrival| (arrival.weight, arrival.by.is_some());
+fn delay(slot: &mut Option<Arrival>, arrival: Arrival, length: Length) {
+    let order = |arrival: Arrival| (length(arrival.weight), arrival.by.is_some());
     if slot.is_none_or(|earlier| order(arrival) > order(earlier)) {
         *slot = Some(arrival);
     }

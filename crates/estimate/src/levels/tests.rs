@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use super::{LogicPath, longest_paths};
+use super::{Library, LogicPath, ecp5, longest_paths, slowest_path};
 use crate::error::EstimateError;
 
 fn module(ports: &Value, cells: &Value) -> Value {
@@ -143,4 +143,111 @@ fn without_logic_there_are_no_levels() {
     let wire = json!({ "d_i": port("input", 2), "y_o": port("output", 2) });
     assert_eq!(longest(&wire, &json!({})).levels, 0);
     assert_eq!(longest(&json!({}), &json!({})), LogicPath::default());
+}
+
+fn slowest(cells: &Value, library: Library) -> (String, u32) {
+    let json = json!({ "modules": { "top": module(&json!({}), cells) } }).to_string();
+    let (path, ps) = slowest_path("netlist.json", json.as_bytes(), "top", library).unwrap();
+    (text(&path), ps)
+}
+
+/// What stands for the wires beside so many picoseconds of logic.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some nanoseconds")]
+fn with_wires(ps: u32) -> u32 {
+    (f64::from(ps) / 0.35).round() as u32
+}
+
+#[test]
+fn the_slowest_path_need_not_have_the_most_levels() {
+    // Two tables by their last inputs, or one by its first.
+    let cells = json!({
+        "f": cell("FDRE", &json!({ "C": [1], "D": [30], "Q": [10] })),
+        "a": cell("LUT2", &json!({ "I0": ["0"], "I1": [10], "O": [20] })),
+        "b": cell("LUT2", &json!({ "I0": ["0"], "I1": [20], "O": [30] })),
+        "c": cell("LUT6", &json!({ "I0": [10], "I1": ["0"], "I2": ["0"], "I3": ["0"], "I4": ["0"],
+            "I5": ["0"], "O": [11] })),
+        "g": cell("FDRE", &json!({ "C": [1], "D": [11], "Q": [12] })),
+    });
+    let (path, ps) = slowest(&cells, Library::Xilinx);
+    assert!(path.starts_with("1+0 q[0] [LUT6]"), "{path}");
+    assert_eq!(ps, with_wires(303) + with_wires(642));
+    let levels = try_longest(&json!({ "top": module(&json!({}), &cells) }), "top").unwrap();
+    assert_eq!(levels.levels, 2);
+}
+
+#[test]
+fn blocks_of_memory_have_delays_without_wires() {
+    let block = |parameters: Value| {
+        json!({
+            "m": { "type": "RAMB18E2", "parameters": parameters,
+                "connections": { "CLKARDCLK": [1], "DOUTADOUT": [10] } },
+            "a": cell("LUT1", &json!({ "I0": [10], "O": [30] })),
+            "f": cell("FDRE", &json!({ "C": [1], "D": [30], "Q": [11] })),
+        })
+    };
+    assert_eq!(
+        slowest(&block(json!({})), Library::Xilinx).1,
+        2151 + with_wires(303) + with_wires(127)
+    );
+    assert_eq!(
+        slowest(&block(json!({ "DOA_REG": "1" })), Library::Xilinx).1,
+        579 + with_wires(303) + with_wires(127)
+    );
+}
+
+#[test]
+fn an_ecp5_has_cells_of_its_own() {
+    let cells = json!({
+        "f": cell("TRELLIS_FF", &json!({ "CLK": [1], "CE": [10], "DI": [30], "Q": [10] })),
+        "c": cell("CCU2C", &json!({ "A0": [10], "CIN": ["0"], "COUT": [20] })),
+        "d": cell("CCU2C", &json!({ "CIN": [20], "A0": ["0"], "S1": [21] })),
+        "p": cell("PFUMX", &json!({ "ALUT": [21], "BLUT": ["0"], "C0": ["0"], "Z": [30] })),
+    });
+    let (path, ps) = slowest(&cells, Library::Ecp5);
+    assert_eq!(path, "0+0 q[0] [CCU2C CCU2C PFUMX] q[0] (TRELLIS_FF.DI)");
+    assert_eq!(ps, with_wires(525) + with_wires(516) + with_wires(273) + with_wires(98));
+
+    let block = |mode: &str| {
+        json!({
+            "m": { "type": "DP16KD", "parameters": { "REGMODE_A": mode },
+                "connections": { "CLKA": [1], "DOA0": [10] } },
+            "f": cell("TRELLIS_FF", &json!({ "CLK": [1], "DI": [10], "Q": [11] })),
+        })
+    };
+    assert_eq!(slowest(&block("NOREG"), Library::Ecp5).1, 5305 + with_wires(525));
+    assert_eq!(slowest(&block("OUTREG"), Library::Ecp5).1, 435 + with_wires(525));
+    let unknown = json!({ "modules": { "top": module(&json!({}), &json!({ "x": cell("EHXPLLL", &json!({})) })) } });
+    let error = slowest_path("netlist.json", unknown.to_string().as_bytes(), "top", Library::Ecp5);
+    assert!(error.unwrap_err().to_string().contains("`EHXPLLL`"));
+}
+
+/// The delays are those of the Yosys that is installed. Skipped, visibly, where it is missing.
+#[test]
+fn delays_are_those_of_the_cell_models() {
+    use foveate_toolchain::testing::require_tools;
+    use foveate_toolchain::{Cache, Tool, Toolchain, yosys};
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let models = yosys::cell_models(&tools, &cache, "ecp5/cells_sim.v").unwrap();
+    let modules = [
+        ("LUT4", ecp5::LUT4),
+        ("PFUMX", ecp5::PFUMX),
+        ("L6MUX21", ecp5::L6MUX21),
+        ("CCU2C", ecp5::CCU2C),
+    ];
+    for (module, table) in modules {
+        let text = models.split(&format!("module {module}")).nth(1).unwrap();
+        let block = text.split("specify").nth(1).unwrap();
+        assert_eq!(block.matches("=>").count(), table.len(), "{module}");
+        for (from, to, ps) in table {
+            assert!(block.contains(&format!("({from} => {to}) = {ps};")), "{module} {from} {to}");
+        }
+    }
+    let models = yosys::cell_models(&tools, &cache, "xilinx/cells_sim.v").unwrap();
+    let text = models.split("module LUT6 ").nth(1).or(models.split("module LUT6(").nth(1)).unwrap();
+    for (input, ps) in [642, 631, 472, 407, 238, 127].into_iter().enumerate() {
+        assert!(text.contains(&format!("(I{input} => O) = {ps};")), "I{input}");
+    }
 }

@@ -18,7 +18,9 @@ use super::netlist::Netlist;
 use super::report::{Fmax, Placed, ROUTE_FORMAT_VERSION, RouteReport, Routed, Used};
 use super::result::{Outcome, over};
 use super::{outreg, ports};
+use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
+use crate::levels::Library;
 use crate::report::ToolRecord;
 use crate::synthesis::sources;
 
@@ -165,7 +167,7 @@ impl Ready {
             match outcome {
                 Ok(report) => reports.push(Outcome::parse(&report)?),
                 Err(ToolError::Failed { full, .. }) if !over(&full).is_empty() => {
-                    over_all = over(&full)
+                    over_all = over(&full);
                 }
                 Err(error) => return Err(error.into()),
             }
@@ -216,6 +218,10 @@ impl Ready {
             dsp,
             port_ff: self.port_ff,
             output_registers: self.output_registers,
+            estimate: match self.device.family {
+                Family::Ecp5 => ClockEstimate::of(NETLIST, &self.json, top, Library::Ecp5)?,
+                Family::Ice40Up | Family::Ice40Hx => None,
+            },
             fmax,
             critical: report.longest().and_then(|path| names.path(path)),
         })

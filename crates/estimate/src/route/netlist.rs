@@ -118,20 +118,33 @@ impl Netlist {
         })
     }
 
-    /// What a net is called in the source: like a register (`_q`) if it is one, else by its shortest name.
+    /// What a net is called in the source, where it is driven; see [`rank`].
     pub(super) fn name(&self, net: u32) -> Option<String> {
         let names = self.netnames.iter().filter(|(_, known)| known.hide_name == 0);
         let best = names
             .filter_map(|(name, known)| {
                 let index = known.bits.iter().position(|bit| bit.net() == Some(net))?;
-                Some((!name.ends_with("_q"), is_made(name), name.len(), name, index, known))
+                Some((name, index, known))
             })
-            .min_by_key(|&(plain, made, length, name, ..)| (plain, made, length, name));
-        best.map(|(.., name, index, known)| match known.bits.len() {
+            .min_by_key(|(name, ..)| (rank(name), *name));
+        best.map(|(name, index, known)| match known.bits.len() {
             1 => name.clone(),
             _ => format!("{name}[{}]", index + known.offset),
         })
     }
+}
+
+/// What tells which of a net's names says best where it is driven, the lowest first: that of a register
+/// (`_q`), then that of the innermost output (`_o`), and that of the outermost input (`_i`) last.
+fn rank(name: &str) -> (bool, u8, isize, usize) {
+    let depth = name.matches('.').count().cast_signed();
+    let (kind, depth) = match name.rsplit_once('_') {
+        Some((_, "q")) => (0, -depth),
+        Some((_, "o")) => (1, -depth),
+        Some((_, "i")) => (3, depth),
+        _ => (2, -depth),
+    };
+    (is_made(name), kind, depth, name.len())
 }
 
 /// Whether Yosys made the name out of those of cells around it.

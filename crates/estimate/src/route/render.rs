@@ -64,7 +64,10 @@ fn sentence(routed: &Routed) -> Option<String> {
         moved => format!(" {} flip-flops are output registers of block RAM.", grouped(moved)),
     };
     let seeds = if seeds == 1 { "1 seed".to_owned() } else { format!("{seeds} seeds") };
-    Some(format!("{device} is {part}; {seeds}.{path}{moved}"))
+    let estimate = placed.estimate.as_ref().map_or_else(String::new, |estimate| {
+        format!(" Expected by the netlist alone: {:.1} MHz.", estimate.mhz)
+    });
+    Some(format!("{device} is {part}; {seeds}.{path}{moved}{estimate}"))
 }
 
 fn critical(path: &CriticalPath) -> String {

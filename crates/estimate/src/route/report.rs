@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::critical::CriticalPath;
+use crate::clock::ClockEstimate;
 use crate::report::ToolRecord;
 
 /// The version of the JSON report. It grows when a field changes its meaning or goes away.
@@ -70,6 +71,8 @@ pub struct Placed {
     pub output_registers: u64,
     /// The clock.
     pub fmax: Fmax,
+    /// What the netlist alone lets expect, where cells of the family have delays; see [`ClockEstimate`].
+    pub estimate: Option<ClockEstimate>,
     /// The longest path of the seed whose clock is the median.
     pub critical: Option<CriticalPath>,
 }

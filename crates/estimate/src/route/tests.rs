@@ -19,6 +19,12 @@ fn netlist(ports: &Value, cells: &Value) -> Netlist {
         "$auto$x": { "hide_name": 1, "bits": [30] },
         "w_LUT4_Z": { "hide_name": 0, "bits": [31] },
         "u_a.u_b.wire": { "hide_name": 0, "bits": [31] },
+        "score": { "hide_name": 0, "bits": [32] },
+        "score_o": { "hide_name": 0, "bits": [32] },
+        "u_a.count_o": { "hide_name": 0, "bits": [32] },
+        "u_b.u_c.value_i": { "hide_name": 0, "bits": [32] },
+        "d_i": { "hide_name": 0, "bits": [33] },
+        "u_b.d_i": { "hide_name": 0, "bits": [33] },
     });
     let top = json!({ "ports": ports, "cells": cells, "netnames": names });
     let file = json!({ "creator": "Yosys", "modules": { "rpu": top } }).to_string();
@@ -58,9 +64,25 @@ fn a_plain_register_behind_a_block_becomes_its_own() {
 }
 
 #[test]
+fn registers_with_one_enable_move_and_those_with_several_stay() {
+    let with_enables = |first: u32, second: u32| {
+        let mut cells = block_and_register(&[("/parameters/CEMUX", "\"CE\"")]);
+        cells["second"] = cells["register"].clone();
+        cells["register"]["connections"]["CE"] = json!([first]);
+        cells["second"]["connections"]["CE"] = json!([second]);
+        cells["second"]["connections"]["DI"] = json!([22]);
+        netlist(&json!({}), &cells)
+    };
+    let mut one = with_enables(8, 8);
+    assert_eq!(outreg::absorb(&mut one), 2);
+    assert_eq!(one.cells["block"].net("OCEA"), Some(8));
+    assert_eq!(outreg::absorb(&mut with_enables(8, 9)), 0);
+}
+
+#[test]
 fn other_registers_stay_where_they_are() {
     for change in [
-        ("/parameters/CEMUX", "\"CE\""),
+        ("/parameters/CEMUX", "\"INV\""),
         ("/parameters/CLKMUX", "\"INV\""),
         ("/parameters/REGSET", "\"SET\""),
         ("/connections/LSR", "[7]"),
@@ -110,11 +132,13 @@ fn ports_are_registers_but_for_the_clock() {
 }
 
 #[test]
-fn nets_have_names_of_registers_before_others() {
+fn nets_have_the_name_where_they_are_driven() {
     let core = netlist(&json!({}), &json!({}));
     assert_eq!(core.name(21).unwrap(), "u_a.sum_q[5]");
     assert_eq!(core.name(31).unwrap(), "u_a.u_b.wire", "and those of the source before made ones");
     assert_eq!(core.name(30), None);
+    assert_eq!(core.name(32).unwrap(), "u_a.count_o", "the innermost output");
+    assert_eq!(core.name(33).unwrap(), "d_i", "the outermost input");
     assert_eq!(
         (core.net("u_a.sum[1]"), core.net("u_a.sum_q[5]"), core.net("y_o")),
         (Some(21), Some(21), Some(21))

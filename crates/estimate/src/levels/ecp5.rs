@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What paths do at the cells of an ECP5, with the delays of Yosys' cell models (`ecp5/cells_sim.v`) in
+//! picoseconds. Reads of distributed RAM have a delay of 0 there. What they lack is what nextpnr 0.11 says
+//! of speed grade 6.
+
+use super::cell::{CellTiming, joints};
+use super::path::Weight;
+use super::raw::RawCell;
+
+/// From inputs to outputs.
+type Table = &'static [(&'static str, &'static str, u32)];
+
+pub(super) const LUT4: Table =
+    &[("A", "Z", 141), ("B", "Z", 275), ("C", "Z", 379), ("D", "Z", 379)];
+/// The multiplexer of two tables, and that of two of those.
+pub(super) const PFUMX: Table = &[("ALUT", "Z", 98), ("BLUT", "Z", 98), ("C0", "Z", 151)];
+pub(super) const L6MUX21: Table = &[("D0", "Z", 140), ("D1", "Z", 141), ("SD", "Z", 148)];
+/// Two bits of a carry chain; the upper inputs do not reach the lower sum.
+#[rustfmt::skip]
+pub(super) const CCU2C: Table = &[
+    ("A0", "S0", 379), ("B0", "S0", 379), ("C0", "S0", 275), ("D0", "S0", 141), ("CIN", "S0", 257),
+    ("A0", "S1", 630), ("B0", "S1", 630), ("C0", "S1", 526), ("D0", "S1", 392), ("CIN", "S1", 273),
+    ("A1", "S1", 379), ("B1", "S1", 379), ("C1", "S1", 275), ("D1", "S1", 141),
+    ("A0", "COUT", 516), ("B0", "COUT", 516), ("C0", "COUT", 412), ("D0", "COUT", 278),
+    ("A1", "COUT", 516), ("B1", "COUT", 516), ("C1", "COUT", 412), ("D1", "COUT", 278),
+    ("CIN", "COUT", 43),
+];
+/// From nextpnr: from the clock to the output of a flip-flop, of block RAM without and with its output
+/// register, and through a multiplier.
+const START: u32 = 525;
+const BLOCK_START: [u32; 2] = [5830, 960];
+const MULTIPLIER: u32 = 3930;
+
+/// The timing of a cell; nothing where it is not known.
+pub(super) fn timing(cell: &RawCell) -> Option<CellTiming> {
+    match cell.kind.as_str() {
+        "LUT4" => Some(through(cell, LUT4)),
+        "PFUMX" => Some(through(cell, PFUMX)),
+        "L6MUX21" => Some(through(cell, L6MUX21)),
+        "CCU2C" => Some(through(cell, CCU2C)),
+        "TRELLIS_FF" => Some(registered(cell, "Q", START)),
+        "DP16KD" => Some(registered(cell, "DO", block_start(cell))),
+        "TRELLIS_DPR16X4" => Some(memory(cell)),
+        "MULT18X18D" => Some(multiplier(cell)),
+        "VLO" | "VHI" => Some(CellTiming::default()),
+        _ => None,
+    }
+}
+
+fn through(cell: &RawCell, table: Table) -> CellTiming {
+    let net = |port: &str| joints(cell).find(|joint| joint.port == port).map(|joint| joint.net);
+    let arc = |&(from, to, ps): &(&str, &str, u32)| Some((net(from)?, net(to)?, Weight::wired(ps)));
+    CellTiming { arcs: table.iter().filter_map(arc).collect(), ..CellTiming::default() }
+}
+
+/// Paths end at all inputs but the clocks, and start at the outputs.
+fn registered(cell: &RawCell, output: &str, ps: u32) -> CellTiming {
+    let mut timing = CellTiming::default();
+    for joint in joints(cell).filter(|joint| !joint.port.contains("CLK")) {
+        if joint.port.starts_with(output) {
+            timing.starts.push((joint.net, Weight::after_clock(ps, START)));
+        } else {
+            timing.ends.push((joint.net, joint.port.to_owned()));
+        }
+    }
+    timing
+}
+
+fn block_start(cell: &RawCell) -> u32 {
+    let has = |side: &str| cell.text(&format!("REGMODE_{side}")) == Some("OUTREG");
+    let reads = |side: &str| joints(cell).any(|joint| joint.port.starts_with(&format!("DO{side}")));
+    // The slower side stands for both; one that nothing reads has no paths.
+    let registered = ["A", "B"].iter().all(|side| has(side) || !reads(side));
+    BLOCK_START[usize::from(registered)]
+}
+
+/// Written at the clock, read at any time.
+fn memory(cell: &RawCell) -> CellTiming {
+    let mut timing = CellTiming::default();
+    let outputs = || joints(cell).filter(|joint| joint.port == "DO").map(|joint| joint.net);
+    for joint in joints(cell) {
+        match joint.port {
+            "DO" => timing.starts.push((joint.net, Weight::wired(START))),
+            "RAD" => timing.arcs.extend(outputs().map(|out| (joint.net, out, Weight::NONE))),
+            "WCK" => {}
+            port => timing.ends.push((joint.net, port.to_owned())),
+        }
+    }
+    timing
+}
+
+/// Multipliers have no registers here: `synth_ecp5` leaves those of the fabric.
+fn multiplier(cell: &RawCell) -> CellTiming {
+    let is_output = |port: &str| port.starts_with('P') || port.starts_with("RO");
+    let is_input = |port: &str| port.starts_with('A') || port.starts_with('B');
+    let outputs = || joints(cell).filter(|joint| is_output(joint.port)).map(|joint| joint.net);
+    let inputs = joints(cell).filter(|joint| is_input(joint.port)).map(|joint| joint.net);
+    let each = |from| outputs().map(move |to| (from, to, Weight::fixed(MULTIPLIER)));
+    CellTiming { arcs: inputs.flat_map(each).collect(), ..CellTiming::default() }
+}
