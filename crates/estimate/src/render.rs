@@ -41,7 +41,8 @@ pub(crate) fn heading(report: &Report) -> String {
 }
 
 fn tables(report: &Report) -> Vec<Table> {
-    let mut tables = vec![area_table(report), path_table(report), paper_table(report)];
+    let mut tables = vec![area_table(report), path_table(report)];
+    tables.extend(paper_table(report));
     if !report.leaves.is_empty() {
         tables.insert(0, leaf_table(report));
     }
@@ -69,6 +70,8 @@ fn area_title(report: &Report) -> String {
     let Report { regions, unit, units, .. } = report;
     if units == regions {
         format!("Area of {} regions, one {unit} each", grouped(*regions))
+    } else if *units == 1 {
+        format!("Area of {} regions, one {unit} for all", grouped(*regions))
     } else {
         format!("Area of {} regions, {} {unit}s", grouped(*regions), grouped(*units))
     }
@@ -161,7 +164,10 @@ fn leaf_table(report: &Report) -> Table {
     let title = if of_array { "the RCM".to_owned() } else { format!("one {whole}") };
     Table {
         title: format!("Modules of {title}, each synthesized apart"),
-        header: header("module", &["count", "low", "high", "memory", "LUT", "FF", "carry"]),
+        header: header(
+            "module",
+            &["count", "low", "high", "memory", "LUT", "FF", "carry", "RAMB36"],
+        ),
         rows: report.leaves.iter().map(leaf_row).collect(),
         note: Some(format!(
             "Figures are for one instance without the modules inside it. They do not add up to the \
@@ -176,7 +182,9 @@ fn leaf_row(leaf: &LeafArea) -> Vec<String> {
         parameters => format!("{} {}", leaf.module, parameters.join(" ")),
     };
     let mut row = vec![name, grouped(leaf.instances)];
-    row.extend(area_row("", &leaf.area).into_iter().skip(1).take(6));
+    // Without DSP slices there is room for the names in 80 columns.
+    let figures = COLUMNS.into_iter().zip(area_row("", &leaf.area).into_iter().skip(1));
+    row.extend(figures.filter(|(column, _)| *column != "DSP").map(|(_, figure)| figure));
     row
 }
 
@@ -241,6 +249,10 @@ mod tests {
             assert!(text.contains(part), "{part} in\n{text}");
         }
         assert_eq!(text.matches("RPU").count(), 1, "only the paper's:\n{text}");
+        let one = render_text(&serial_example(784, 1), 200);
+        assert!(one.contains("Area of 784 regions, one lane for all"), "{one}");
+        assert!(one.contains("RCM, paper") && !one.contains("RPU"), "{one}");
+        assert!(!render_text(&serial_example(12, 1), 200).contains("paper"), "no array like it");
         let each = render_text(&serial_example(784, 784), 200);
         assert!(each.contains("Area of 784 regions, one lane each"), "{each}");
         assert!(each.contains("Modules of one lane,"), "{each}");

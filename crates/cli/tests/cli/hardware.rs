@@ -229,6 +229,38 @@ fn the_area_is_beside_the_papers() {
     assert!(rpu["ff"].as_u64().unwrap() <= 90, "{rpu}");
 }
 
+/// One core for all regions, its modules with the numbers of the design, and the memory of the frame store apart.
+#[test]
+fn the_area_of_a_raster_core_is_no_rpus() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let design =
+        ["--set", "hardware.organization='raster'", "--set", "frame={width=128,height=72}"];
+    let text = succeed_in(dir.path(), &[&["estimate"], &design[..]].concat());
+    for (part, is_there) in [
+        ("Area of 144 regions, one core for all", true),
+        ("\ncore ", true),
+        ("RPU", false),
+        ("paper", false),
+    ] {
+        assert_eq!(text.contains(part), is_there, "{part}: {text}");
+    }
+    let json = succeed_in(dir.path(), &[&["estimate", "--json"], &design[..]].concat());
+    let report: Value = serde_json::from_str(&json).unwrap();
+    let leaves = report["leaves"].as_array().unwrap();
+    let has = |leaf: &Value, parameter: &str| {
+        leaf["parameters"].as_array().unwrap().contains(&Value::from(parameter))
+    };
+    // 128 x 72 words of 8 bits take more than two blocks of 36 Kbit; half a block is 1 here.
+    let store: Vec<_> = leaves.iter().filter(|leaf| has(leaf, "WORDS=9216")).collect();
+    let blocks = |leaf: &Value| leaf["area"]["bram18"].as_u64().unwrap();
+    let memory = store.iter().find(|leaf| leaf["module"] == "raster_memory").unwrap();
+    assert!(blocks(memory) >= 5 && blocks(memory) < report["rcm"]["bram18"].as_u64().unwrap());
+    assert_eq!((&report["unit"], &report["units"]), (&"core".into(), &1.into()));
+}
+
 /// The area is of the RTL that was tested, and the netlist that is counted is the one that is simulated.
 #[test]
 fn estimate_and_cosim_are_about_the_same_rtl() {

@@ -30,7 +30,8 @@ impl Rules for Raster {
             count: 1,
             regions: design.regions(),
             rpu_in_rcm: false,
-            split: "raster_core",
+            // The core by itself has the numbers of no design.
+            split: "rcm",
         }
     }
 

@@ -7,18 +7,26 @@ use crate::report::Report;
 use crate::table::{Table, header};
 use foveate_page::number::grouped;
 
-pub(super) fn paper_table(report: &Report) -> Table {
-    let mut rows = paper_rows("RPU", &report.unit, &report.rpu, &report.paper.rpu);
+/// None where the paper has nothing like it.
+pub(super) fn paper_table(report: &Report) -> Option<Table> {
+    let mut rows = Vec::new();
+    // A unit for all regions is beside the paper's array, but not beside one RPU.
+    if report.units > 1 || report.regions == 1 {
+        rows = paper_rows("RPU", &report.unit, &report.rpu, &report.paper.rpu);
+    }
     if let Some(comparison) = &report.paper.rcm {
         rows.extend(paper_rows("RCM", "RCM", &report.rcm, comparison));
     }
+    if rows.is_empty() {
+        return None;
+    }
     let columns = ["LUT", "ratio", "FF", "ratio", "LUTRAM", "ratio"];
-    Table {
+    Some(Table {
         title: "Beside the paper's table (Vivado, 8x8 regions, 224x224 frames)".to_owned(),
         header: header("", &columns),
         rows,
         note: None,
-    }
+    })
 }
 
 /// The paper's module, and what stands beside it.
