@@ -65,7 +65,7 @@ impl Bench {
             progress("netlist: Yosys and Icarus");
             let needed = [Tool::Yosys, Tool::Iverilog, Tool::Vvp];
             rows.push(match missing(tools.toolchain, &needed)? {
-                Some(why) => Row::missing(Level::Netlist, netlist::NAME, why),
+                Some(why) => Row::missing(Level::Netlist, &netlist::name(design), why),
                 None => netlist::netlist(design, frames, self.seed, tools)?,
             });
         }

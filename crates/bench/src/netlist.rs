@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What Yosys makes of one RPU, or of one serial lane, in Icarus: the first regions of the same frames.
+//! What Yosys makes of one RPU, of one serial lane, or of a small raster core, in Icarus: the first regions of the same frames.
 
 use std::time::Instant;
 
@@ -11,7 +11,10 @@ use crate::error::BenchError;
 use crate::report::{Level, Measured, Row};
 use crate::tools::{LIMIT, Tools};
 
-pub(crate) const NAME: &str = "1 RPU in Icarus";
+/// What people call it.
+pub(crate) fn name(design: &Design) -> String {
+    format!("1 {} in Icarus", design.unit().name)
+}
 
 /// Synthesizes and simulates it, every port compared at every clock up to the first that differs.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
@@ -53,11 +56,14 @@ pub(crate) fn netlist(
     };
     let differing = u64::from(!report.passed());
     let agreement = Agreement { compared: report.comparisons, differing };
-    Ok(Row::of(Level::Netlist, NAME, measured.agrees(Level::CycleClear, agreement)))
+    Ok(Row::of(Level::Netlist, &name(design), measured.agrees(Level::CycleClear, agreement)))
 }
 
-/// The design for a frame of the regions of one unit.
+/// The design for a frame of the regions of one unit, or of fewer where that unit is the whole array.
 fn part(design: &Design) -> Result<Design, BenchError> {
+    if design.unit().count == 1 {
+        return Ok(design.lone_unit());
+    }
     let (side, mut config) = (design.region_size(), design.config().clone());
     config.frame.width = Some(design.unit().regions * side);
     config.frame.height = Some(side);

@@ -31,7 +31,7 @@ fn levels(rows: &[Value]) -> Vec<&str> {
 }
 
 #[test]
-fn every_level_of_both_organizations_agrees() {
+fn every_level_of_every_organization_agrees() {
     let needed = [Tool::Verilator, Tool::Cxx, Tool::Yosys, Tool::Iverilog, Tool::Vvp];
     if !require_tools(&needed) {
         return;
@@ -45,6 +45,11 @@ fn every_level_of_both_organizations_agrees() {
     assert_eq!(rtl["times_rtl"], 1.0);
     assert!(rtl["files_clocks_per_second"].as_f64().unwrap() > 0.0, "{rtl}");
     assert!(pipelined[3]["measured"]["times_rtl"].as_f64().unwrap() > 0.0);
+
+    let raster = ["--set", "hardware.organization='raster'", "--set", "frame={width=40,height=40}"];
+    let raster = rows(&[&raster[..], &["--frames", "2"]].concat());
+    raster.iter().for_each(assert_agrees);
+    assert_eq!(levels(&raster), ["functional-clear", "functional-fast", "cycle-clear", "rtl"]);
 
     let serial = rows(&["--preset", "serial", "scene:street", "--frames", "2"]);
     serial.iter().for_each(assert_agrees);
