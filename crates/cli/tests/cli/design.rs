@@ -52,6 +52,16 @@ fn check_tells_how_fast_each_organization_is() {
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
+    let text = check(&["--preset", "raster", "--set", "hardware.pixels_per_clock=2"]);
+    for part in [
+        "raster, 2 pixels per clock, plain",
+        "the frame row by row, a word of 2 pixels at every clock",
+        " of them references",
+        "lost_count_o",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert!(!text.contains("pixels per region"), "no streams of regions: {text}");
     let card = json(&["--preset", "serial", "--set", "hardware.fold=4"]);
     assert_eq!(
         (&card["array"]["lanes"], &card["array"]["memory"]["words"]),

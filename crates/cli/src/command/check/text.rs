@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Design, Neighborhood};
+use foveate_design::{Design, Neighborhood, RasterMemory};
 
 use super::array::{Array, Memory};
 use super::card::{Card, Feature, PortRow};
@@ -39,7 +39,14 @@ pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
     }
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
-    lines.push(("stream", stream_line(design, card)));
+    match design.config().hardware.pixels_per_clock {
+        Some(pixels) => {
+            lines.push(("organization", design.config().hardware.in_words()));
+            lines.push(("stream", word_line(pixels)));
+            lines.push(("memory", raster_memory_line(design)));
+        }
+        None => lines.push(("stream", stream_line(design, card))),
+    }
     if let Some(array) = &card.array {
         lines.push(("lanes", lanes_line(array)));
         lines.push(("lane memory", memory_line(design, &array.memory)));
@@ -85,6 +92,18 @@ fn stream_line(design: &Design, card: &Card<'_>) -> String {
         Neighborhood::Shared => format!(", halo {} included", card.stream.halo),
     };
     format!("{0} x {0} = {1} pixels per region{halo}", card.stream.side, card.stream.pixels)
+}
+
+/// Of a core that takes the frame as it is.
+fn word_line(pixels: u32) -> String {
+    let word = if pixels == 1 { "pixel".to_owned() } else { format!("word of {pixels} pixels") };
+    format!("the frame row by row, a {word} at every clock")
+}
+
+fn raster_memory_line(design: &Design) -> String {
+    let memories = RasterMemory::all_of(design);
+    let bits = memories.iter().map(RasterMemory::total_bits).sum::<u64>();
+    format!("{bits} bits, {} of them references", memories[0].total_bits())
 }
 
 fn lanes_line(array: &Array) -> String {
