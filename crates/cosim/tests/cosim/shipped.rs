@@ -77,7 +77,10 @@ fn designs() -> Vec<String> {
 
 /// A raster design for words of at most so many pixels.
 fn raster(size: u32, most: u32, pipelining: &str) -> String {
-    let word = (1..=most).rev().find(|word| [1, 2, 4].contains(word) && size % word == 0).unwrap();
+    let word = (1..=most)
+        .rev()
+        .find(|word| [1, 2, 4].contains(word) && size.is_multiple_of(*word))
+        .unwrap();
     format!(
         "hardware.organization = 'raster'\nhardware.pixels_per_clock = {word}\nhardware.pipelining = '{pipelining}'\n"
     )
@@ -443,7 +446,7 @@ fn matrix() -> Vec<(String, Player)> {
                     designs.push(of_organization(size, Some((fold, feed))));
                 }
             }
-            let divides = |word: &u32| size % word == 0;
+            let divides = |word: &u32| size.is_multiple_of(*word);
             designs.extend([1, 2, 4].into_iter().filter(divides).map(|word| of_raster(size, word)));
         }
         let player = if size <= 8 { Player::Icarus } else { Player::Verilator };
