@@ -64,7 +64,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Sent, "raster_counts", "hits_i[feature*LANES+lane]", "hits_i[feature*LANES]"),
     fault("width", Paper, "raster_counts", "$clog2((SIDE - 1) * SIDE + 1);", "$clog2((SIDE - 1) * SIDE + 1) - 1;"),
 
-    fault("constant", Pairs, "raster_pairs", "asked_q[0] || asked_end_q;", "asked_q[0];"),
+    fault("constant", Pairs, "raster_pairs", "again = again_q && !waits_q;", "again = again_q;"),
     fault("constant", Pairs, "raster_pairs", "come_q[0] || come_end_q;", "come_q[0];"),
     fault("operator", Pairs, "raster_pairs", "write = waits_q && !read;", "write = waits_q;"),
     fault("index", Pairs, "raster_pairs", "come_q[0] ? first_q : word_i", "word_i"),
