@@ -54,6 +54,7 @@ def matrix():
 
 
 SERIAL_SIZES = [4, 5, 8, 16, 20, 63, 64]
+RASTER_SHAPES = [(8, 1), (4, 2), (3, 1), (8, 4), (16, 2), (5, 1)]  # sides of regions and pixels of a word
 FOLDS = [1, 2, 3, 6]
 
 
@@ -75,6 +76,32 @@ def serial_matrix():
                 f"hardware.thresholds='{pick(4, 'runtime', 'constant')}'",
                 f"spatial=[{features}]",
                 f"frame={{width={3 * size},height={2 * size},pixel_bits={depth}}}",
+                f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",
+                f"denoise.filter='{pick(2, 'median3x3', 'none')}'",
+                f"temporal={{level=0,min_count=1,reference='{pick(3, 'last-sent', 'previous')}'}}",
+                f"render={{payload='{pick(5, 'denoised', 'raw')}',irrelevant='{pick(6, 'zero', 'hold')}'}}",
+            ]
+
+
+def raster_matrix():
+    """The same of the raster organization, as narrow as it may be: words, frames that fill no region, both pipelinings."""
+    for index, features in enumerate(FEATURES):
+        for choice in range(4):
+            number = 4 * index + choice
+            size, word = RASTER_SHAPES[(index * 2 + choice) % len(RASTER_SHAPES)]
+            depth = DEPTHS[(index + choice * 3 + choice // 2) % len(DEPTHS)]
+            columns, lack = max(4, -(-16 * word // size)), number % 2
+
+            def pick(bit, off, on, number=number):
+                return on if number * 5 >> bit & 1 else off
+
+            yield f"r{index}{choice}_{size}x{size}_{depth}bit", [
+                "hardware.organization='raster'",
+                f"hardware.pixels_per_clock={word}",
+                f"hardware.pipelining='{pick(0, 'plain', 'deep')}'",
+                f"hardware.thresholds='{pick(4, 'runtime', 'constant')}'",
+                f"spatial=[{features}]",
+                f"frame={{width={columns * size - lack},height={(1 + choice) * size - lack},pixel_bits={depth}}}",
                 f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",
                 f"denoise.filter='{pick(2, 'median3x3', 'none')}'",
                 f"temporal={{level=0,min_count=1,reference='{pick(3, 'last-sent', 'previous')}'}}",
@@ -168,7 +195,7 @@ def main():
     began = time.monotonic()
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
-    designs = [design for some in (matrix(), serial_matrix()) for design in list(some)[:: 7 if quick else 1]]
+    designs = [design for some in (matrix(), serial_matrix(), raster_matrix()) for design in list(some)[:: 7 if quick else 1]]
     excuses = waivers()
     used, bad = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))
