@@ -4,7 +4,7 @@
 
 use super::RasterTiming;
 use crate::width::{bits_for, index_bits};
-use crate::{Design, FeatureKind, Filter, Reference, SpatialFeature, Store};
+use crate::{Design, Filter, Reference, SpatialFeature, Store};
 
 /// Bits of the row of regions that waits in a queue, modulo 8.
 const ROW_BITS: u32 = 3;
@@ -139,7 +139,7 @@ impl Sizes {
         }
         if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
             // A design without variance has as many bits for it as a count.
-            let variance = design.feature(FeatureKind::Variance);
+            let variance = design.features().iter().find(|feature| feature.variance().is_some());
             let variance = variance.map_or(design.count_bits(), SpatialFeature::score_bits);
             let judged = variance + (self.hits + 1) * design.count_bits();
             list.push(queue(

@@ -42,6 +42,7 @@ module raster_control #(
     output wire frame_over_o      // at this edge a frame is over: the next may begin
 );
 
+    localparam LAST_SETTLE = SETTLE - 1;
     localparam BEFORE_LAST_WORD = ROW_WORDS - 2;
     localparam BEFORE_LAST_TAKEN = TAKEN_WORDS - 2;
     localparam BEFORE_LAST_ROW = ROWS - 2;
@@ -160,7 +161,7 @@ module raster_control #(
             ready_o    <= 1'b0;
             own_q      <= 1'b0;
             settling_q <= 1'b1;
-            settle_q   <= SETTLE - 1;
+            settle_q   <= LAST_SETTLE[SETTLE_BITS-1:0];
         end else if (settling_q) begin
             if (settle_q != {SETTLE_BITS{1'b0}}) begin
                 settle_q <= settle_q - 1'b1;
@@ -203,20 +204,21 @@ module raster_control #(
             assign region_bottom_o = region_bottom_q;
         end else begin : g_tail_late
             // Held back by as many advances as there are windows.
-            reg [2:0] held_q[1:2];
+            reg [2:0] held_q, held_2q;
+            wire [2:0] held = WINDOWS == 1 ? held_q : held_2q;
             always @(posedge clk_i) begin
                 if (step) begin
-                    held_q[1] <= {old_real_q[WINDOWS], old_region_top_q[WINDOWS], old_region_bottom_q[WINDOWS]};
-                    held_q[2] <= held_q[1];
+                    held_q  <= {old_real_q[WINDOWS], old_region_top_q[WINDOWS], old_region_bottom_q[WINDOWS]};
+                    held_2q <= held_q;
                 end
                 if (rst_i) begin
-                    held_q[1] <= 3'b000;
-                    held_q[2] <= 3'b000;
+                    held_q  <= 3'b000;
+                    held_2q <= 3'b000;
                 end
             end
-            assign tail_o = step && held_q[WINDOWS][2];
-            assign region_top_o = held_q[WINDOWS][1];
-            assign region_bottom_o = held_q[WINDOWS][0];
+            assign tail_o = step && held[2];
+            assign region_top_o = held[1];
+            assign region_bottom_o = held[0];
             assign segment_end_o = old_segment_end_q[WINDOWS];
             assign row_end_o = old_row_end_q[WINDOWS];
         end

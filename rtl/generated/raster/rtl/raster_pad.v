@@ -33,6 +33,10 @@ module raster_pad #(
             end
         end
 
+        if (REST == 0) begin : g_whole
+            wire unused_end = end_i;
+        end
+
         if (PADS) begin : g_pads
             reg [WIDTH-1:0] last_q;
             always @(posedge clk_i) if (step_i && !pad_i) last_q <= filled[(LANES-1)*WIDTH+:WIDTH];

@@ -31,8 +31,7 @@ module raster_pairs #(
     reg asked_end_q, come_end_q;  // the last of the frame
     wire [WORD_NUMBER_BITS-1:0] next_asked = asked_end_q ? {WORD_NUMBER_BITS{1'b0}} : asked_q + 1'b1;
     wire [WORD_NUMBER_BITS-1:0] next_come = come_end_q ? {WORD_NUMBER_BITS{1'b0}} : come_q + 1'b1;
-    wire asked_whole = asked_q[0] || asked_end_q;  // no further word of the pair
-    wire come_whole = come_q[0] || come_end_q;
+    wire come_whole = come_q[0] || come_end_q;  // no further word of the pair
 
     reg [2*WORD_BITS-1:0] pair_q;     // what was read
     reg [2*WORD_BITS-1:0] written_q;  // what waits to be written
@@ -40,9 +39,14 @@ module raster_pairs #(
     reg waits_q;
     reg [WORD_BITS-1:0] first_q;      // the first word of the pair that is coming
 
-    wire read = read_i && asked_whole;
+    // A frame of an odd number of words ends with half a pair. Then the first pair of the next frame is read when no
+    // write waits, because the pair before was read just now; the next frame is still far.
+    reg again_q;
+    wire again = again_q && !waits_q;
+    wire read = (read_i && asked_q[0]) || again;
     wire write = waits_q && !read;
-    wire [PAIR_BITS-1:0] address = read ? next_asked[WORD_NUMBER_BITS-1:WORD_NUMBER_BITS-PAIR_BITS] : place_q;
+    wire [PAIR_BITS-1:0] next_pair = again_q ? {PAIR_BITS{1'b0}} : next_asked[WORD_NUMBER_BITS-1:WORD_NUMBER_BITS-PAIR_BITS];
+    wire [PAIR_BITS-1:0] address = read ? next_pair : place_q;
 
     (* ram_style = "huge" *) reg [2*WORD_BITS-1:0] pairs_q[0:PAIRS-1];
     always @(posedge clk_i) begin
@@ -56,6 +60,8 @@ module raster_pairs #(
             asked_q     <= next_asked;
             asked_end_q <= asked_q == LAST[WORD_NUMBER_BITS-1:0] - 1'b1;
         end
+        if (again) again_q <= 1'b0;
+        if (read_i && asked_end_q && !asked_q[0]) again_q <= 1'b1;
         if (write) waits_q <= 1'b0;
         if (write_i) begin
             come_q     <= next_come;
@@ -73,6 +79,7 @@ module raster_pairs #(
             come_q      <= {WORD_NUMBER_BITS{1'b0}};
             come_end_q  <= 1'b0;
             waits_q     <= 1'b0;
+            again_q     <= 1'b0;
         end
     end
 

@@ -25,7 +25,8 @@ module raster_variance #(
         end
     endgenerate
 
-    localparam FACTOR = PIXELS;
+    localparam FACTOR_BITS = $clog2(PIXELS + 1);
+    wire [PRODUCT_BITS-1:0] factor = {{(PRODUCT_BITS - FACTOR_BITS) {1'b0}}, PIXELS[FACTOR_BITS-1:0]};
 
     wire [PRODUCT_BITS-1:0] sum = {{(PRODUCT_BITS - SUM_BITS) {1'b0}}, sum_i};
     wire [PRODUCT_BITS-1:0] square_sum = {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_i};
@@ -36,7 +37,7 @@ module raster_variance #(
     /* verilator lint_on UNUSEDSIGNAL */
 
     always @(posedge clk_i) begin
-        multiple_q    <= FACTOR[PRODUCT_BITS-1:0] * square_sum;
+        multiple_q    <= factor * square_sum;
         square_q      <= sum * sum;
         difference_2q <= multiple_q - square_q;
         score_o       <= difference_2q[SCORE_BITS-1:0];

@@ -40,6 +40,11 @@ module rpu #(
     wire [6:0] unused_corner;
     wire [6:0] unused_mad;
     wire [6:0] unused_variance;
+    wire unused_reference_ready;
+    wire unused_store_valid;
+    wire [7:0] unused_store_pixel;
+    wire unused_store_last;
+    wire unused_underrun;
 
     raster_core #(
         .COLUMNS(COLUMNS), .ROWS(ROWS),
@@ -58,6 +63,8 @@ module rpu #(
         .LAST_SENT(0),
         .BLANKS(1),
         .RAW(0),
+        .FORWARD(1),
+        .STORE(0),
         .DEEP(0),
         .SETTLE(11),
         .COUNT_BITS(7),
@@ -81,9 +88,20 @@ module rpu #(
         .mad_score_o(unused_mad),
         .variance_score_o(unused_variance),
         .temporal_count_o(temporal_count_o),
-        .forward_ready_i(forward_ready_i), .forward_valid_o(forward_valid_o), .forward_region_o(forward_region_o),
-        .forward_position_o(forward_position_o), .forward_pixel_o(forward_pixel_o),
-        .lost_o(lost_o), .lost_count_o(lost_count_o)
+        .reference_valid_i(1'd0),
+        .reference_pixel_i(8'd0),
+        .forward_ready_i(forward_ready_i),
+        .reference_ready_o(unused_reference_ready),
+        .store_valid_o(unused_store_valid),
+        .store_pixel_o(unused_store_pixel),
+        .store_last_o(unused_store_last),
+        .underrun_o(unused_underrun),
+        .forward_valid_o(forward_valid_o),
+        .forward_region_o(forward_region_o),
+        .forward_position_o(forward_position_o),
+        .forward_pixel_o(forward_pixel_o),
+        .lost_o(lost_o),
+        .lost_count_o(lost_count_o)
     );
 
 endmodule

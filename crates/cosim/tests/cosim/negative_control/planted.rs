@@ -154,7 +154,7 @@ impl Planted {
                  forward = false\n"
             }
             Self::RasterMoments => {
-                "[frame]\nwidth = 16\nheight = 15\n[region]\nsize = 4\n[denoise]\n\
+                "[frame]\nwidth = 16\nheight = 15\npixel_bits = 16\n[region]\nsize = 4\n[denoise]\n\
                  filter = \"none\"\n[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 2\n\
                  [[spatial]]\nfeature = \"variance\"\n[hardware]\norganization = \"raster\"\n"
             }

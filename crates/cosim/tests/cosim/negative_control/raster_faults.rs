@@ -98,7 +98,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Moments, "raster_sums", "fresh_q ? {SUM_BITS{1'b0}} : row_q", "row_q"),
 
     fault("operator", Moments, "raster_variance", "multiple_q - square_q", "multiple_q + square_q"),
-    fault("constant", Moments, "raster_variance", "FACTOR = PIXELS;", "FACTOR = PIXELS - 1;"),
+    fault("constant", Moments, "raster_variance", "factor * square_sum;", "square_sum;"),
 
     fault("operator", Moments, "raster_pass", "scaled < mean ? mean - scaled : scaled - mean", "scaled - mean"),
     fault("operator", Moments, "raster_pass", "(!reading_q || last);", "!reading_q;"),
