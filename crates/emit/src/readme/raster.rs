@@ -6,7 +6,7 @@ use crate::banner;
 use crate::instance::instance;
 use crate::text::text_of;
 use askama::Template;
-use foveate_design::{Design, RasterMemory, RasterTiming, Reference, Thresholds};
+use foveate_design::{Design, RasterMemory, RasterTiming, Reference, Store, Thresholds};
 
 #[derive(Template)]
 #[template(path = "raster_README.md")]
@@ -49,7 +49,14 @@ struct Readme {
     sink_stall: u32,
     memories: Vec<RasterMemory>,
     memory_bits: u64,
+    /// References of a frame.
+    store_words: u64,
     store_bits: u64,
+    /// Whether they are outside of the core, or in a memory of one port.
+    outside: bool,
+    single_port: bool,
+    /// Whether pixels leave.
+    forwards: bool,
     last_sent: bool,
     store: &'static str,
     lone_width: u32,
@@ -102,7 +109,11 @@ fn view(design: &Design, timing: &RasterTiming) -> Readme {
         buffer_rows: timing.buffer_rows,
         sink_stall: timing.stall_clocks(),
         memory_bits: memories.iter().map(RasterMemory::total_bits).sum(),
-        store_bits: memories[0].total_bits(),
+        store_words: timing.words(),
+        store_bits: timing.words() * u64::from(design.pixels_per_clock() * design.pixel_bits()),
+        outside: design.store() == Store::External,
+        single_port: design.store() == Store::SinglePort,
+        forwards: design.forwards(),
         memories,
         last_sent: design.temporal().reference == Reference::LastSent,
         store: design.store().name(),
