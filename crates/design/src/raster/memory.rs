@@ -73,7 +73,7 @@ impl Sizes {
         let (holds, words) = ("references: the frame store", self.timing.words());
         match design.store() {
             Store::Block | Store::Ultra => {
-                list.push(RasterMemory { holds, words, bits: self.word })
+                list.push(RasterMemory { holds, words, bits: self.word });
             }
             Store::SinglePort => {
                 list.push(RasterMemory { holds, words: words.div_ceil(2), bits: 2 * self.word });
