@@ -61,7 +61,7 @@ impl Field {
         self.set_all(record, pixels.chunks(held).map(word));
     }
 
-    /// Reads every lane, as [`Field::set_words`] has written so many pixels.
+    /// Reads every lane, as `set_words` has written so many pixels.
     pub fn words(&self, record: &[u8], count: usize) -> impl Iterator<Item = u64> {
         let (held, bits) = self.word(count);
         let lanes = (0..self.port.lanes).map(|lane| self.get(record, lane));
