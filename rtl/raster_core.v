@@ -538,6 +538,7 @@ module raster_core #(
                 end
                 assign undecided = settled || waiting != {REGIONS_BITS{1'b0}};
             end else begin : g_decided
+                wire unused_decided = decided;
                 assign undecided = 1'b0;
             end
             assign busy = !idle || active_o || will_be_active || undecided;

@@ -137,7 +137,7 @@ module raster_median #(
     end
 
     wire [(LANES+2)*COLUMN-1:0] merged;
-    wire [3*LANES-1:0] ab, bc, ac;
+    wire [3*LANES-1:0] row_ab, row_bc, row_ac;
 
     generate
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_lane
@@ -181,14 +181,14 @@ module raster_median #(
                 ac_q <= skip_above;
             end
             assign merged = columns_q;
-            assign ab = ab_q;
-            assign bc = bc_q;
-            assign ac = ac_q;
+            assign row_ab = ab_q;
+            assign row_bc = bc_q;
+            assign row_ac = ac_q;
         end else begin : g_merge_plain
             assign merged = columns;
-            assign ab = left_above;
-            assign bc = right_above;
-            assign ac = skip_above;
+            assign row_ab = left_above;
+            assign row_bc = right_above;
+            assign row_ac = skip_above;
         end
 
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_final
@@ -197,11 +197,11 @@ module raster_median #(
             wire [COLUMN-1:0] right = merged[(lane+2)*COLUMN+:COLUMN];
             reg [WIDTH-1:0] x_q, y_q, z_q;
             always @(posedge clk_i) begin
-                x_q <= high_of(ab[3*lane], bc[3*lane], ac[3*lane],
+                x_q <= high_of(row_ab[3*lane], row_bc[3*lane], row_ac[3*lane],
                                left[WIDTH-1:0], center[WIDTH-1:0], right[WIDTH-1:0]);
-                y_q <= mid_of(ab[3*lane+1], bc[3*lane+1], ac[3*lane+1],
+                y_q <= mid_of(row_ab[3*lane+1], row_bc[3*lane+1], row_ac[3*lane+1],
                               left[WIDTH+:WIDTH], center[WIDTH+:WIDTH], right[WIDTH+:WIDTH]);
-                z_q <= low_of(ab[3*lane+2], bc[3*lane+2], ac[3*lane+2],
+                z_q <= low_of(row_ab[3*lane+2], row_bc[3*lane+2], row_ac[3*lane+2],
                               left[2*WIDTH+:WIDTH], center[2*WIDTH+:WIDTH], right[2*WIDTH+:WIDTH]);
             end
             if (DEEP) begin : g_deep
