@@ -24,9 +24,10 @@ struct Entry {
 
 pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
     if let Some(name) = &args.name {
-        // Every key but the frame's size, which simulations take from their input.
-        let mut config = Preset::find(name)?.config()?.validate()?.config().clone();
-        (config.frame.width, config.frame.height) = (None, None);
+        // Every key but the frame's size, unless the preset is for one: simulations take it from their input.
+        let own = Preset::find(name)?.config()?;
+        let mut config = own.validate()?.config().clone();
+        (config.frame.width, config.frame.height) = (own.frame.width, own.frame.height);
         return if args.json { output::json(&config) } else { output::text(&file(name, &config)) };
     }
     let entries: Vec<Entry> = if args.scenes {
