@@ -100,8 +100,7 @@ fn defaults_of_some_depths_by_hand() {
 #[test]
 fn a_file_with_every_key_follows_an_override_of_the_depth() {
     for (name, text) in starts() {
-        let mut every_key = design(&text, &[]).config().clone();
-        (every_key.frame.width, every_key.frame.height) = (None, None);
+        let every_key = design(&text, &[]).config().clone();
         for bits in 1..=16 {
             let bits = format!("frame.pixel_bits={bits}");
             let short = design(&text, &[&bits]);
