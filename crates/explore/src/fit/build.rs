@@ -213,18 +213,16 @@ fn clocks(clock_hz: u64, fps: f64) -> u64 {
 
 /// Ways to build a camera. If regions may share a unit, these are, for each feed, the deepest fold that is
 /// fast enough and its halvings, because fewer units are not always smaller in total. If no fold is fast
-/// enough, these are the organizations with a unit for each region. An organization with one unit for all
-/// regions comes with the fewest pixels per clock that are fast enough.
+/// enough, these are the organizations in which regions do not share a unit.
 fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
     let Bounds { max_clocks, memory } = bounds;
-    let with = |organization: Organization, feed, pixels_per_clock| {
+    let with = |organization: Organization, feed| {
         let mut config = look.clone();
         config.hardware = HardwareConfig {
             organization,
             feed,
             memory: memory.filter(|kind| organization.memories().contains(kind)),
             thresholds: task.hardware.thresholds,
-            pixels_per_clock,
             ..HardwareConfig::default()
         };
         config.validate().ok()
@@ -232,8 +230,7 @@ fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
     let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());
     let mut found = Vec::new();
     let fed = |&organization: &Organization| {
-        let feeds = organization.feeds().iter();
-        feeds.filter_map(move |&feed| with(organization, Some(feed), None))
+        organization.feeds().iter().filter_map(move |&feed| with(organization, Some(feed)))
     };
     for single in folding.into_iter().flat_map(fed) {
         let fold = max_clocks.map_or(Some(single.regions()), |clocks| single.largest_fold(clocks));
@@ -244,42 +241,7 @@ fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
         );
     }
     if found.is_empty() {
-        let each = others.iter().filter_map(|&&organization| with(organization, None, None));
-        found.extend(each.filter(|design| design.unit().count == design.regions()));
+        found.extend(others.into_iter().filter_map(|&organization| with(organization, None)));
     }
-    let is_fast = |design: &Design| {
-        max_clocks.is_none_or(|clocks| design.timing().clocks_per_frame() <= clocks)
-    };
-    found.extend(others.iter().filter_map(|&&organization| {
-        // An organization without words refuses all but the first.
-        let words = [None, Some(2), Some(4)].into_iter();
-        let mut ways = words.filter_map(|pixels| with(organization, None, pixels));
-        ways.find(|design| design.unit().count == 1 && is_fast(design))
-    }));
     found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The raster designs among the ways to build a camera of 64x48 pixels, by their pixels per clock, and whether
-    /// one is pipelined.
-    fn words(max_clocks: u64) -> (Vec<u32>, bool) {
-        let look = Config::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
-        let bounds = Bounds { max_clocks: Some(max_clocks), memory: None };
-        let ways = ways(&look, &look, bounds);
-        let of = |organization| ways.iter().filter(move |d| d.organization() == organization);
-        let words = of(Organization::Raster).map(Design::pixels_per_clock).collect();
-        (words, of(Organization::Pipelined).next().is_some())
-    }
-
-    /// 3,072 pixels take 3,072, 1,536 or 768 clocks, and some more between frames.
-    #[test]
-    fn a_raster_core_has_the_fewest_pixels_per_clock_that_are_fast_enough() {
-        assert_eq!(words(1_000_000), (vec![1], false));
-        assert_eq!(words(3_072), (vec![2], true));
-        assert_eq!(words(1_536), (vec![4], true));
-        assert_eq!(words(64), (vec![], true));
-    }
 }

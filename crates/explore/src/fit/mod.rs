@@ -8,8 +8,8 @@
 //!    of them it tries all pixel bits, windows, filters and references ([`looks`]).
 //! 3. Of the looks that meet the limits, only the simplest are built: a look is dropped if a simpler one
 //!    meets the limits too. Each is built with every feed and with the deepest fold that is fast enough
-//!    and its halvings, or pipelined if no serial array is fast enough; and as a raster core, if one is fast
-//!    enough ([`build`]). The most promising designs are synthesized first ([`rough`]).
+//!    and its halvings, or pipelined if no serial array is fast enough ([`build`]). The most promising
+//!    designs are synthesized first ([`rough`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
 
 mod build;

@@ -23,7 +23,7 @@ const FIGURES: [(&str, &str, &str); 8] = [
 
 /// Name and meaning of every part of the area.
 const AREA: [(&str, &str, &str); 5] = [
-    ("LUT", "unit", "LUTs of one RPU, of one lane of a serial design, or of a raster core"),
+    ("LUT", "unit", "LUTs of one RPU, or of one lane of a serial design"),
     ("LUT", "array", "LUTs of the array, those used as memory included"),
     ("FF", "array", "flip-flops of the array"),
     ("LUTRAM", "array", "LUTs of the array used as memory, two SRL16 in one"),
