@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // FAST 5/8: hit when at least 5 contiguous of the 8 neighbors are all brighter than the center by
-// more than level, or all darker by more than level.
+// more than level, or all darker by more than level. DEEP puts registers before and behind the search for a run.
 `default_nettype none
 
 module corner_detector #(
-    parameter WIDTH = 8  // bits of a pixel
+    parameter WIDTH = 8,  // bits of a pixel
+    parameter DEEP = 0    // 0: hit_o in the clock of its step; 1: two clocks later
 ) (
     input  wire             clk_i,      // clock, rising edge
     input  wire             advance_i,  // the window moves by one column
@@ -20,6 +21,7 @@ module corner_detector #(
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (DEEP != 0 && DEEP != 1) begin : g_deep_range DEEP_must_be_0_or_1 u_refused (); end
     endgenerate
 
     localparam COLUMN = 3 * WIDTH;
@@ -53,6 +55,8 @@ module corner_detector #(
     wire [WIDTH:0] brighter_than = {1'b0, center} + {1'b0, level_i};
     wire [7:0] brighter;
     wire [7:0] darker;
+    wire [7:0] bright;  // brighter and darker, as the runs see them
+    wire [7:0] dark;
     wire [7:0] bright_run;
     wire [7:0] dark_run;
 
@@ -62,14 +66,30 @@ module corner_detector #(
             wire [WIDTH:0] neighbor = {1'b0, ring[i*WIDTH+:WIDTH]};
             assign brighter[i]   = neighbor > brighter_than;
             assign darker[i]     = neighbor + {1'b0, level_i} < {1'b0, center};
-            assign bright_run[i] = brighter[i] && brighter[(i+1)%8] && brighter[(i+2)%8]
-                                   && brighter[(i+3)%8] && brighter[(i+4)%8];
-            assign dark_run[i]   = darker[i] && darker[(i+1)%8] && darker[(i+2)%8]
-                                   && darker[(i+3)%8] && darker[(i+4)%8];
+            assign bright_run[i] = bright[i] && bright[(i+1)%8] && bright[(i+2)%8]
+                                   && bright[(i+3)%8] && bright[(i+4)%8];
+            assign dark_run[i]   = dark[i] && dark[(i+1)%8] && dark[(i+2)%8]
+                                   && dark[(i+3)%8] && dark[(i+4)%8];
+        end
+
+        if (DEEP) begin : g_deep
+            reg [7:0] bright_q;
+            reg [7:0] dark_q;
+            reg hit_q;
+            always @(posedge clk_i) begin
+                bright_q <= brighter;
+                dark_q   <= darker;
+                hit_q    <= |bright_run || |dark_run;
+            end
+            assign bright = bright_q;
+            assign dark   = dark_q;
+            assign hit_o  = hit_q;
+        end else begin : g_plain
+            assign bright = brighter;
+            assign dark   = darker;
+            assign hit_o  = |bright_run || |dark_run;
         end
     endgenerate
-
-    assign hit_o = |bright_run || |dark_run;
 
 endmodule
 

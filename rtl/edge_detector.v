@@ -10,11 +10,14 @@
 //
 // so each is compared with floor(level / 2). What left and center contribute is added up before the
 // right column comes, and every clamp is an operand of one of these adders.
+//
+// DEEP puts registers before and behind the comparison.
 `default_nettype none
 
 module edge_detector #(
     parameter WIDTH = 8,       // bits of a pixel
-    parameter LEVEL_BITS = 11  // bits of the level, at most WIDTH + 3
+    parameter LEVEL_BITS = 11, // bits of the level, at most WIDTH + 3
+    parameter DEEP = 0         // 0: hit_o in the clock of its step; 1: two clocks later
 ) (
     input  wire                  clk_i,      // clock, rising edge
     input  wire                  advance_i,  // the window moves by one column
@@ -33,6 +36,7 @@ module edge_detector #(
         if (LEVEL_BITS < 2 || LEVEL_BITS > WIDTH + 3) begin : g_level_bits
             LEVEL_BITS_must_be_2_to_WIDTH_and_3 u_refused ();
         end
+        if (DEEP != 0 && DEEP != 1) begin : g_deep_range DEEP_must_be_0_or_1 u_refused (); end
     endgenerate
 
     localparam SUM_BITS = WIDTH + 3;  // -3 * (2^WIDTH - 1) .. 3 * (2^WIDTH - 1), signed
@@ -40,7 +44,7 @@ module edge_detector #(
     // Sums of two pixels and their difference, of the incoming column.
     wire [WIDTH:0] upper_pair;
     wire [WIDTH:0] lower_pair;
-    wire [SUM_BITS-1:0] slope = {2'b0, lower_pair} - {2'b0, upper_pair};  // lower - upper
+    wire [SUM_BITS-1:0] slope;  // lower - upper
 
     adder #(.WIDTH(WIDTH + 1)) u_upper_pair (
         .plain_i({1'b0, middle_i}), .other_i({1'b0, upper_i}), .sum_o(upper_pair)
@@ -49,6 +53,15 @@ module edge_detector #(
     adder #(.WIDTH(WIDTH + 1)) u_lower_pair (
         .plain_i({1'b0, middle_i}), .other_i({1'b0, lower_i}), .sum_o(lower_pair)
     );
+
+    // A difference of pairs costs no selection at a border, one of pixels waits for no pair.
+    generate
+        if (DEEP) begin : g_of_pixels
+            assign slope = {3'b0, lower_i} - {3'b0, upper_i};
+        end else begin : g_of_pairs
+            assign slope = {2'b0, lower_pair} - {2'b0, upper_pair};
+        end
+    endgenerate
 
     // What left and center contribute.
     reg  [WIDTH:0] upper_pair_q;
@@ -86,18 +99,43 @@ module edge_detector #(
     wire [WIDTH+1:0] half_level = {{(WIDTH + 3 - LEVEL_BITS) {1'b0}}, level_i[LEVEL_BITS-1:1]};
     wire unused_level_bit = level_i[0];
 
+    wire [SUM_BITS-1:0] compared_sum;
+    wire [SUM_BITS-1:0] compared_diff;
+    wire [   WIDTH+1:0] compared_level;
     wire sum_above;
     wire diff_above;
 
     magnitude_above #(.WIDTH(SUM_BITS)) u_sum_above (
-        .value_i(sum), .level_i(half_level), .above_o(sum_above)
+        .value_i(compared_sum), .level_i(compared_level), .above_o(sum_above)
     );
 
     magnitude_above #(.WIDTH(SUM_BITS)) u_diff_above (
-        .value_i(diff), .level_i(half_level), .above_o(diff_above)
+        .value_i(compared_diff), .level_i(compared_level), .above_o(diff_above)
     );
 
-    assign hit_o = sum_above || diff_above;
+    generate
+        if (DEEP) begin : g_deep
+            reg [SUM_BITS-1:0] compared_sum_q;
+            reg [SUM_BITS-1:0] compared_diff_q;
+            reg [   WIDTH+1:0] compared_level_q;
+            reg hit_q;
+            always @(posedge clk_i) begin
+                compared_sum_q   <= sum;
+                compared_diff_q  <= diff;
+                compared_level_q <= half_level;
+                hit_q            <= sum_above || diff_above;
+            end
+            assign compared_sum   = compared_sum_q;
+            assign compared_diff  = compared_diff_q;
+            assign compared_level = compared_level_q;
+            assign hit_o          = hit_q;
+        end else begin : g_plain
+            assign compared_sum   = sum;
+            assign compared_diff  = diff;
+            assign compared_level = half_level;
+            assign hit_o          = sum_above || diff_above;
+        end
+    endgenerate
 
 endmodule
 

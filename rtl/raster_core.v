@@ -123,7 +123,8 @@ module raster_core #(
     localparam BANKS = MAD ? 3 : 2;
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
     localparam START_BITS = $clog2(BUFFER_WORDS);
-    localparam PLACE_BITS = $clog2(ROW_WORDS * ROWS * SIDE);
+    localparam FRAME_WORDS = ROW_WORDS * ROWS * SIDE;
+    localparam PLACE_BITS = $clog2(FRAME_WORDS);
     localparam EXTERNAL = 3;
 
     // Clocks from one place to another; see docs/raster.md.
@@ -132,6 +133,16 @@ module raster_core #(
     localparam CENTER_CLOCKS = MEDIAN_CLOCKS + (HITS > 0 ? COLUMN_CLOCKS : 0);  // ... to the center of the last window
     localparam STORE_CLOCKS = 2 + DEEP;                                // from there to the stores
     localparam HIT_CLOCKS = 4 + DEEP;                                  // ... to the hits
+
+    // A large store is made of groups of banks if it has to be fast. References come in order, so that they can be asked
+    // for as early as it takes them to pass the groups: at the earliest when their word reaches the tail.
+    localparam BANK_BITS = 14;
+    localparam STORE_BANKS = (FRAME_WORDS + (1 << BANK_BITS) - 1) >> BANK_BITS;
+    localparam IN_GROUPS = DEEP && STORE == 0 && !LAST_SENT && STORE_BANKS > 1 && CENTER_CLOCKS > 1;
+    localparam MOST_GROUPS = IN_GROUPS ? CENTER_CLOCKS - 1 : 1;
+    localparam LEAST_GROUP_BITS = $clog2((STORE_BANKS + MOST_GROUPS - 1) / MOST_GROUPS);
+    localparam GROUP_BITS = LEAST_GROUP_BITS > 2 ? LEAST_GROUP_BITS : 2;
+    localparam GROUPS = IN_GROUPS ? (STORE_BANKS + (1 << GROUP_BITS) - 1) >> GROUP_BITS : 0;
 
     // ---- When and where
     wire advance, pad, taken_end, repeated, in_tail;
@@ -316,8 +327,8 @@ module raster_core #(
     wire [PLACE_BITS-1:0] reference_place;
 
     wire reference_read;
-    raster_pulse #(.DEPTH(1)) u_reference_read (
-        .clk_i(clk_i), .rst_i(rst_i), .bit_i(center_step), .bit_o(reference_read)
+    raster_pulse #(.DEPTH(IN_GROUPS ? CENTER_CLOCKS - 1 - GROUPS : 1)) u_reference_read (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(IN_GROUPS ? tail : center_step), .bit_o(reference_read)
     );
     generate
         if (STORE == EXTERNAL) begin : g_external
@@ -338,8 +349,8 @@ module raster_core #(
             assign {reference_ready_o, store_valid_o, store_last_o, underrun_o} = 4'd0;
             assign store_pixel_o = {WORD{1'b0}};
             raster_store #(
-                .WORD_BITS(WORD), .WORDS(ROW_WORDS * ROWS * SIDE), .ADDRESS_BITS(PLACE_BITS), .KIND(STORE),
-                .RANDOM(LAST_SENT), .DEEP(DEEP)
+                .WORD_BITS(WORD), .WORDS(FRAME_WORDS), .ADDRESS_BITS(PLACE_BITS), .KIND(STORE), .RANDOM(LAST_SENT),
+                .DEEP(DEEP), .BANK_BITS(BANK_BITS), .GROUP_BITS(GROUP_BITS), .GROUPS(GROUPS)
             ) u_store (
                 .clk_i(clk_i), .rst_i(rst_i), .read_i(reference_read), .reference_o(reference),
                 .write_i(LAST_SENT ? reference_write : store_step), .place_i(reference_place),
@@ -498,7 +509,7 @@ module raster_core #(
 
             raster_forward #(
                 .WORD_BITS(WORD), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
-                .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .RAW(RAW), .LAST_SENT(LAST_SENT),
+                .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .RAW(RAW), .LAST_SENT(LAST_SENT), .DEEP(DEEP),
                 .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS), .START_BITS(START_BITS),
                 .PLACE_BITS(PLACE_BITS)
             ) u_forward (

@@ -14,6 +14,7 @@ module raster_forward #(
     parameter BANKS = 2,           // rows of regions in the buffer, 2 or 3
     parameter RAW = 0,             // 1: raw pixels leave; 0: what was scored
     parameter LAST_SENT = 0,       // 1: the reference is what was last sent
+    parameter DEEP = 0,            // 1: one more register behind the queue of regions
     parameter POSITION_BITS = 6,   // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 15,    // ceil(log2(COLUMNS * ROWS))
     parameter START_BITS = 15,     // ceil(log2(BANKS * SIDE * ROW_WORDS))
@@ -87,7 +88,7 @@ module raster_forward #(
     raster_readout #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
         .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .EXTRA_BITS(EXTRA_BITS),
-        .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS)
+        .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
     ) u_readout (
         .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i), .row_i(decided_row), .region_i(region_i),
         .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .ready_i(ready_i),

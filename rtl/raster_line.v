@@ -19,29 +19,24 @@ module raster_line #(
         if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
     endgenerate
 
-    localparam BEFORE_LAST = ROW_WORDS - 2;
-
-    reg [ADDRESS_BITS-1:0] place_q, old_place_q;
-    reg at_end_q, step_q;
+    wire [ADDRESS_BITS-1:0] place;
+    reg [ADDRESS_BITS-1:0] old_place_q;
+    reg step_q;
     reg [WORD_BITS-1:0] word_q;
+
+    raster_ring #(.WORDS(ROW_WORDS), .PLACE_BITS(ADDRESS_BITS)) u_place (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .place_o(place)
+    );
 
     always @(posedge clk_i) begin
         step_q      <= step_i && !rst_i;
         word_q      <= word_i;
-        old_place_q <= place_q;
-        if (step_i) begin
-            place_q  <= at_end_q ? {ADDRESS_BITS{1'b0}} : place_q + 1'b1;
-            at_end_q <= place_q == BEFORE_LAST[ADDRESS_BITS-1:0];
-        end
-        if (rst_i) begin
-            place_q  <= {ADDRESS_BITS{1'b0}};
-            at_end_q <= 1'b0;
-        end
+        old_place_q <= place;
     end
 
     raster_memory #(.WIDTH(WORD_BITS), .WORDS(ROW_WORDS), .ADDRESS_BITS(ADDRESS_BITS)) u_words (
         .clk_i(clk_i), .write_i(step_q), .write_address_i(old_place_q), .data_i(word_q),
-        .read_i(step_i), .read_address_i(place_q), .data_o(word_o)
+        .read_i(step_i), .read_address_i(place), .data_o(word_o)
     );
 
 endmodule

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The place in the buffer of the word that is stored next: round and round.
+// The place of the next word in a memory whose words are taken in turn, round and round.
 `default_nettype none
 
 module raster_ring #(
-    parameter WORDS = 30720,   // words of the buffer, at least 2
+    parameter WORDS = 30720,   // words of the memory, at least 2
     parameter PLACE_BITS = 15  // ceil(log2(WORDS))
 ) (
     input  wire                  clk_i,   // clock, rising edge
     input  wire                  rst_i,   // synchronous reset, active high
-    input  wire                  step_i,  // a word is stored at this edge
+    input  wire                  step_i,  // a word is taken at this edge
     output reg  [PLACE_BITS-1:0] place_o  // its place
 );
 

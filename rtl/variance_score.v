@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// pixels * (sum of squares) - (sum)^2, which is pixels^2 times the variance.
+// pixels * (sum of squares) - (sum)^2, which is pixels^2 times the variance. DEEP puts a register
+// between the products and their difference.
 `default_nettype none
 
 module variance_score #(
@@ -7,7 +8,8 @@ module variance_score #(
     parameter SUM_BITS = 14,         // bits of the sum
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares
     parameter PRODUCT_BITS = 28,     // bits of pixels * (sum of squares)
-    parameter SCORE_BITS = 26        // bits of the score
+    parameter SCORE_BITS = 26,       // bits of the score
+    parameter DEEP = 0               // 0: score_o after the edge that ends done_i; 1: an edge later
 ) (
     input  wire                       clk_i,         // clock, rising edge
     input  wire                       rst_i,         // synchronous reset, active high
@@ -28,21 +30,44 @@ module variance_score #(
         if (SCORE_BITS < 1 || SCORE_BITS > PRODUCT_BITS) begin : g_score_bits
             SCORE_BITS_must_be_1_to_PRODUCT_BITS u_refused ();
         end
+        if (DEEP != 0 && DEEP != 1) begin : g_deep_range DEEP_must_be_0_or_1 u_refused (); end
     endgenerate
 
     localparam [PRODUCT_BITS-1:0] FACTOR = PIXELS;
 
     wire [PRODUCT_BITS-1:0] sum = {{(PRODUCT_BITS - SUM_BITS) {1'b0}}, sum_i};
-    wire [PRODUCT_BITS-1:0] square_sum =
-        {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_i};
+    wire load;
+    wire [PRODUCT_BITS-1:0] larger;
+    wire [PRODUCT_BITS-1:0] smaller;
     // The difference is smaller than either product.
     /* verilator lint_off UNUSEDSIGNAL */
-    wire [PRODUCT_BITS-1:0] score = FACTOR * square_sum - sum * sum;
+    wire [PRODUCT_BITS-1:0] score = larger - smaller;
     /* verilator lint_on UNUSEDSIGNAL */
+
+    generate
+        if (DEEP) begin : g_deep
+            reg load_q;
+            reg [SQUARE_SUM_BITS-1:0] square_sum_q;
+            reg [   PRODUCT_BITS-1:0] smaller_q;
+            always @(posedge clk_i) begin
+                load_q       <= done_i && !rst_i;
+                square_sum_q <= square_sum_i;
+                smaller_q    <= sum * sum;
+            end
+            assign load    = load_q;
+            assign larger  = FACTOR * {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_q};
+            assign smaller = smaller_q;
+        end else begin : g_plain
+            wire [PRODUCT_BITS-1:0] square_sum = {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_i};
+            assign load    = done_i;
+            assign larger  = FACTOR * square_sum;
+            assign smaller = sum * sum;
+        end
+    endgenerate
 
     always @(posedge clk_i) begin
         if (rst_i) score_o <= {SCORE_BITS{1'b0}};
-        else if (done_i) score_o <= score[SCORE_BITS-1:0];
+        else if (load) score_o <= score[SCORE_BITS-1:0];
     end
 
 endmodule

@@ -20,6 +20,7 @@ SOURCES = pathlib.Path(__file__).resolve().parent.parent
 DEVICE = "ecp5-85k"
 FEATURES = ["edge", "corner", "mad", "variance"]
 MEDIAN = "denoise.filter='median3x3'"
+DEEP = "hardware.pipelining='deep'"
 RASTER = ["hardware.organization='raster'", "hardware.pixels_per_clock=1"]
 # One lane for four regions of sixteen.
 SERIAL = ["hardware.fold=4", "frame={width=32,height=32}"]
@@ -31,6 +32,8 @@ def designs():
         spatial = f"spatial=[{{feature='{feature}'}}]"
         yield f"pipelined {feature}", "bare", [spatial], "rpu"
         yield f"pipelined {feature} median", "bare", [spatial, MEDIAN], "rpu"
+        yield f"pipelined {feature} deep", "bare", [spatial, DEEP], "rpu"
+        yield f"pipelined {feature} median deep", "bare", [spatial, MEDIAN, DEEP], "rpu"
     for feature in FEATURES:
         yield f"serial {feature}", "serial", [f"spatial=[{{feature='{feature}'}}]", *SERIAL], "rcm"
     for feature in FEATURES:

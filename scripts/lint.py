@@ -50,6 +50,8 @@ def matrix():
                 f"render={{payload='{pick((index + 1) % 3, 'denoised', 'raw')}',"
                 f"irrelevant='{pick(index % 3, 'zero', 'hold')}'}}",
                 f"hardware.thresholds='{pick((index + 2) % 3, 'runtime', 'constant')}'",
+                # Every pair of the other choices occurs both plain and deep.
+                f"hardware.pipelining='{'deep' if (index + choice.bit_count()) % 2 else 'plain'}'",
             ]
 
 

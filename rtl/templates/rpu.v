@@ -47,17 +47,34 @@ module rpu (
         .upper_o(raw_upper), .middle_o(raw_middle), .lower_o(raw_lower), .center_o(raw_center)
     );
 
+    {%- if deep %}
+
+    // The column before the incoming one is the center's: whether it is the first of its row.
+    reg raw_center_left_q;
+    always @(posedge clk_i) if (raw_advance) raw_center_left_q <= raw_left;
+
+    raster_median #(.WIDTH({= p =}), .LANES(1), .DEEP(0)) u_median (
+        .clk_i(clk_i), .step_i(raw_advance), .left_i(raw_center_left_q), .right_i(raw_right),
+        .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower), .median_o(denoised_pixel)
+    );
+
+    raster_pulse #(.DEPTH({= median_registers =})) u_denoised_valid (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(raw_step), .bit_o(denoised_valid)
+    );
+    {%- else %}
+
     median3x3 #(.WIDTH({= p =})) u_median (
         .clk_i(clk_i), .rst_i(rst_i), .advance_i(raw_advance), .step_i(raw_step),
         .left_i(raw_left), .right_i(raw_right),
         .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower),
         .valid_o(denoised_valid), .median_o(denoised_pixel)
     );
+    {%- endif %}
     {%- if keeps_raw %}
 
     // The raw center keeps step with the median.
     wire [{= p - 1 =}:0] denoised_raw;
-    line_delay #(.WIDTH({= p =}), .DEPTH(2)) u_denoised_raw (
+    line_delay #(.WIDTH({= p =}), .DEPTH({= median_registers =})) u_denoised_raw (
         .clk_i(clk_i), .advance_i(1'b1), .data_i(raw_center), .data_o(denoised_raw)
     );
     {%- else %}
@@ -122,7 +139,7 @@ module rpu (
 {%- for feature in windowed %}
 
     wire {= feature.name =}_hit;
-    {= feature.name =}_detector #(.WIDTH({= p =}){= feature.parameters =}) u_{= feature.name =} (
+    {= feature.name =}_detector #(.WIDTH({= p =}){= feature.parameters =}{% if deep %}, .DEEP(1){% endif %}) u_{= feature.name =} (
         .clk_i(clk_i), .advance_i(window_advance), .left_i(window_left), .right_i(window_right),
         .upper_i(window_upper), .middle_i(window_middle), .lower_i(window_lower),
         .level_i({= feature.level =}), .hit_o({= feature.name =}_hit)
@@ -130,7 +147,7 @@ module rpu (
 {%- endfor %}
 {%- if sums %}
 
-    // Sums of the region, complete a clock before the tail.
+    // Sums of the region, complete before the tail.
     wire sum_done;
     wire [{= sum_bits - 1 =}:0] pixel_sum;
     region_sum #(.WIDTH({= p =}), .SUM_BITS({= sum_bits =})) u_pixel_sum (
@@ -140,16 +157,18 @@ module rpu (
 {%- endif %}
 {%- if tail_delay %}
 
-    // The tail runs a clock behind, so that every score is final at once.
+    // {% if deep %}The tail begins with registers.{% else %}The tail runs a clock behind, so that every score is final at once.{% endif %}
     reg tail_step, tail_last;
     reg [{= address_bits - 1 =}:0] tail_address = {= address_bits =}'d0;  // initial value: keeps it out of the store's port
     reg [{= p - 1 =}:0] tail_pixel;
     {%- if keeps_raw %}
     reg [{= p - 1 =}:0] tail_raw;
     {%- endif %}
+    {%- if !deep %}
     {%- for feature in windowed %}
     reg tail_{= feature.name =}_hit;
     {%- endfor %}
+    {%- endif %}
     always @(posedge clk_i) begin
         tail_step <= front_step && !rst_i;
         tail_last <= front_last;
@@ -158,9 +177,11 @@ module rpu (
         {%- if keeps_raw %}
         tail_raw <= front_raw;
         {%- endif %}
+        {%- if !deep %}
         {%- for feature in windowed %}
         tail_{= feature.name =}_hit <= {= feature.name =}_hit;
         {%- endfor %}
+        {%- endif %}
     end
 {%- else %}
 
@@ -175,10 +196,19 @@ module rpu (
     wire tail_{= feature.name =}_hit = {= feature.name =}_hit;
     {%- endfor %}
 {%- endif %}
+{%- if deep %}
+
+    // The store is read and written in one clock; pixels are compared and counted in the next.
+    reg count_step, count_last;
+    always @(posedge clk_i) begin
+        count_step <= tail_step && !rst_i;
+        count_last <= tail_last;
+    end
+{%- endif %}
 
     wire done, stored, second;
     frame_progress u_progress (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .last_i(tail_last),
+        .clk_i(clk_i), .rst_i(rst_i), .step_i({= count =}_step), .last_i({= count =}_last),
         .done_o(done), .stored_o(stored), .second_o(second)
     );
     wire decided = {% if second_pass %}done && second{% else %}done{% endif %};
@@ -213,22 +243,39 @@ module rpu (
 {%- if last_sent %}
     wire [{= p - 1 =}:0] sent_pixel;
     wire sent_valid;
+    {%- if deep %}
+    deep_last_sent #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =}), .BLANKS({= blanks =})) u_last_sent (
+        .clk_i(clk_i), .rst_i(rst_i), .address_i(tail_address), .pixel_i({= decided_pixel =}), .sent_o(sent_pixel),
+        .step_i(count_step), .decided_i(decided), .srs_i(srs), .forward_i(forward), .valid_o(sent_valid)
+    );
+    {%- else %}
     last_sent #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =}), .BLANKS({= blanks =})) u_last_sent (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .address_i(tail_address), .decided_i(decided),
         .srs_i(srs), .forward_i(forward), .pixel_i({= decided_pixel =}),
         .reference_o(sent_pixel), .valid_o(sent_valid)
     );
+    {%- endif %}
 {%- endif %}
-{%- for reference in references %}
-    wire {= reference.name =}_changed;
-    change_detector #(.WIDTH({= p =})) u_{= reference.name =}_change (
-        .pixel_i(tail_pixel), .reference_i({= reference.name =}_pixel), .level_i({= temporal_level =}),
-        .hit_o({= reference.name =}_changed)
+{%- for name in compared %}
+    wire {= name =}_changed;
+    {%- if deep %}
+    reg [{= p =}:0] {= name =}_difference;
+    always @(posedge clk_i) {= name =}_difference <= {1'b0, tail_pixel} - {1'b0, {= name =}_pixel};
+    magnitude_above #(.WIDTH({= p + 1 =})) u_{= name =}_change (
+        .value_i({= name =}_difference), .level_i({= temporal_level =}), .above_o({= name =}_changed)
     );
+    {%- else %}
+    change_detector #(.WIDTH({= p =})) u_{= name =}_change (
+        .pixel_i(tail_pixel), .reference_i({= name =}_pixel), .level_i({= temporal_level =}),
+        .hit_o({= name =}_changed)
+    );
+    {%- endif %}
+{%- endfor %}
+{%- for reference in references %}
     wire [{= count_bits - 1 =}:0] {= reference.name =}_count;
     hit_counter #(.WIDTH({= count_bits =})) u_{= reference.name =}_count (
         .clk_i(clk_i), .rst_i(rst_i), .restart_i(done),
-        .hit_i(tail_step && ({= reference.missing =}{= reference.name =}_changed)), .count_o({= reference.name =}_count)
+        .hit_i({= count =}_step && ({= reference.hit =})), .count_o({= reference.name =}_count)
     );
 {%- endfor %}
 {%- if references.len() > 1 %}
@@ -245,7 +292,7 @@ module rpu (
 {%- for feature in windowed %}
     wire [{= count_bits - 1 =}:0] {= feature.name =}_score;
     hit_counter #(.WIDTH({= count_bits =})) u_{= feature.name =}_count (
-        .clk_i(clk_i), .rst_i(rst_i), .restart_i(done), .hit_i(tail_step && tail_{= feature.name =}_hit),
+        .clk_i(clk_i), .rst_i(rst_i), .restart_i(done), .hit_i({= count =}_step && {% if !deep %}tail_{% endif %}{= feature.name =}_hit),
         .count_o({= feature.name =}_score)
     );
 {%- endfor %}
@@ -260,7 +307,7 @@ module rpu (
     wire [{= variance.score_bits - 1 =}:0] variance_score;
     variance_score #(
         .PIXELS({= pixels =}), .SUM_BITS({= sum_bits =}), .SQUARE_SUM_BITS({= variance.square_sum_bits =}),
-        .PRODUCT_BITS({= variance.product_bits =}), .SCORE_BITS({= variance.score_bits =})
+        .PRODUCT_BITS({= variance.product_bits =}), .SCORE_BITS({= variance.score_bits =}){% if deep %}, .DEEP(1){% endif %}
     ) u_variance (
         .clk_i(clk_i), .rst_i(rst_i), .done_i(square_done), .sum_i(pixel_sum), .square_sum_i(square_sum),
         .score_o(variance_score)
@@ -280,9 +327,9 @@ module rpu (
     );
     wire [{= mad.score_bits - 1 =}:0] mad_score;
     deviation_sum #(
-        .WIDTH({= p =}), .FRACTION({= mad.fraction =}), .MEAN_BITS({= mad.mean_bits =}), .SUM_BITS({= mad.score_bits =})
+        .WIDTH({= p =}), .FRACTION({= mad.fraction =}), .MEAN_BITS({= mad.mean_bits =}), .SUM_BITS({= mad.score_bits =}){% if deep %}, .DEEP(1){% endif %}
     ) u_deviation (
-        .clk_i(clk_i), .rst_i(rst_i), .enable_i(stored), .restart_i(done), .step_i(tail_step),
+        .clk_i(clk_i), .rst_i(rst_i), .enable_i(stored), .restart_i(done), .step_i({= count =}_step),
         .pixel_i(previous_pixel), .mean_i(mean), .sum_o(mad_score)
     );
 {%- endif %}
@@ -309,8 +356,12 @@ module rpu (
     assign srs_o = srs;
 
     // Forward.
+    {%- if deep %}
+    reg [{= p - 1 =}:0] leaving_pixel;
+    always @(posedge clk_i) leaving_pixel <= {= forward_pixel =};
+    {%- endif %}
     forward_gate #(.WIDTH({= p =})) u_forward (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .forward_i(forward), .pixel_i({= forward_pixel =}),
+        .clk_i(clk_i), .rst_i(rst_i), .step_i({= count =}_step), .forward_i(forward), .pixel_i({% if deep %}leaving_pixel{% else %}{= forward_pixel =}{% endif %}),
         .valid_o(forward_valid_o), .pixel_o(forward_pixel_o)
     );
 {%- for name in unused %}

@@ -20,8 +20,8 @@ pub(crate) struct Core<Y: Types> {
     pub(crate) plan: Plan,
     median: Option<MedianStage<Y::Pixel>>,
     feature: Option<WindowStage<Y::Pixel>>,
-    /// The last step of the windows, and with a delayed tail the one before it.
-    steps: [Step<Y::Pixel>; 2],
+    /// The steps of the windows, the newest first, up to the one that enters the tail.
+    steps: Vec<Step<Y::Pixel>>,
     pub(crate) tail: Tail<Y>,
     /// What is on the pixel ports.
     incoming: Row<Y::Pixel>,
@@ -52,7 +52,7 @@ impl<Y: Types> Core<Y> {
         Self {
             median: plan.denoises.then(|| MedianStage::new(&plan)),
             feature: plan.feature_window.then(window),
-            steps: [step(), step()],
+            steps: (0..=plan.tail_delay).map(|_| step()).collect(),
             tail: Tail::new(&plan),
             incoming: row(plan.lanes),
             plan,
@@ -75,17 +75,13 @@ impl<Y: Types> Core<Y> {
     fn advance(&mut self, valid: bool, thresholds: &Thresholds) {
         let Self { plan, median, feature, steps, tail, incoming } = self;
         let pixels = valid.then(|| Pixels { scored: incoming.blocks(), raw: None });
-        if plan.delayed_tail {
-            steps.swap(0, 1);
-        }
-        let [step, delayed] = steps;
+        steps.rotate_right(1);
         let denoised = match &median {
             Some(median) => median.leaving(),
             None => pixels,
         };
-        step.take(plan, feature.as_mut(), denoised, thresholds);
-        let taken = if plan.delayed_tail { delayed } else { step };
-        tail.step(plan, taken.shown(), thresholds);
+        steps[0].take(plan, feature.as_mut(), denoised, thresholds);
+        tail.step(plan, steps[plan.tail_delay].shown(), thresholds);
         // Last, because what has just left is in the register that it writes.
         if let Some(median) = median {
             median.step(pixels);

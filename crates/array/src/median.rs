@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The median window of every RPU, with its two registers.
+//! The median window of every RPU, with its registers.
 //!
-//! A window that has stepped does not change any more, so its median is taken at once and waits in both
+//! A window that has stepped does not change any more, so its median is taken at once and waits in all
 //! registers, where the hardware takes it between them.
 
 use foveate_lanes::Lane;
@@ -15,8 +15,8 @@ use crate::window::{Pixels, WindowStage};
 #[derive(Clone, Debug)]
 pub(crate) struct MedianStage<T: Lane> {
     window: WindowStage<T>,
-    /// The window register and the result register.
-    registers: [Register<T>; 2],
+    /// The newest first.
+    registers: Vec<Register<T>>,
 }
 
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ impl<T: Lane> MedianStage<T> {
         };
         Self {
             window: WindowStage::new(plan, plan.stream_side, false, None),
-            registers: [register(), register()],
+            registers: (0..plan.median_registers).map(|_| register()).collect(),
         }
     }
 
@@ -46,7 +46,7 @@ impl<T: Lane> MedianStage<T> {
 
     /// What the next stage takes at this edge, before [`MedianStage::step`].
     pub(crate) fn leaving(&self) -> Option<Pixels<'_, T>> {
-        let [_, result] = &self.registers;
+        let result = self.registers.last().expect("a median has registers");
         let raw = result.raw.as_ref().map(|raw| raw.blocks());
         result.valid.then(|| Pixels { scored: result.scored.blocks(), raw })
     }
@@ -55,8 +55,8 @@ impl<T: Lane> MedianStage<T> {
     #[inline(always)]
     pub(crate) fn step(&mut self, pixels: Option<Pixels<'_, T>>) {
         let Self { window, registers } = self;
-        registers.swap(0, 1);
-        let [stepped, _] = registers;
+        registers.rotate_right(1);
+        let stepped = &mut registers[0];
         let center = window.step(pixels);
         stepped.valid = center.is_some();
         if let Some(center) = center {

@@ -2,8 +2,8 @@
 //! What the blocks of an array need to know of the design, taken from it once.
 
 use foveate_design::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
-    Thresholds as Source,
+    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, PipelinedTiming,
+    Reference, Thresholds as Source,
 };
 use foveate_model::Thresholds;
 
@@ -24,8 +24,10 @@ pub(crate) struct Plan {
     pub(crate) needs_border: bool,
     /// Whether raw pixels travel beside denoised ones.
     pub(crate) keeps_raw: bool,
-    /// Whether a register stands in front of the tail.
-    pub(crate) delayed_tail: bool,
+    /// Registers between the median window and the next stage.
+    pub(crate) median_registers: usize,
+    /// Registers in front of the tail.
+    pub(crate) tail_delay: usize,
     /// In the order of the design.
     pub(crate) features: Vec<FeatureKind>,
     pub(crate) fraction_bits: u32,
@@ -40,6 +42,7 @@ pub(crate) struct Plan {
 impl Plan {
     pub(crate) fn of(design: &Design) -> Self {
         let features: Vec<_> = design.features().iter().map(|feature| feature.kind()).collect();
+        let timing = PipelinedTiming::of(design);
         let mean = design.features().iter().find_map(|feature| feature.mean());
         Self {
             lanes: index(design.regions()),
@@ -51,7 +54,8 @@ impl Plan {
             feature_window: design.has_feature_window(),
             needs_border: design.needs_border(),
             keeps_raw: design.filter() != Filter::None && design.payload() == Payload::Raw,
-            delayed_tail: features.iter().any(|kind| kind.score_latency() > 1),
+            median_registers: index(timing.median_registers),
+            tail_delay: index(timing.tail_delay),
             features,
             fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
             second_pass: design.has_second_pass(),

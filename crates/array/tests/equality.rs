@@ -4,8 +4,8 @@
 
 use foveate_array::PipelinedArray;
 use foveate_design::{
-    Combine, Config, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
-    SpatialConfig, Thresholds as Source,
+    Combine, Config, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Pipelining,
+    Reference, SpatialConfig, Thresholds as Source,
 };
 use foveate_lanes::Level;
 use foveate_model::{PipelinedRcm, RpuOutput, Thresholds};
@@ -105,6 +105,7 @@ fn designs() -> impl Strategy<Value = Design> {
         select(vec![Payload::Denoised, Payload::Raw]),
         select(vec![Combine::Any, Combine::All]),
         select(vec![Source::Runtime, Source::Constant]),
+        select(Pipelining::ALL),
     );
     let sizes =
         (select(vec![2u32, 3, 4, 5, 8, 16]), select(vec![1u32, 4, 8, 10, 16]), 1u32..=3, 1u32..=3);
@@ -129,6 +130,7 @@ fn designs() -> impl Strategy<Value = Design> {
             (config.temporal.reference, config.render.irrelevant) = (modes.2, modes.3);
             (config.render.payload, config.decision.combine) = (modes.4, modes.5);
             config.hardware.thresholds = modes.6;
+            config.hardware.pipelining = Some(modes.7);
             config
         })
         .prop_filter_map("a valid design", |config| config.validate().ok())

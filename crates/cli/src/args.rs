@@ -233,9 +233,10 @@ pub(crate) struct EstimateArgs {
     /// What to place: one RPU (of `serial` and `raster`: the smallest array), or the whole array
     #[arg(long, value_enum, default_value_t = Level::Rpu, requires = "place_and_route")]
     pub(crate) level: Level,
-    /// Assumed clock in MHz for the frame rates of --compare; the hardware may be slower
-    #[arg(long, value_name = "MHZ", default_value_t = 250, value_parser = at_least_one(), requires = "compare")]
-    pub(crate) clock: u32,
+    /// The clock in MHz that the design runs at, for frame rates; without it they are those at the clock that is
+    /// estimated from the netlist
+    #[arg(long, value_name = "MHZ", value_parser = at_least_one(), conflicts_with = "place_and_route")]
+    pub(crate) clock: Option<u32>,
     /// Print JSON
     #[arg(long, conflicts_with = "markdown")]
     pub(crate) json: bool,

@@ -155,10 +155,10 @@ choice! {
     }
 }
 choice! {
-    /// How finely the arithmetic of the raster organization is cut by registers.
+    /// How finely the arithmetic of the pipelined and of the raster organization is cut by registers.
     #[derive(Default)]
     Pipelining {
-        /// A register after each step of arithmetic.
+        /// As few registers as the organization needs.
         #[default]
         Plain = "plain",
         /// More registers, for faster clocks.

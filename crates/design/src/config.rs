@@ -228,10 +228,11 @@ pub struct HardwareConfig {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryKind>,
     /// Pixels that the raster organization takes at a clock, K: 1, 2 or 4; left out it is 1. Only a raster
-    /// design has it, as the three below.
+    /// design has it, as `store` and `forward`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixels_per_clock: Option<u32>,
-    /// How finely the arithmetic of the raster organization is cut by registers; left out it is `plain`.
+    /// How finely the arithmetic of the pipelined and the raster organization is cut by registers; left out it
+    /// is `plain`. A pipelined design has it only where it is `deep`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pipelining: Option<Pipelining>,
     /// Where the frame store of the raster organization is, and of what it is built; left out it is `block`.

@@ -68,7 +68,7 @@ impl FeatureKind {
         }
     }
 
-    /// Clocks of a pipelined RPU from the step of the last pixel until the score is final.
+    /// Clocks of a plain pipelined RPU from the step of the last pixel until the score is final.
     #[must_use]
     pub fn score_latency(self) -> u32 {
         match self {

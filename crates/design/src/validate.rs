@@ -149,7 +149,6 @@ impl HardwareConfig {
     pub(crate) fn refuse_raster_keys(&self) -> Result<(), DesignError> {
         let given = [
             ("hardware.pixels_per_clock", self.pixels_per_clock.map(|pixels| pixels.to_string())),
-            ("hardware.pipelining", self.pipelining.map(|pipelining| format!("\"{pipelining}\""))),
             ("hardware.store", self.store.map(|store| format!("\"{store}\""))),
             ("hardware.forward", self.forward.map(|forward| forward.to_string())),
         ];
@@ -160,6 +159,13 @@ impl HardwareConfig {
                 Err(self.clash(key, value, remedy))
             }
         }
+    }
+
+    /// Refuses the key that only the serial organization lacks.
+    pub(crate) fn refuse_pipelining(&self) -> Result<(), DesignError> {
+        let Some(pipelining) = self.pipelining else { return Ok(()) };
+        let remedy = "only the pipelined and the raster organization have it; leave the key out";
+        Err(self.clash("hardware.pipelining", format!("\"{pipelining}\""), remedy))
     }
 
     /// The error for a `key` whose value the organization does not take.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
-use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Reference};
+use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining, Reference};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,7 @@ leaves! {
     "frame_progress" => [],
     "frame_store" => [],
     "last_sent" => ["frame_store"],
+    "deep_last_sent" => [],
     "change_detector" => ["magnitude_above"],
     "hit_counter" => [],
     "candidate_count" => [],
@@ -66,19 +67,20 @@ leaves! {
     "raster_memory" => [],
     "raster_delay" => [],
     "raster_pulse" => [],
+    "raster_ring" => [],
     "raster_pad" => [],
     "raster_control" => [],
     "raster_window" => ["raster_memory"],
-    "raster_line" => ["raster_memory"],
-    "raster_median" => [],
+    "raster_line" => ["raster_memory", "raster_ring"],
+    "raster_median" => ["raster_delay"],
     "raster_edge" => ["adder", "magnitude_above"],
     "raster_corner" => [],
     "raster_change" => ["magnitude_above"],
-    "raster_counts" => ["raster_memory"],
-    "raster_pairs" => [],
-    "raster_store" => ["raster_memory", "raster_pairs", "raster_delay"],
+    "raster_counts" => ["raster_memory", "raster_delay", "raster_pulse"],
+    "raster_pairs" => ["raster_ring", "raster_delay", "raster_pulse"],
+    "raster_banks" => ["raster_memory", "raster_delay", "raster_pulse"],
+    "raster_store" => ["raster_memory", "raster_ring", "raster_pairs", "raster_banks"],
     "raster_external" => ["raster_delay"],
-    "raster_ring" => [],
     "raster_start" => [],
     "raster_valid" => ["raster_delay"],
     "raster_walk" => [],
@@ -116,15 +118,8 @@ pub(crate) fn with_parts(mut names: Vec<&'static str>) -> impl Iterator<Item = &
 
 /// The leaves that a pipelined `rpu.v` instantiates itself.
 pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
-    let mut names = vec![
-        "frame_progress",
-        "frame_store",
-        "change_detector",
-        "hit_counter",
-        "vote",
-        "decision",
-        "forward_gate",
-    ];
+    let mut names =
+        vec!["frame_progress", "frame_store", "hit_counter", "vote", "decision", "forward_gate"];
     let mut need = |condition: bool, leaves: &[&'static str]| {
         if condition {
             names.extend(leaves);
@@ -132,7 +127,10 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
     };
     let denoise = design.filter() != Filter::None;
     let window = design.has_feature_window();
-    need(denoise, &["median3x3"]);
+    let deep = design.pipelining() == Pipelining::Deep;
+    need(true, &[if deep { "magnitude_above" } else { "change_detector" }]);
+    need(denoise && !deep, &["median3x3"]);
+    need(denoise && deep, &["raster_median", "raster_pulse"]);
     need(design.keeps_raw(), &["line_delay"]);
     if denoise || window {
         need(true, &["window_column"]);
@@ -153,7 +151,7 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
         }
     }
     let last_sent = design.temporal().reference == Reference::LastSent;
-    need(last_sent, &["last_sent"]);
+    need(last_sent, &[if deep { "deep_last_sent" } else { "last_sent" }]);
     need(last_sent && design.has_second_pass(), &["candidate_count"]);
     names
 }

@@ -32,6 +32,7 @@ struct Readme {
     filter: &'static str,
     stream_side: u32,
     stream_pixels: u32,
+    clocks: u64,
     halo: u32,
     latency: String,
     forward: &'static str,
@@ -78,7 +79,6 @@ struct SerialReadme {
     longest_pause: u32,
     empty: u32,
     stream_pixels: u32,
-    rate: String,
     runtime: bool,
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
@@ -148,22 +148,11 @@ fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
         longest_pause: longest_pause(design),
         empty: design.lanes() * design.fold() - design.regions(),
         stream_pixels: design.stream_pixels(),
-        rate: rate(timing.clocks_per_frame()),
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
         instance: instance(design),
         compared: " at which it is valid",
-    }
-}
-
-/// Frames per second at the 250 MHz of the constraints, rounded down; with a decimal where they are few.
-fn rate(clocks: u64) -> String {
-    let tenths = 2_500_000_000 / clocks;
-    if tenths < 1000 {
-        format!("{}.{}", tenths / 10, tenths % 10)
-    } else {
-        (tenths / 10).to_string()
     }
 }
 
@@ -199,6 +188,7 @@ fn pipelined_view(design: &Design, timing: PipelinedTiming) -> Readme {
         filter: design.filter().name(),
         stream_side: design.stream_side(),
         stream_pixels: design.stream_pixels(),
+        clocks: design.timing().clocks_per_frame(),
         halo: design.halo(),
         latency: latency(design),
         forward: if timing.forward_frames == 1 {

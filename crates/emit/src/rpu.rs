@@ -6,8 +6,8 @@ use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, Filter, Irrelevant, Neighborhood, PipelinedTiming, PortRole, Reference,
-    SpatialFeature, bits_for, index_bits,
+    Combine, Design, Filter, Irrelevant, Neighborhood, PipelinedTiming, Pipelining, PortRole,
+    Reference, SpatialFeature, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -38,6 +38,10 @@ struct Rpu {
     keeps_raw: bool,
     keeps_second: bool,
     tail_delay: bool,
+    deep: bool,
+    median_registers: u32,
+    /// Before the names of what is counted: `tail`, or `count` where that is a clock behind the store.
+    count: &'static str,
     second_pass: bool,
     last_sent: bool,
     blanks: u32,
@@ -47,6 +51,7 @@ struct Rpu {
     sum_bits: u32,
     mad: Option<Mad>,
     variance: Option<VarianceWidths>,
+    compared: Vec<&'static str>,
     references: Vec<Candidate>,
     temporal_level: String,
     scores: Vec<Score>,
@@ -85,8 +90,8 @@ struct VarianceWidths {
 /// Something that the temporal score may have to compare with.
 struct Candidate {
     name: &'static str,
-    /// The condition under which every pixel counts as changed, with `||` behind it.
-    missing: &'static str,
+    /// Whether a pixel counts as changed.
+    hit: &'static str,
 }
 
 /// A score on its way to its port and its vote.
@@ -109,6 +114,8 @@ fn view(design: &Design) -> Rpu {
     let shared = design.neighborhood() == Neighborhood::Shared;
     let features = design.features();
     let window_side = design.denoised_side();
+    let timing = PipelinedTiming::of(design);
+    let deep = design.pipelining() == Pipelining::Deep;
     Rpu {
         banner: banner(design),
         summary: summary(design),
@@ -132,7 +139,10 @@ fn view(design: &Design) -> Rpu {
         window: design.has_feature_window(),
         keeps_raw,
         keeps_second: second_pass && (last_sent || !keeps_raw),
-        tail_delay: PipelinedTiming::of(design).tail_delay > 0,
+        tail_delay: timing.tail_delay > 0,
+        deep,
+        median_registers: timing.median_registers,
+        count: if deep { "count" } else { "tail" },
         second_pass,
         last_sent,
         blanks: u32::from(design.irrelevant() == Irrelevant::Zero),
@@ -141,7 +151,8 @@ fn view(design: &Design) -> Rpu {
         sum_bits: design.pixel_sum_bits(),
         mad: features.iter().find_map(mad),
         variance: features.iter().find_map(variance),
-        references: candidates(last_sent, second_pass),
+        compared: compared(deep, last_sent, second_pass),
+        references: candidates(deep, last_sent, second_pass),
         temporal_level: signal(design, PortRole::TemporalLevel),
         scores: scores(design),
         votes: features.iter().map(|f| format!("{}_score", f.kind())).collect(),
@@ -192,14 +203,30 @@ fn variance(feature: &SpatialFeature) -> Option<VarianceWidths> {
 
 /// With a second pass the decision of the previous frame comes too late to choose between the
 /// previous frame and what was sent before, so both are counted.
-fn candidates(last_sent: bool, second_pass: bool) -> Vec<Candidate> {
-    match (last_sent, second_pass) {
-        (false, _) => vec![Candidate { name: "previous", missing: "!stored || " }],
-        (true, false) => vec![Candidate { name: "sent", missing: "!sent_valid || " }],
-        (true, true) => vec![
-            Candidate { name: "previous", missing: "" },
-            Candidate { name: "sent", missing: "" },
-        ],
+fn candidates(deep: bool, last_sent: bool, second_pass: bool) -> Vec<Candidate> {
+    let previous = |hit| Candidate { name: "previous", hit };
+    let sent = |hit| Candidate { name: "sent", hit };
+    match (last_sent, second_pass, deep) {
+        (false, _, _) => vec![previous("!stored || previous_changed")],
+        (true, false, false) => vec![sent("!sent_valid || sent_changed")],
+        (true, false, true) => {
+            vec![sent("!sent_valid || (forward ? previous_changed : sent_changed)")]
+        }
+        (true, true, false) => vec![previous("previous_changed"), sent("sent_changed")],
+        (true, true, true) => {
+            vec![previous("previous_changed"), sent("forward ? second_changed : sent_changed")]
+        }
+    }
+}
+
+/// What a pixel is compared with. A deep RPU compares before it is decided whether the pixel sent last is that
+/// of the frame decided last, so it compares with both.
+fn compared(deep: bool, last_sent: bool, second_pass: bool) -> Vec<&'static str> {
+    match (last_sent, second_pass, deep) {
+        (false, _, _) => vec!["previous"],
+        (true, false, false) => vec!["sent"],
+        (true, true, false) | (true, false, true) => vec!["previous", "sent"],
+        (true, true, true) => vec!["previous", "second", "sent"],
     }
 }
 

@@ -7,6 +7,7 @@ use crate::device::{Device, Share};
 use crate::paper::{PAPER_RCM, PAPER_RPU};
 use crate::render::{heading, ramb36};
 use crate::report::Report;
+use crate::speed::Speed;
 use crate::table::{Table, wrap};
 use foveate_page::number::grouped;
 
@@ -18,8 +19,8 @@ const PAPER_CYCLES: u64 = 64;
 pub struct Comparison {
     /// Version of this as JSON; changes when a field changes its meaning or goes.
     pub format_version: u32,
-    /// The clock of the frame rates. It is assumed and not what the designs reach.
-    pub clock_mhz: u32,
+    /// The clock of the frame rates in MHz, if one was given; else each design has its estimated one.
+    pub clock_mhz: Option<f64>,
     /// The designs.
     pub candidates: Vec<Candidate>,
     /// Designs that are not there, and why.
@@ -31,11 +32,7 @@ pub struct Comparison {
 pub struct Candidate {
     /// What tells it from the others.
     pub name: String,
-    /// Clocks from one frame to the next.
-    pub cycles_per_frame: u64,
-    /// Frames per second at the clock of the comparison.
-    pub frames_per_second: u64,
-    /// Its area and paths.
+    /// Its area, paths, clock and frames per second.
     pub report: Report,
 }
 
@@ -49,22 +46,15 @@ pub struct Skipped {
 }
 
 impl Comparison {
-    /// A comparison without designs yet.
+    /// A comparison without designs yet, at a clock of so many MHz, or at the designs' own clocks.
     #[must_use]
-    pub fn new(clock_mhz: u32) -> Self {
-        Self { format_version: 2, clock_mhz, candidates: Vec::new(), skipped: Vec::new() }
+    pub fn new(clock_mhz: Option<f64>) -> Self {
+        Self { format_version: 3, clock_mhz, candidates: Vec::new(), skipped: Vec::new() }
     }
 
     /// Adds a design.
-    pub fn push(&mut self, name: String, cycles_per_frame: u64, report: Report) {
-        let frames_per_second = self.rate(cycles_per_frame);
-        self.candidates.push(Candidate { name, cycles_per_frame, frames_per_second, report });
-    }
-
-    /// Frames per second at the clock of the comparison, rounded down.
-    #[must_use]
-    pub fn rate(&self, cycles_per_frame: u64) -> u64 {
-        u64::from(self.clock_mhz) * 1_000_000 / cycles_per_frame.max(1)
+    pub fn push(&mut self, name: String, report: Report) {
+        self.candidates.push(Candidate { name, report: report.at(self.clock_mhz) });
     }
 
     /// The comparison for a terminal of `width` columns: one below the other what does not fit side
@@ -124,9 +114,12 @@ impl Comparison {
                 "low, high: logic LUTs of one RPU or lane, with and without small ones sharing a LUT. \
                  mem: LUTs as memory, two SRL16 in one, as Vivado packs them. LUT = high + mem. levels: \
                  of the longest path, from and to registers, memories and ports. cycles: clocks from \
-                 frame to frame; frames/s at {} MHz, which is an assumption. RCM, and what stands right \
+                 frame to frame. MHz: {}. frames/s: at that clock. RCM, and what stands right \
                  of it: all regions and what they share. device: the largest share of an {}.",
-                self.clock_mhz,
+                match self.clock_mhz {
+                    Some(_) => "the clock as it was given",
+                    None => "the clock that is estimated from the netlist, and its range",
+                },
                 Device::xcvu9p().name,
             )),
         }
@@ -136,39 +129,47 @@ impl Comparison {
         let texts = ["paper (Vivado)", ""].map(str::to_owned);
         let unit =
             [PAPER_RPU.lut - PAPER_RPU.lutram, PAPER_RPU.lutram, PAPER_RPU.lut, PAPER_RPU.ff];
-        let speed = [PAPER_CYCLES, self.rate(PAPER_CYCLES)];
+        // The paper names no clock.
+        let speed = self.clock_mhz.map(|mhz| Speed::given(mhz, PAPER_CYCLES));
         let array = [PAPER_RCM.lut, PAPER_RCM.lutram, PAPER_RCM.ff];
         texts
             .into_iter()
             .chain(unit.map(grouped))
             .chain([String::new()])
-            .chain(speed.map(grouped))
+            .chain([grouped(PAPER_CYCLES)])
+            .chain(at_clock(speed.as_ref()))
             .chain(array.map(grouped))
             .collect()
     }
 }
 
-const HEADER: [&str; 12] = [
-    "design", "low", "high", "mem", "LUT", "FF", "levels", "cycles", "frames/s", "RCM LUT",
+const HEADER: [&str; 13] = [
+    "design", "low", "high", "mem", "LUT", "FF", "levels", "cycles", "MHz", "frames/s", "RCM LUT",
     "RCM mem", "RCM FF",
 ];
 
+/// The clock and the frames per second at it; nothing where no clock is known.
+fn at_clock(speed: Option<&Speed>) -> [String; 2] {
+    speed.map_or_else(Default::default, |speed| [speed.clock_text(), speed.rate_text()])
+}
+
 fn figures(candidate: &Candidate) -> Vec<String> {
-    let Report { rpu, rcm, paths, .. } = &candidate.report;
-    let figures = [
+    let Report { rpu, rcm, paths, clocks_per_frame, speed, .. } = &candidate.report;
+    let unit = [
         rpu.lut_logic_low,
         rpu.lut_logic_high,
         rpu.lut_memory_packed,
         rpu.lut_total_packed,
         rpu.ff,
         paths.rcm.levels.max(paths.rpu.levels).into(),
-        candidate.cycles_per_frame,
-        candidate.frames_per_second,
-        rcm.lut_total_packed,
-        rcm.lut_memory_packed,
-        rcm.ff,
+        *clocks_per_frame,
     ];
-    std::iter::once(candidate.name.clone()).chain(figures.map(grouped)).collect()
+    let array = [rcm.lut_total_packed, rcm.lut_memory_packed, rcm.ff];
+    std::iter::once(candidate.name.clone())
+        .chain(unit.map(grouped))
+        .chain(at_clock(speed.as_ref()))
+        .chain(array.map(grouped))
+        .collect()
 }
 
 /// The largest share with its name.
@@ -191,8 +192,12 @@ mod tests {
     use crate::report::tests::example;
 
     fn comparison() -> Comparison {
-        let mut comparison = Comparison::new(250);
-        comparison.push("pipelined edge".to_owned(), 64, example(784));
+        comparison_at(None)
+    }
+
+    fn comparison_at(clock_mhz: Option<f64>) -> Comparison {
+        let mut comparison = Comparison::new(clock_mhz);
+        comparison.push("pipelined edge".to_owned(), example(784));
         comparison
             .skipped
             .push(Skipped { name: "serial".into(), reason: "it is not there".into() });
@@ -206,7 +211,8 @@ mod tests {
             let widest = text.lines().map(|line| line.chars().count()).max();
             assert!(widest <= Some(width), "{text}");
             for part in [
-                "3,906,250",
+                "60 (48 to 80)",
+                "937,500",
                 "143,472",
                 "119,171",
                 "LUT 12.13%",
@@ -217,6 +223,15 @@ mod tests {
             let tables = text.matches("paper (Vivado)").count();
             assert_eq!(tables == 1, width == 200, "{text}");
         }
+    }
+
+    /// 64 clocks at 100 MHz; without it the paper has no rate, because it names no clock.
+    #[test]
+    fn a_clock_that_is_given_is_that_of_all_rates() {
+        let rates = |clock| comparison_at(clock).markdown().matches("| 100 | 1,562,500 |").count();
+        assert_eq!([rates(Some(100.0)), rates(None)], [2, 0]);
+        let own = comparison().markdown();
+        assert!(own.contains("| 64 |  |  | 143,472 |"), "{own}");
     }
 
     #[test]

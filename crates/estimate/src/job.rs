@@ -43,6 +43,8 @@ pub struct EstimateJob {
     pub parameters: Vec<(String, u32)>,
     /// The number of regions.
     pub regions: u64,
+    /// Clocks from one frame to the next, for frames per second.
+    pub clocks_per_frame: u64,
     /// The hash of the RTL of one RPU, as a co-simulation of it says it; see [`sources_sha256`].
     pub rpu_sha256: String,
     /// The module whose leaves are listed, if any.
@@ -105,7 +107,11 @@ pub fn estimate(
             glue: netlist.whole_area(&job.array, &without)?,
             array: netlist.whole_area(&job.array, &[])?,
         },
-        Timing { paths: Paths { rpu: unit, rcm: array }, clock },
+        Timing {
+            paths: Paths { rpu: unit, rcm: array },
+            clock,
+            clocks_per_frame: job.clocks_per_frame,
+        },
         match (&job.leaves_of, leaves) {
             (Some(top), Some(run)) => {
                 leaf_areas(top, &Netlist::parse(NETLIST, file(&run, NETLIST))?)?

@@ -22,6 +22,7 @@ mod paper;
 mod render;
 mod report;
 mod route;
+mod speed;
 mod synthesis;
 mod table;
 
@@ -41,4 +42,5 @@ pub use route::{
     RouteJob, RouteReport, Routed, Used, place_and_route, render_routes_markdown,
     render_routes_text,
 };
+pub use speed::Speed;
 pub use synthesis::sources;

@@ -93,6 +93,14 @@ fn path_table(report: &Report) -> Table {
             clock.text()
         );
     }
+    if let Some(speed) = &report.speed {
+        let clocks = grouped(report.clocks_per_frame);
+        let rate = match speed.estimated {
+            true => format!("{} frames/s at that clock", speed.rate_with_range()),
+            false => speed.text(),
+        };
+        note += &format!("A frame takes {clocks} clocks: {rate}. ");
+    }
     note += "A LUT, a read of distributed RAM and a whole carry chain are a level each; CARRY4: blocks \
              of four bits in chains.";
     Table {
@@ -217,6 +225,16 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part} in\n{text}");
         }
+    }
+
+    #[test]
+    fn frames_per_second_stand_beside_their_clock() {
+        let text = |mhz| render_text(&example(784).at(mhz), 1000);
+        let own = "60 MHz (48 to 80), by Yosys' cell models, which are of the 7 series. A frame takes \
+                   64 clocks: 937,500 (750,000 to 1,250,000) frames/s at that clock. ";
+        assert!(text(None).contains(own), "{}", text(None));
+        let given = "A frame takes 64 clocks: 1,562,500 frames/s at 100 MHz. ";
+        assert!(text(Some(100.0)).contains(given), "{}", text(Some(100.0)));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::device::{Device, Share};
 use crate::error::EstimateError;
 use crate::levels::LogicPath;
 use crate::paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper};
+use crate::speed::Speed;
 
 /// The version of the JSON report. It grows when a field changes its meaning or goes away.
 pub const FORMAT_VERSION: u32 = 1;
@@ -51,6 +52,7 @@ pub struct Paths {
 pub(crate) struct Timing {
     pub(crate) paths: Paths,
     pub(crate) clock: Option<ClockEstimate>,
+    pub(crate) clocks_per_frame: u64,
 }
 
 /// Areas as they are measured.
@@ -106,6 +108,10 @@ pub struct Report {
     /// The clock that the RCM is expected to reach; nothing where it has no logic between registers.
     #[serde(default)]
     pub clock: Option<ClockEstimate>,
+    /// Clocks from one frame to the next.
+    pub clocks_per_frame: u64,
+    /// Frames per second at the estimated clock, or at one that was given; nothing where there is none.
+    pub speed: Option<Speed>,
     /// The share of the device that the RCM takes.
     pub share: Share,
     /// The paper's table.
@@ -128,6 +134,7 @@ impl Report {
     ) -> Self {
         let device = Device::xcvu9p();
         let Areas { unit, glue, array } = areas;
+        let Timing { paths, clock, clocks_per_frame } = timing;
         let share = Share::new(&array, &device);
         let paper = Paper {
             rpu: BesidePaper::new(&unit, PAPER_RPU),
@@ -145,12 +152,22 @@ impl Report {
             rpu: unit,
             rcm_glue: glue,
             rcm: array,
-            paths: timing.paths,
-            clock: timing.clock,
+            paths,
+            speed: clock.as_ref().map(|clock| Speed::estimated(clock, clocks_per_frame)),
+            clock,
+            clocks_per_frame,
             share,
             paper,
             leaves,
         }
+    }
+
+    /// The report with frames per second at a clock of so many MHz, if one is given.
+    #[must_use]
+    pub fn at(mut self, mhz: Option<f64>) -> Self {
+        let given = mhz.map(|mhz| Speed::given(mhz, self.clocks_per_frame));
+        self.speed = given.or(self.speed);
+        self
     }
 
     /// The report as indented JSON with a final line break.
@@ -220,7 +237,7 @@ pub(crate) mod tests {
         let paths = Paths { rpu: path.clone(), rcm: path.clone() };
         let clock =
             ClockEstimate { mhz: 60.0, low_mhz: 48.0, high_mhz: 80.0, wiring_share: 0.65, path };
-        let timing = Timing { paths, clock: Some(clock) };
+        let timing = Timing { paths, clock: Some(clock), clocks_per_frame: 64 };
         let rtl = Rtl { sha256: "00".into(), rpu_sha256: "01".into() };
         Report::new(tool, rtl, regions, units, areas, timing, leaves)
     }

@@ -32,6 +32,7 @@ impl EstimateJob {
             array: array.module().to_owned(),
             parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
             regions: design.regions().into(),
+            clocks_per_frame: design.timing().clocks_per_frame(),
             rpu_sha256: sources_sha256(&sources(foveate_emit::verilog(design, Top::Rpu))),
             leaves_of: None,
         }

@@ -22,6 +22,7 @@ fn toy(regions: u64) -> EstimateJob {
         array: "rcm".to_owned(),
         parameters: Vec::new(),
         regions,
+        clocks_per_frame: 64,
         rpu_sha256: String::new(),
         leaves_of: Some("rpu".to_owned()),
     }
@@ -42,6 +43,11 @@ fn a_toy_array_is_estimated() {
     assert!(report.paths.rpu.levels >= 3, "{:?}", report.paths);
     assert!(report.paths.rpu.to.contains("(FDRE."), "{:?}", report.paths);
     assert_eq!((report.unit.as_str(), report.units), ("RPU", 784));
+    // Frames of 64 clocks, at the clock of this netlist.
+    let (speed, clock) = (report.speed.unwrap(), report.clock.as_ref().unwrap());
+    assert!(speed.estimated && speed.clock_mhz == clock.mhz, "{speed:?}");
+    assert_eq!(speed.frames_per_second, clock.mhz * 1e6 / 64.0);
+    assert_eq!(speed.low_frames_per_second, clock.low_mhz * 1e6 / 64.0);
     assert!(report.tool.version.starts_with("Yosys "));
     let modules: Vec<&str> = report.leaves.iter().map(|leaf| leaf.module.as_str()).collect();
     assert_eq!(modules, ["rpu", "adder", "adder", "pair", "ram"]);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a design costs: clocks from its timing, area from Yosys, once for every distinct RTL.
+//! What a design costs and how fast it is: area and estimated clock from Yosys, once for every distinct RTL.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_estimate::{Area, EstimateJob, estimate};
+use foveate_estimate::{Area, EstimateJob, Speed, estimate};
 use foveate_toolchain::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -26,6 +26,14 @@ pub struct Silicon {
     pub levels: u32,
 }
 
+/// What a synthesis tells of a design.
+#[derive(Clone, Debug)]
+pub(crate) struct Synthesized {
+    pub(crate) silicon: Silicon,
+    /// The estimated clock and frames per second at it; none of a design without logic between registers.
+    pub(crate) speed: Option<Speed>,
+}
+
 /// What synthesizes.
 #[derive(Clone, Debug)]
 pub struct Synthesizer {
@@ -35,30 +43,24 @@ pub struct Synthesizer {
     pub cache: Cache,
 }
 
-/// Clocks from one frame to the next, and frames per second at a clock, rounded down.
-pub(crate) fn speed(design: &Design, clock_mhz: u32) -> (u64, u64) {
-    let clocks = design.timing().clocks_per_frame();
-    (clocks, u64::from(clock_mhz) * 1_000_000 / clocks.max(1))
-}
-
-/// The areas of some designs, or what Yosys said of those without one.
+/// The areas and speeds of some designs, or what Yosys said of those without one.
 pub(crate) struct Areas {
     /// For every design what tells its RTL from that of others.
     keys: Vec<String>,
-    by_rtl: BTreeMap<String, Result<Silicon, ExploreError>>,
+    by_rtl: BTreeMap<String, Result<Synthesized, ExploreError>>,
 }
 
 impl Areas {
-    /// For every design its area or why it has none.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&Silicon, &ExploreError>> {
+    /// For every design what its synthesis tells, or why it has none.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&Synthesized, &ExploreError>> {
         self.keys.iter().filter_map(|key| self.by_rtl.get(key)).map(Result::as_ref)
     }
 
-    /// For every design its area.
+    /// For every design what its synthesis tells.
     ///
     /// # Errors
     /// What Yosys said of the first without one.
-    pub(crate) fn all(self) -> Result<Vec<Silicon>, ExploreError> {
+    pub(crate) fn all(self) -> Result<Vec<Synthesized>, ExploreError> {
         let found = self.by_rtl.into_iter().map(|(key, area)| Ok((key, area?)));
         let found = found.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
         Ok(self.keys.iter().filter_map(|key| found.get(key).cloned()).collect())
@@ -95,13 +97,14 @@ impl Synthesizer {
         if hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(Areas { keys, by_rtl }) }
     }
 
-    fn area(&self, job: &EstimateJob) -> Result<Silicon, ExploreError> {
+    fn area(&self, job: &EstimateJob) -> Result<Synthesized, ExploreError> {
         let report = estimate(&self.toolchain, &self.cache, job)?;
-        Ok(Silicon {
+        let silicon = Silicon {
             unit: report.rpu,
             units: job.units,
             array: report.rcm,
             levels: report.paths.rcm.levels.max(report.paths.rpu.levels),
-        })
+        };
+        Ok(Synthesized { silicon, speed: report.speed })
     }
 }

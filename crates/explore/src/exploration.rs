@@ -19,8 +19,8 @@ pub struct Exploration {
     pub size: (u32, u32),
     /// The camera that designs are compared with, as TOML.
     pub ideal: String,
-    /// Clock of the frame rates in MHz.
-    pub clock_mhz: u32,
+    /// Clock of the frame rates in MHz, if the space gives one; else each design has its estimated one.
+    pub clock_mhz: Option<u32>,
     /// Keys of the configuration that vary.
     pub axes: Vec<String>,
     /// The points.

@@ -9,7 +9,7 @@ use foveate_footage::InputOptions;
 use foveate_staging::write_file;
 use foveate_tables::Table;
 
-use crate::cost::Silicon;
+use crate::cost::Synthesized;
 use crate::folder::{UNFINISHED, claim, mark};
 use crate::measure::Measured;
 use crate::objective::mark_fronts;
@@ -51,14 +51,15 @@ pub fn explore(
     let designs =
         points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
     let measured = footage.measure(&looks, &store)?;
-    let (silicon, failed) = silicon(request.synthesizer, &designs, hooks)?;
+    let (synthesized, failed) = synthesized(request.synthesizer, &designs, hooks)?;
     let mut rows = Vec::new();
-    for (index, (point, (design, silicon))) in
-        points.iter().zip(designs.iter().zip(silicon)).enumerate()
+    for (index, (point, (design, synthesized))) in
+        points.iter().zip(designs.iter().zip(synthesized)).enumerate()
     {
         let of_point: Vec<&Measured> = measured.iter().map(|clip| &clip[look_of[index]]).collect();
         let settings = point.settings.clone();
-        rows.extend(Row::new(index + 1, settings, design, &of_point, silicon, space.clock_mhz));
+        let clock = space.clock_mhz;
+        rows.extend(Row::new(index + 1, settings, design, &of_point, synthesized, clock));
     }
     mark_fronts(&mut rows);
     let of_clip = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| ClipRow {
@@ -71,7 +72,7 @@ pub fn explore(
         problem.map(|problem| format!("{}: {problem}", subject.name))
     };
     let exploration = Exploration {
-        format_version: 3,
+        format_version: 4,
         program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
         clips: footage.subjects.iter().zip(&measured).map(of_clip).collect(),
         size: footage.size,
@@ -92,13 +93,13 @@ pub fn explore(
     Ok(exploration)
 }
 
-/// The area of every design, and what Yosys said of those without one: one of many that fails does not
+/// Area and speed of every design, and what Yosys said of those without one: one of many that fails does not
 /// lose the others.
-fn silicon(
+fn synthesized(
     synthesizer: Option<&Synthesizer>,
     designs: &[Design],
     hooks: &dyn Hooks,
-) -> Result<(Vec<Option<Silicon>>, Vec<String>), ExploreError> {
+) -> Result<(Vec<Option<Synthesized>>, Vec<String>), ExploreError> {
     let Some(synthesizer) = synthesizer else { return Ok((vec![None; designs.len()], Vec::new())) };
     let areas = synthesizer.areas(designs.iter(), hooks)?;
     let failed =

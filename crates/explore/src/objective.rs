@@ -10,8 +10,10 @@ use crate::row::{Fronts, Row, real};
 pub(crate) enum Objective {
     /// Share of flipped actions, 0..=1: the error.
     Error,
-    /// Frames per clock.
+    /// Frames per second at the clock of each design.
     Speed,
+    /// Frames per clock, where no clock is known.
+    PerClock,
     /// LUTs of the array, those used as memory included.
     Luts,
     /// Share of the relevant regions that are stale, 0..=1.
@@ -33,7 +35,7 @@ impl Objective {
     pub(crate) fn better(self) -> Better {
         match self {
             Self::Error | Self::Luts | Self::Stale | Self::Bytes => Better::Smaller,
-            Self::Speed | Self::Likeness => Better::Larger,
+            Self::Speed | Self::PerClock | Self::Likeness => Better::Larger,
         }
     }
 
@@ -41,7 +43,8 @@ impl Objective {
     pub(crate) fn of(self, row: &Row) -> Option<f64> {
         match self {
             Self::Error => Some(row.figures.action_flips),
-            Self::Speed => Some(1.0 / real(row.clocks_per_frame)),
+            Self::Speed => row.speed.map(|speed| speed.frames_per_second),
+            Self::PerClock => Some(1.0 / real(row.clocks_per_frame)),
             Self::Luts => row.luts(),
             Self::Stale => Some(row.figures.staleness.share),
             Self::Bytes => Some(row.bytes_per_frame),
@@ -58,6 +61,12 @@ impl Objective {
     }
 }
 
+/// What tells which of some points is faster: frames per second, or frames per clock if no clock is known.
+pub(crate) fn speed<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Objective {
+    let known = rows.into_iter().any(|row| row.speed.is_some());
+    if known { Objective::Speed } else { Objective::PerClock }
+}
+
 /// Which of some points no other beats: none is as good in all objectives and better in one.
 pub(crate) fn unbeaten<const N: usize>(rows: &[&Row], objectives: [Objective; N]) -> Vec<bool> {
     let costs = |row: &&Row| objectives.map(|objective| objective.cost(row));
@@ -66,12 +75,13 @@ pub(crate) fn unbeaten<const N: usize>(rows: &[&Row], objectives: [Objective; N]
 
 /// Marks the fronts of an exploration.
 pub(crate) fn mark_fronts(rows: &mut [Row]) {
-    use Objective::{Error, Luts, Speed};
+    use Objective::{Error, Luts};
     let all: Vec<&Row> = rows.iter().collect();
-    let speed = unbeaten(&all, [Error, Speed]);
+    let fast = speed(all.iter().copied());
+    let speed = unbeaten(&all, [Error, fast]);
     let area = unbeaten(&all, [Error, Luts]);
     let synthesized = rows.iter().any(|row| row.silicon.is_some());
-    let both = if synthesized { unbeaten(&all, [Error, Speed, Luts]) } else { speed.clone() };
+    let both = if synthesized { unbeaten(&all, [Error, fast, Luts]) } else { speed.clone() };
     for (row, ((speed, area), all)) in rows.iter_mut().zip(speed.into_iter().zip(area).zip(both)) {
         row.front = Fronts { speed, area, all };
     }
@@ -81,8 +91,9 @@ pub(crate) fn mark_fronts(rows: &mut [Row]) {
 mod tests {
     use super::*;
     use crate::report::sample::exploration;
+    use foveate_estimate::Speed;
 
-    /// Points with figures of few values, so that many are equal; some have no area.
+    /// Points with figures of few values, so that many are equal; some have no area, some no clock.
     fn points(seed: u64) -> Vec<Row> {
         let row = exploration("", true).rows.remove(0);
         let mut chance = fastrand::Rng::with_seed(seed);
@@ -90,6 +101,8 @@ mod tests {
             let mut row = row.clone();
             row.figures.action_flips = f64::from(chance.u32(0..6)) / 10.0;
             row.clocks_per_frame = chance.u64(1..12);
+            let mhz = f64::from(chance.u32(1..4));
+            row.speed = (chance.u8(0..5) > 0).then(|| Speed::given(mhz, row.clocks_per_frame));
             match &mut row.silicon {
                 Some(silicon) if chance.u8(0..5) > 0 => {
                     silicon.array.lut_total_packed = chance.u64(1..12);
@@ -101,12 +114,13 @@ mod tests {
         (0..60).map(|_| point()).collect()
     }
 
-    /// The definition, read off the figures of the table: lower error, fewer clocks, fewer LUTs.
-    fn beats(one: &Row, other: &Row, clocks: bool, luts: bool) -> bool {
+    /// The definition, read off the figures of the table: lower error, more frames per second, fewer LUTs.
+    fn beats(one: &Row, other: &Row, fast: bool, luts: bool) -> bool {
         let lut = |row: &Row| row.silicon.as_ref().map(|silicon| silicon.array.lut_total_packed);
         let mut pairs = vec![one.figures.action_flips.total_cmp(&other.figures.action_flips)];
-        if clocks {
-            pairs.push(one.clocks_per_frame.cmp(&other.clocks_per_frame));
+        if fast {
+            let (Some(one), Some(other)) = (one.speed, other.speed) else { return false };
+            pairs.push(other.frames_per_second.total_cmp(&one.frames_per_second));
         }
         if luts {
             let (Some(one), Some(other)) = (lut(one), lut(other)) else { return false };
@@ -122,9 +136,9 @@ mod tests {
             let mut rows = points(seed);
             mark_fronts(&mut rows);
             for row in &rows {
-                let on = |clocks: bool, luts: bool| {
-                    let known = !luts || row.silicon.is_some();
-                    known && !rows.iter().any(|other| beats(other, row, clocks, luts))
+                let on = |fast: bool, luts: bool| {
+                    let known = (!luts || row.silicon.is_some()) && (!fast || row.speed.is_some());
+                    known && !rows.iter().any(|other| beats(other, row, fast, luts))
                 };
                 let expected =
                     Fronts { speed: on(true, false), area: on(false, true), all: on(true, true) };
@@ -135,6 +149,21 @@ mod tests {
         }
         // Otherwise a swap of speed and area would not be seen.
         assert!(told_apart > 500 && without_area > 0, "{told_apart}, {without_area}");
+    }
+
+    #[test]
+    fn without_clocks_fewer_clocks_per_frame_are_faster() {
+        let mut rows = points(1);
+        rows.iter_mut().for_each(|row| row.speed = None);
+        mark_fronts(&mut rows);
+        let beaten = |row: &Row| {
+            rows.iter().any(|other| {
+                let error = other.figures.action_flips.total_cmp(&row.figures.action_flips);
+                let both = [error, other.clocks_per_frame.cmp(&row.clocks_per_frame)];
+                both.iter().all(|order| order.is_le()) && both.iter().any(|order| order.is_lt())
+            })
+        };
+        assert!(rows.iter().all(|row| row.front.speed != beaten(row)));
     }
 
     #[test]

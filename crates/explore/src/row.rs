@@ -2,10 +2,11 @@
 //! A point with all its figures.
 
 use foveate_design::{Config, Design};
+use foveate_estimate::Speed;
 use foveate_fidelity::{Figures, Tally};
 use serde::Serialize;
 
-use crate::cost::{Silicon, speed};
+use crate::cost::{Silicon, Synthesized};
 use crate::measure::Measured;
 
 /// A design with its errors, costs and speed.
@@ -26,8 +27,9 @@ pub struct Row {
     pub bytes_per_frame: f64,
     /// Clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// Frames per second at the clock of the space.
-    pub frames_per_second: u64,
+    /// Its clock and frames per second: at the clock of the space, else at that which is estimated from its
+    /// netlist; none without a synthesis.
+    pub speed: Option<Speed>,
     /// Area, if it was asked for.
     pub silicon: Option<Silicon>,
     /// The fronts that it is on.
@@ -51,11 +53,13 @@ impl Row {
         settings: Vec<String>,
         design: &Design,
         measured: &[&Measured],
-        silicon: Option<Silicon>,
-        clock_mhz: u32,
+        synthesized: Option<Synthesized>,
+        clock_mhz: Option<u32>,
     ) -> Option<Self> {
         let figures = together(measured)?.figures();
-        let (clocks_per_frame, frames_per_second) = speed(design, clock_mhz);
+        let clocks_per_frame = design.timing().clocks_per_frame();
+        let given = clock_mhz.map(|mhz| Speed::given(mhz.into(), clocks_per_frame));
+        let estimated = synthesized.as_ref().and_then(|synthesized| synthesized.speed);
         Some(Self {
             number,
             settings,
@@ -63,8 +67,8 @@ impl Row {
             fingerprint: design.fingerprint(),
             bytes_per_frame: bytes_per_frame(design, figures.active),
             clocks_per_frame,
-            frames_per_second,
-            silicon,
+            speed: given.or(estimated),
+            silicon: synthesized.map(|synthesized| synthesized.silicon),
             figures,
             front: Fronts::default(),
         })

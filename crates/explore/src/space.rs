@@ -20,8 +20,8 @@ pub struct Space {
     pub axes: Vec<Axis>,
     /// Which combinations are points.
     pub method: Method,
-    /// Assumed clock of the frame rates in MHz; the hardware may be slower.
-    pub clock_mhz: u32,
+    /// The clock in MHz that designs run at, if it is known; else it is estimated for each.
+    pub clock_mhz: Option<u32>,
 }
 
 /// A configuration as TOML, without the keys that it leaves out, so that a point can change it.
@@ -108,11 +108,10 @@ impl Space {
         let axes = axes("", &file.vary)?;
         let method =
             Method::parse(file.method.as_deref(), file.points, file.seed).map_err(wrong)?;
-        let clock_mhz = file.clock_mhz.unwrap_or(250);
-        if !(1..=10_000).contains(&clock_mhz) {
+        if let Some(clock_mhz) = file.clock_mhz.filter(|mhz| !(1..=10_000).contains(mhz)) {
             return Err(wrong(format!("clock_mhz = {clock_mhz} is not within 1 to 10000")));
         }
-        let space = Self { start, ideal, axes, method, clock_mhz };
+        let space = Self { start, ideal, axes, method, clock_mhz: file.clock_mhz };
         match space.method.count(&space.axes) {
             Some(count) if count <= MAX_POINTS => {
                 space.axes.iter().try_for_each(|axis| axis.check(&space.start)).map(|()| space)

@@ -2,6 +2,7 @@
 //! Points as a table: one list of columns for CSV and Parquet.
 
 use foveate_design::FeatureKind;
+use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
 use foveate_tables::{Cell, Cells};
 
@@ -15,11 +16,15 @@ pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
     cells.extend(errors(&row.figures));
     let area = row.silicon.as_ref();
     let of = |take: fn(&crate::Silicon) -> u64| Cell::Count(area.map(take));
+    let at = |take: fn(&Speed) -> f64| Cell::Real(row.speed.as_ref().map(take));
     cells.extend(
         [
             ("bytes_per_frame", Cell::Real(Some(row.bytes_per_frame))),
             ("clocks_per_frame", count(row.clocks_per_frame)),
-            ("frames_per_second", count(row.frames_per_second)),
+            ("clock_mhz", at(|speed| speed.clock_mhz)),
+            ("low_clock_mhz", at(|speed| speed.low_clock_mhz)),
+            ("high_clock_mhz", at(|speed| speed.high_clock_mhz)),
+            ("frames_per_second", at(|speed| speed.frames_per_second)),
             ("unit_lut", of(|area| area.unit.lut_total_packed)),
             ("unit_ff", of(|area| area.unit.ff)),
             ("unit_lutram", of(|area| area.unit.lut_memory_packed)),

@@ -36,8 +36,8 @@ pub struct Request<'a> {
     pub effort: Effort,
     /// Bits per second of the link.
     pub link: u64,
-    /// Clock of the array in Hz.
-    pub clock_hz: u64,
+    /// Clock of the array in Hz. Without it times have none of the array's clocks in them, which the report states.
+    pub clock_hz: Option<u64>,
 }
 
 /// Compares and writes `output`, which appears at the end.
@@ -124,6 +124,8 @@ fn one(
         height: seen.design.height(),
         frames: timeline.frames(),
         duration_ns: timeline.end(),
+        array_clocks: cameras.own_clocks(),
+        needed_clock_hz: cameras.needed_clock_hz(),
         senders,
         curves,
     })

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::{Figures, Quality};
 
 /// Changes when a key changes its meaning or goes.
-pub(crate) const FORMAT_VERSION: u32 = 1;
+pub(crate) const FORMAT_VERSION: u32 = 2;
 
 /// The knob of a codec.
 pub(crate) const QUANTIZER: &str = "quantizer";
@@ -24,8 +24,8 @@ pub struct Report {
     pub effort: &'static str,
     /// Bits per second of the link.
     pub link_bits_per_second: u64,
-    /// Clock of the array in Hz.
-    pub clock_hz: u64,
+    /// Clock of the array in Hz. Without one, times have none of the array's clocks in them.
+    pub clock_hz: Option<u64>,
     /// In the order of the inputs.
     pub clips: Vec<ClipReport>,
 }
@@ -49,6 +49,10 @@ pub struct ClipReport {
     pub frames: u64,
     /// From the first frame to the end of the last, in ns.
     pub duration_ns: u64,
+    /// The most clocks that the array adds to a time, once what it waits for has been read.
+    pub array_clocks: u64,
+    /// The slowest clock at which the array keeps up with the frames.
+    pub needed_clock_hz: u64,
     /// Cameras, then codecs.
     pub senders: Vec<SenderReport>,
     /// Bytes against quality.

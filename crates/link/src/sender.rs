@@ -53,14 +53,15 @@ pub struct Cameras<'a> {
     design: &'a Design,
     timeline: &'a Timeline,
     departure: Departure,
-    clock_hz: u64,
+    clock_hz: Option<u64>,
 }
 
 /// Bits per region and frame that say what becomes of it: SRS and TRS.
 pub(crate) const DECISION_BITS: u64 = 2;
 
 impl<'a> Cameras<'a> {
-    /// Cameras with an array at a clock of so many Hz.
+    /// Cameras with an array at a clock of so many Hz. Without a clock the array takes no time:
+    /// [`Self::own_clocks`] says what is left out.
     ///
     /// # Errors
     /// When the array is not done with a frame when the next one comes.
@@ -68,21 +69,47 @@ impl<'a> Cameras<'a> {
         clip: &str,
         design: &'a Design,
         timeline: &'a Timeline,
-        clock_hz: u64,
+        clock_hz: Option<u64>,
     ) -> Result<Self, LinkError> {
         let timing = design.timing();
         let cameras = Self { design, timeline, departure: timing.departure(), clock_hz };
-        let by_rows = match cameras.departure.alone {
-            true => u64::from(design.height()) * u64::from(design.stream_side()),
+        let (needed_ns, interval_ns) =
+            (cameras.clocks(cameras.frame_clocks()), timeline.shortest());
+        match clock_hz {
+            Some(clock_hz) if needed_ns > interval_ns => {
+                let clip = clip.to_owned();
+                Err(LinkError::TooSlow { clip, interval_ns, needed_ns, clock_hz })
+            }
+            _ => Ok(cameras),
+        }
+    }
+
+    /// The most clocks that the array adds to a time, once what it waits for has been read.
+    #[must_use]
+    pub fn own_clocks(&self) -> u64 {
+        let Departure { take_clocks, decision_clocks, forward_clocks, slot_clocks, alone, .. } =
+            self.departure;
+        let last_slot = u64::from(self.design.fold() - 1) * slot_clocks;
+        let array = take_clocks + decision_clocks.max(forward_clocks) + last_slot;
+        let row = if alone { self.row_clocks(self.design.rows() - 1).1 } else { 0 };
+        array.max(row)
+    }
+
+    /// The slowest clock at which the array keeps up with the frames.
+    #[must_use]
+    pub fn needed_clock_hz(&self) -> u64 {
+        let clocks = u128::from(self.frame_clocks()) * 1_000_000_000;
+        let hertz = clocks.div_ceil(u128::from(self.timeline.shortest().max(1)));
+        u64::try_from(hertz).unwrap_or(u64::MAX)
+    }
+
+    /// Clocks of a frame, whole or row by row.
+    fn frame_clocks(&self) -> u64 {
+        let by_rows = match self.departure.alone {
+            true => u64::from(self.design.height()) * u64::from(self.design.stream_side()),
             false => 0,
         };
-        let needed_ns = cameras.clocks(timing.clocks_per_frame().max(by_rows));
-        let interval_ns = timeline.shortest();
-        if needed_ns > interval_ns {
-            let clip = clip.to_owned();
-            return Err(LinkError::TooSlow { clip, interval_ns, needed_ns, clock_hz });
-        }
-        Ok(cameras)
+        self.design.timing().clocks_per_frame().max(by_rows)
     }
 
     /// Every pixel of every frame.
@@ -177,12 +204,18 @@ impl<'a> Cameras<'a> {
     /// When the decisions of a row of regions fall: its last row of pixels, or of their halo, has been
     /// read and taken with what repeats it below the frame, and the latency is over.
     fn decided_by_rows(&self, frame: u64, row: u32) -> u64 {
+        let (last, clocks) = self.row_clocks(row);
+        let frame = frame + u64::from(self.departure.decision_frames);
+        self.timeline.row(frame, last) + self.clocks(clocks)
+    }
+
+    /// The last row of pixels that a row of regions waits for, and the clocks from there to its decisions.
+    fn row_clocks(&self, row: u32) -> (u32, u64) {
         let past = (row + 1) * self.design.region_size() + self.design.halo();
         let last = past.min(self.design.height()) - 1;
         let rows = u64::from(past - last);
         let clocks = rows * u64::from(self.design.stream_side()) + self.departure.decision_clocks;
-        let frame = frame + u64::from(self.departure.decision_frames);
-        self.timeline.row(frame, last) + self.clocks(clocks)
+        (last, clocks)
     }
 
     /// When something of a frame leaves the array.
@@ -191,9 +224,10 @@ impl<'a> Cameras<'a> {
         read + self.clocks(self.departure.take_clocks + clocks)
     }
 
-    /// Clocks in ns, rounded up.
+    /// Clocks in ns, rounded up; nothing without a clock.
     fn clocks(&self, clocks: u64) -> u64 {
-        let ns = (u128::from(clocks) * 1_000_000_000).div_ceil(u128::from(self.clock_hz.max(1)));
+        let Some(clock_hz) = self.clock_hz else { return 0 };
+        let ns = (u128::from(clocks) * 1_000_000_000).div_ceil(u128::from(clock_hz.max(1)));
         u64::try_from(ns).unwrap_or(u64::MAX)
     }
 }

@@ -30,7 +30,7 @@ impl Report {
         for (number, clip) in self.clips.iter().enumerate() {
             let _ = write!(
                 text,
-                "{}{}: {} frames of {} x {} pixels in {} ms, link {} kB/s{}\n\n",
+                "{}{}: {} frames of {} x {} pixels in {} ms, link {} kB/s{}\n\n{}\n\n",
                 if number == 0 { "" } else { "\n" },
                 clip.name,
                 clip.frames,
@@ -39,6 +39,7 @@ impl Report {
                 clip.duration_ns / 1_000_000,
                 kilo(self.link_bits_per_second / 8),
                 if clip.problem.is_some() { ", NOT COMPLETE" } else { "" },
+                self.clock(clip),
             );
             let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
             let _ = writeln!(text, "| --- | --- |{}", " ---: |".repeat(COLUMNS.len() - 2));
@@ -48,6 +49,24 @@ impl Report {
         }
         text
     }
+
+    /// The clock of the array, or what its absence leaves out.
+    fn clock(&self, clip: &ClipReport) -> String {
+        match self.clock_hz {
+            Some(hertz) => format!("The array runs at {} MHz.", megahertz(hertz)),
+            None => format!(
+                "Without --clock: the array adds up to {} clocks to the times of the region camera. It needs {} MHz to keep up.",
+                clip.array_clocks,
+                megahertz(clip.needed_clock_hz)
+            ),
+        }
+    }
+}
+
+/// Hz in MHz, exactly.
+fn megahertz(hertz: u64) -> String {
+    let digits = format!("{}.{:06}", hertz / 1_000_000, hertz % 1_000_000);
+    digits.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn row(clip: &ClipReport, sender: &SenderReport) -> [String; COLUMNS.len()] {

@@ -5,6 +5,7 @@ rtl/vote.v
 rtl/raster_memory.v
 rtl/raster_delay.v
 rtl/raster_pulse.v
+rtl/raster_ring.v
 rtl/raster_pad.v
 rtl/raster_control.v
 rtl/raster_window.v
@@ -15,9 +16,9 @@ rtl/raster_corner.v
 rtl/raster_change.v
 rtl/raster_counts.v
 rtl/raster_pairs.v
+rtl/raster_banks.v
 rtl/raster_store.v
 rtl/raster_external.v
-rtl/raster_ring.v
 rtl/raster_start.v
 rtl/raster_valid.v
 rtl/raster_walk.v

@@ -12,24 +12,26 @@ use super::DesignArgs;
 /// Check a configuration and print the design that it describes: grid, widths, clocks, ports
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate check camera.toml
-          foveate check --preset serial --min-fps 1000 --clock 250MHz")]
+          foveate check --preset serial --min-fps 1000 --clock 50MHz")]
 pub(crate) struct CheckArgs {
     /// Configuration file (TOML); the same as --config
     #[arg(value_name = "FILE", conflicts_with_all = ["config", "preset"])]
     pub(crate) file: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Assumed clock for the frame rates, for example 100MHz or 1.5GHz; the hardware may be slower
-    #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
-    pub(crate) clock: Clock,
-    /// Check that the design reaches this many frames per second; the exit code is 1 if it does not. For a
-    /// serial design, also propose the largest fold that reaches it
+    /// The clock that the design runs at, for example 100MHz or 1.5GHz, for frame rates. Without it, the clock
+    /// that a rate needs is printed; `foveate estimate` says what clock to expect
+    #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
+    pub(crate) clock: Option<Clock>,
+    /// With --clock, check that the design reaches this many frames per second; the exit code is 1 if it does not. For a
+    /// serial design, also propose the largest fold that reaches it. Without --clock, print the clock that it needs
     #[arg(long, value_name = "RATE", value_parser = Rate::parse)]
     pub(crate) min_fps: Option<Rate>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print only errors; the exit code says whether the design is valid and fast enough
+    /// Print only errors; the exit code says whether the design is valid, and with --min-fps whether it is fast
+    /// enough at --clock
     #[arg(long, short, conflicts_with = "json")]
     pub(crate) quiet: bool,
 }
@@ -57,7 +59,7 @@ impl Clock {
             .and_then(|hertz| u64::try_from(hertz).ok())
             .filter(|hertz| (1..=Self::MAX).contains(hertz))
             .map(Self)
-            .ok_or_else(|| "expected 1Hz to 1000GHz, for example 250MHz".to_owned())
+            .ok_or_else(|| "expected 1Hz to 1000GHz, for example 100MHz".to_owned())
     }
 }
 
@@ -90,6 +92,11 @@ impl Rate {
         self.0.to_string().parse().expect("a decimal is written as a number")
     }
 
+    /// The slowest clock at which frames of so many clocks come at this rate.
+    pub(crate) fn needs(self, clocks: u64) -> Clock {
+        Clock(u64::try_from(self.0.ceil_times(clocks)).unwrap_or(u64::MAX))
+    }
+
     /// The most clocks that a frame may take.
     pub(crate) fn max_clocks(self, clock: Clock) -> u64 {
         let clocks = u128::from(clock.0) * u128::from(Self::NANO) / self.0.ceil_times(Self::NANO);
@@ -120,6 +127,18 @@ mod tests {
         }
         for text in ["", "MHz", "0", "-1MHz", "5 megahertz", "nan", "1e30", "2000GHz"] {
             assert!(Clock::parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_clock_that_a_rate_needs_is_the_slowest_that_reaches_it() {
+        for (rate, clocks, needed) in
+            [("1000", 64, 64_000), ("29.97", 7905, 236_913), ("0.001", 7, 1), ("3", 1, 3)]
+        {
+            let rate = Rate::parse(rate).unwrap();
+            assert_eq!(rate.needs(clocks).0, needed);
+            assert!(rate.max_clocks(rate.needs(clocks)) >= clocks);
+            assert!(rate.max_clocks(Clock(needed - 1)) < clocks);
         }
     }
 

@@ -55,12 +55,12 @@ pub(crate) struct FitArgs {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Limits")]
 pub(crate) struct ConstraintArgs {
-    /// Frames per second that the array must reach
+    /// Frames per second that the array must reach, at --clock or at the low end of its estimated clock
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = Rate::parse)]
     pub(crate) min_fps: Rate,
-    /// Assumed clock for the frame rates; the hardware may be slower
-    #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
-    pub(crate) clock: Clock,
+    /// The clock that the array runs at; without it the clock of each design is estimated from its netlist
+    #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
+    pub(crate) clock: Option<Clock>,
     /// First set the thresholds so that this share of the regions is active
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) target_active: Option<f64>,

@@ -32,9 +32,10 @@ pub(crate) struct LinkArgs {
     /// Rate of the link in bits per second, for example 100Mbit or 1.5Gbit
     #[arg(long, value_name = "RATE", default_value = "100Mbit", value_parser = LinkRate::parse)]
     pub(crate) link: LinkRate,
-    /// Assumed clock of the array, for example 100MHz; the hardware may be slower
-    #[arg(long, value_name = "FREQUENCY", default_value = "250MHz", value_parser = Clock::parse)]
-    pub(crate) clock: Clock,
+    /// The clock of the array, for example 50MHz; `foveate estimate` says what to expect. Without it, times
+    /// are without the array's clocks, whose number is printed
+    #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
+    pub(crate) clock: Option<Clock>,
     /// Codecs to compare with
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',', default_values = ["mjpeg", "h264-intra", "h264", "h265-intra", "h265"])]
     pub(crate) codecs: Vec<CodecChoice>,

@@ -32,7 +32,7 @@ fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     progress.work("synthesizing with Yosys");
     let report = flow.estimate(&design, true);
     progress.finish();
-    let report = report?;
+    let report = report?.at(args.clock.map(f64::from));
     if args.json {
         output::json(&report)
     } else if args.markdown {

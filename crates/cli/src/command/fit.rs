@@ -27,7 +27,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         inputs: &args.inputs,
         input: &input,
         constraints: &args.constraints.constraints(),
-        clock_hz: args.constraints.clock.0,
+        clock_hz: args.constraints.clock.map(|clock| clock.0),
         target_active: args.constraints.target_active,
         boxes: &args.boxes,
         synthesizer: &synthesizer,
@@ -97,7 +97,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     let (unit, array) = (&design.silicon.unit, &design.silicon.array);
     let silicon = format!(
         "{} of {} LUTs ({} of them memory) and {} flip-flops; the array {} LUTs, {} flip-flops, {} RAMB36; \
-         {} clocks per frame, {:.1} frames/s at {}",
+         {} clocks per frame, {}",
         units(design),
         unit.lut_total_packed,
         unit.lut_memory_packed,
@@ -106,8 +106,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
         array.ff,
         ramb36(array.bram18),
         design.clocks_per_frame,
-        design.frames_per_second,
-        args.constraints.clock,
+        design.speed.map_or_else(|| "no estimated clock".to_owned(), |speed| speed.text()),
     );
     paragraph(&mut text, &silicon, width, "  ");
     let halves = [

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &LinkArgs) -> Result<(), CliError> {
         codecs: &codecs,
         effort: args.effort.effort(),
         link: args.link.0,
-        clock_hz: args.clock.0,
+        clock_hz: args.clock.map(|clock| clock.0),
     };
     warn_of(&args.inputs, &input);
     let hooks = Terminal::new(args.quiet)?;

@@ -21,7 +21,7 @@ fn check_prints_the_card_as_text_and_json() {
     }
     let json = succeed_in(dir.path(), &["check", "--config", "camera.toml", "--json"]);
     let card: Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(card["format_version"], 1);
+    assert_eq!(card["format_version"], 2);
     assert_eq!(card["grid"]["regions"], 196);
     assert_eq!(card["timing"]["cycles_per_frame"], 256);
     assert_eq!(card["rcm_ports"].as_array().unwrap().len(), 16);
@@ -34,15 +34,17 @@ fn check_tells_how_fast_each_organization_is() {
     let json = |args: &[&str]| -> Value {
         serde_json::from_str(&check(&[args, &["--json"]].concat())).unwrap()
     };
-    assert!(check(&[]).contains("3906250 frames/s at 250 MHz"));
+    assert!(check(&["--clock", "250MHz"]).contains("3906250 frames/s at 250 MHz"));
     let card = json(&["--clock", "64kHz"]);
     assert_eq!(
         (&card["rate"]["clock_hz"], &card["rate"]["frames_per_second"]),
         (&64_000.into(), &1000.0.into())
     );
-    assert!(card.get("array").is_none() && card.get("proposal").is_none());
+    for absent in ["array", "proposal", "needs"] {
+        assert!(card.get(absent).is_none(), "{absent}");
+    }
 
-    let text = check(&["--preset", "serial"]);
+    let text = check(&["--preset", "serial", "--clock", "250MHz"]);
     for part in [
         "784, 1 region each, parallel feed",
         "128 words of 8 bits, 128 per slot for raw 8x8",
@@ -70,6 +72,29 @@ fn check_tells_how_fast_each_organization_is() {
     assert_eq!(card["timing"]["phases"].as_array().unwrap().len(), 5);
 }
 
+/// A rate holds at a clock, and a check knows none.
+#[test]
+fn check_without_a_clock_says_which_one_a_rate_needs() {
+    let dir = tempfile::tempdir().unwrap();
+    let check = |args: &[&str]| succeed_in(dir.path(), &[&["check"], args].concat());
+    let text = check(&["--preset", "serial"]);
+    assert!(text.contains("7905 clocks per frame; 1000 frames/s need a clock of 7.905 MHz\n"));
+    assert!(!text.contains("frames/s at") && !text.contains("proposal"), "{text}");
+    let asked = ["--preset", "bare", "--min-fps", "29.97"];
+    // 64 clocks 29.97 times are 1,918.08 clocks.
+    let text = check(&asked).split_whitespace().collect::<Vec<_>>().join(" ");
+    let line = "29.97 frames/s need a clock of 1.919 kHz. `foveate estimate` says whether";
+    assert!(text.contains(line), "{text}");
+    let json = check(&[&asked[..], &["--json"]].concat());
+    let card: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(card["needs"], serde_json::json!({"frames_per_second": 29.97, "clock_hz": 1919}));
+    assert!(card.get("rate").is_none() && card.get("proposal").is_none());
+    // The exit code alone would say nothing.
+    fail_in(dir.path(), 2, &[&["check", "--quiet"], &asked[..]].concat(), &["give --clock"]);
+    let given = [&["check", "--quiet", "--clock", "2kHz"], &asked[..]].concat();
+    assert_eq!(succeed_in(dir.path(), &given), "");
+}
+
 #[test]
 fn check_proposes_the_largest_fold_that_reaches_a_rate() {
     let dir = tempfile::tempdir().unwrap();
@@ -86,7 +111,7 @@ fn check_proposes_the_largest_fold_that_reaches_a_rate() {
     fail_in(dir.path(), 1, &ask("31626")[..7], &none);
     succeed_in(dir.path(), &ask("31625.5"));
     // A pipelined one takes 250 MHz / 64 = 3,906,250 frames per second.
-    let pipelined = |rate| ["check", "--preset", "bare", "--min-fps", rate];
+    let pipelined = |rate| ["check", "--preset", "bare", "--clock", "250MHz", "--min-fps", rate];
     let text = succeed_in(dir.path(), &pipelined("3906250"));
     assert!(text.contains("3906250 frames/s are reached: 64 clocks per frame"), "{text}");
     let slow = ["3906251 frames/s are not reached", "3906250 frames/s at 250 MHz", "faster clock"];

@@ -40,6 +40,18 @@ fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
     let json = succeed_in(dir.path(), &[&RUN[..], &["--json"]].concat());
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["rows"][3]["figures"]["action_flips"], 0.0);
+    // Nothing is synthesized, so no clock is known, unless the space gives one.
+    assert!(json["rows"][3]["speed"].is_null() && json["clock_mhz"].is_null(), "{json}");
+    fs::write(dir.path().join("space.toml"), format!("clock_mhz = 50\n{SPACE}")).unwrap();
+    let given = succeed_in(dir.path(), &[&RUN[..], &["--json"]].concat());
+    let given: serde_json::Value = serde_json::from_str(&given).unwrap();
+    let row = &given["rows"][0];
+    let rate = 50e6 / row["clocks_per_frame"].as_f64().unwrap();
+    assert_eq!(
+        (&row["speed"]["frames_per_second"], &row["speed"]["estimated"]),
+        (&rate.into(), &false.into())
+    );
+    fs::write(dir.path().join("space.toml"), SPACE).unwrap();
     let markdown = succeed_in(dir.path(), &[&RUN[..], &["--markdown"]].concat());
     assert!(markdown.contains("| frame.pixel_bits = 6 |"), "{markdown}");
     succeed_in(dir.path(), &["check", "out/designs/2.toml"]);
@@ -120,6 +132,11 @@ fn what_fit_finds_can_be_generated() {
     let found = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz"]);
     assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
     assert!(found.stdout.contains("Cheapest: serial"), "{}", found.stdout);
+    let text = found.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        text.contains(" frames/s at 1 MHz") && text.contains(" at 1 MHz (at least 100)"),
+        "{text}"
+    );
     for part in ["fitted: ", "held out: ", "Why:", "found.toml. To build it: "] {
         assert!(found.stdout.contains(part), "{part} in {}", found.stdout);
     }
@@ -135,6 +152,8 @@ fn what_fit_finds_can_be_generated() {
     let lost = fit(&["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);
     assert_eq!(lost.code, 1, "{}", lost.stdout);
     assert!(lost.stdout.contains("NOT objects sent by half "), "{}", lost.stdout);
+    let text = lost.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains(" frames/s at an estimated clock of "), "{text}");
     assert!(lost.stdout.contains("Binding: without --min-recall"), "{}", lost.stdout);
     assert_eq!(fit(&["--min-recall", "90%"]).code, 2, "without boxes");
     assert_eq!(fit(&["--boxes", "gt.txt"]).code, 2, "without a limit");

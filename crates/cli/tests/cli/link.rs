@@ -192,4 +192,10 @@ fn a_clip_that_ends_early_is_compared_as_far_as_it_goes() {
     let report: Value = serde_json::from_str(&report).unwrap();
     assert_eq!(report["clips"][0]["frames"], 2);
     assert!(report["clips"][0]["problem"].is_string(), "{report}");
+    // 64 clocks to take a frame and 20 to its decisions; 48 rows of 8 pixels in 40 ms.
+    let stated = "Without --clock: the array adds up to 84 clocks to the times of the region camera. \
+                  It needs 0.0096 MHz to keep up.\n";
+    assert!(again.stdout.contains(stated) && report["clock_hz"].is_null(), "{}", again.stdout);
+    let given = run_in(dir.path(), &[&args[..], &["--force", "--clock", "50MHz"]].concat());
+    assert!(given.stdout.contains("The array runs at 50 MHz.\n"), "{}", given.stdout);
 }

@@ -23,4 +23,17 @@ impl Manners {
             _ => Self::Rude,
         }
     }
+
+    /// Whether something is offered at a clock at which nothing is taken, and what; without it garbage.
+    pub(super) fn offer<'a>(
+        self,
+        next: Option<&'a [u16]>,
+        random: &mut Random,
+    ) -> (bool, Option<&'a [u16]>) {
+        match self {
+            Self::Quiet => (false, None),
+            Self::Patient => (next.is_some(), next),
+            Self::Rude => (random.one_in(2), None),
+        }
+    }
 }

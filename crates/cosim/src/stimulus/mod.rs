@@ -22,6 +22,7 @@ mod raster;
 mod run;
 mod sequence;
 mod serial;
+mod turns;
 
 use crate::error::CosimError;
 use crate::level::Level;

@@ -5,8 +5,8 @@
 use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
-    Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
-    Thresholds,
+    Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Pipelining,
+    Reference, Thresholds,
 };
 
 /// From this many pixels per region on, the time to build with Verilator is won back.
@@ -34,6 +34,11 @@ fn check_all(configs: &[Config]) {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
+/// Plain and deep in turns that have no period with those of the other keys.
+fn pipelining(turn: usize) -> Pipelining {
+    Pipelining::ALL[turn.count_ones() as usize % 2]
+}
+
 /// The 160 designs. Keys that are not among the five axes take turns.
 fn matrix() -> Vec<Config> {
     let mut configs = Vec::new();
@@ -52,6 +57,7 @@ fn matrix() -> Vec<Config> {
                         config.temporal.reference = reference;
                         config.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
                         config.render.payload = Payload::ALL[turn / 3 % 2];
+                        config.hardware.pipelining = Some(pipelining(turn));
                         configs.push(config);
                     }
                 }
@@ -124,6 +130,9 @@ fn what_the_matrix_leaves_out_agrees() {
         config.denoise.filter = Filter::ALL[turn % 2];
         config.temporal.reference = Reference::ALL[turn / 2 % 2];
         configs.push(config);
+    }
+    for (turn, config) in configs.iter_mut().enumerate() {
+        config.hardware.pipelining = Some(pipelining(turn));
     }
     check_all(&configs);
 }

@@ -20,6 +20,9 @@ const MAD: &str =
 /// Squares and a product in DSP slices.
 const VARIANCE: &str =
     "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"variance\"\n";
+/// Median, edges and the pixels last sent, with the registers of `deep`.
+const DEEP: &str = "[region]\nsize = 4\n[temporal]\nreference = \"last-sent\"\n[hardware]\n\
+                    pipelining = \"deep\"\n";
 /// A raster into lanes of two regions each, one slot of which is empty.
 const FOLDED: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
                       organization = \"serial\"\nfeed = \"raster\"\nfold = 2\n";
@@ -48,6 +51,7 @@ fn netlists_agree_with_the_model() {
         (MAD, Level::Rpu, (1, 1)),
         (EDGES, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
         (VARIANCE, Level::Rpu, (1, 1)),
+        (DEEP, Level::Rpu, (1, 1)),
         (FOLDED, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
     ];
     let failures = in_parallel(&jobs, |&(toml, level, regions)| {

@@ -7,7 +7,7 @@ mod timing;
 pub use timing::PipelinedTiming;
 
 use crate::rules::{Grid, Rules, Unit};
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Pipelining, Port, Timing};
 
 /// The organization as the answers to [`Rules`].
 pub(crate) struct Pipelined;
@@ -52,7 +52,12 @@ impl Rules for Pipelined {
             return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
         }
         match asked.feed {
-            None | Some(Feed::Parallel) => Ok(HardwareConfig { feed: None, ..asked.clone() }),
+            None | Some(Feed::Parallel) => Ok(HardwareConfig {
+                feed: None,
+                // The default is left out, so that designs have the fingerprints from before there was this key.
+                pipelining: asked.pipelining.filter(|&pipelining| pipelining != Pipelining::Plain),
+                ..asked.clone()
+            }),
             Some(Feed::Raster) => {
                 let remedy = "only the serial organization takes the frame row by row; \
                               leave the key out";

@@ -2,10 +2,14 @@
 //! When a pipelined design says what: the numbers behind `docs/timing.md`.
 
 use crate::timing::Departure;
-use crate::{Design, Filter, Neighborhood, Timing};
+use crate::{Design, Filter, Neighborhood, Pipelining, Timing};
 
-/// Registers between a median window and the stream that follows it: window, result.
+/// Registers between a median window and the stream that follows it, plain: window, result.
 const MEDIAN_REGISTERS: u32 = 2;
+/// Of a deep design: window, rows, result.
+const DEEP_MEDIAN_REGISTERS: u32 = 3;
+/// Clocks from a step of the last window to the tail step of a deep design: pixel, difference.
+const DEEP_TAIL_DELAY: u32 = 2;
 
 /// Latencies of a pipelined RPU, in clocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,31 +26,38 @@ pub struct PipelinedTiming {
     /// Frames that must follow before an active region's pixels leave: they leave while the
     /// frame enters the store that many frames later.
     pub forward_frames: u32,
-    /// Registers that align windows and counters with features whose score is final a clock later.
+    /// Clocks from the step of a median window to the edge at which the next stage takes its result.
+    pub median_registers: u32,
+    /// Clocks from a step of the last window to its tail step.
     pub tail_delay: u32,
 }
 
 impl PipelinedTiming {
-    /// The latencies of the design, as if it were pipelined.
+    /// The latencies of the design, as if it were pipelined, and deep only if it is.
     #[must_use]
     pub fn of(design: &Design) -> Self {
         let flush = match design.neighborhood() {
             Neighborhood::Isolated => design.region_size() + 1,
             Neighborhood::Shared => 0,
         };
+        let slowest = design.features().iter().map(|f| f.kind().score_latency()).max();
+        let slowest = slowest.expect("a design has a feature");
+        let (median_registers, tail_delay) = match design.pipelining() {
+            Pipelining::Plain => (MEDIAN_REGISTERS, slowest - 1),
+            Pipelining::Deep => (DEEP_MEDIAN_REGISTERS, DEEP_TAIL_DELAY),
+        };
         let median = match design.filter() {
             Filter::None => 0,
-            Filter::Median3x3 => flush + MEDIAN_REGISTERS,
+            Filter::Median3x3 => flush + median_registers,
         };
         let window = if design.has_feature_window() { flush } else { 0 };
-        let slowest = design.features().iter().map(|f| f.kind().score_latency()).max();
-        let tail_delay = slowest.expect("a design has a feature") - 1;
         let decision_frames = u32::from(design.has_second_pass());
         Self {
             cycles_per_frame: design.stream_pixels(),
             decision_latency: median + window + tail_delay,
             decision_frames,
             forward_frames: decision_frames + 1,
+            median_registers,
             tail_delay,
         }
     }

@@ -27,6 +27,19 @@ impl RasterMemory {
         self.words * u64::from(self.bits)
     }
 
+    /// The frame store of the design, as if it were a raster design; none where it is outside of the core.
+    #[must_use]
+    pub fn store_of(design: &Design) -> Option<Self> {
+        let words = RasterTiming::of(design).words();
+        let word = design.pixels_per_clock() * design.pixel_bits();
+        let (words, bits) = match design.store() {
+            Store::Block | Store::Ultra => (words, word),
+            Store::SinglePort => (words.div_ceil(2), 2 * word),
+            Store::External => return None,
+        };
+        Some(Self { holds: "references: the frame store", words, bits })
+    }
+
     /// The memories of the design, as if it were a raster design; a frame store inside first.
     #[must_use]
     pub fn all_of(design: &Design) -> Vec<Self> {
@@ -69,17 +82,7 @@ impl Sizes {
     /// Frame store and buffers.
     fn pixels(&self, design: &Design) -> Vec<RasterMemory> {
         let buffer = |holds| RasterMemory { holds, words: self.buffer, bits: self.word };
-        let mut list = Vec::new();
-        let (holds, words) = ("references: the frame store", self.timing.words());
-        match design.store() {
-            Store::Block | Store::Ultra => {
-                list.push(RasterMemory { holds, words, bits: self.word });
-            }
-            Store::SinglePort => {
-                list.push(RasterMemory { holds, words: words.div_ceil(2), bits: 2 * self.word });
-            }
-            Store::External => {}
-        }
+        let mut list: Vec<_> = RasterMemory::store_of(design).into_iter().collect();
         if design.forwards() {
             list.push(buffer("pixels that may leave"));
         }

@@ -4,9 +4,8 @@
 use crate::timing::Departure;
 use crate::{Design, Filter, Pipelining, Reference, Timing};
 
-/// Clocks of a stalling sink that the readout needs for itself, without and with a second pass.
-const STALL_MARGIN: u32 = 3;
-const PASS_STALL_MARGIN: u32 = 2;
+/// Clocks of a stalling sink that the readout needs for itself, without a second pass, beside those of the queue.
+const STALL_MARGIN: u32 = 1;
 
 /// The numbers of a raster core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +35,8 @@ pub struct RasterTiming {
     pub decision_latency: u32,
     /// B: rows of regions whose pixels are kept; 0 where nobody reads them back.
     pub buffer_rows: u32,
+    /// Clocks from the entering of an active region into the queue to its holding, at least.
+    pub queue_latency: u32,
     /// Whether pixels leave.
     pub forwards: bool,
     /// The second pass, of designs with `mad`.
@@ -54,10 +55,6 @@ pub struct SecondPass {
 }
 
 impl RasterTiming {
-    /// Clocks from the decision of a region to its first word on the ports, where it does not wait: the
-    /// queue, holding, fetching.
-    pub const TO_FIRST_WORD: u64 = 5;
-
     /// The numbers of the design, as if it were a raster design.
     #[must_use]
     pub fn of(design: &Design) -> Self {
@@ -65,9 +62,10 @@ impl RasterTiming {
         let median = u32::from(design.filter() == Filter::Median3x3);
         let feature = u32::from(design.has_feature_window());
         let has_variance = design.features().iter().any(|feature| feature.variance().is_some());
-        let (store_latency, after_store, lookup_to_store) = match design.pipelining() {
-            Pipelining::Plain => (2 + 4 * median + feature, 4, 1),
-            Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2),
+        let (store_latency, after_store, lookup_to_store, queue_latency) = match design.pipelining()
+        {
+            Pipelining::Plain => (2 + 4 * median + feature, 4, 1, 2),
+            Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2, 3),
         };
         let variance_latency = if has_variance { 3 } else { 0 };
         let (pass_after_store, pass_to_decision) = match design.pipelining() {
@@ -97,6 +95,7 @@ impl RasterTiming {
             lookup_latency: store_latency - lookup_to_store,
             decision_latency: store_latency + after_store + variance_latency,
             buffer_rows,
+            queue_latency,
             forwards: design.forwards(),
             second_pass,
             waits_for_pending: last_sent && design.rows() <= buffer_rows,
@@ -168,12 +167,16 @@ impl RasterTiming {
         match self.second_pass {
             None => {
                 let late = self.decision_latency - self.store_latency;
-                row - self.region_row_words - late - STALL_MARGIN
+                row - self.region_row_words - late - self.queue_latency - STALL_MARGIN
             }
             Some(pass) => {
                 let rows = self.region_words / self.region_row_words;
-                let late = pass.after_store + pass.decision_latency + PASS_STALL_MARGIN;
-                (rows + 1) * row - self.region_words - self.region_row_words - late
+                let late = pass.after_store + pass.decision_latency;
+                (rows + 1) * row
+                    - self.region_words
+                    - self.region_row_words
+                    - late
+                    - self.queue_latency
             }
         }
     }
@@ -210,7 +213,7 @@ impl RasterTiming {
             self.decision_latency
         );
         let leave = if self.forwards {
-            format!("from {} clocks after their decision on", Self::TO_FIRST_WORD)
+            format!("from {} clocks after their decision on", self.to_first_word())
         } else {
             "never: only decisions do".to_owned()
         };
@@ -262,6 +265,13 @@ impl RasterTiming {
         }
     }
 
+    /// Clocks from the decision of a region to its first word on the ports, where it does not wait: entering
+    /// the queue, leaving it, fetching.
+    #[must_use]
+    pub fn to_first_word(&self) -> u64 {
+        u64::from(1 + self.queue_latency + 2)
+    }
+
     /// Clocks from T0 to the last word that leaves, if all regions of the last row are active and the sink
     /// takes a word at every clock; to the last decision where no word leaves.
     fn last_word(&self) -> u64 {
@@ -270,12 +280,12 @@ impl RasterTiming {
             // The words of a row of regions follow each other.
             None => {
                 let first = self.first_of_last_row() + u64::from(self.decision_latency);
-                first + Self::TO_FIRST_WORD + self.words_of_regions()
+                first + self.to_first_word() + self.words_of_regions()
                     - 1
                     - u64::from(self.row_words)
             }
             Some(_) => {
-                self.last_decision() + Self::TO_FIRST_WORD + u64::from(self.region_words) - 1
+                self.last_decision() + self.to_first_word() + u64::from(self.region_words) - 1
             }
         }
     }

@@ -47,6 +47,7 @@ impl Rules for Serial {
         &Grid { size, regions, .. }: &Grid,
     ) -> Result<HardwareConfig, DesignError> {
         asked.refuse_raster_keys()?;
+        asked.refuse_pipelining()?;
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
             return Err(asked.clash("region.size", size.to_string(), &remedy));

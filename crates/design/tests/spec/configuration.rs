@@ -50,6 +50,54 @@ fn fingerprints_tell_designs_apart() {
     assert!(names[0] != paper && names[1..].iter().all(|name| *name != names[0]));
 }
 
+/// By hand from `docs/timing.md`: N + 1 = 9 for each window of an isolated region, the median's registers, the
+/// tail delay.
+#[test]
+fn deep_pipelining_adds_registers_and_takes_none_of_the_clocks_of_a_frame() {
+    let latencies = |keys: &str| {
+        let of = |pipelining: &str| {
+            let timing = PipelinedTiming::of(&design(&format!(
+                "{keys}[hardware]\npipelining = \"{pipelining}\"\n"
+            )));
+            assert_eq!((timing.cycles_per_frame, timing.decision_frames), (64, 0), "{keys}");
+            timing.decision_latency
+        };
+        (of("plain"), of("deep"))
+    };
+    assert_eq!(latencies(""), (9 + 2 + 9, 9 + 3 + 9 + 2));
+    assert_eq!(latencies("[denoise]\nfilter = \"none\"\n"), (9, 9 + 2));
+    assert_eq!(latencies("[[spatial]]\nfeature = \"variance\"\n"), (9 + 2 + 1, 9 + 3 + 2));
+    let no_window = "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"variance\"\n";
+    assert_eq!(latencies(no_window), (1, 2));
+    let shared = |pipelining: &str| {
+        let keys = "[region]\nneighborhood = \"shared\"\n[[spatial]]\nfeature = \"edge\"\n\
+                    [[spatial]]\nfeature = \"mad\"\n";
+        let keys = format!("{keys}[hardware]\npipelining = \"{pipelining}\"\n");
+        let timing = PipelinedTiming::of(&design(&keys));
+        (timing.cycles_per_frame, timing.decision_latency, timing.decision_frames)
+    };
+    assert_eq!((shared("plain"), shared("deep")), ((144, 2 + 1, 1), (144, 3 + 2, 1)));
+}
+
+#[test]
+fn plain_pipelining_is_the_default_and_serial_has_none() {
+    let pipelining = |value: &str| format!("[hardware]\npipelining = \"{value}\"\n");
+    let paper = design("").fingerprint();
+    assert_eq!(design(&pipelining("plain")).fingerprint(), paper);
+    let deep = design(&pipelining("deep"));
+    assert_ne!(deep.fingerprint(), paper);
+    assert_eq!(deep.config().hardware.in_words(), "pipelined, deep pipelining");
+    for value in ["plain", "deep"] {
+        assert_eq!(
+            refusal(&format!("{}organization = \"serial\"\n", pipelining(value))),
+            format!(
+                "`hardware.pipelining` = \"{value}\" cannot be combined with organization = \
+                 \"serial\"; only the pipelined and the raster organization have it; leave the key out"
+            )
+        );
+    }
+}
+
 #[test]
 fn frames_that_are_no_multiple_are_padded() {
     let ragged = design("[frame]\nwidth = 17\nheight = 3\n");

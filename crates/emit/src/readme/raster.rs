@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The README of a raster core: how long a source waits, and when a region is lost.
 
-use super::{PortRow, ThresholdRow, port_row, rate, score_names, threshold};
+use super::{PortRow, ThresholdRow, port_row, score_names, threshold};
 use crate::banner;
 use crate::instance::instance;
 use crate::text::text_of;
@@ -32,7 +32,6 @@ struct Readme {
     /// Clocks after a row in which no word is taken.
     row_pause: u32,
     clocks: u64,
-    rate: String,
     /// Clocks after a frame in which no word is taken.
     stall: u64,
     blank_rows: u64,
@@ -96,14 +95,13 @@ fn view(design: &Design, timing: &RasterTiming) -> Readme {
         tail_pixels: design.width() % timing.word_pixels,
         row_pause: timing.row_words - timing.taken_words,
         clocks: timing.clocks_per_frame(),
-        rate: rate(timing.clocks_per_frame()),
         stall: timing.edges_to_ready(),
         blank_rows: timing.blank_rows(),
         waits: timing.waits_for_pending,
         decided_after: timing.decided_after(),
         second_pass: timing.second_pass.is_some(),
         region_words: timing.region_words,
-        first_word: RasterTiming::TO_FIRST_WORD,
+        first_word: timing.to_first_word(),
         last_position: design.region_pixels() - timing.word_pixels,
         padded: design.columns() * n > design.width() || design.rows() * n > design.height(),
         buffer_rows: timing.buffer_rows,

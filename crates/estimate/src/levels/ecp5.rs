@@ -38,8 +38,8 @@ pub(super) fn timing(cell: &RawCell) -> Option<CellTiming> {
         "PFUMX" => Some(through(cell, PFUMX)),
         "L6MUX21" => Some(through(cell, L6MUX21)),
         "CCU2C" => Some(through(cell, CCU2C)),
-        "TRELLIS_FF" => Some(registered(cell, "Q", START)),
-        "DP16KD" => Some(registered(cell, "DO", block_start(cell))),
+        "TRELLIS_FF" => Some(registered(cell, "Q", |_| START)),
+        "DP16KD" => Some(registered(cell, "DO", |port| block_start(cell, port))),
         "TRELLIS_DPR16X4" => Some(memory(cell)),
         "MULT18X18D" => Some(multiplier(cell)),
         "VLO" | "VHI" => Some(CellTiming::default()),
@@ -53,12 +53,12 @@ fn through(cell: &RawCell, table: Table) -> CellTiming {
     CellTiming { arcs: table.iter().filter_map(arc).collect(), ..CellTiming::default() }
 }
 
-/// Paths end at all inputs but the clocks, and start at the outputs.
-fn registered(cell: &RawCell, output: &str, ps: u32) -> CellTiming {
+/// Paths end at all inputs but the clocks, and start at the outputs, each after its time.
+fn registered(cell: &RawCell, output: &str, ps: impl Fn(&str) -> u32) -> CellTiming {
     let mut timing = CellTiming::default();
     for joint in joints(cell).filter(|joint| !joint.port.contains("CLK")) {
         if joint.port.starts_with(output) {
-            timing.starts.push((joint.net, Weight::after_clock(ps, START)));
+            timing.starts.push((joint.net, Weight::after_clock(ps(joint.port), START)));
         } else {
             timing.ends.push((joint.net, joint.port.to_owned()));
         }
@@ -66,11 +66,10 @@ fn registered(cell: &RawCell, output: &str, ps: u32) -> CellTiming {
     timing
 }
 
-fn block_start(cell: &RawCell) -> u32 {
-    let has = |side: &str| cell.text(&format!("REGMODE_{side}")) == Some("OUTREG");
-    let reads = |side: &str| joints(cell).any(|joint| joint.port.starts_with(&format!("DO{side}")));
-    // The slower side stands for both; one that nothing reads has no paths.
-    let registered = ["A", "B"].iter().all(|side| has(side) || !reads(side));
+/// `DOA3` is an output of side A.
+fn block_start(cell: &RawCell, output: &str) -> u32 {
+    let side = &output["DO".len().."DO?".len()];
+    let registered = cell.text(&format!("REGMODE_{side}")) == Some("OUTREG");
     BLOCK_START[usize::from(registered)]
 }
 

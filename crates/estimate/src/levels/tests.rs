@@ -210,7 +210,7 @@ fn an_ecp5_has_cells_of_its_own() {
     let block = |mode: &str| {
         json!({
             "m": { "type": "DP16KD", "parameters": { "REGMODE_A": mode },
-                "connections": { "CLKA": [1], "DOA0": [10] } },
+                "connections": { "CLKA": [1], "DOA0": [10], "DOB0": [12] } },
             "f": cell("TRELLIS_FF", &json!({ "CLK": [1], "DI": [10], "Q": [11] })),
         })
     };

@@ -5,13 +5,14 @@ use foveate_design::{
     Config, Design, FeatureKind, Filter, HardwareConfig, MemoryKind, Neighborhood, Organization,
     Reference,
 };
-use foveate_estimate::Device;
+use foveate_estimate::{Device, Speed};
 
 use super::FitRequest;
 use super::constraints::{Held, all_hold, excess};
 use super::looks::{Look, Search};
+use super::plan::{max_clocks, slower};
 use super::rough::rough;
-use crate::cost::Silicon;
+use crate::cost::{Silicon, Synthesized};
 use crate::row::real;
 use crate::{ExploreError, Hooks};
 
@@ -26,7 +27,8 @@ pub(super) struct Candidate {
     pub(super) look: Look,
     pub(super) design: Design,
     pub(super) clocks_per_frame: u64,
-    pub(super) frames_per_second: f64,
+    /// At the clock that was given, else at the estimated one.
+    pub(super) speed: Option<Speed>,
     pub(super) silicon: Silicon,
     /// All constraints.
     pub(super) held: Vec<Held>,
@@ -76,6 +78,8 @@ impl Candidate {
 struct Bounds {
     /// Clocks that a frame may take.
     max_clocks: Option<u64>,
+    /// Whether they are those of a planned clock, so that a faster design may do with more.
+    planned: bool,
     /// The kind of lane memory to build. If it is `None`, each design follows its own rule.
     memory: Option<MemoryKind>,
 }
@@ -89,15 +93,17 @@ pub(super) fn build(
 ) -> Result<Built, ExploreError> {
     let holding: Vec<&Look> = search.all().filter(|look| look.holds()).collect();
     let looks = simplest(&holding);
-    let max_clocks = request.constraints.min_fps.map(|fps| clocks(request.clock_hz, fps));
-    let bounds = Bounds { max_clocks, memory };
+    let bounds =
+        Bounds { max_clocks: max_clocks(request), planned: request.clock_hz.is_none(), memory };
     let (mut candidates, mut left_out) = in_batches(&looks, bounds, request.most, request, hooks)?;
+    make_slower(&mut candidates, request, hooks)?;
     if !candidates.iter().any(Candidate::holds) {
         // The nearest that do not hold, and what would hold if it might be slower: for what binds.
         let mut others: Vec<&Look> = search.all().filter(|look| !look.holds()).collect();
         others.sort_by(|one, other| one.excess().total_cmp(&other.excess()));
         others.truncate(NEAREST);
-        for (looks, bounds) in [(&others, bounds), (&looks, Bounds { max_clocks: None, memory })] {
+        for (looks, bounds) in [(&others, bounds), (&looks, Bounds { max_clocks: None, ..bounds })]
+        {
             let most = request.most.min(BATCH);
             let (built, left) = in_batches(looks, bounds, most, request, hooks)?;
             candidates.extend(built);
@@ -115,6 +121,29 @@ pub(super) fn build(
         });
     }
     Ok(Built { candidates, left_out })
+}
+
+/// Folds the cheapest design that holds as deep as its own clock allows, which is faster than planned, or gives it
+/// half the pixels per clock, and so on while that is cheaper.
+fn make_slower(
+    candidates: &mut Vec<Candidate>,
+    request: &FitRequest<'_>,
+    hooks: &dyn Hooks,
+) -> Result<(), ExploreError> {
+    let Some(min_fps) = request.constraints.min_fps else { return Ok(()) };
+    while candidates.len() < request.most {
+        let holding = candidates.iter().filter(|candidate| candidate.holds());
+        let best = holding.min_by(|one, other| one.cost().total_cmp(&other.cost()));
+        let Some(best) = best else { break };
+        let slower = best.speed.and_then(|speed| slower(&best.design, &speed, min_fps));
+        let Some(design) = slower else { break };
+        if candidates.iter().any(|tried| tried.design.config() == design.config()) {
+            break;
+        }
+        let look = best.look.clone();
+        candidates.extend(synthesize(&[(&look, design)], request, hooks)?);
+    }
+    Ok(())
 }
 
 /// The simplest looks: those for which no simpler look meets the limits too.
@@ -168,7 +197,7 @@ fn in_batches(
         let ways = ways(&look.config, request.task, bounds);
         designs.extend(ways.into_iter().map(|design| (*look, design)));
     }
-    designs.sort_by(|(_, one), (_, other)| rough(one).total_cmp(&rough(other)));
+    in_turn(&mut designs);
     let all = designs.len();
     let mut built = Vec::new();
     for batch in designs[..all.min(most)].chunks(BATCH) {
@@ -181,6 +210,21 @@ fn in_batches(
     Ok((built, left_out))
 }
 
+/// Sorts designs by their rough cost, the organizations in turn: a limit on a unit may rule one of them out, and
+/// then the others must not wait behind all of its designs.
+fn in_turn(designs: &mut Vec<(&Look, Design)>) {
+    designs.sort_by(|(_, one), (_, other)| rough(one).total_cmp(&rough(other)));
+    let mut turns = [0; Organization::ALL.len()];
+    let turn = |(look, design): (_, Design)| {
+        let number = design.organization() as usize;
+        turns[number] += 1;
+        (turns[number], (look, design))
+    };
+    let mut turned: Vec<_> = designs.drain(..).map(turn).collect();
+    turned.sort_by_key(|(turn, _)| *turn);
+    designs.extend(turned.into_iter().map(|(_, design)| design));
+}
+
 /// Builds designs.
 fn synthesize(
     designs: &[(&Look, Design)],
@@ -188,60 +232,96 @@ fn synthesize(
     hooks: &dyn Hooks,
 ) -> Result<Vec<Candidate>, ExploreError> {
     let designs_alone = designs.iter().map(|(_, design)| design);
-    let areas = request.synthesizer.areas(designs_alone, hooks)?.all()?;
-    let candidate = |((look, design), silicon): (&(&Look, Design), Silicon)| {
+    let found = request.synthesizer.areas(designs_alone, hooks)?.all()?;
+    let candidate = |((look, design), synthesized): (&(&Look, Design), Synthesized)| {
+        let Synthesized { silicon, speed: estimated } = synthesized;
         let clocks_per_frame = design.timing().clocks_per_frame();
-        let frames_per_second = real(request.clock_hz) / real(clocks_per_frame.max(1));
+        let given = request.clock_hz.map(|hertz| Speed::given(real(hertz) / 1e6, clocks_per_frame));
+        let speed = given.or(estimated);
         let mut held = look.held.clone();
-        held.extend(request.constraints.on_speed(frames_per_second));
+        held.extend(request.constraints.on_speed(speed.as_ref()));
         held.extend(request.constraints.on_silicon(&silicon));
         let (look, design) = ((*look).clone(), design.clone());
-        Candidate { look, design, clocks_per_frame, frames_per_second, silicon, held }
+        Candidate { look, design, clocks_per_frame, speed, silicon, held }
     };
-    Ok(designs.iter().zip(areas).map(candidate).collect())
-}
-
-/// The most clocks per frame that reach this many frames per second.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "positive and below 2^53"
-)]
-fn clocks(clock_hz: u64, fps: f64) -> u64 {
-    (real(clock_hz) / fps.max(1e-9)).floor() as u64
+    Ok(designs.iter().zip(found).map(candidate).collect())
 }
 
 /// Ways to build a camera. If regions may share a unit, these are, for each feed, the deepest fold that is
 /// fast enough and its halvings, because fewer units are not always smaller in total. If no fold is fast
-/// enough, these are the organizations in which regions do not share a unit.
+/// enough, these are the organizations with a unit for each region, and at a planned clock also fold 1. An
+/// organization with one unit for all regions comes with the fewest pixels per clock that are fast enough; at a
+/// planned clock with the most, if none is.
 fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
-    let Bounds { max_clocks, memory } = bounds;
-    let with = |organization: Organization, feed| {
+    let Bounds { max_clocks, planned, memory } = bounds;
+    let with = |organization: Organization, feed, pixels_per_clock| {
         let mut config = look.clone();
         config.hardware = HardwareConfig {
             organization,
             feed,
             memory: memory.filter(|kind| organization.memories().contains(kind)),
             thresholds: task.hardware.thresholds,
+            pixels_per_clock,
             ..HardwareConfig::default()
         };
         config.validate().ok()
     };
     let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());
-    let mut found = Vec::new();
+    let (mut found, mut fast) = (Vec::new(), false);
     let fed = |&organization: &Organization| {
-        organization.feeds().iter().filter_map(move |&feed| with(organization, Some(feed)))
+        let feeds = organization.feeds().iter();
+        feeds.filter_map(move |&feed| with(organization, Some(feed), None))
     };
     for single in folding.into_iter().flat_map(fed) {
         let fold = max_clocks.map_or(Some(single.regions()), |clocks| single.largest_fold(clocks));
+        fast |= fold.is_some();
+        let fold = fold.or(planned.then_some(1));
         let Some(deepest) = fold.and_then(|fold| single.with_fold(fold).ok()) else { continue };
         let halvings = 0..=deepest.fold().max(1).ilog2();
         found.extend(
             halvings.filter_map(|halving| single.with_fold(deepest.fold() >> halving).ok()),
         );
     }
-    if found.is_empty() {
-        found.extend(others.into_iter().filter_map(|&organization| with(organization, None)));
+    if !fast {
+        let each = others.iter().filter_map(|&&organization| with(organization, None, None));
+        found.extend(each.filter(|design| design.unit().count == design.regions()));
     }
+    let is_fast = |design: &Design| {
+        max_clocks.is_none_or(|clocks| design.timing().clocks_per_frame() <= clocks)
+    };
+    found.extend(others.iter().filter_map(|&&organization| {
+        // An organization without words refuses all but the first.
+        let words = [None, Some(2), Some(4)].into_iter();
+        let ways = words.filter_map(|pixels| with(organization, None, pixels));
+        let ways: Vec<_> = ways.filter(|design| design.unit().count == 1).collect();
+        let most = ways.last().filter(|_| planned).cloned();
+        ways.into_iter().find(is_fast).or(most)
+    }));
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The raster designs among the ways to build a camera of 64x48 pixels, by their pixels per clock, and whether
+    /// one is pipelined.
+    fn words(max_clocks: u64, planned: bool) -> (Vec<u32>, bool) {
+        let look = Config::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
+        let bounds = Bounds { max_clocks: Some(max_clocks), planned, memory: None };
+        let ways = ways(&look, &look, bounds);
+        let of = |organization| ways.iter().filter(move |d| d.organization() == organization);
+        let words = of(Organization::Raster).map(Design::pixels_per_clock).collect();
+        (words, of(Organization::Pipelined).next().is_some())
+    }
+
+    /// 3,072 pixels take 3,072, 1,536 or 768 clocks, and some more between frames.
+    #[test]
+    fn a_raster_core_has_the_fewest_pixels_per_clock_that_are_fast_enough() {
+        assert_eq!(words(1_000_000, false), (vec![1], false));
+        assert_eq!(words(3_072, false), (vec![2], true));
+        assert_eq!(words(1_536, false), (vec![4], true));
+        assert_eq!(words(64, false), (vec![], true));
+        assert_eq!(words(64, true), (vec![4], true));
+    }
 }

@@ -2,6 +2,7 @@
 //! Limits that a design must meet, and how far it is from them.
 
 use foveate_design::Design;
+use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
 use serde::Serialize;
 
@@ -23,7 +24,7 @@ pub struct Constraints {
     pub max_bytes: Option<f64>,
     /// Share of the objects of which at least half of the regions are active. It needs boxes.
     pub min_recall: Option<f64>,
-    /// Frames per second at the clock.
+    /// Frames per second at the clock; of an estimated clock at the low end of its range.
     pub min_fps: Option<f64>,
     /// LUTs of one RPU or lane, those used as memory included.
     pub max_lut: Option<u64>,
@@ -48,15 +49,18 @@ pub struct Held {
     pub at_least: bool,
     /// Whether the limit is met.
     pub holds: bool,
+    /// Of frames per second: the clock in MHz that they hold at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clock_mhz: Option<f64>,
 }
 
 impl Held {
     fn at_most(name: &'static str, value: f64, limit: f64) -> Self {
-        Self { name, value, limit, at_least: false, holds: value <= limit }
+        Self { name, value, limit, at_least: false, holds: value <= limit, clock_mhz: None }
     }
 
     fn at_least(name: &'static str, value: f64, limit: f64) -> Self {
-        Self { name, value, limit, at_least: true, holds: value >= limit }
+        Self { name, value, limit, at_least: true, holds: value >= limit, clock_mhz: None }
     }
 
     /// How far the figure is from the limit: 0 if the limit is met, 1 if the figure is twice or half of it.
@@ -108,10 +112,12 @@ impl Constraints {
         .collect()
     }
 
-    /// The constraint on speed, at so many frames per second.
+    /// The constraint on speed, at the low end of the clock. Without a clock it is not met.
     #[must_use]
-    pub fn on_speed(&self, frames_per_second: f64) -> Vec<Held> {
-        let held = |limit| Held::at_least("min-fps", frames_per_second, limit);
+    pub fn on_speed(&self, speed: Option<&Speed>) -> Vec<Held> {
+        let rate = speed.map_or(0.0, |speed| speed.low_frames_per_second);
+        let clock_mhz = speed.map(|speed| speed.low_clock_mhz);
+        let held = |limit| Held { clock_mhz, ..Held::at_least("min-fps", rate, limit) };
         self.min_fps.map(held).into_iter().collect()
     }
 

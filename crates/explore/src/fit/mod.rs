@@ -8,14 +8,17 @@
 //!    of them it tries all pixel bits, windows, filters and references ([`looks`]).
 //! 3. Of the looks that meet the limits, only the simplest are built: a look is dropped if a simpler one
 //!    meets the limits too. Each is built with every feed and with the deepest fold that is fast enough
-//!    and its halvings, or pipelined if no serial array is fast enough ([`build`]). The most promising
-//!    designs are synthesized first ([`rough`]).
+//!    and its halvings, or pipelined if no serial array is fast enough; and as a raster core, if one is fast
+//!    enough ([`build`]). The most promising designs are synthesized first ([`rough`]). Where no clock is given,
+//!    a planned one says which of them are tried, and the clock that is estimated from the netlist says whether
+//!    they are fast enough ([`plan`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
 
 mod build;
 mod constraints;
 mod held_out;
 mod looks;
+mod plan;
 mod report;
 mod rough;
 mod target;
@@ -47,8 +50,9 @@ pub struct FitRequest<'a> {
     pub input: &'a InputOptions,
     /// The limits that the design must meet.
     pub constraints: &'a Constraints,
-    /// The clock in Hz.
-    pub clock_hz: u64,
+    /// The clock in Hz, if it is known; else that of each design is estimated from its netlist, and
+    /// [`Constraints::min_fps`] is checked at the low end of its range.
+    pub clock_hz: Option<u64>,
     /// The wanted share of active regions, 0..=1; the task's thresholds are set to it.
     pub target_active: Option<f64>,
     /// Ground-truth boxes for [`Constraints::min_recall`]: one file or folder for all inputs, or one for each.

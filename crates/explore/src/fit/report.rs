@@ -2,6 +2,7 @@
 //! What came out of a fit, for people and programs.
 
 use foveate_design::Config;
+use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
 use serde::Serialize;
 
@@ -35,8 +36,8 @@ pub struct Design {
     pub summary: String,
     /// Clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// Frames per second at the clock.
-    pub frames_per_second: f64,
+    /// Frames per second, at the clock that was given or at that which is estimated from its netlist.
+    pub speed: Option<Speed>,
     /// Its area.
     pub silicon: Silicon,
     /// Figures on the first half, on which it was fitted.
@@ -60,8 +61,8 @@ pub struct Fit {
     pub task: String,
     /// The thresholds of the task, if a share of active regions was wanted.
     pub target: Option<Target>,
-    /// The clock in Hz.
-    pub clock_hz: u64,
+    /// The clock in Hz, if one was given.
+    pub clock_hz: Option<u64>,
     /// Numbers of candidate cameras, of synthesized designs, and of less promising designs that were skipped.
     pub considered: (usize, usize, usize),
     /// Whether the design meets all limits on the first half.
@@ -88,11 +89,11 @@ pub(super) fn fit(
     (held_out, mut held): (Figures, Vec<Held>),
     halves: &Halves,
 ) -> Fit {
-    held.extend(request.constraints.on_speed(chosen.frames_per_second));
+    held.extend(request.constraints.on_speed(chosen.speed.as_ref()));
     held.extend(request.constraints.on_silicon(&chosen.silicon));
     let config = chosen.design.config().clone();
     Fit {
-        format_version: 1,
+        format_version: 2,
         frames: frames(halves),
         task: search.task().to_toml(),
         target,
@@ -107,7 +108,7 @@ pub(super) fn fit(
             toml: config.to_toml(),
             summary: why::summary(&config),
             clocks_per_frame: chosen.clocks_per_frame,
-            frames_per_second: chosen.frames_per_second,
+            speed: chosen.speed,
             silicon: chosen.silicon.clone(),
             fitted: chosen.look.figures.clone(),
             fitted_held: chosen.held.clone(),

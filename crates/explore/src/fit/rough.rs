@@ -2,7 +2,7 @@
 //! A rough cost of a design before it is synthesized, only to try the promising ones first. What is
 //! chosen is chosen by what Yosys counts.
 
-use foveate_design::{Design, FeatureKind, Filter, MemoryKind, Organization, RasterTiming};
+use foveate_design::{Design, FeatureKind, Filter, MemoryKind, Organization, RasterMemory};
 use foveate_estimate::Device;
 
 use crate::row::real;
@@ -43,17 +43,20 @@ pub(super) fn rough(design: &Design) -> f64 {
             (300.0 + lanes * (logic + luts)) / real(device.lut)
                 + lanes * blocks / real(device.bram18)
         }
-        // Not measured: the logic of a pipelined RPU for each pixel of a word, beside the bits of the memories.
+        // Read off docs/organizations.md: a core with its store inside, and what each pixel of a word adds.
         Organization::Raster => {
-            let features: f64 = kinds.map(|_| 10.0).sum();
+            let features: f64 = kinds
+                .map(|kind| match kind {
+                    FeatureKind::Edge => 11.0,
+                    FeatureKind::Corner => 14.0,
+                    FeatureKind::Mad | FeatureKind::Variance => 6.0,
+                })
+                .sum();
             let pixels = f64::from(design.pixels_per_clock());
-            let logic = pixels * (8.0 + features + if median { 37.0 } else { 0.0 }) * bits;
-            let timing = RasterTiming::of(design);
-            let row = f64::from(timing.row_words) * pixels;
-            let side = f64::from(design.region_size());
-            let kept = f64::from(timing.buffer_rows) * side + 2.0 * f64::from(timing.windows);
-            let words = real(timing.words()) * pixels + kept * row;
-            logic / real(device.lut) + (words * bits / 18_432.0).ceil() / real(device.bram18)
+            let logic = 380.0 + pixels * (2.0 + features + if median { 17.0 } else { 0.0 }) * bits;
+            let blocks = |memory: &RasterMemory| memory.total_bits().div_ceil(18_432);
+            let blocks: u64 = RasterMemory::all_of(design).iter().map(blocks).sum();
+            logic / real(device.lut) + real(blocks) / real(device.bram18)
         }
     }
 }

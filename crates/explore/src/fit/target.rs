@@ -123,7 +123,7 @@ mod tests {
                 inputs: &[PathBuf::from("scene:street")],
                 input: &InputOptions { frames: Some(16), ..InputOptions::default() },
                 constraints: &Constraints::default(),
-                clock_hz: 1,
+                clock_hz: None,
                 target_active: Some(wanted),
                 boxes: &[],
                 synthesizer: &Synthesizer {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Why a design was chosen: what one step to something simpler would do.
 
-use foveate_design::{Config, Filter, Neighborhood, Reference};
-use foveate_estimate::ramb36;
+use std::iter;
+
+use foveate_design::{Config, Filter, Neighborhood, Organization, Reference};
+use foveate_estimate::{Speed, ramb36};
 
 use super::FitRequest;
 use super::build::{Built, Candidate};
 use super::constraints::Held;
 use super::looks::{Look, Search};
-use crate::row::real;
 
 /// The design in a few words.
 pub(super) fn summary(config: &Config) -> String {
@@ -43,11 +44,18 @@ pub(super) fn why(
         }
     }
     lines.extend(other_features(search, built, chosen));
+    let next = built.all().iter().skip(1).find(|other| other.holds() && chosen.holds());
+    let is_next = |config| next.is_some_and(|next| next.design.config() == config);
+    let others = other_organizations(built, chosen);
+    lines.extend(
+        others
+            .filter(|other| !is_next(other.design.config()))
+            .map(|other| format!("{}: {}", summary(other.design.config()), costs(other))),
+    );
     lines.extend(slower(chosen, request));
-    let other = built.all().iter().skip(1).find(|other| other.holds());
-    lines.extend(other.filter(|_| chosen.holds()).map(|other| {
-        let (own, its) = (price(chosen), price(other));
-        format!("next cheapest: {}: {its}, instead of {own}", summary(other.design.config()))
+    lines.extend(next.map(|next| {
+        let (own, its) = (price(chosen), price(next));
+        format!("next cheapest: {}: {its}, instead of {own}", summary(next.design.config()))
     }));
     lines
 }
@@ -102,14 +110,7 @@ fn verdict(look: &Look, built: &Built) -> String {
     let flips = look.figures.action_flips * 100.0;
     let own = built.all().iter().filter(|candidate| candidate.look.config == look.config);
     match own.min_by(|one, other| one.cost().total_cmp(&other.cost())) {
-        Some(candidate) => {
-            let broken = candidate.held.iter().filter(|held| !held.holds).map(Held::text);
-            let broken: Vec<String> = broken.collect();
-            let costs = price(candidate);
-            let but =
-                if broken.is_empty() { String::new() } else { format!("; {}", broken.join(", ")) };
-            format!("{flips:.2} % flips; {costs}{but}")
-        }
+        Some(candidate) => format!("{flips:.2} % flips; {}", costs(candidate)),
         None => format!(
             "{flips:.2} % flips; not synthesized, because it is less promising or a simpler one meets the limits"
         ),
@@ -144,12 +145,31 @@ fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec
     best.into_iter().map(line).collect()
 }
 
+/// The best design of every other organization, of those that were synthesized.
+fn other_organizations<'a>(
+    built: &'a Built,
+    chosen: &Candidate,
+) -> impl Iterator<Item = &'a Candidate> {
+    let own = chosen.design.organization();
+    Organization::ALL.iter().filter(move |other| **other != own).filter_map(|other| {
+        built.all().iter().find(|candidate| candidate.design.organization() == *other)
+    })
+}
+
 /// One fold more, if that is too slow.
 fn slower(chosen: &Candidate, request: &FitRequest<'_>) -> Option<String> {
     let deeper = chosen.design.with_fold(chosen.design.fold() + 1).ok()?;
-    let rate = real(request.clock_hz) / real(deeper.timing().clocks_per_frame());
-    let slow = request.constraints.min_fps > Some(rate);
-    slow.then(|| format!("fold {}: {rate:.2} frames/s", deeper.fold()))
+    let speed = chosen.speed?;
+    let at_low = Speed::given(speed.low_clock_mhz, deeper.timing().clocks_per_frame());
+    let [held] = request.constraints.on_speed(Some(&at_low)).try_into().ok()?;
+    let whose = if speed.estimated { ", if its clock is the same" } else { "" };
+    (!held.holds).then(|| format!("fold {}: {}{whose}", deeper.fold(), held.text()))
+}
+
+/// What a design takes, and which limits it misses.
+fn costs(candidate: &Candidate) -> String {
+    let broken = candidate.held.iter().filter(|held| !held.holds).map(Held::text);
+    iter::once(price(candidate)).chain(broken).collect::<Vec<_>>().join("; ")
 }
 
 /// What a design takes, and the figure that designs are chosen by.
@@ -163,6 +183,11 @@ fn price(candidate: &Candidate) -> String {
     )
 }
 
+/// A number with at most two digits after the point.
+fn hundredths(value: f64) -> String {
+    format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 impl Held {
     /// The figure beside its limit.
     #[must_use]
@@ -172,9 +197,7 @@ impl Held {
             "max-flips" | "max-missed" | "min-recall" => format!("{:.2} %", value * 100.0),
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
-            "min-fps" | "max-bram" => {
-                format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
-            }
+            "min-fps" | "max-bram" => hundredths(value),
             _ => format!("{value:.0}"),
         };
         let what = match self.name {
@@ -190,6 +213,8 @@ impl Held {
             "max-array-lut" => "LUTs of the array",
             _ => "RAMB36",
         };
-        format!("{what} {} ({side} {})", number(self.value), number(self.limit))
+        let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
+        let clock = clock.unwrap_or_default();
+        format!("{what} {}{clock} ({side} {})", number(self.value), number(self.limit))
     }
 }

@@ -49,6 +49,7 @@ impl Card {
             ),
             ("Clocks per frame", grouped(row.clocks_per_frame)),
         ];
+        facts.extend(row.speed.map(|speed| ("Speed", speed.text())));
         if let Some(silicon) = &row.silicon {
             let array = &silicon.array;
             facts.push((
@@ -88,13 +89,16 @@ pub(crate) fn title(row: &Row, settings: &Settings) -> String {
     let figures = &row.figures;
     let area = row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
     format!(
-        "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{} frames/s, {} bytes/frame{area}",
+        "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{}, {} bytes/frame{area}",
         row.number,
         settings.described(row, None),
         percent(figures.action_flips),
         percent(figures.missed),
         percent(figures.false_alarms),
-        grouped(row.frames_per_second),
+        row.speed.map_or_else(
+            || format!("{} clocks per frame", grouped(row.clocks_per_frame)),
+            |speed| speed.text()
+        ),
         real(row.bytes_per_frame, 0),
     )
 }

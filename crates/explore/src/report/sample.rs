@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Explorations that were never run, for tests of the page.
 
-use foveate_estimate::Area;
+use foveate_estimate::{Area, ClockEstimate, LogicPath, Speed};
 use foveate_fidelity::{Figures, ScoreError, Staleness};
 
 use crate::objective::mark_fronts;
 use crate::row::real;
 use crate::{ClipRow, Exploration, Fronts, Refused, Row, Silicon, Space};
+
+fn clock(mhz: f64) -> ClockEstimate {
+    let (low_mhz, high_mhz) = (mhz / 1.25, mhz / 0.75);
+    ClockEstimate { mhz, low_mhz, high_mhz, wiring_share: 0.65, path: LogicPath::default() }
+}
 
 /// Every design of a space with figures that follow from its settings.
 pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
@@ -52,7 +57,8 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
             figures: figures(flips, bits, (130.0 - level) / 200.0 + bits / 300.0 + fold / 90.0),
             bytes_per_frame: 196.0 + 6000.0 * bits * (0.2 + noise / 30.0),
             clocks_per_frame: clocks,
-            frames_per_second: 250_000_000 / clocks,
+            // As a synthesis would find it: the clock of each design.
+            speed: areas.then(|| Speed::estimated(&clock(40.0 + 2.0 * bits), clocks)),
             silicon: areas.then(|| Silicon {
                 unit: area(0.01),
                 units: 784,

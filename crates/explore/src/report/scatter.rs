@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use foveate_page::{Axis, Field, Line, Mark, Plot, look, rings, staircase, text};
 
 use super::colour::Grouping;
-use crate::objective::{Better, Objective, unbeaten};
+use crate::objective::{Better, Objective, speed, unbeaten};
 use crate::{Exploration, Row};
 
 /// What a plot shows: two objectives, and the front of both.
@@ -27,12 +27,14 @@ struct Measure {
 
 impl Measure {
     /// An objective as the axis of a plot, in a unit that people use.
-    fn of(objective: Objective, clock_mhz: u32) -> Self {
+    fn of(objective: Objective, clock_mhz: Option<u32>) -> Self {
         let (title, scale) = match objective {
             Objective::Error => ("flipped actions, %".to_owned(), 100.0),
-            Objective::Speed => {
-                (format!("frames/s at {clock_mhz} MHz"), f64::from(clock_mhz) * 1e6)
-            }
+            Objective::Speed => match clock_mhz {
+                Some(mhz) => (format!("frames/s at {mhz} MHz"), 1.0),
+                None => ("frames/s at the estimated clock".to_owned(), 1.0),
+            },
+            Objective::PerClock => ("frames per million clocks".to_owned(), 1e6),
             Objective::Luts => ("LUTs of the array".to_owned(), 1.0),
             Objective::Stale => ("stale relevant regions, %".to_owned(), 100.0),
             Objective::Bytes => ("bytes per frame".to_owned(), 1.0),
@@ -66,12 +68,13 @@ pub(crate) fn plots(
     groupings: &[Grouping],
     titles: &[String],
 ) -> Vec<Plot> {
-    use Objective::{Bytes, Error, Likeness, Luts, Speed, Stale};
+    use Objective::{Bytes, Error, Likeness, Luts, Stale};
     let scatter = |id, title, x, y| {
         let [x, y] = [x, y].map(|objective| Measure::of(objective, exploration.clock_mhz));
         Scatter { id, title, x, y }
     };
-    let mut scatters = vec![scatter("speed", "Error against speed", Speed, Error)];
+    let mut scatters =
+        vec![scatter("speed", "Error against speed", speed(rows.iter().copied()), Error)];
     if rows.iter().any(|row| row.silicon.is_some()) {
         scatters.push(scatter("area", "Error against area", Luts, Error));
     }

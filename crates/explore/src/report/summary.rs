@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What was explored and what came out, in a few lines.
 
+use std::cmp::Ordering;
+
 use foveate_page::Fact;
-use foveate_page::number::{grouped, percent, real, things};
+use foveate_page::number::{NONE, grouped, percent, real, things};
 
 use super::setting::Settings;
-use crate::{Exploration, Row};
+use crate::{Exploration, Row, objective};
 
 /// What the page is called.
 pub(crate) fn title(exploration: &Exploration) -> String {
@@ -51,8 +53,26 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
         fact("Refused", count(refused.len()), "combinations".to_owned()),
         fact("Frames", grouped(frames), things(clips.len(), "clip")),
         fact("Frame", format!("{width}×{height}"), "pixels".to_owned()),
-        fact("Clock", format!("{} MHz", exploration.clock_mhz), "assumed for frames/s".to_owned()),
+        clock(exploration),
     ]
+}
+
+/// The clock of the frame rates.
+fn clock(exploration: &Exploration) -> Fact {
+    let of_rows = || exploration.rows.iter().filter_map(|row| row.speed);
+    let (value, note) = match (exploration.clock_mhz, of_rows().next()) {
+        (Some(mhz), _) => (format!("{mhz} MHz"), "as the space gives it"),
+        (None, Some(_)) => {
+            let slowest = of_rows().map(|speed| speed.clock_mhz).fold(f64::INFINITY, f64::min);
+            let fastest = of_rows().map(|speed| speed.clock_mhz).fold(0.0, f64::max);
+            let [slowest, fastest] = [slowest, fastest].map(|mhz| real(mhz, 0));
+            let both = format!("{slowest} to {fastest} MHz");
+            let value = if slowest == fastest { format!("{slowest} MHz") } else { both };
+            (value, "estimated for each design")
+        }
+        (None, None) => (NONE.to_owned(), "not known without synthesis"),
+    };
+    Fact { name: "Clock", value, note: note.to_owned() }
 }
 
 /// The ends of the front in words.
@@ -60,7 +80,10 @@ pub(crate) fn findings(rows: &[Row], settings: &Settings) -> Vec<String> {
     let front = || rows.iter().filter(|row| row.front.all);
     let by_error =
         |one: &&Row, other: &&Row| one.figures.action_flips.total_cmp(&other.figures.action_flips);
-    let speed = |row: &Row| format!("{} frames/s", grouped(row.frames_per_second));
+    let speed = |row: &Row| match row.speed {
+        Some(speed) => speed.text(),
+        None => format!("{} clocks per frame", grouped(row.clocks_per_frame)),
+    };
     let flips = |row: &Row| format!("{} % flipped actions", percent(row.figures.action_flips));
     let luts =
         |row: &Row| row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
@@ -73,13 +96,15 @@ pub(crate) fn findings(rows: &[Row], settings: &Settings) -> Vec<String> {
         }));
     };
     say("Smallest error", front().min_by(by_error));
-    let fastest = front().min_by(|one, other| {
-        one.clocks_per_frame.cmp(&other.clocks_per_frame).then_with(|| by_error(one, other))
+    let fast = objective::speed(rows);
+    let fastest = front().max_by(|one, other| {
+        let order = fast.of(one).partial_cmp(&fast.of(other));
+        order.unwrap_or(Ordering::Equal).then_with(|| by_error(other, one))
     });
     say("Fastest", fastest);
-    let smallest = front().filter(|row| row.luts().is_some()).min_by(|one, other| {
-        one.luts().partial_cmp(&other.luts()).unwrap_or(std::cmp::Ordering::Equal)
-    });
+    let smallest = front()
+        .filter(|row| row.luts().is_some())
+        .min_by(|one, other| one.luts().partial_cmp(&other.luts()).unwrap_or(Ordering::Equal));
     say("Smallest area", smallest);
     found
 }

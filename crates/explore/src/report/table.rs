@@ -23,7 +23,7 @@ const FIGURES: [(&str, &str, &str); 8] = [
 
 /// Name and meaning of every part of the area.
 const AREA: [(&str, &str, &str); 5] = [
-    ("LUT", "unit", "LUTs of one RPU, or of one lane of a serial design"),
+    ("LUT", "unit", "LUTs of one RPU, of one lane of a serial design, or of a raster core"),
     ("LUT", "array", "LUTs of the array, those used as memory included"),
     ("FF", "array", "flip-flops of the array"),
     ("LUTRAM", "array", "LUTs of the array used as memory, two SRL16 in one"),
@@ -49,10 +49,13 @@ pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
         title: title.to_owned(),
         numbers: true,
     };
-    let speed = ("frames", "/s", "frames per second at the clock of the exploration");
+    let speed = [
+        ("clock", "MHz", "estimated from the netlist, 25 % either way, if the space gives none"),
+        ("frames", "/s", "frames per second at that clock"),
+    ];
     let areas = if area { &AREA[..] } else { &[] };
     axes.into_iter()
-        .chain(FIGURES.into_iter().chain([speed]).map(figure))
+        .chain(FIGURES.into_iter().chain(speed).map(figure))
         .chain(areas.iter().copied().map(figure))
         .collect()
 }
@@ -80,8 +83,14 @@ pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
         Cell::number(real(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
         Cell::number(real(figures.staleness.mean, 2), Some(figures.staleness.mean)),
         Cell::number(real(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
-        Cell::count(row.frames_per_second),
     ]);
+    cells.extend(match row.speed {
+        Some(speed) => [
+            Cell::number(real(speed.clock_mhz, 0), Some(speed.clock_mhz)),
+            Cell::number(speed.rate_text(), Some(speed.frames_per_second)),
+        ],
+        None => [Cell::none(), Cell::none()],
+    });
     if area {
         let of = |take: fn(&Silicon) -> u64| match &row.silicon {
             Some(silicon) => Cell::count(take(silicon)),

@@ -60,7 +60,8 @@ fn every_point_is_there_with_its_configuration_rows_and_marks() {
         let counts: Vec<usize> = rows.map(|row| cells(&row)).collect();
         assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
     }
-    for text in ["hall.mp4: frame 300 of 450 is damaged", "region.size = 65", "250 MHz", "224×224"]
+    for text in
+        ["hall.mp4: frame 300 of 450 is damaged", "region.size = 65", "48 to 56 MHz", "224×224"]
     {
         assert!(page.contains(text), "{text}");
     }

@@ -5,8 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use foveate_explore::{Exploration, ExploreError, Hooks, Progress, Request, Space, explore};
+use foveate_emit::Top;
+use foveate_estimate::{EstimateJob, estimate};
+use foveate_explore::{
+    Exploration, ExploreError, Hooks, Progress, Request, Space, Synthesizer, explore,
+};
 use foveate_footage::InputOptions;
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Tool, Toolchain};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
@@ -90,6 +96,43 @@ fn every_figure_is_in_its_file() {
     }
     let parquet = fs::read(output.join("points.parquet")).unwrap();
     assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
+}
+
+/// Each design is as fast as the clock of its own netlist says, unless the space gives a clock.
+#[test]
+fn a_point_has_the_clock_of_its_netlist() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    const TINY: &str = "[design]\nframe.width = 16\nframe.height = 8\n[vary]\ndenoise.filter = ['none']\n\
+         hardware.organization = ['pipelined', 'serial']\n";
+    let synthesizer =
+        Synthesizer { toolchain: Toolchain::system(), cache: Cache::from_env().unwrap() };
+    let folder = tempfile::tempdir().unwrap();
+    let inputs = [PathBuf::from("scene:street")];
+    let input = InputOptions { frames: Some(3), ..InputOptions::default() };
+    for (clock, name) in [("", "own"), ("clock_mhz = 50\n", "given")] {
+        let space = &Space::from_toml(&format!("{clock}{TINY}")).unwrap();
+        let output = folder.path().join(name);
+        let tools = &synthesizer;
+        let request = Request { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+        let found = explore(&request, &output, &Watch::new(usize::MAX)).unwrap();
+        let points = lines(&output.join("points.csv"));
+        let at = points[0].split(',').position(|column| column == "clock_mhz").unwrap();
+        for (row, line) in found.rows.iter().zip(&points[1..]) {
+            let design = row.config.validate().unwrap();
+            let job = EstimateJob::of(&design, Top::Rcm);
+            let clock = estimate(&tools.toolchain, &tools.cache, &job).unwrap().clock.unwrap();
+            let expected = if name == "own" { clock.mhz } else { 50.0 };
+            let speed = row.speed.unwrap();
+            let clocks = f64::from(u32::try_from(row.clocks_per_frame).unwrap());
+            assert_eq!(speed.clock_mhz, expected);
+            assert_eq!(speed.frames_per_second, expected * 1e6 / clocks);
+            let cell: f64 = line.split(',').nth(at).unwrap().parse().unwrap();
+            assert!((cell - expected).abs() < 1e-9 * expected, "{line}");
+        }
+        assert_ne!(found.rows[0].clocks_per_frame, found.rows[1].clocks_per_frame);
+    }
 }
 
 /// Every cell of a column of `points.parquet` as text.

@@ -4,7 +4,9 @@
 use std::path::PathBuf;
 
 use foveate_design::{Config, Design};
+use foveate_emit::Top;
 use foveate_engine::Engine;
+use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
     Constraints, ExploreError, Fit, FitRequest, Held, Hooks, Progress, Synthesizer, fit,
 };
@@ -33,13 +35,14 @@ impl Hooks for Cancelled {
 }
 
 fn run(frames: u32, constraints: &Constraints, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
-    run_with(&[], frames, constraints, hooks)
+    run_with(&[], frames, constraints, Some(1_000_000), hooks)
 }
 
 fn run_with(
     boxes: &[PathBuf],
     frames: u32,
     constraints: &Constraints,
+    clock_hz: Option<u64>,
     hooks: &dyn Hooks,
 ) -> Result<Fit, ExploreError> {
     let task = "[frame]\nwidth = 32\nheight = 24\n[temporal]\nreference = \"last-sent\"\n";
@@ -49,7 +52,7 @@ fn run_with(
             inputs: &[PathBuf::from("scene:street")],
             input: &InputOptions { frames: Some(frames), ..InputOptions::default() },
             constraints,
-            clock_hz: 1_000_000,
+            clock_hz,
             target_active: None,
             boxes,
             synthesizer: &Synthesizer {
@@ -80,12 +83,41 @@ fn the_design_holds_what_was_asked_and_is_one() {
     assert!(design.fitted.action_flips == 0.0 && design.silicon.unit.lut_total_packed <= 200);
     assert_eq!(design.fitted.frames, 4);
     assert_eq!(design.held_out.frames, 4);
-    assert!(design.frames_per_second >= 50.0);
+    assert!(design.speed.unwrap().frames_per_second >= 50.0);
     // What is written is the design that was measured.
     let read = Config::from_toml(&design.toml).unwrap().validate().unwrap();
     assert_eq!(read.timing().clocks_per_frame(), design.clocks_per_frame);
     assert_eq!(found.borne_out, design.held_out_held.iter().all(|held| held.holds));
     assert!(found.why.iter().any(|line| line.contains("regions")), "{:?}", found.why);
+    // A raster core has no unit of 200 LUTs, and the reader is told.
+    let raster = found.why.iter().find(|line| line.starts_with("raster, 1 pixel per clock"));
+    assert!(raster.is_some_and(|line| line.contains("LUTs of a unit")), "{:?}", found.why);
+}
+
+/// The rate is checked at the low end of the clock of the netlist.
+#[test]
+fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let min_fps = 2000.0;
+    let constraints = Constraints { min_fps: Some(min_fps), ..Constraints::default() };
+    let found = run_with(&[], 8, &constraints, None, &Quiet).unwrap();
+    let design = &found.design;
+    let chosen = design.config.validate().unwrap();
+    let tools = (Toolchain::system(), Cache::from_env().unwrap());
+    let report = estimate(&tools.0, &tools.1, &EstimateJob::of(&chosen, Top::Rcm)).unwrap();
+    let clock = report.clock.unwrap();
+    let clocks = |design: &Design| u32::try_from(design.timing().clocks_per_frame()).unwrap();
+    let rate = |design: &Design| clock.low_mhz * 1e6 / f64::from(clocks(design));
+    assert!(found.feasible && rate(&chosen) >= min_fps, "{found:?}");
+    let held = design.fitted_held.iter().find(|held| held.name == "min-fps").unwrap();
+    assert_eq!((held.value, held.clock_mhz), (rate(&chosen), Some(clock.low_mhz)));
+    assert_eq!(design.speed.unwrap().clock_mhz, clock.mhz);
+
+    let impossible = Constraints { min_fps: Some(1e8), ..Constraints::default() };
+    let found = run_with(&[], 8, &impossible, None, &Quiet).unwrap();
+    assert!(!found.feasible && found.binding == ["min-fps"], "{:?}", found.binding);
 }
 
 #[test]
@@ -156,7 +188,7 @@ fn objects_are_counted_and_bind_where_they_are_lost() {
         std::fs::write(&boxes[0], text).unwrap();
         let (max_flips, min_recall) = (Some(0.0), Some(share));
         let constraints = Constraints { max_flips, min_recall, ..Constraints::default() };
-        run_with(&boxes, 8, &constraints, &Quiet)
+        run_with(&boxes, 8, &constraints, Some(1_000_000), &Quiet)
     };
     let found = fitted(rows(1..=8), 0.01).unwrap();
     let recall = |held: &[Held]| held.iter().find(|held| held.name == "min-recall").unwrap().value;

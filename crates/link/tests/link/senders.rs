@@ -42,7 +42,7 @@ fn padding_is_not_sent() {
 fn a_row_of_regions_is_decided_when_its_last_row_was_read() {
     // Median and edge, isolated: (N+1) + 2 and N+1 clocks of latency, 20. A row of 8 pixels takes 8.
     let (design, timeline) = (design(&[]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let units = cameras.region_by_rows(&sent(&design)).unwrap();
     let above = 8_000 + 8 + 20;
     // Below the frame the last row is repeated four times: 5 rows of 8 pixels.
@@ -60,12 +60,12 @@ fn a_row_of_regions_is_decided_when_its_last_row_was_read() {
 fn neighbors_and_a_second_pass_are_waited_for() {
     // Shared with median and edge: two rows of halo, 12 pixels a row, latency 2; row 9 is the tenth.
     let (design, timeline) = (design(&["region.neighborhood=\"shared\""]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let units = cameras.region_by_rows(&sent(&design)).unwrap();
     assert_eq!(units[0].decided / 1000, 10_000 + 12 + 2);
     // `mad` decides when the next frame has passed: 12 ms later.
     let design = self::design(&["spatial=[{feature=\"mad\"}]", "denoise.filter=\"none\""]);
-    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let units = cameras.region_by_rows(&sent(&design)).unwrap();
     // 8 pixels of the last row, and the tail's delay of 1.
     assert_eq!(units[0].decided / 1000, 12_000 + 8_000 + 8 + 1);
@@ -74,7 +74,7 @@ fn neighbors_and_a_second_pass_are_waited_for() {
 #[test]
 fn pixels_leave_the_pipelined_array_with_the_next_frame() {
     let (design, timeline) = (design(&[]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     // A frame is taken in 64 clocks once it has been read, and decided 20 clocks later.
     let decided = 12_000 + 64 + 20;
     let expected = [
@@ -89,7 +89,7 @@ fn pixels_leave_the_pipelined_array_with_the_next_frame() {
 fn a_serial_array_sends_slot_by_slot_within_the_frame() {
     let hardware = "hardware={organization=\"serial\",fold=2}";
     let (design, timeline) = (design(&[hardware]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, 100 * MEGAHERTZ).unwrap();
+    let cameras = Cameras::new("clip", &design, &timeline, Some(100 * MEGAHERTZ)).unwrap();
     let sent = sent(&design);
     // Region 0 is in slot 0 and region 5 in slot 1.
     assert_eq!(sent[0].slots, [64, 16]);
@@ -112,7 +112,7 @@ fn a_serial_array_sends_slot_by_slot_within_the_frame() {
 #[test]
 fn rows_and_frames_of_the_others() {
     let (design, timeline) = (design(&[]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, MEGAHERTZ).unwrap();
+    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let raw = cameras.raw();
     assert_eq!((raw.len(), raw[11].sent, raw[11].bits), (24, 12_000_000, 20 * 8));
     assert!(raw.iter().all(|unit| unit.read == unit.sent));
@@ -127,7 +127,33 @@ fn rows_and_frames_of_the_others() {
 fn an_array_that_is_too_slow_is_refused() {
     // 64 clocks for a frame, but 12 rows of 8 pixels one by one: 96 clocks in 12 ms.
     let (design, timeline) = (design(&[]), timeline());
-    assert!(Cameras::new("clip", &design, &timeline, 8_000).is_ok());
-    let error = Cameras::new("clip", &design, &timeline, 7_999).unwrap_err().to_string();
+    assert!(Cameras::new("clip", &design, &timeline, Some(8_000)).is_ok());
+    let error = Cameras::new("clip", &design, &timeline, Some(7_999)).unwrap_err().to_string();
     assert!(error.contains("every 12000000 ns") && error.contains("12001501 ns"), "{error}");
+    let without = Cameras::new("clip", &design, &timeline, None).unwrap();
+    assert_eq!(without.needed_clock_hz(), 8_000);
+}
+
+/// Every time of the array is later by no more clocks than are stated, and one by just as many.
+#[test]
+fn without_a_clock_the_clocks_of_the_array_are_left_out_and_stated() {
+    let serial = "hardware={organization=\"serial\",fold=2}";
+    // Of the serial array as above: to the last pixel of the second slot.
+    let two_slots = 128 + 2 * (64 * 83 + 3 + 14 * 64 + 3 + 64);
+    for (set, expected) in [(&[][..], None), (&[serial], Some(two_slots))] {
+        let (design, timeline) = (design(set), timeline());
+        let sent = sent(&design);
+        let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
+        let (without, with) = (at(None), at(Some(100 * MEGAHERTZ)));
+        let all = |cameras: &Cameras<'_>| {
+            let rows = cameras.region_by_rows(&sent).unwrap_or_default();
+            rows.into_iter().chain(cameras.region_array(&sent)).collect::<Vec<_>>()
+        };
+        let (without_clock, with_clock) = (all(&without), all(&with));
+        let pairs = without_clock.iter().zip(&with_clock);
+        let later =
+            pairs.map(|(one, other)| (other.sent - one.sent).max(other.decided - one.decided));
+        assert_eq!(later.max(), Some(without.own_clocks() * 10));
+        assert_eq!(without.own_clocks(), expected.unwrap_or(without.own_clocks()));
+    }
 }

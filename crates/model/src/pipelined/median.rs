@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The median window with its two registers.
+//! The median window with its registers: two, or three in a deep RPU.
 //!
 //! ```text
 //! edge                          e         e+1        e+2
 //! window steps                  x
-//! window register (after)       x          -          -
-//! result register (after)       -        median       -
+//! first register (after)        x          -          -
+//! last register (after)         -        median       -
 //! next stage takes                                  median
 //! ```
+//!
+//! What is in the registers between cannot be seen, so the median is taken at once.
 
-use super::center::Center;
+use super::line::Line;
 use super::pixel::Pixel;
 use super::plan::Plan;
 use super::window::WindowStage;
@@ -19,30 +21,29 @@ use crate::denoise::median;
 #[derive(Clone, Debug)]
 pub(super) struct MedianStage {
     window: WindowStage,
-    stepped: Option<Center>,
-    result: Option<Pixel>,
+    results: Line<Pixel>,
 }
 
 impl MedianStage {
     pub(super) fn new(plan: &Plan) -> Self {
-        Self { window: WindowStage::new(plan, plan.stream_side), stepped: None, result: None }
+        Self {
+            window: WindowStage::new(plan, plan.stream_side),
+            results: Line::new(plan.median_registers),
+        }
     }
 
     pub(super) fn reset(&mut self) {
         self.window.reset();
-        self.stepped = None;
-        self.result = None;
+        self.results.reset();
     }
 
     /// One edge; returns what the next stage takes at this edge.
     pub(super) fn step(&mut self, pixel: Option<Pixel>) -> Option<Pixel> {
-        let leaving = self.result;
-        self.result = self
-            .stepped
-            .map(|center| Pixel { scored: median(&center.window), raw: center.pixel.raw });
         // The raw halo of a shared region repeats the frame's border already.
         let no_border = 0;
-        self.stepped = self.window.step(pixel, no_border);
-        leaving
+        let center = self.window.step(pixel, no_border);
+        let result =
+            center.map(|center| Pixel { scored: median(&center.window), raw: center.pixel.raw });
+        self.results.step(result)
     }
 }

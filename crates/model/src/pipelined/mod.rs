@@ -5,8 +5,8 @@
 //! `docs/timing.md`, one file each:
 //!
 //! ```text
-//! valid_i    +--------+   2   +---------+  d=0,1  +------------------------------------+
-//! pixel_i -->| median |--||-->| feature |---|---->| tail: counts, second pass, store,  |--> outputs
+//! valid_i    +--------+   m   +---------+    d    +------------------------------------+
+//! pixel_i -->| median |--||-->| feature |---||--->| tail: counts, second pass, store,  |--> outputs
 //!            | window |       | window  |         | temporal score, decision, forward  |
 //!            +--------+       +---------+         +------------------------------------+
 //! ```
@@ -16,6 +16,7 @@
 mod center;
 mod decide;
 mod isolated;
+mod line;
 mod median;
 mod moments;
 mod pixel;

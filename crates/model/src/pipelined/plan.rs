@@ -3,7 +3,7 @@
 
 use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
-    Reference,
+    PipelinedTiming, Reference,
 };
 
 use crate::Thresholds;
@@ -25,8 +25,10 @@ pub(super) struct Plan {
     pub(super) filter: Filter,
     pub(super) has_feature_window: bool,
     pub(super) needs_border: bool,
-    /// Whether a register stands between the last window and the tail.
-    pub(super) delayed_tail: bool,
+    /// Registers between the median window and the next stage, m.
+    pub(super) median_registers: usize,
+    /// Registers between the last window and the tail, d.
+    pub(super) tail_delay: usize,
     /// The features in the order of the design.
     pub(super) features: [Option<FeatureKind>; FEATURES],
     /// Fraction bits of the mean, where there is `mad`.
@@ -55,6 +57,7 @@ impl Plan {
         for (place, feature) in features.iter_mut().zip(design.features()) {
             *place = Some(feature.kind());
         }
+        let timing = PipelinedTiming::of(design);
         let mean = design.features().iter().find_map(|feature| feature.mean());
         Self {
             side: index(design.region_size()),
@@ -64,7 +67,8 @@ impl Plan {
             filter: design.filter(),
             has_feature_window: design.has_feature_window(),
             needs_border: design.needs_border(),
-            delayed_tail: features.into_iter().flatten().any(|kind| kind.score_latency() > 1),
+            median_registers: index(timing.median_registers),
+            tail_delay: index(timing.tail_delay),
             features,
             fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
             second_pass: design.has_second_pass(),

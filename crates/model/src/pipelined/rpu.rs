@@ -4,6 +4,7 @@
 use foveate_design::Design;
 
 use super::center::Center;
+use super::line::Line;
 use super::median::MedianStage;
 use super::pixel::{Pixel, Step};
 use super::plan::{FEATURES, Plan};
@@ -19,8 +20,8 @@ pub struct PipelinedRpu {
     plan: Plan,
     median: Option<MedianStage>,
     feature: Option<WindowStage>,
-    /// The register in front of the tail, where there is one.
-    delayed: Option<Step>,
+    /// The registers in front of the tail.
+    delay: Line<Step>,
     tail: Tail,
 }
 
@@ -41,7 +42,7 @@ impl PipelinedRpu {
         Self {
             median: denoises.then(|| MedianStage::new(&plan)),
             feature: plan.has_feature_window.then(|| WindowStage::new(&plan, feature_side)),
-            delayed: None,
+            delay: Line::new(plan.tail_delay),
             tail: Tail::new(&plan),
             plan,
         }
@@ -56,9 +57,7 @@ impl PipelinedRpu {
         } else {
             let pixel = input.valid.then(|| Pixel::incoming(input.pixel));
             let step = self.step_windows(pixel, input.border, thresholds);
-            let tail_step =
-                if plan.delayed_tail { std::mem::replace(&mut self.delayed, step) } else { step };
-            self.tail.step(tail_step, thresholds);
+            self.tail.step(self.delay.step(step), thresholds);
         }
         self.tail.output(thresholds)
     }
@@ -99,7 +98,7 @@ impl PipelinedRpu {
         if let Some(feature) = &mut self.feature {
             feature.reset();
         }
-        self.delayed = None;
+        self.delay.reset();
         self.tail.reset();
     }
 }

@@ -57,7 +57,7 @@ impl RasterRcm {
             regions: Regions::new(design),
             outside: (design.store() == Store::External).then(|| Outside::new(design)),
             decisions: Decisions::new(timing),
-            readout: Readout::new(timing.word_pixels),
+            readout: Readout::new(&timing),
             decided: None,
             now: 0,
             closed: 0,
@@ -129,7 +129,7 @@ impl RasterRcm {
             outside.forget();
         }
         self.decisions.forget();
-        self.readout = Readout::new(self.timing.word_pixels);
+        self.readout = Readout::new(&self.timing);
         self.decided = None;
         (self.now, self.closed) = (0, 0);
         self.output = RasterOutput::fresh(index(self.timing.word_pixels));

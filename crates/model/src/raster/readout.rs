@@ -4,10 +4,12 @@
 
 use std::collections::VecDeque;
 
+use foveate_design::RasterTiming;
+
 use super::decisions::Judged;
 use crate::number::index;
 
-/// Edges from entering the queue to holding, and from one holding to the next, at least.
+/// Edges from one holding to the next, at least.
 const REST: u64 = 2;
 
 /// A word on its way out.
@@ -36,6 +38,8 @@ pub(super) struct Read {
 pub(super) struct Readout {
     /// K.
     word_pixels: u32,
+    /// Edges from entering the queue to holding, at least.
+    queue_latency: u64,
     /// Active regions with the edges at which they entered.
     queue: VecDeque<(u64, Judged)>,
     held: Option<Held>,
@@ -74,9 +78,10 @@ impl Held {
 }
 
 impl Readout {
-    pub(super) fn new(word_pixels: u32) -> Self {
+    pub(super) fn new(timing: &RasterTiming) -> Self {
         Self {
-            word_pixels,
+            word_pixels: timing.word_pixels,
+            queue_latency: timing.queue_latency.into(),
             queue: VecDeque::new(),
             held: None,
             started: None,
@@ -138,7 +143,8 @@ impl Readout {
     /// Takes the oldest region from the queue, if it may be held now.
     fn next(&mut self, now: u64) -> Option<Judged> {
         let has_rested = self.started.is_none_or(|started| now >= started + REST);
-        let is_due = self.queue.front().is_some_and(|(entered, _)| now >= entered + REST);
+        let is_due =
+            self.queue.front().is_some_and(|(entered, _)| now >= entered + self.queue_latency);
         (has_rested && is_due).then(|| self.queue.pop_front()).flatten().map(|(_, judged)| judged)
     }
 }

@@ -176,6 +176,7 @@ fn everything(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: b
         blank_irrelevant: bits.is_multiple_of(4),
         raw_payload: side % 2 == 1,
         constant: false,
+        deep: false,
     }
 }
 

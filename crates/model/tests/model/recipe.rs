@@ -23,6 +23,8 @@ pub(crate) struct Recipe {
     pub(crate) blank_irrelevant: bool,
     pub(crate) raw_payload: bool,
     pub(crate) constant: bool,
+    /// `hardware.pipelining = "deep"`, of a pipelined design.
+    pub(crate) deep: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -83,6 +85,9 @@ impl Recipe {
             pick(self.raw_payload, "raw", "denoised"),
             pick(self.constant, "constant", "runtime"),
         );
+        if self.deep {
+            text.push_str("pipelining = \"deep\"\n");
+        }
         for feature in &self.features {
             let (whole, rest) = (feature.min_milli / 1000, feature.min_milli % 1000);
             let counts = matches!(feature.name, "edge" | "corner");
@@ -100,12 +105,13 @@ impl Recipe {
     }
 }
 
-/// Every kind of design, with frames of about three regions.
+/// Every kind of pipelined design, with frames of about three regions.
 pub(crate) fn recipes() -> impl Strategy<Value = Recipe> {
-    recipes_of(prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12])
+    let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
+    (recipes_of(sides), any::<bool>()).prop_map(|(recipe, deep)| Recipe { deep, ..recipe })
 }
 
-/// The same, with regions of these sides.
+/// The same with regions of these sides, plain.
 pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = Recipe> {
     let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
     (sides, bits).prop_flat_map(|(side, bits)| {
@@ -134,6 +140,7 @@ pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Val
                 blank_irrelevant: on[4],
                 raw_payload: on[5],
                 constant: on[6] && on[7],
+                deep: false,
             },
         )
     })

@@ -45,13 +45,14 @@ fn shared_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
 /// Edges of the tail steps by frame, given those of the pixels of the stream.
 pub(crate) fn tail_steps(recipe: &Recipe, stream: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let windows = recipe.has("edge") || recipe.has("corner");
-    let delay = usize::from(recipe.has("mad") || recipe.has("variance"));
+    let median_delay = if recipe.deep { 3 } else { 2 };
+    let tail_delay = tail_delay(recipe);
     let mut side = recipe.side as usize;
     if recipe.shared {
         side += 2 * (usize::from(recipe.median) + usize::from(windows));
     }
     let mut steps = stream.to_vec();
-    for (there, registers) in [(recipe.median, 2), (windows, 0)] {
+    for (there, registers) in [(recipe.median, median_delay), (windows, 0)] {
         if there && recipe.shared {
             steps = shared_centers(&steps, side);
             side -= 2;
@@ -62,8 +63,16 @@ pub(crate) fn tail_steps(recipe: &Recipe, stream: &[Vec<usize>]) -> Vec<Vec<usiz
             steps.iter_mut().flatten().for_each(|edge| *edge += registers);
         }
     }
-    steps.iter_mut().flatten().for_each(|edge| *edge += delay);
+    steps.iter_mut().flatten().for_each(|edge| *edge += tail_delay);
     steps
+}
+
+/// Edges from a step of the last window to its tail step.
+pub(crate) fn tail_delay(recipe: &Recipe) -> usize {
+    match recipe.deep {
+        true => 2,
+        false => usize::from(recipe.has("mad") || recipe.has("variance")),
+    }
 }
 
 /// What must be seen at `region` after each of the first `edges` edges.

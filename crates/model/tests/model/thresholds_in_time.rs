@@ -13,7 +13,7 @@ use proptest::prelude::*;
 use crate::frames::{Random, film, scripts};
 use crate::oracle::{Seen, cut, watch};
 use crate::recipe::{Recipe, recipes};
-use crate::schedule::tail_steps;
+use crate::schedule::{tail_delay, tail_steps};
 
 /// Thresholds of one clock: each is the design's, or anything that its port can carry.
 fn jittered(design: &Design, random: &mut Random) -> Thresholds {
@@ -50,9 +50,8 @@ type Registered = (bool, bool);
 
 impl Frames<'_> {
     fn scores(&self, frame: usize) -> Vec<u64> {
-        let late = self.recipe.has("mad") || self.recipe.has("variance");
         let hits = |index: usize, hit: &dyn Fn(usize, u32) -> bool| {
-            let level = |step: usize| self.applied[step - usize::from(late)].level[index];
+            let level = |step: usize| self.applied[step - tail_delay(self.recipe)].level[index];
             let steps = self.steps[frame].iter().enumerate();
             steps.filter(|&(place, &step)| hit(place, level(step))).count() as u64
         };

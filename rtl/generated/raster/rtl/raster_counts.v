@@ -86,31 +86,10 @@ module raster_counts #(
     wire [FEATURES*ROW_BITS-1:0] last_row;
     wire ended, top, bottom;
     wire [COLUMN_BITS-1:0] column;
-    generate
-        if (DEEP) begin : g_deep
-            reg [FEATURES*ROW_BITS-1:0] row_2q;
-            reg ended_2q, top_2q, bottom_2q;
-            reg [COLUMN_BITS-1:0] old_column_2q;
-            always @(posedge clk_i) begin
-                row_2q        <= row_q;
-                ended_2q      <= ended_q && !rst_i;
-                top_2q        <= top_q;
-                bottom_2q     <= bottom_q;
-                old_column_2q <= old_column_q;
-            end
-            assign last_row = row_2q;
-            assign ended = ended_2q;
-            assign top = top_2q;
-            assign bottom = bottom_2q;
-            assign column = old_column_2q;
-        end else begin : g_plain
-            assign last_row = row_q;
-            assign ended = ended_q;
-            assign top = top_q;
-            assign bottom = bottom_q;
-            assign column = old_column_q;
-        end
-    endgenerate
+    raster_pulse #(.DEPTH(DEEP)) u_ended (.clk_i(clk_i), .rst_i(rst_i), .bit_i(ended_q), .bit_o(ended));
+    raster_delay #(.WIDTH(FEATURES * ROW_BITS + COLUMN_BITS + 2), .DEPTH(DEEP)) u_row (
+        .clk_i(clk_i), .data_i({row_q, old_column_q, top_q, bottom_q}), .data_o({last_row, column, top, bottom})
+    );
 
     reg [FEATURES*COUNT_BITS-1:0] counts_q;
     reg written_q, done_q;

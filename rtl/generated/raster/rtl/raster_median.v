@@ -59,23 +59,11 @@ module raster_median #(
     wire sort_step, sort_left, sort_right;
     genvar lane, level;
 
-    generate
-        if (DEEP) begin : g_sort_deep
-            reg step_q, left_edge_q, right_edge_q;
-            always @(posedge clk_i) begin
-                step_q       <= step_i;
-                left_edge_q  <= left_i;
-                right_edge_q <= right_i;
-            end
-            assign sort_step = step_q;
-            assign sort_left = left_edge_q;
-            assign sort_right = right_edge_q;
-        end else begin : g_sort_plain
-            assign sort_step = step_i;
-            assign sort_left = left_i;
-            assign sort_right = right_i;
-        end
+    raster_delay #(.WIDTH(3), .DEPTH(DEEP)) u_sort (
+        .clk_i(clk_i), .data_i({step_i, left_i, right_i}), .data_o({sort_step, sort_left, sort_right})
+    );
 
+    generate
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_sort
             wire [WIDTH-1:0] a = upper_i[lane*WIDTH+:WIDTH];
             wire [WIDTH-1:0] b = middle_i[lane*WIDTH+:WIDTH];
@@ -170,27 +158,14 @@ module raster_median #(
                 end
             end
         end
+    endgenerate
 
-        if (DEEP) begin : g_merge_deep
-            reg [(LANES+2)*COLUMN-1:0] columns_q;
-            reg [3*LANES-1:0] ab_q, bc_q, ac_q;
-            always @(posedge clk_i) begin
-                columns_q <= columns;
-                ab_q <= left_above;
-                bc_q <= right_above;
-                ac_q <= skip_above;
-            end
-            assign merged = columns_q;
-            assign row_ab = ab_q;
-            assign row_bc = bc_q;
-            assign row_ac = ac_q;
-        end else begin : g_merge_plain
-            assign merged = columns;
-            assign row_ab = left_above;
-            assign row_bc = right_above;
-            assign row_ac = skip_above;
-        end
+    raster_delay #(.WIDTH((LANES + 2) * COLUMN + 9 * LANES), .DEPTH(DEEP)) u_merge (
+        .clk_i(clk_i), .data_i({columns, left_above, right_above, skip_above}),
+        .data_o({merged, row_ab, row_bc, row_ac})
+    );
 
+    generate
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_final
             wire [COLUMN-1:0] left = merged[lane*COLUMN+:COLUMN];
             wire [COLUMN-1:0] center = merged[(lane+1)*COLUMN+:COLUMN];

@@ -6,12 +6,13 @@
 
 module raster_pairs #(
     parameter WORD_BITS = 8,   // bits of a word
-    parameter WORDS = 76800    // words of a frame, at least 4
+    parameter WORDS = 76800,   // words of a frame, at least 4
+    parameter DEEP = 0         // 0: a word one clock after it is asked for; 1: two
 ) (
     input  wire                 clk_i,        // clock, rising edge
     input  wire                 rst_i,        // synchronous reset, active high
     input  wire                 read_i,       // the next word is asked for
-    output reg  [WORD_BITS-1:0] reference_o,  // it, until the next one is asked for
+    output reg  [WORD_BITS-1:0] reference_o,  // it, until the next one takes its place
     input  wire                 write_i,      // the next word to store is there
     input  wire [WORD_BITS-1:0] word_i        // it
 );
@@ -23,64 +24,78 @@ module raster_pairs #(
 
     localparam PAIRS = (WORDS + 1) / 2;
     localparam PAIR_BITS = $clog2(PAIRS);
-    localparam LAST = WORDS - 1;
-    localparam WORD_NUMBER_BITS = $clog2(WORDS);
+    localparam HALF = WORDS % 2 == 1;  // 1: the last pair of a frame is one word
+    localparam LAST_PAIR = PAIRS - 1;
+    localparam BEFORE_LAST_PAIR = PAIRS - 2;
 
-    // The words that are asked for and that come next. Even ones are the first of their pair.
-    reg [WORD_NUMBER_BITS-1:0] asked_q, come_q;
-    reg asked_end_q, come_end_q;  // the last of the frame
-    wire [WORD_NUMBER_BITS-1:0] next_asked = asked_end_q ? {WORD_NUMBER_BITS{1'b0}} : asked_q + 1'b1;
-    wire [WORD_NUMBER_BITS-1:0] next_come = come_end_q ? {WORD_NUMBER_BITS{1'b0}} : come_q + 1'b1;
-    wire come_whole = come_q[0] || come_end_q;  // no further word of the pair
-
-    reg [2*WORD_BITS-1:0] pair_q;     // what was read
-    reg [2*WORD_BITS-1:0] written_q;  // what waits to be written
-    reg [PAIR_BITS-1:0] place_q;      // where
-    reg waits_q;
-    reg [WORD_BITS-1:0] first_q;      // the first word of the pair that is coming
-
-    // A frame of an odd number of words ends with half a pair. Then the first pair of the next frame is read when no
-    // write waits, because the pair before was read just now; the next frame is still far.
-    reg again_q;
+    // What is asked for: the first or the second word of the pair that was read. The next pair is read with the second
+    // one; if the last pair of a frame has none, when no write waits, as the first pair after reset is.
+    wire [PAIR_BITS-1:0] read_place;
+    reg ask_second_q, last_pair_q, again_q;
+    reg waits_q;  // a pair waits to be written
+    wire ask_half = HALF && last_pair_q && !ask_second_q;
     wire again = again_q && !waits_q;
-    wire read = (read_i && asked_q[0]) || again;
+    wire read = (read_i && ask_second_q) || again;
     wire write = waits_q && !read;
-    wire [PAIR_BITS-1:0] next_pair = again_q ? {PAIR_BITS{1'b0}} : next_asked[WORD_NUMBER_BITS-1:WORD_NUMBER_BITS-PAIR_BITS];
-    wire [PAIR_BITS-1:0] address = read ? next_pair : place_q;
 
-    (* ram_style = "huge" *) reg [2*WORD_BITS-1:0] pairs_q[0:PAIRS-1];
-    always @(posedge clk_i) begin
-        if (write) pairs_q[address] <= written_q;
-        else if (read) pair_q <= pairs_q[address];
-    end
+    // What comes: the first or the second word of a pair.
+    wire [PAIR_BITS-1:0] write_place;
+    reg come_second_q;
+    reg [WORD_BITS-1:0] first_q;      // the first word of the pair that is coming
+    reg [2*WORD_BITS-1:0] written_q;  // the pair that waits
+    wire come_half = HALF && !come_second_q && write_place == (waits_q ? BEFORE_LAST_PAIR[PAIR_BITS-1:0] : LAST_PAIR[PAIR_BITS-1:0]);
+    wire come_whole = come_second_q || come_half;  // no further word of the pair
+
+    raster_ring #(.WORDS(PAIRS), .PLACE_BITS(PAIR_BITS)) u_read_place (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(read), .place_o(read_place)
+    );
+    raster_ring #(.WORDS(PAIRS), .PLACE_BITS(PAIR_BITS)) u_write_place (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(write), .place_o(write_place)
+    );
 
     always @(posedge clk_i) begin
-        if (read_i) begin
-            reference_o <= asked_q[0] ? pair_q[WORD_BITS+:WORD_BITS] : pair_q[0+:WORD_BITS];
-            asked_q     <= next_asked;
-            asked_end_q <= asked_q == LAST[WORD_NUMBER_BITS-1:0] - 1'b1;
-        end
         if (again) again_q <= 1'b0;
-        if (read_i && asked_end_q && !asked_q[0]) again_q <= 1'b1;
+        if (read) last_pair_q <= read_place == LAST_PAIR[PAIR_BITS-1:0];
+        if (read_i) begin
+            ask_second_q <= !ask_second_q && !ask_half;
+            if (ask_half) again_q <= 1'b1;
+        end
         if (write) waits_q <= 1'b0;
         if (write_i) begin
-            come_q     <= next_come;
-            come_end_q <= come_q == LAST[WORD_NUMBER_BITS-1:0] - 1'b1;
-            if (!come_q[0]) first_q <= word_i;
+            come_second_q <= !come_whole;
+            if (!come_second_q) first_q <= word_i;
             if (come_whole) begin
                 waits_q   <= 1'b1;
-                written_q <= {word_i, come_q[0] ? first_q : word_i};
-                place_q   <= come_q[WORD_NUMBER_BITS-1:WORD_NUMBER_BITS-PAIR_BITS];
+                written_q <= {word_i, come_second_q ? first_q : word_i};
             end
         end
         if (rst_i) begin
-            asked_q     <= {WORD_NUMBER_BITS{1'b0}};
-            asked_end_q <= 1'b0;
-            come_q      <= {WORD_NUMBER_BITS{1'b0}};
-            come_end_q  <= 1'b0;
-            waits_q     <= 1'b0;
-            again_q     <= 1'b0;
+            ask_second_q  <= 1'b0;
+            last_pair_q   <= 1'b0;
+            come_second_q <= 1'b0;
+            waits_q       <= 1'b0;
+            again_q       <= 1'b1;
         end
+    end
+
+    // With DEEP a register stands before the memory.
+    wire memory_read, memory_write, show, show_second;
+    wire [PAIR_BITS-1:0] memory_address;
+    wire [2*WORD_BITS-1:0] memory_word;
+    raster_pulse #(.DEPTH(DEEP)) u_read (.clk_i(clk_i), .rst_i(rst_i), .bit_i(read), .bit_o(memory_read));
+    raster_pulse #(.DEPTH(DEEP)) u_write (.clk_i(clk_i), .rst_i(rst_i), .bit_i(write), .bit_o(memory_write));
+    raster_pulse #(.DEPTH(DEEP)) u_show (.clk_i(clk_i), .rst_i(rst_i), .bit_i(read_i), .bit_o(show));
+    raster_delay #(.WIDTH(PAIR_BITS + 2 * WORD_BITS + 1), .DEPTH(DEEP)) u_access (
+        .clk_i(clk_i), .data_i({read ? read_place : write_place, written_q, ask_second_q}),
+        .data_o({memory_address, memory_word, show_second})
+    );
+
+    (* ram_style = "huge" *) reg [2*WORD_BITS-1:0] pairs_q[0:PAIRS-1];
+    reg [2*WORD_BITS-1:0] pair_q;  // what was read
+    always @(posedge clk_i) begin
+        if (memory_write) pairs_q[memory_address] <= memory_word;
+        else if (memory_read) pair_q <= pairs_q[memory_address];
+        if (show) reference_o <= show_second ? pair_q[WORD_BITS+:WORD_BITS] : pair_q[0+:WORD_BITS];
     end
 
 endmodule

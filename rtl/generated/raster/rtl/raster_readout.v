@@ -17,7 +17,8 @@ module raster_readout #(
     parameter BANKS = 2,          // rows of regions in the buffer, 2 or 3
     parameter EXTRA_BITS = 1,     // bits that travel with a region
     parameter QUEUE_WORDS = 512,  // regions that can wait, a power of two
-    parameter QUEUE_BITS = 9      // log2 of them
+    parameter QUEUE_BITS = 9,     // log2 of them
+    parameter DEEP = 0            // 0: a region can be held two clocks after it entered the queue; 1: three
 ) (
     input  wire                     clk_i,           // clock, rising edge
     input  wire                     rst_i,           // synchronous reset, active high
@@ -54,24 +55,57 @@ module raster_readout #(
 
     // The queue. Its oldest entry is read ahead.
     reg [QUEUE_BITS-1:0] enter_q, leave_q;
-    reg oldest_valid_q;
+    wire waits = enter_q != leave_q;
     wire take;
-    wire [ENTRY_BITS-1:0] oldest;
+    wire leave;         // an entry leaves the memory
+    wire queued;        // a region waits
+    wire oldest_valid;
+    wire [ENTRY_BITS-1:0] read, oldest;
 
     raster_memory #(.WIDTH(ENTRY_BITS), .WORDS(QUEUE_WORDS), .ADDRESS_BITS(QUEUE_BITS)) u_queue (
         .clk_i(clk_i), .write_i(enter_i), .write_address_i(enter_q),
         .data_i({extra_i, start_i, region_i, row_i}),
-        .read_i(1'b1), .read_address_i(leave_q), .data_o(oldest)
+        .read_i(!DEEP || leave), .read_address_i(leave_q), .data_o(read)
     );
+
+    generate
+        if (DEEP) begin : g_deep
+            // What was read moves on to a register of its own, where nothing else is.
+            reg read_valid_q, oldest_valid_q;
+            reg [ENTRY_BITS-1:0] oldest_q;
+            wire move = read_valid_q && !oldest_valid_q;
+            assign leave = waits && !read_valid_q;
+            always @(posedge clk_i) begin
+                if (move) oldest_q <= read;
+                read_valid_q   <= leave || (read_valid_q && !move);
+                oldest_valid_q <= move || (oldest_valid_q && !take);
+                if (rst_i) begin
+                    read_valid_q   <= 1'b0;
+                    oldest_valid_q <= 1'b0;
+                end
+            end
+            assign oldest = oldest_q;
+            assign oldest_valid = oldest_valid_q;
+            assign queued = waits || read_valid_q || oldest_valid_q;
+        end else begin : g_plain
+            reg oldest_valid_q;
+            always @(posedge clk_i) begin
+                oldest_valid_q <= waits && !take;
+                if (rst_i) oldest_valid_q <= 1'b0;
+            end
+            assign leave = take;
+            assign oldest = read;
+            assign oldest_valid = oldest_valid_q;
+            assign queued = waits;
+        end
+    endgenerate
 
     always @(posedge clk_i) begin
         if (enter_i) enter_q <= enter_q + 1'b1;
-        if (take) leave_q <= leave_q + 1'b1;
-        oldest_valid_q <= enter_q != leave_q && !take;
+        if (leave) leave_q <= leave_q + 1'b1;
         if (rst_i) begin
-            enter_q        <= {QUEUE_BITS{1'b0}};
-            leave_q        <= {QUEUE_BITS{1'b0}};
-            oldest_valid_q <= 1'b0;
+            enter_q <= {QUEUE_BITS{1'b0}};
+            leave_q <= {QUEUE_BITS{1'b0}};
         end
     end
 
@@ -94,7 +128,7 @@ module raster_readout #(
     wire fetch = step_o && held_q && !held_stale;
     wire fetch_last = fetch && last;
 
-    assign take = oldest_valid_q && (!held_q || fetch_last);
+    assign take = oldest_valid && (!held_q || fetch_last);
 
     raster_walk #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
@@ -140,7 +174,7 @@ module raster_readout #(
     assign lost_region_o = held_stale ? held_region_q : oldest_region;
     assign lost_extra_o = held_stale ? extra_q : oldest_extra;
     assign held_extra_o = extra_q;
-    assign idle_o = enter_q == leave_q && !held_q && !fetched_q && step_o;
+    assign idle_o = !queued && !held_q && !fetched_q && step_o;
 
 endmodule
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card that is about silicon against speed: lanes, memory, frames per second, folds.
 
-use foveate_design::{Area, Design, LaneMemory, MemoryChoice};
+use foveate_design::{Area, Decimal, Design, LaneMemory, MemoryChoice};
 use serde::Serialize;
 
 use crate::args::{Clock, Rate};
@@ -41,6 +41,15 @@ pub(super) struct AreaRow {
 pub(super) struct FrameRate {
     pub(super) clock_hz: u64,
     pub(super) frames_per_second: f64,
+    #[serde(skip)]
+    pub(super) text: String,
+}
+
+/// The clock that a rate needs, of a design whose clock is not known.
+#[derive(Serialize)]
+pub(super) struct Needed {
+    pub(super) frames_per_second: f64,
+    pub(super) clock_hz: u64,
     #[serde(skip)]
     pub(super) text: String,
 }
@@ -106,6 +115,20 @@ impl FrameRate {
             frames_per_second: per_second(clock, clocks),
             text: format!("{} frames/s at {clock}", shown(clock, clocks)),
         }
+    }
+}
+
+impl Needed {
+    /// For the rate that was asked for, or for a round one.
+    pub(super) fn of(wanted: Option<Rate>, clocks: u64) -> Self {
+        let rate = wanted.unwrap_or(Rate(Decimal::whole(1000)));
+        let clock = rate.needs(clocks);
+        let mut text =
+            format!("{clocks} clocks per frame; {} frames/s need a clock of {clock}", rate.0);
+        if wanted.is_some() {
+            text += ". `foveate estimate` says whether the design reaches it";
+        }
+        Self { frames_per_second: rate.per_second(), clock_hz: clock.0, text }
     }
 }
 

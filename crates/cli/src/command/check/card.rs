@@ -5,8 +5,9 @@ use foveate_design::{Config, Design, Direction, Port, Timing};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use super::array::{Array, FrameRate, Proposal};
-use crate::args::Clock;
+use super::array::{Array, FrameRate, Needed, Proposal};
+use crate::args::{Clock, Rate};
+use crate::error::CliError;
 
 /// Everything that follows from a configuration.
 #[derive(Serialize)]
@@ -24,8 +25,13 @@ pub(super) struct Card<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) array: Option<Array>,
     pub(super) timing: Clocks,
-    pub(super) rate: FrameRate,
-    /// Only where a rate was asked for.
+    /// Only at a clock that was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) rate: Option<FrameRate>,
+    /// Only without a clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) needs: Option<Needed>,
+    /// Only where a rate was asked for, at a clock that was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) proposal: Option<Proposal>,
     pub(super) rpu_ports: Vec<PortRow>,
@@ -91,9 +97,15 @@ pub(super) struct PortRow {
 }
 
 impl<'a> Card<'a> {
-    pub(super) fn of(design: &'a Design, clock: Clock, proposal: Option<Proposal>) -> Self {
-        Self {
-            format_version: 1,
+    pub(super) fn of(
+        design: &'a Design,
+        clock: Option<Clock>,
+        wanted: Option<Rate>,
+    ) -> Result<Self, CliError> {
+        let clocks = design.timing().clocks_per_frame();
+        let propose = |(clock, rate)| Proposal::of(design, rate, clock);
+        Ok(Self {
+            format_version: 2,
             fingerprint: design.fingerprint(),
             config: design.config(),
             grid: Grid {
@@ -112,11 +124,12 @@ impl<'a> Card<'a> {
             count_bits: design.count_bits(),
             timing: Clocks(design.timing()),
             array: design.organization().folds().then(|| Array::of(design)),
-            rate: FrameRate::of(clock, design.timing().clocks_per_frame()),
-            proposal,
+            rate: clock.map(|clock| FrameRate::of(clock, clocks)),
+            needs: clock.is_none().then(|| Needed::of(wanted, clocks)),
+            proposal: clock.zip(wanted).map(propose).transpose()?,
             rpu_ports: design.rpu_ports().iter().map(PortRow::of).collect(),
             rcm_ports: design.rcm_ports().iter().map(PortRow::of).collect(),
-        }
+        })
     }
 }
 

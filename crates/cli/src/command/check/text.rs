@@ -52,7 +52,8 @@ pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
         lines.push(("lane memory", memory_line(design, &array.memory)));
     }
     lines.extend(card.timing.0.text().iter().cloned());
-    lines.push(("rate", card.rate.text.clone()));
+    lines.extend(card.rate.iter().map(|rate| ("rate", rate.text.clone())));
+    lines.extend(card.needs.iter().map(|needed| ("rate", needed.text.clone())));
     if let Some(proposal) = &card.proposal {
         lines.push(("proposal", proposal.text.clone()));
     }
@@ -103,7 +104,10 @@ fn word_line(pixels: u32) -> String {
 fn raster_memory_line(design: &Design) -> String {
     let memories = RasterMemory::all_of(design);
     let bits = memories.iter().map(RasterMemory::total_bits).sum::<u64>();
-    format!("{bits} bits, {} of them references", memories[0].total_bits())
+    match RasterMemory::store_of(design) {
+        Some(store) => format!("{bits} bits, {} of them references", store.total_bits()),
+        None => format!("{bits} bits, and references outside of the core"),
+    }
 }
 
 fn lanes_line(array: &Array) -> String {

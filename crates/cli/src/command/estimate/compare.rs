@@ -2,7 +2,7 @@
 //! `foveate estimate --compare`: which designs stand in the table.
 
 use foveate_design::{
-    Config, Design, DesignError, FeatureKind, Filter, Organization, SpatialConfig,
+    Config, Design, DesignError, FeatureKind, Feed, Filter, Organization, SpatialConfig,
 };
 use foveate_estimate::{Comparison, Skipped};
 
@@ -12,8 +12,9 @@ use crate::error::CliError;
 use crate::output;
 use crate::progress::Progress;
 
-/// Frames per second of the folded arrays, the fewer the more regions share a lane.
-const FOLDED_RATES: [u64; 2] = [1000, 30];
+/// Frames per second of the folded arrays, the fewer the more regions share a lane. Each is folded as deep as
+/// its clock allows.
+const FOLDED_RATES: [u64; 2] = [500, 30];
 
 /// A row that the table should have.
 struct Wanted {
@@ -26,17 +27,20 @@ struct Wanted {
 pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     let base = args.design.read()?;
     args.design.design()?;
-    let mut comparison = Comparison::new(args.clock);
-    let mut wanted = organizations(&base);
-    wanted.extend(FOLDED_RATES.map(|rate| folded(&base, rate, &comparison)));
+    let given = args.clock.map(f64::from);
+    let mut comparison = Comparison::new(given);
+    let wanted = organizations(&base);
     let progress = Progress::new(args.quiet);
-    let all = wanted.len() as u64;
-    for (done, Wanted { name, family, design }) in (0..).zip(wanted) {
+    let all = (wanted.len() + FOLDED_RATES.len()) as u64;
+    let rows = wanted.into_iter().map(Ok);
+    let folded = FOLDED_RATES.into_iter().map(|rate| folded(&base, rate, given, flow));
+    for (done, row) in (0..).zip(rows.chain(folded)) {
         progress.steps("synthesizing with Yosys", done, all);
+        let Wanted { name, family, design } = row?;
         match design {
             Ok(design) => {
                 let report = flow.estimate(&design, false)?;
-                comparison.push(name, design.timing().clocks_per_frame(), report);
+                comparison.push(name, report);
             }
             Err(error) => {
                 let skipped = Skipped { name: family, reason: error.to_string() };
@@ -89,23 +93,55 @@ fn with_feature(base: &Config, kind: FeatureKind, filter: Filter) -> Config {
 }
 
 /// Median and the default feature, one pixel at a time, in as few lanes as still do that many frames per second.
-fn folded(base: &Config, rate: u64, comparison: &Comparison) -> Wanted {
+fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<Wanted, CliError> {
     let feature = FeatureKind::default();
-    let one = with_feature(base, feature, Filter::Median3x3).to_toml();
-    let with_fold = |fold: u32| {
-        let serial = ["organization=\"serial\"", "feed=\"raster\"", &format!("fold={fold}")]
-            .map(|key| format!("hardware.{key}"));
-        Config::from_toml_with(&one, &serial)?.validate()
+    let mut config = with_feature(base, feature, Filter::Median3x3);
+    config.hardware.organization = Organization::Serial;
+    config.hardware.feed = Some(Feed::Raster);
+    config.hardware.fold = 1;
+    let clock = |design: &Design| match given {
+        Some(mhz) => Ok(Some(mhz)),
+        None => Ok(flow.estimate(design, false)?.clock.map(|clock| clock.mhz)),
     };
-    let fast = |design: &Design| comparison.rate(design.timing().clocks_per_frame()) >= rate;
-    let design = with_fold(1).map(|single| {
-        let folds = (1..=single.regions()).rev();
-        folds.filter_map(|fold| with_fold(fold).ok()).find(fast).unwrap_or(single)
-    });
+    let design = match config.validate() {
+        Ok(single) => Ok(deepest(single, rate, &clock)?),
+        Err(error) => Err(error),
+    };
     let fold = design.as_ref().map_or(1, |design| design.config().hardware.fold);
-    Wanted {
+    Ok(Wanted {
         name: format!("serial {feature} median raster fold {fold}"),
         family: "serial with raster feed".to_owned(),
         design,
+    })
+}
+
+/// The deepest fold that reaches a rate at its own clock; fold 1 if none does.
+fn deepest(
+    single: Design,
+    rate: u64,
+    clock: &dyn Fn(&Design) -> Result<Option<f64>, CliError>,
+) -> Result<Design, CliError> {
+    let mut planned = clock(&single)?;
+    // The clock of a folded array is not that of fold 1. Where it is slower, the next fold is shallower.
+    while let Some(mhz) = planned {
+        let Some(fold) = single.largest_fold(most_clocks(mhz, rate)) else { break };
+        let folded = single.with_fold(fold)?;
+        let own = clock(&folded)?;
+        if own.is_some_and(|own| folded.timing().clocks_per_frame() <= most_clocks(own, rate)) {
+            return Ok(folded);
+        }
+        planned = own;
     }
+    Ok(single)
+}
+
+/// Clocks that a frame may take at so many frames per second.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "positive and far below 2^53"
+)]
+fn most_clocks(mhz: f64, rate: u64) -> u64 {
+    (mhz * 1e6 / rate as f64).floor() as u64
 }

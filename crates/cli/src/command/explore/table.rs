@@ -10,7 +10,7 @@ use foveate_explore::{Exploration, Row};
 /// A column: its name, and what stands in it.
 type Column = (&'static str, fn(&Row) -> String);
 
-const COLUMNS: [Column; 15] = [
+const COLUMNS: [Column; 16] = [
     ("flips %", |row| percent(row.figures.action_flips)),
     ("SRS %", |row| percent(row.figures.srs_flips)),
     ("TRS %", |row| percent(row.figures.trs_flips)),
@@ -26,7 +26,8 @@ const COLUMNS: [Column; 15] = [
     }),
     ("bytes", |row| format!("{:.0}", row.bytes_per_frame)),
     ("clocks", |row| row.clocks_per_frame.to_string()),
-    ("frames/s", |row| row.frames_per_second.to_string()),
+    ("MHz", |row| row.speed.map_or_else(String::new, |speed| speed.clock_text())),
+    ("frames/s", |row| row.speed.map_or_else(String::new, |speed| speed.rate_text())),
     ("LUT/FF/mem", unit),
     ("array LUT", array),
 ];
@@ -75,7 +76,7 @@ const NOTE: &str = "flips, SRS, TRS: regions that decide otherwise than the idea
      areas. score errors: largest, mean, RMS; edge, corner and temporal as share of a region's pixels, mad and \
      variance in grey levels and their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a row that a \
-     region was stale. LUT/FF/mem: one RPU or lane.";
+     region was stale. MHz: the clock, with its range if it is estimated. frames/s: at that clock. LUT/FF/mem: one RPU or lane.";
 
 pub(super) fn markdown(found: &Exploration) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
@@ -97,7 +98,7 @@ pub(super) fn markdown(found: &Exploration) -> String {
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     let front: Vec<&Row> = found.rows.iter().filter(|row| row.front.all).collect();
     let mut text = format!(
-        "{} points, {} of them on the Pareto front of flips, clocks and (if synthesized) LUTs:\n",
+        "{} points, {} of them on the Pareto front of flips, speed and (if synthesized) LUTs:\n",
         found.rows.len(),
         front.len()
     );

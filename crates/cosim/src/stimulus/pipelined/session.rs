@@ -4,6 +4,7 @@
 use super::super::motif::Artist;
 use super::super::random::Random;
 use super::super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
+use super::super::turns::Turns;
 use super::driver::Driver;
 use crate::error::CosimError;
 use crate::level::Level;
@@ -52,22 +53,9 @@ impl<'a> Session<'a> {
             Level::Rcm { .. } | Level::Full => 1,
         };
         let with_frames = if frames.is_empty() { 0 } else { regions };
-        let total = u64::from(rounds) * SEQUENCES.len() as u64 + u64::from(with_frames);
-        let mut done = 0;
-        progress(done, total);
-        for round in 0..rounds as usize {
-            for (number, sequence) in SEQUENCES.iter().enumerate() {
-                self.directed(sequence, round, number)?;
-                done += 1;
-                progress(done, total);
-            }
-        }
-        for region in 0..with_frames {
-            self.given(region, frames)?;
-            done += 1;
-            progress(done, total);
-        }
-        Ok(())
+        let given = |session: &mut Self, _, region| session.given(region, frames);
+        let turns = Turns { rounds, directed: SEQUENCES, given: (0..with_frames).collect() };
+        turns.record(self, Self::directed, given, progress)
     }
 
     /// One directed sequence. Gaps differ from sequence to sequence and from round to round.

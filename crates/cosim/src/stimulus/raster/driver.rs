@@ -190,14 +190,8 @@ impl<'a> Driver<'a> {
         if self.output().ready {
             return self.clock(false, false, None);
         }
-        match self.manners {
-            Manners::Quiet => self.clock(false, false, None),
-            Manners::Patient => self.clock(false, next.is_some(), next),
-            Manners::Rude => {
-                let valid = self.random.one_in(2);
-                self.clock(false, valid, None)
-            }
-        }
+        let (valid, offered) = self.manners.offer(next, &mut self.random);
+        self.clock(false, valid, offered)
     }
 
     /// Clocks without a word; the pixel port shows anything.

@@ -56,9 +56,9 @@ const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Sequence
 }
 
 /// The sequences of a design.
-pub(super) fn sequences(design: &Design) -> Vec<&'static Sequence> {
+pub(super) fn sequences(design: &Design) -> Vec<Sequence> {
     let failing = if design.store() == Store::External { FAILING } else { &[] };
-    SEQUENCES.iter().chain(failing).collect()
+    SEQUENCES.iter().chain(failing).copied().collect()
 }
 
 /// Every sequence that any core has, the most telling first. Resets that cut a frame short alternate with the others, so

@@ -6,6 +6,7 @@ use super::super::gallery::Gallery;
 use super::super::parts::{self, MAX_CLOCKS};
 use super::super::random::Random;
 use super::super::sequence::Gaps;
+use super::super::turns::Turns;
 use super::driver::Driver;
 use super::memory::Lapse;
 use super::sequence::{End, Sequence, sequences};
@@ -49,24 +50,10 @@ impl<'a> Session<'a> {
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
-        let parts = self.parts(frames);
-        let sequences = sequences(self.design);
-        let total = u64::from(rounds) * sequences.len() as u64 + parts.len() as u64;
-        let mut done = 0;
-        progress(done, total);
-        for round in 0..rounds as usize {
-            for (number, sequence) in sequences.iter().enumerate() {
-                self.directed(sequence, round, number)?;
-                done += 1;
-                progress(done, total);
-            }
-        }
-        for (number, corner) in parts.into_iter().enumerate() {
-            self.given(number, corner, frames)?;
-            done += 1;
-            progress(done, total);
-        }
-        Ok(())
+        let directed = &sequences(self.design);
+        let given = |session: &mut Self, number, corner| session.given(number, corner, frames);
+        let turns = Turns { rounds, directed, given: self.parts(frames) };
+        turns.record(self, Self::directed, given, progress)
     }
 
     /// One directed sequence. Gaps and sinks differ from sequence to sequence and from round to round.

@@ -157,14 +157,8 @@ impl<'a> Driver<'a> {
 
     /// One clock at which nothing is taken.
     fn busy(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
-        match self.manners {
-            Manners::Quiet => self.clock(false, false, None),
-            Manners::Patient => self.clock(false, next.is_some(), next),
-            Manners::Rude => {
-                let valid = self.random.one_in(2);
-                self.clock(false, valid, None)
-            }
-        }
+        let (valid, offered) = self.manners.offer(next, &mut self.random);
+        self.clock(false, valid, offered)
     }
 
     /// Clocks without a pixel; the pixel port shows anything.

@@ -6,6 +6,7 @@ use super::super::gallery::Gallery;
 use super::super::parts;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
+use super::super::turns::Turns;
 use super::driver::Driver;
 use super::feed::Feed;
 use super::sequence::{End, SEQUENCES, Sequence};
@@ -65,23 +66,9 @@ impl<'a> Session<'a> {
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
-        let parts = self.parts(frames);
-        let total = u64::from(rounds) * SEQUENCES.len() as u64 + parts.len() as u64;
-        let mut done = 0;
-        progress(done, total);
-        for round in 0..rounds as usize {
-            for (number, sequence) in SEQUENCES.iter().enumerate() {
-                self.directed(sequence, round, number)?;
-                done += 1;
-                progress(done, total);
-            }
-        }
-        for (number, first) in parts.into_iter().enumerate() {
-            self.given(number, first, frames)?;
-            done += 1;
-            progress(done, total);
-        }
-        Ok(())
+        let given = |session: &mut Self, number, first| session.given(number, first, frames);
+        let turns = Turns { rounds, directed: SEQUENCES, given: self.parts(frames) };
+        turns.record(self, Self::directed, given, progress)
     }
 
     /// One directed sequence. Gaps differ from sequence to sequence and from round to round.

@@ -2,6 +2,7 @@
 //! The negative control: single edits of the emitted RTL, over all its modules. Every one must
 //! still compile, and every one must be caught.
 
+mod deep_faults;
 mod faults;
 mod planted;
 mod raster_faults;
@@ -70,6 +71,11 @@ fn every_planted_fault_is_caught() {
 }
 
 #[test]
+fn every_planted_fault_of_deep_pipelining_is_caught() {
+    all_are_caught(deep_faults::FAULTS);
+}
+
+#[test]
 fn every_planted_fault_of_the_serial_organization_is_caught() {
     all_are_caught(serial_faults::FAULTS);
 }
@@ -81,7 +87,9 @@ fn every_planted_fault_of_the_raster_organization_is_caught() {
 
 /// The faults of every organization.
 fn all_faults() -> impl Iterator<Item = &'static Fault> {
-    [faults::FAULTS, serial_faults::FAULTS, raster_faults::FAULTS].into_iter().flatten()
+    [faults::FAULTS, deep_faults::FAULTS, serial_faults::FAULTS, raster_faults::FAULTS]
+        .into_iter()
+        .flatten()
 }
 
 /// Else a fault would be caught that is none.

@@ -26,6 +26,12 @@ pub(crate) enum Planted {
     Shared,
     /// The paper's design with its thresholds built in.
     Constant,
+    /// Deep: median, edges and corners, raw pixels forwarded.
+    Deep,
+    /// Deep: edges against the pixels last sent.
+    DeepSent,
+    /// Deep: both moments, against the pixels last sent.
+    DeepMoments,
     /// Serial: the paper's scores in small regions.
     SerialPaper,
     /// Serial: edges alone, no filter.
@@ -59,6 +65,8 @@ pub(crate) enum Planted {
     RasterLost,
     /// Raster: a frame of an odd number of words, in a memory of one port.
     RasterPairs,
+    /// Raster: more words than a bank of the store holds, and more registers.
+    RasterBanks,
     /// Raster: the store outside, and no pixels that leave.
     RasterOutside,
 }
@@ -84,6 +92,19 @@ impl Planted {
             Self::Banked => "[region]\nsize = 17\n",
             Self::Shared => "[region]\nneighborhood = \"shared\"\n",
             Self::Constant => "[region]\nsize = 5\n[hardware]\nthresholds = \"constant\"\n",
+            Self::Deep => {
+                "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"corner\"\n[render]\n\
+                 payload = \"raw\"\n[hardware]\npipelining = \"deep\"\n"
+            }
+            Self::DeepSent => {
+                "[denoise]\nfilter = \"none\"\n[temporal]\nreference = \"last-sent\"\n\
+                 [hardware]\npipelining = \"deep\"\n"
+            }
+            Self::DeepMoments => {
+                "[region]\nsize = 5\n[denoise]\nfilter = \"none\"\n[[spatial]]\n\
+                 feature = \"mad\"\nmean_fraction_bits = 1\n[[spatial]]\nfeature = \"variance\"\n\
+                 [temporal]\nreference = \"last-sent\"\n[hardware]\npipelining = \"deep\"\n"
+            }
             Self::SerialPaper => "[region]\nsize = 4\n[hardware]\norganization = \"serial\"\n",
             Self::SerialEdge => {
                 "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
@@ -148,6 +169,10 @@ impl Planted {
                 "[frame]\nwidth = 25\nheight = 5\n[region]\nsize = 5\n[hardware]\n\
                  organization = \"raster\"\nstore = \"single-port\"\n"
             }
+            Self::RasterBanks => {
+                "[frame]\nwidth = 136\nheight = 124\n[denoise]\nfilter = \"none\"\n[hardware]\n\
+                 organization = \"raster\"\npipelining = \"deep\"\nforward = false\n"
+            }
             Self::RasterOutside => {
                 "[frame]\nwidth = 16\nheight = 8\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
                  [hardware]\norganization = \"raster\"\npipelining = \"deep\"\nstore = \"external\"\n\
@@ -188,6 +213,7 @@ impl Planted {
                 | Self::RasterMoments
                 | Self::RasterLost
                 | Self::RasterPairs
+                | Self::RasterBanks
                 | Self::RasterOutside
         )
     }
@@ -212,7 +238,9 @@ impl Planted {
     /// Compiled where a frame takes long.
     pub(crate) fn simulator(self) -> Simulator {
         match self {
-            Self::SerialMany | Self::SerialSent | Self::SerialBlock => Simulator::Verilator,
+            Self::SerialMany | Self::SerialSent | Self::SerialBlock | Self::RasterBanks => {
+                Simulator::Verilator
+            }
             _ => Simulator::Iverilog,
         }
     }

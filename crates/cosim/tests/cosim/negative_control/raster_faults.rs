@@ -6,8 +6,8 @@
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
-    RasterLost as Lost, RasterMoments as Moments, RasterOutside as Outside, RasterPairs as Pairs,
-    RasterPaper as Paper, RasterSent as Sent,
+    RasterBanks as Banks, RasterLost as Lost, RasterMoments as Moments, RasterOutside as Outside,
+    RasterPairs as Pairs, RasterPaper as Paper, RasterSent as Sent,
 };
 
 /// Every fault, by module.
@@ -38,8 +38,8 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Paper, "raster_window", "write_place = old_place_q;", "write_place = place_q;"),
     fault("constant", Sent, "raster_window", "bottom_2q ? middle : incoming", "incoming"),
 
-    fault("index", Sent, "raster_line", ".write_address_i(old_place_q)", ".write_address_i(place_q)"),
-    fault("constant", Sent, "raster_line", "BEFORE_LAST = ROW_WORDS - 2", "BEFORE_LAST = ROW_WORDS - 3"),
+    fault("index", Sent, "raster_line", ".write_address_i(old_place_q)", ".write_address_i(place)"),
+    fault("constant", Sent, "raster_line", ".WORDS(ROW_WORDS), .PLACE_BITS", ".WORDS(ROW_WORDS - 1), .PLACE_BITS"),
 
     fault("operator", Paper, "raster_median", "ab ? (bc ? c : b) : (ac ? c : a)", "ab ? (bc ? c : b) : (ac ? a : c)"),
     fault("constant", Paper, "raster_median", "next_above[3*LANES-2] || merge_right_q", "next_above[3*LANES-2]"),
@@ -64,11 +64,16 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Sent, "raster_counts", "hits_i[feature*LANES+lane]", "hits_i[feature*LANES]"),
     fault("width", Paper, "raster_counts", "$clog2((SIDE - 1) * SIDE + 1);", "$clog2((SIDE - 1) * SIDE + 1) - 1;"),
 
+    fault("constant", Banks, "raster_banks", ".DEPTH(3)", ".DEPTH(2)"),
+    fault("index", Banks, "raster_banks", "own_q <= write[group+1] && write_q[BANK_BITS+:SLOT_BITS] == OWN;", "own_q <= write[group+1];"),
+    fault("constant", Banks, "raster_core", "CENTER_CLOCKS - 1 - GROUPS", "CENTER_CLOCKS - GROUPS"),
     fault("constant", Pairs, "raster_pairs", "again = again_q && !waits_q;", "again = again_q;"),
-    fault("constant", Pairs, "raster_pairs", "come_q[0] || come_end_q;", "come_q[0];"),
+    fault("constant", Pairs, "raster_pairs", "come_second_q || come_half;", "come_second_q;"),
+    fault("constant", Pairs, "raster_pairs", "ask_half = HALF && last_pair_q", "ask_half = HALF"),
+    fault("reset", Pairs, "raster_pairs", "            again_q       <= 1'b1;\n", ""),
     fault("operator", Pairs, "raster_pairs", "write = waits_q && !read;", "write = waits_q;"),
-    fault("index", Pairs, "raster_pairs", "come_q[0] ? first_q : word_i", "word_i"),
-    fault("reset", Pairs, "raster_pairs", "            come_q      <= {WORD_NUMBER_BITS{1'b0}};\n", ""),
+    fault("index", Pairs, "raster_pairs", "come_second_q ? first_q : word_i", "word_i"),
+    fault("reset", Pairs, "raster_pairs", "            come_second_q <= 1'b0;\n", ""),
 
     fault("operator", Outside, "raster_external", "read_i && !first_frame_i", "read_i"),
     fault("constant", Outside, "raster_external", ".DEPTH(1 + DEEP)", ".DEPTH(1)"),
@@ -76,9 +81,9 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("reset", Outside, "raster_external", "if (rst_i) underrun_o <= 1'b0;\n        else if", "if"),
     fault("reset", Outside, "raster_external", "write_i && !rst_i", "write_i"),
 
-    fault("constant", Paper, "raster_store", "BEFORE_LAST = WORDS - 2", "BEFORE_LAST = WORDS - 3"),
-    fault("index", Sent, "raster_store", "write_place = place_i;", "write_place = read_q;"),
-    fault("reset", Paper, "raster_store", "            read_q     <= {ADDRESS_BITS{1'b0}};\n", ""),
+    fault("constant", Paper, "raster_store", ".WORDS(WORDS), .PLACE_BITS(ADDRESS_BITS)) u_read", ".WORDS(WORDS - 1), .PLACE_BITS(ADDRESS_BITS)) u_read"),
+    fault("index", Sent, "raster_store", "write_place = place_i;", "write_place = read_place;"),
+    fault("reset", Paper, "raster_store", ".rst_i(rst_i), .step_i(read_i)", ".rst_i(1'b0), .step_i(read_i)"),
 
     fault("constant", Paper, "raster_start", "NEXT_ROW = SEGMENT + (SIDE - 1) * ROW_WORDS", "NEXT_ROW = SEGMENT + SIDE * ROW_WORDS"),
     fault("constant", Sent, "raster_start", "ROW_STEP = SEGMENT + (SIDE - 1) * ROW_WORDS", "ROW_STEP = SEGMENT + SIDE * ROW_WORDS"),
@@ -109,6 +114,9 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Lost, "raster_readout", "held_stale ? held_region_q : oldest_region", "oldest_region"),
     fault("operator", Paper, "raster_readout", "assign step_o = !valid_o || ready_i;", "assign step_o = ready_i;"),
     fault("reset", Paper, "raster_readout", "        if (rst_i) held_q <= 1'b0;\n", ""),
+    fault("operator", Sent, "raster_readout", "waits && !read_valid_q", "waits"),
+    fault("operator", Sent, "raster_readout", "if (move) oldest_q <= read;", "oldest_q <= read;"),
+    fault("operator", Sent, "raster_readout", "waits || read_valid_q || oldest_valid_q", "waits"),
 
     fault("operator", Sent, "raster_decision", "srs = ALL ? &(decided_votes | ~PRESENT)", "srs = ALL ? |(decided_votes & PRESENT)"),
     fault("constant", Sent, "raster_decision", "blanked = BLANKS && !srs;", "blanked = 1'b0;"),
@@ -119,6 +127,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Sent, "raster_forward", "JUMP = ROW_WORDS - SEGMENT + 1", "JUMP = ROW_WORDS - SEGMENT"),
 
     fault("constant", Paper, "raster_ring", "BEFORE_LAST = WORDS - 2", "BEFORE_LAST = WORDS - 3"),
+    fault("reset", Paper, "raster_ring", "            place_o <= {PLACE_BITS{1'b0}};\n            end_q", "            end_q"),
     fault("index", Moments, "raster_deviation", ".OUTPUT_STAGE(DEEP)\n    ) u_copy", ".OUTPUT_STAGE(1)\n    ) u_copy"),
     fault("constant", Moments, "raster_deviation", "HALF = SIDE * SIDE / 2", "HALF = 0"),
     fault("operator", Moments, "raster_moments", "word_i[lane*WIDTH+:WIDTH] * word_i[lane*WIDTH+:WIDTH]", "word_i[lane*WIDTH+:WIDTH] + word_i[lane*WIDTH+:WIDTH]"),

@@ -19,6 +19,7 @@ const FEATURES: [&str; 7] = [
 ];
 const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
 const DEPTHS: [u32; 4] = [1, 8, 10, 16];
+const PIPELINING: [&str; 2] = ["plain", "deep"];
 
 /// Configurations as TOML.
 pub(crate) fn matrix() -> Vec<String> {
@@ -38,7 +39,7 @@ pub(crate) fn matrix() -> Vec<String> {
                  [denoise]\nfilter = '{filter}'\n\
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
-                 [hardware]\nthresholds = '{thresholds}'\n",
+                 [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\n",
                 width = 2 * size,
                 neighborhood = pick(0, "isolated", "shared"),
                 filter = pick(1, "median3x3", "none"),
@@ -46,6 +47,8 @@ pub(crate) fn matrix() -> Vec<String> {
                 payload = pick((index + 1) % 3, "denoised", "raw"),
                 irrelevant = pick(index % 3, "zero", "hold"),
                 thresholds = pick((index + 2) % 3, "runtime", "constant"),
+                // Every pair of the other choices occurs both plain and deep.
+                pipelining = PIPELINING[(index + choice.count_ones() as usize) % 2],
             ));
         }
     }

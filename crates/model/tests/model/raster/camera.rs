@@ -125,6 +125,7 @@ fn recipe(number: usize) -> RasterRecipe {
             blank_irrelevant: on(3),
             raw_payload: on(6),
             constant: on(5),
+            deep: false,
         },
         pixels,
         deep: on(7),

@@ -33,6 +33,7 @@ fn recipe(last: FeatureRecipe) -> RasterRecipe {
             blank_irrelevant: false,
             raw_payload: false,
             constant: true,
+            deep: false,
         },
         pixels: 1,
         deep: false,

@@ -154,9 +154,9 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
     for (feature, more, first, stall) in [
         ("edge", &[][..], 81, 16 - 4 - 4 - 3),
         ("variance", &[], 66, 16 - 4 - 7 - 3),
-        ("edge", &["hardware.pipelining=deep"], 87, 16 - 4 - 6 - 3),
+        ("edge", &["hardware.pipelining=deep"], 88, 16 - 4 - 6 - 4),
         ("mad", &[], 86, 5 * 16 - 20 - 14),
-        ("mad", &["hardware.pipelining=deep"], 91, 5 * 16 - 20 - 17),
+        ("mad", &["hardware.pipelining=deep"], 92, 5 * 16 - 20 - 18),
         ("mad", &[BOTH], 89, 5 * 16 - 20 - 17),
     ] {
         let design = design(feature, (16, 64), more);

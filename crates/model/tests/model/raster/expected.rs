@@ -45,7 +45,7 @@ impl<'a> Oracle<'a> {
             trace,
             history: Vec::new(),
             decisions: BTreeMap::new(),
-            readings: Readings::new(recipe.region_words(), recipe.misread.rest),
+            readings: Readings::new(recipe.region_words(), recipe.deep, recipe.misread.rest),
             streams: Streams::default(),
             begun: Vec::new(),
             ready: vec![false; trace.shown.len()],

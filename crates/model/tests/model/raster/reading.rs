@@ -22,8 +22,10 @@ pub(crate) type Word = (usize, i64);
 pub(crate) struct Readings {
     pub(crate) all: Vec<Reading>,
     words: i64,
-    /// Clocks by which resting is misread.
+    /// Edges from one holding to the next, at least.
     rest: i64,
+    /// Edges from entering the queue to holding, at least.
+    wait: i64,
     /// The word on the ports after every edge.
     pub(crate) shown: Vec<Option<Word>>,
     /// Regions that had been lost after every edge.
@@ -33,10 +35,10 @@ pub(crate) struct Readings {
 }
 
 impl Readings {
-    /// For regions of so many words.
-    pub(crate) fn new(words: i64, wrong: i64) -> Self {
-        let rest = 2 + wrong;
-        Self { words, rest, shown: vec![None], lost: vec![0], ..Self::default() }
+    /// For regions of so many words. `wrong` is by how many clocks resting is misread.
+    pub(crate) fn new(words: i64, deep: bool, wrong: i64) -> Self {
+        let (rest, wait) = (2 + wrong, if deep { 3 } else { 2 } + wrong);
+        Self { words, rest, wait, shown: vec![None], lost: vec![0], ..Self::default() }
     }
 
     /// A region is active; its decision is on the ports after that edge.
@@ -85,7 +87,7 @@ impl Readings {
         let has_rested = starts.max().is_none_or(|last| edge - last >= self.rest);
         let next = self.all.iter_mut().find(|reading| reading.held.is_none());
         let Some(reading) =
-            next.filter(|reading| has_rested && edge >= reading.decided + 1 + self.rest)
+            next.filter(|reading| has_rested && edge >= reading.decided + 1 + self.wait)
         else {
             return;
         };

@@ -153,6 +153,7 @@ fn films_over_the_matrix() {
                     blank_irrelevant: number % 5 < 3,
                     raw_payload: on(4),
                     constant: number.is_multiple_of(11),
+                    deep: false,
                 };
                 let frames = hard_frames(&base);
                 let film: Vec<Frame> =
@@ -184,6 +185,7 @@ fn every_fold_of_a_grid_of_seven() {
                 blank_irrelevant: true,
                 raw_payload: false,
                 constant: false,
+                deep: false,
             };
             let film = hard_frames(&base);
             check(&SerialRecipe { base, raster, fold }, &film);
@@ -209,6 +211,7 @@ fn the_largest_region() {
             blank_irrelevant: false,
             raw_payload: true,
             constant: false,
+            deep: false,
         };
         let film = hard_frames(&base);
         check(&SerialRecipe { base, raster, fold: 2 }, &film[2..5]);

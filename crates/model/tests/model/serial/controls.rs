@@ -29,6 +29,7 @@ fn recipe() -> SerialRecipe {
             blank_irrelevant: true,
             raw_payload: false,
             constant: true,
+            deep: false,
         },
         raster: true,
         fold: 2,

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Frames per second, which hold at a clock: one that was given, or the estimated one with its range.
+
+use foveate_page::number::real;
+use serde::{Deserialize, Serialize};
+
+use crate::clock::ClockEstimate;
+
+/// A clock and the frames per second at it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Speed {
+    /// The clock in MHz.
+    pub clock_mhz: f64,
+    /// The low end of its range; of a clock that was given, the clock.
+    pub low_clock_mhz: f64,
+    /// The high end of its range.
+    pub high_clock_mhz: f64,
+    /// Whether the clock is estimated; else it was given.
+    pub estimated: bool,
+    /// Frames per second at the clock.
+    pub frames_per_second: f64,
+    /// Frames per second at the low end.
+    pub low_frames_per_second: f64,
+    /// Frames per second at the high end.
+    pub high_frames_per_second: f64,
+}
+
+impl Speed {
+    /// Of frames of so many clocks at a clock that was given.
+    #[must_use]
+    pub fn given(mhz: f64, clocks_per_frame: u64) -> Self {
+        Self::over([mhz; 3], false, clocks_per_frame)
+    }
+
+    /// Of frames of so many clocks at the estimated clock.
+    #[must_use]
+    pub fn estimated(clock: &ClockEstimate, clocks_per_frame: u64) -> Self {
+        Self::over([clock.low_mhz, clock.mhz, clock.high_mhz], true, clocks_per_frame)
+    }
+
+    fn over([low, clock, high]: [f64; 3], estimated: bool, clocks_per_frame: u64) -> Self {
+        let [low_rate, rate, high_rate] =
+            [low, clock, high].map(|mhz| mhz * 1e6 / number(clocks_per_frame.max(1)));
+        Self {
+            clock_mhz: clock,
+            low_clock_mhz: low,
+            high_clock_mhz: high,
+            estimated,
+            frames_per_second: rate,
+            low_frames_per_second: low_rate,
+            high_frames_per_second: high_rate,
+        }
+    }
+
+    /// The clock in MHz: `44 (35 to 59)` if it is estimated, else as it was given.
+    #[must_use]
+    pub fn clock_text(&self) -> String {
+        let Self { clock_mhz, low_clock_mhz, high_clock_mhz, .. } = self;
+        if self.estimated {
+            format!("{clock_mhz:.0} ({low_clock_mhz:.0} to {high_clock_mhz:.0})")
+        } else {
+            clock_mhz.to_string()
+        }
+    }
+
+    /// The frames per second: `685,714` from a thousand on, else with a digit after the point.
+    #[must_use]
+    pub fn rate_text(&self) -> String {
+        real(self.frames_per_second, 1)
+    }
+
+    /// The same with its range: `5.6 (4.5 to 7.4)` if the clock is estimated.
+    #[must_use]
+    pub fn rate_with_range(&self) -> String {
+        let rate = self.rate_text();
+        if !self.estimated {
+            return rate;
+        }
+        let ends = [self.low_frames_per_second, self.high_frames_per_second];
+        let [low, high] = ends.map(|rate| real(rate, 1));
+        format!("{rate} ({low} to {high})")
+    }
+
+    /// Both: `31.6 frames/s at 250 MHz`, or
+    /// `5.6 (4.5 to 7.4) frames/s at an estimated clock of 44 (35 to 59) MHz`.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let an_estimated = if self.estimated { "an estimated clock of " } else { "" };
+        format!("{} frames/s at {an_estimated}{} MHz", self.rate_with_range(), self.clock_text())
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "clocks of a frame are far below 2^53")]
+fn number(clocks: u64) -> f64 {
+    clocks as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::LogicPath;
+
+    #[test]
+    fn a_rate_stands_beside_the_clock_that_it_holds_at() {
+        assert_eq!(Speed::given(250.0, 64).text(), "3,906,250 frames/s at 250 MHz");
+        assert_eq!(Speed::given(33.5, 2_000_000).text(), "16.8 frames/s at 33.5 MHz");
+        let clock = ClockEstimate {
+            mhz: 60.0,
+            low_mhz: 48.0,
+            high_mhz: 80.0,
+            wiring_share: 0.65,
+            path: LogicPath::default(),
+        };
+        let speed = Speed::estimated(&clock, 600_000);
+        assert_eq!(
+            speed.text(),
+            "100.0 (80.0 to 133.3) frames/s at an estimated clock of 60 (48 to 80) MHz"
+        );
+        assert_eq!((speed.low_frames_per_second, speed.frames_per_second), (80.0, 100.0));
+    }
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// A large memory for a fast clock: banks, in groups one behind the other. Places and words travel from group to
+// group, a clock each, and what was read travels with them, so that no wire crosses the whole memory.
+`default_nettype none
+
+module raster_banks #(
+    parameter WIDTH = 8,          // bits of a word
+    parameter WORDS = 307200,     // words, more than a bank has (else u_slot is refused)
+    parameter ADDRESS_BITS = 19,  // ceil(log2(WORDS))
+    parameter BANK_BITS = 14,     // log2 of the words of a bank
+    parameter GROUP_BITS = 2,     // log2 of the banks of a group
+    parameter GROUPS = 5          // groups, as many as WORDS need
+) (
+    input  wire                    clk_i,            // clock, rising edge
+    input  wire                    rst_i,            // synchronous reset, active high
+    input  wire                    write_i,          // write at this edge
+    input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
+    input  wire [       WIDTH-1:0] data_i,           // what
+    input  wire [ADDRESS_BITS-1:0] read_address_i,   // where to read
+    output wire [       WIDTH-1:0] data_o            // what was there, GROUPS + 4 clocks after its address
+);
+
+    localparam GROUP_WORD_BITS = BANK_BITS + GROUP_BITS;
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (ADDRESS_BITS != $clog2(WORDS)) begin : g_address_bits
+            ADDRESS_BITS_must_be_clog2_of_WORDS u_refused ();
+        end
+        if (GROUPS != (WORDS + (1 << GROUP_WORD_BITS) - 1) >> GROUP_WORD_BITS) begin : g_groups
+            GROUPS_must_be_as_many_as_WORDS_need u_refused ();
+        end
+    endgenerate
+
+    // What enters the first group, and what leaves each.
+    localparam SLOT_BITS = ADDRESS_BITS - BANK_BITS;  // bits of the number of a bank
+    wire [ADDRESS_BITS-1:0] read_place[0:GROUPS];
+    wire [ADDRESS_BITS-1:0] write_place[0:GROUPS];
+    wire [WIDTH-1:0] word[0:GROUPS];
+    wire write[0:GROUPS];
+    wire [WIDTH-1:0] found[0:GROUPS];
+    assign read_place[0] = read_address_i;
+    assign write_place[0] = write_address_i;
+    assign word[0] = data_i;
+    assign write[0] = write_i;
+    assign found[0] = {WIDTH{1'b0}};
+
+    genvar group, bank;
+    generate
+        for (group = 0; group < GROUPS; group = group + 1) begin : g_group
+            localparam FIRST = group << GROUP_BITS;  // its first bank
+            localparam [SLOT_BITS-1:0] FIRST_SLOT = FIRST;
+            localparam LEFT = WORDS - (FIRST << BANK_BITS);  // words from there on
+            localparam NEEDED = (LEFT + (1 << BANK_BITS) - 1) >> BANK_BITS;
+            localparam BANKS = NEEDED < 1 << GROUP_BITS ? NEEDED : 1 << GROUP_BITS;
+
+            reg [ADDRESS_BITS-1:0] read_q, write_q;
+            reg [WIDTH-1:0] word_q, found_q;
+            always @(posedge clk_i) begin
+                read_q  <= read_place[group];
+                write_q <= write_place[group];
+                word_q  <= word[group];
+            end
+            raster_pulse #(.DEPTH(1)) u_write (.clk_i(clk_i), .rst_i(rst_i), .bit_i(write[group]), .bit_o(write[group+1]));
+            assign read_place[group+1] = read_q;
+            assign write_place[group+1] = write_q;
+            assign word[group+1] = word_q;
+
+            // The word that is written, beside the banks of this group.
+            reg [BANK_BITS-1:0] place_q;
+            reg [WIDTH-1:0] here_q;
+            always @(posedge clk_i) begin
+                place_q <= write_q[BANK_BITS-1:0];
+                here_q  <= word_q;
+            end
+
+            // All banks are read. A register for the way from each of them; then the word is in the one whose number was
+            // asked for three clocks before.
+            wire [SLOT_BITS-1:0] slot;
+            raster_delay #(.WIDTH(SLOT_BITS), .DEPTH(3)) u_slot (
+                .clk_i(clk_i), .data_i(read_q[BANK_BITS+:SLOT_BITS]), .data_o(slot)
+            );
+            wire [BANKS*WIDTH-1:0] bank_words;
+            reg [BANKS*WIDTH-1:0] bank_words_q;
+            for (bank = 0; bank < BANKS; bank = bank + 1) begin : g_bank
+                localparam [SLOT_BITS-1:0] OWN = FIRST + bank;
+                reg own_q;  // the word is written here
+                always @(posedge clk_i) own_q <= write[group+1] && write_q[BANK_BITS+:SLOT_BITS] == OWN;
+                raster_memory #(.WIDTH(WIDTH), .WORDS(1 << BANK_BITS), .ADDRESS_BITS(BANK_BITS), .OUTPUT_STAGE(1)) u_words (
+                    .clk_i(clk_i), .write_i(own_q), .write_address_i(place_q), .data_i(here_q),
+                    .read_i(1'b1), .read_address_i(read_q[BANK_BITS-1:0]), .data_o(bank_words[bank*WIDTH+:WIDTH])
+                );
+            end
+
+            integer number;
+            always @(posedge clk_i) begin
+                bank_words_q <= bank_words;
+                found_q      <= found[group];
+                for (number = 0; number < BANKS; number = number + 1) begin
+                    if (slot == FIRST_SLOT + number[SLOT_BITS-1:0]) found_q <= bank_words_q[number*WIDTH+:WIDTH];
+                end
+            end
+            assign found[group+1] = found_q;
+        end
+    endgenerate
+
+    assign data_o = found[GROUPS];
+    wire unused_ends = write[GROUPS] || |write_place[GROUPS] || |read_place[GROUPS] || |word[GROUPS];
+
+endmodule
+
+`default_nettype wire
