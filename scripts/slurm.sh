@@ -89,7 +89,7 @@ until [ -S "$work/run/munge.socket" ]; do sleep 0.1; done
 controller
 slurmd -D -N "$host" 2>"$work/slurmd.err" &
 daemons[slurmd]=$!
-up() { sinfo --noheader --format %T 2>/dev/null | grep -qE 'idle|mixed|allocated'; }
+up() { sinfo --noheader --format %T 2>/dev/null | grep -E 'idle|mixed|allocated' >/dev/null; }
 for _ in {1..100}; do
     if up; then break; fi
     sleep 0.2
@@ -113,7 +113,7 @@ all_at_work() {
     local job jobs
     jobs=$(squeue --noheader --states RUNNING --format %A)
     [ -n "$jobs" ] || return 1
-    for job in $jobs; do squeue --noheader --steps --format %i | grep -qx "$job\.0" || return 1; done
+    for job in $jobs; do squeue --noheader --steps --format %i | grep -x "$job\.0" >/dev/null || return 1; done
 }
 
 step "Slurm, with a process killed, a job cancelled, and the controller killed and started again"
@@ -124,7 +124,8 @@ finished out >before
 kill_unit
 until_there units_done 2
 until_there at_work >/dev/null
-job=$(squeue --noheader --states RUNNING --format %A | head -1)
+# Not head, which would end squeue by a broken pipe.
+job=$(squeue --noheader --states RUNNING --format %A | sed -n 1p)
 scancel "$job"
 echo "cancelled job $job"
 until_there units_done 3
@@ -149,7 +150,7 @@ mount -t tmpfs -o size=250k none full/explore
 if RETRIES=0 on_slurm full full/explore/points.csv >full.log 2>&1; then
     fail "no job failed on a full disk"
 fi
-grep -rhoE 'foveate: .*(no storage space|No space left).*' .snakemake/slurm_logs | sort -u | head -1 | grep . || fail "no job named the full disk"
+grep -rhoE 'foveate: .*(no storage space|No space left).*' .snakemake/slurm_logs | sort -u | sed -n 1p | grep . || fail "no job named the full disk"
 find full/explore -name '*.json' -exec python3 -c 'import json, sys; [json.load(open(name)) for name in sys.argv[1:]]' {} +
 finished full >before
 mount -o remount,size=20m full/explore

@@ -65,11 +65,10 @@ at_work() {
     return $found
 }
 
-# Kills the process of a unit, as a lack of memory does.
+# Kills the process of a unit, as a lack of memory does. One that ends just before is followed by another.
 kill_unit() {
-    local victim=
-    until_there at_work >/dev/null
-    victim=$(at_work | head -1)
-    kill -KILL "$victim"
-    echo "killed process $victim, which did a unit"
+    local victims
+    until_there kill_one
+    echo "killed process ${victims%%$'\n'*}, which did a unit"
 }
+kill_one() { victims=$(at_work) && kill -KILL "${victims%%$'\n'*}" 2>/dev/null; }
