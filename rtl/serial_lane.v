@@ -9,6 +9,9 @@
 // five of nine clear the bit. `run_q` counts to five in unary, which takes no logic but its enable;
 // for `edge` its lowest bit says that one of the two comparisons of a pixel was a hit, for `corner`
 // it is the length of the run.
+//
+// With DEEP the word read is a register, and so is the operand where `mad` or `variance` work on the word, before it
+// is inverted. A hit is counted a clock after it was found: a score is whole one clock after the last step of its pass.
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)
@@ -17,6 +20,7 @@ module serial_lane #(
     parameter WORDS = 128,       // words of the memory
     parameter ADDRESS_BITS = 7,  // of an address in the memory
     parameter BLOCK = 0,         // 1: the memory is block RAM
+    parameter DEEP = 0,          // 1: registers behind the word and the hit
     parameter ACC_BITS = 11,     // bits of the accumulator, which is signed
     parameter CHAIN_BITS = 7,    // bits of the score on its way
     parameter FLAGS = 1,         // bits that travel with the score
@@ -76,7 +80,7 @@ module serial_lane #(
     // Unloading.
     input  wire                    unload_i,         // `parallel`: the word read leaves if the region is active
     output wire                    leaves_o,         // the word read is a pixel of an active region
-    output wire [       WIDTH-1:0] pixel_o           // the word read
+    output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
 
     localparam SUMS = MAD != 0 || VARIANCE != 0;
@@ -114,7 +118,6 @@ module serial_lane #(
 
     assign word_o  = chain_q;
     assign flags_o = flags_q;
-    assign pixel_o = word;
     assign leaves_o = RASTER == 0 && unload_i && flags_q[0];
 
     // Memory.
@@ -123,7 +126,8 @@ module serial_lane #(
     wire repeated = BORDERS != 0 && write_border_i && sides_i[side_i];
 
     serial_memory #(
-        .WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK)
+        .WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK),
+        .LATE(DEEP)
     ) u_memory (
         .clk_i(clk_i), .write_i(write_i || selected || copied || repeated), .address_i(address_i),
         .data_i(loading_i ? pixel_i : acc_q[WIDTH-1:0]), .data_o(word)
@@ -131,11 +135,24 @@ module serial_lane #(
 
     // Accumulator.
     wire [ACC_BITS-1:0] wide_word = {{(ACC_BITS - WIDTH) {1'b0}}, word};
+    wire [ACC_BITS-1:0] found;   // the operand, before it is inverted
+    wire [ACC_BITS-1:0] source;  // ... in the clock of the accumulator
 
     generate
+        if (DEEP != 0 && SUMS) begin : g_operand
+            reg [ACC_BITS-1:0] source_q;
+            always @(posedge clk_i) source_q <= found;
+            assign source  = source_q;
+            assign pixel_o = source_q[WIDTH-1:0];
+        end else begin : g_no_operand
+            assign source  = found;
+            assign pixel_o = word;
+        end
+
         if (SUMS) begin : g_sums
-            wire [ACC_BITS-1:0] source;
             wire [ACC_BITS-1:0] deviation;
+            wire [ACC_BITS-1:0] choice;
+            wire                deviates = MAD != 0 && deviate_i;
             wire                negative;
 
             if (MAD != 0) begin : g_deviation
@@ -155,17 +172,26 @@ module serial_lane #(
                 wire [ACC_BITS-1:0] wide_aux = {{(ACC_BITS - AUX_BITS) {1'b0}}, aux};
                 wire [ACC_BITS-1:0] plain = from_aux_i ? wide_aux : wide_word;
                 wire chosen = !masked_i || |(plain & constant_i);
-                assign source = (from_memory_i || from_aux_i) ? plain & {ACC_BITS{chosen}}
+                assign choice = (from_memory_i || from_aux_i) ? plain & {ACC_BITS{chosen}}
                                                               : constant_i;
             end else begin : g_plain
                 wire unused_masked = masked_i || from_aux_i;
-                assign source = from_memory_i ? wide_word : constant_i;
+                assign choice = from_memory_i ? wide_word : constant_i;
             end
 
-            wire deviates = MAD != 0 && deviate_i;
-            wire turned = deviates ? negative : invert;
-            assign operand = double_i ? acc_q
-                                      : (deviates ? deviation : source) ^ {ACC_BITS{turned}};
+            assign found = deviates ? deviation : choice;
+
+            // A difference below zero is inverted, too.
+            wire turned;
+            if (DEEP != 0 && MAD != 0) begin : g_below
+                reg below_q;
+                always @(posedge clk_i) below_q <= deviates && negative;
+                assign turned = invert || below_q;
+            end else begin : g_at_once
+                assign turned = deviates ? negative : invert;
+            end
+
+            assign operand = double_i ? acc_q : source ^ {ACC_BITS{turned}};
 
             carry_adder #(.WIDTH(ACC_BITS)) u_sum (
                 .plain_i(acc_q), .other_i(operand), .carry_i(turned && carry_i), .sum_o(sum)
@@ -186,7 +212,8 @@ module serial_lane #(
             wire unused_sums = double_i || divide_i || deviate_i || masked_i || from_aux_i;
             wire unused_aux = |aux;
             assign aux = {AUX_BITS{1'b0}};
-            assign operand = (from_memory_i ? wide_word : constant_i) ^ {ACC_BITS{invert}};
+            assign found = from_memory_i ? wide_word : constant_i;
+            assign operand = source ^ {ACC_BITS{invert}};
 
             carry_adder #(.WIDTH(ACC_BITS)) u_sum (
                 .plain_i(acc_q), .other_i(operand), .carry_i(invert && carry_i), .sum_o(sum)
@@ -251,9 +278,17 @@ module serial_lane #(
     wire [CHAIN_BITS-1:0] summed;
     wire [CHAIN_BITS-1:0] fetched;
     wire [CHAIN_BITS-1:0] moved = shift_i ? word_i : fetch_i ? fetched : keep_i ? summed : chain_q;
-    wire scored = count_i && hit;
+    wire scores = count_i && hit;
+    wire scored;
 
     generate
+        if (DEEP != 0) begin : g_scored
+            reg scored_q;
+            always @(posedge clk_i) scored_q <= scores;
+            assign scored = scored_q;
+        end else begin : g_scored_at_once
+            assign scored = scores;
+        end
         if (SUMS) begin : g_summed
             assign summed = acc_q[CHAIN_BITS-1:0];
         end else begin : g_not_summed
@@ -262,9 +297,9 @@ module serial_lane #(
         if (RASTER == 0) begin : g_not_fetched
             assign fetched = chain_q;
         end else if (CHAIN_BITS > WIDTH) begin : g_extended
-            assign fetched = {{(CHAIN_BITS - WIDTH) {1'b0}}, word};
+            assign fetched = {{(CHAIN_BITS - WIDTH) {1'b0}}, pixel_o};
         end else begin : g_fetched
-            assign fetched = word;
+            assign fetched = pixel_o;
         end
     endgenerate
 

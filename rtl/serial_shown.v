@@ -4,7 +4,7 @@
 
 module serial_shown #(
     parameter WIDTH = 12,  // bits that are shown together
-    parameter BLOCK = 0    // 1: a word comes a clock after its address
+    parameter LATE = 0     // clocks from an address to the accumulator
 ) (
     input  wire             clk_i,   // clock, rising edge
     input  wire             rst_i,   // synchronous reset, active high
@@ -15,28 +15,20 @@ module serial_shown #(
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (LATE < 0) begin : g_late LATE_must_be_0_or_more u_refused (); end
     endgenerate
 
-    // The initial values keep synthesis from moving these registers into a memory's address port.
-    reg [WIDTH-1:0] bits_q = {WIDTH{1'b0}};
+    // The newest lowest. The initial value keeps synthesis from moving these registers into a memory's address port.
+    reg [(LATE+1)*WIDTH-1:0] bits_q = {(LATE + 1) * WIDTH{1'b0}};
+    wire [(LATE+2)*WIDTH-1:0] bits = {bits_q, bits_i};
+    wire unused_last = |bits[(LATE+1)*WIDTH+:WIDTH];
 
     always @(posedge clk_i) begin
-        if (rst_i) bits_q <= {WIDTH{1'b0}};
-        else bits_q <= bits_i;
+        if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};
+        else bits_q <= bits[(LATE+1)*WIDTH-1:0];
     end
 
-    generate
-        if (BLOCK != 0) begin : g_late
-            reg [WIDTH-1:0] late_q = {WIDTH{1'b0}};
-            always @(posedge clk_i) begin
-                if (rst_i) late_q <= {WIDTH{1'b0}};
-                else late_q <= bits_q;
-            end
-            assign bits_o = late_q;
-        end else begin : g_at_once
-            assign bits_o = bits_q;
-        end
-    endgenerate
+    assign bits_o = bits_q[LATE*WIDTH+:WIDTH];
 
 endmodule
 

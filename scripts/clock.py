@@ -36,6 +36,7 @@ def designs():
         yield f"pipelined {feature} median deep", "bare", [spatial, MEDIAN, DEEP], "rpu"
     for feature in FEATURES:
         yield f"serial {feature}", "serial", [f"spatial=[{{feature='{feature}'}}]", *SERIAL], "rcm"
+        yield f"serial {feature} deep", "serial", [f"spatial=[{{feature='{feature}'}}]", *SERIAL, DEEP], "rcm"
     for feature in FEATURES:
         for pipelining in ["plain", "deep"]:
             keys = [f"spatial=[{{feature='{feature}'}}]", MEDIAN, *RASTER, f"hardware.pipelining='{pipelining}'"]

@@ -75,6 +75,7 @@ def serial_matrix():
                 "hardware.organization='serial'",
                 f"hardware.fold={FOLDS[(index + choice) % len(FOLDS)]}",
                 f"hardware.feed='{pick(0, 'parallel', 'raster')}'",
+                f"hardware.pipelining='{'deep' if (index + number.bit_count()) % 2 else 'plain'}'",
                 f"hardware.thresholds='{pick(4, 'runtime', 'constant')}'",
                 f"spatial=[{features}]",
                 f"frame={{width={3 * size},height={2 * size},pixel_bits={depth}}}",

@@ -91,12 +91,13 @@ function integer f_pass(input integer kind);
         default: f_pass = F_N + WIDTH * F_N * f_ones(F_N) + 2 * f_bits(F_N * ((1 << WIDTH) - 1)) + WIDTH + f_bits(F_N) + 2;
     endcase
 endfunction
-localparam F_Q = BLOCK != 0;
+localparam F_SUMS = KINDS[1] || (FEATURES > 1 && KINDS[3]) || (FEATURES > 2 && KINDS[5]) || (FEATURES > 3 && KINDS[7]);
+localparam F_Q = (BLOCK != 0 ? 1 : 0) + (DEEP == 0 ? 0 : F_SUMS ? 2 : 1);
 localparam F_SENT = LAST_SENT != 0;
 localparam F_STEPS = FOLD * (
     (MEDIAN != 0 ? F_DENOISED * (10 * WIDTH + 3 + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
     + (BORDERS ? 4 * (SIDE + 2) * (2 + F_Q) : 0)
-    + LANES * (FEATURES + 1)
+    + (LANES + (DEEP != 0 ? 1 : 0)) * (FEATURES + 1)
     + f_pass(KINDS[1:0]) + (FEATURES > 1 ? f_pass(KINDS[3:2]) : 0)
     + (FEATURES > 2 ? f_pass(KINDS[5:4]) : 0) + (FEATURES > 3 ? f_pass(KINDS[7:6]) : 0)
     + (F_SENT ? F_N * (2 + F_Q) : 0)

@@ -231,8 +231,8 @@ pub struct HardwareConfig {
     /// design has it, as `store` and `forward`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixels_per_clock: Option<u32>,
-    /// How finely the arithmetic of the pipelined and the raster organization is cut by registers; left out it
-    /// is `plain`. A pipelined design has it only where it is `deep`.
+    /// How finely the arithmetic is cut by registers; left out it is `plain`. A pipelined or serial design has it
+    /// only where it is `deep`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pipelining: Option<Pipelining>,
     /// Where the frame store of the raster organization is, and of what it is built; left out it is `block`.

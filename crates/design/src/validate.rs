@@ -161,13 +161,6 @@ impl HardwareConfig {
         }
     }
 
-    /// Refuses the key that only the serial organization lacks.
-    pub(crate) fn refuse_pipelining(&self) -> Result<(), DesignError> {
-        let Some(pipelining) = self.pipelining else { return Ok(()) };
-        let remedy = "only the pipelined and the raster organization have it; leave the key out";
-        Err(self.clash("hardware.pipelining", format!("\"{pipelining}\""), remedy))
-    }
-
     /// The error for a `key` whose value the organization does not take.
     pub(crate) fn clash(&self, key: &str, value: String, remedy: &str) -> DesignError {
         DesignError::Combination {

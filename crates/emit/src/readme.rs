@@ -75,6 +75,8 @@ struct SerialReadme {
     clocks: u64,
     /// Clocks in which no pixel is taken: after the last of a frame, and in between at most.
     stall: u64,
+    /// Clocks by which the last pixel leaves after `ready_o` is 1 again.
+    behind: u32,
     pauses: u64,
     longest_pause: u32,
     empty: u32,
@@ -144,6 +146,7 @@ fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
         steps: timing.steps(),
         clocks: timing.clocks_per_frame(),
         stall: timing.edges_to_ready(),
+        behind: timing.read_latency().saturating_sub(1),
         pauses: timing.load_clocks() - timing.load_pixels(),
         longest_pause: longest_pause(design),
         empty: design.lanes() * design.fold() - design.regions(),

@@ -7,7 +7,7 @@ use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     AreaKind, Combine, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
-    Port, PortRole, Reference, SerialTiming, SpatialFeature, Thresholds,
+    Pipelining, Port, PortRole, Reference, SerialTiming, SpatialFeature, Thresholds,
 };
 
 #[derive(Template)]
@@ -157,6 +157,7 @@ fn parameters(design: &Design) -> Vec<(&'static str, String)> {
         ("RAW_PAYLOAD", flag(design.keeps_raw())),
         ("RASTER", flag(design.feed() == Feed::Raster)),
         ("BLOCK", flag(memory.kind == MemoryKind::Block)),
+        ("DEEP", flag(design.pipelining() == Pipelining::Deep)),
         ("FEATURES", design.score_count() - 1),
         ("ALL", flag(design.combine() == Combine::All)),
         ("FRACTION", fraction.map_or(0, |mean| mean.fraction_bits)),

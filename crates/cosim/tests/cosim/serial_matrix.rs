@@ -7,7 +7,7 @@ use crate::common::{agrees, design, directed, feature, in_parallel, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
     Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind,
-    Neighborhood, Payload, Reference, Thresholds,
+    Neighborhood, Payload, Pipelining, Reference, Thresholds,
 };
 
 use FeatureKind::{Corner, Edge, Mad, Variance};
@@ -185,6 +185,38 @@ fn depths_sizes_memories_and_constants_agree() {
         config.temporal.reference = Reference::ALL[turn / 2];
         cases.push(Case::array(config, (2, 2)));
     }
+    check_all(&cases);
+}
+
+/// More registers: every filter x reference x feed x memory, with features whose words have a register and without.
+#[test]
+fn deep_arrays_agree() {
+    let sets: [&[FeatureKind]; 5] =
+        [&[Edge], FeatureKind::ALL, &[Corner], &[Variance], &[Mad, Edge]];
+    let mut cases = Vec::new();
+    for &filter in Filter::ALL {
+        for &reference in Reference::ALL {
+            for &feed in Feed::ALL {
+                for &memory in MemoryKind::ALL {
+                    let turn = cases.len();
+                    let kinds = sets[turn % sets.len()];
+                    let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
+                    let mut config = with_turns(config(&features), turn);
+                    config.hardware.pipelining = Some(Pipelining::Deep);
+                    config.hardware.memory = Some(memory);
+                    config.hardware.feed = Some(feed);
+                    config.hardware.fold = [2, 1, 3][turn % 3];
+                    config.denoise.filter = filter;
+                    config.temporal.reference = reference;
+                    config.region.size = [4, 5, 4][turn / 2 % 3];
+                    config.region.neighborhood =
+                        Neighborhood::ALL[(turn / 4 + turn / 2 + turn) % 2];
+                    cases.push(Case::array(config, (3, 2)));
+                }
+            }
+        }
+    }
+    assert_eq!(cases.len(), 16);
     check_all(&cases);
 }
 

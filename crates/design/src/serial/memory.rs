@@ -52,7 +52,7 @@ impl Area {
 }
 
 impl MemoryKind {
-    /// Q: clocks from address to data.
+    /// Clocks from address to data.
     #[must_use]
     pub fn read_latency(self) -> u32 {
         match self {
@@ -128,12 +128,6 @@ impl LaneMemory {
     #[must_use]
     pub fn area(&self, kind: AreaKind) -> Option<&Area> {
         self.areas.iter().find(|area| area.kind == kind)
-    }
-
-    /// Q: clocks from address to data.
-    #[must_use]
-    pub fn read_latency(&self) -> u32 {
-        self.kind.read_latency()
     }
 }
 

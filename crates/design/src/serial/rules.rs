@@ -4,7 +4,7 @@
 use super::{SerialTiming, ports::ports};
 use crate::rules::{Grid, Rules, Unit};
 use crate::validate::in_range;
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Pipelining, Port, Timing};
 
 /// Smallest side of a region.
 const MIN_SIDE: u32 = 4;
@@ -47,14 +47,18 @@ impl Rules for Serial {
         &Grid { size, regions, .. }: &Grid,
     ) -> Result<HardwareConfig, DesignError> {
         asked.refuse_raster_keys()?;
-        asked.refuse_pipelining()?;
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
             return Err(asked.clash("region.size", size.to_string(), &remedy));
         }
         let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
         in_range("hardware.fold", asked.fold, 1..=regions, &why)?;
-        Ok(HardwareConfig { feed: Some(asked.feed.unwrap_or_default()), ..asked.clone() })
+        Ok(HardwareConfig {
+            feed: Some(asked.feed.unwrap_or_default()),
+            // The default is left out, so that designs have the fingerprints from before there was this key.
+            pipelining: asked.pipelining.filter(|&pipelining| pipelining != Pipelining::Plain),
+            ..asked.clone()
+        })
     }
 
     fn lone_unit(&self, design: &Design) -> Design {

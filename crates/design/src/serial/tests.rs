@@ -112,6 +112,26 @@ fn without_denoising_the_reference_is_compared_by_itself() {
     assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 192)));
 }
 
+/// By hand from `docs/serial.md`: 64 medians and two rotations of the paper's design, Q by memory and feature.
+#[test]
+fn a_deep_array_waits_for_its_registers() {
+    let of = |more: &[&str]| timing(&design(&[&["hardware.pipelining=deep"], more].concat()));
+    let (plain, deep) = (timing(&design(&[])), of(&[]));
+    assert_eq!((plain.read_latency(), plain.settling()), (0, 0));
+    assert_eq!((deep.read_latency(), deep.settling()), (1, 1));
+    assert_eq!(deep.clocks_per_frame(), plain.clocks_per_frame() + 64 + 2);
+    assert_eq!(deep.edges_to_step(0), plain.edges_to_step(0) + 1);
+    assert_eq!(deep.edges_to_ready(), 1 + deep.steps());
+    let latency = |more: &[&str]| of(more).read_latency();
+    assert_eq!(latency(&["hardware.memory=block"]), 2);
+    for sums in ["mad", "variance"] {
+        let feature = format!("spatial=[{{feature='{sums}'}}]");
+        assert_eq!(latency(&[&feature]), 2);
+        assert_eq!(latency(&["hardware.memory=block", &feature]), 3);
+        assert_eq!(of(&[&feature]).settling(), 1);
+    }
+}
+
 #[test]
 fn the_configuration_may_name_the_memory() {
     let of = |overrides: &[&str]| {
@@ -126,7 +146,8 @@ fn the_configuration_may_name_the_memory() {
     // Each of the 64 medians waits a clock for the word that it replaces.
     let (block, steps) = of(&["hardware.memory=block"]);
     assert_eq!((block.kind, block.why), (MemoryKind::Block, MemoryChoice::Configured));
-    assert_eq!((block.read_latency(), steps.steps()), (1, plain.steps() + 64));
+    assert_eq!((steps.read_latency(), steps.steps()), (1, plain.steps() + 64));
+    assert_eq!(block.kind.read_latency(), 1);
     // Nine slots of 128 words are over the limit; what the configuration says goes for every fold.
     let folded = ["frame.width=8", "frame.height=80", "hardware.fold=9"];
     let (ruled, slow) = of(&folded);

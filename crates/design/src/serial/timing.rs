@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::feature;
 use crate::timing::Departure;
-use crate::{Design, FeatureKind, Feed, Filter, Reference, Timing};
+use crate::{Design, FeatureKind, Feed, Filter, Pipelining, Reference, Timing};
 
 /// What the lanes do for one slot, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,6 +49,7 @@ pub struct SerialTiming {
     phases: Vec<(Phase, u64)>,
     slots: u32,
     read_latency: u32,
+    settling: u32,
     load_pixels: u64,
     load_clocks: u64,
 }
@@ -71,7 +72,8 @@ impl SerialTiming {
         Self {
             phases: phases(design),
             slots: design.fold(),
-            read_latency: design.lane_memory().read_latency(),
+            read_latency: read_latency(design),
+            settling: settling(design),
             load_pixels,
             load_clocks,
         }
@@ -90,10 +92,16 @@ impl SerialTiming {
         self.slots
     }
 
-    /// Q: clocks from address to data of the lane memory.
+    /// Q: clocks from the address of a word to the accumulator, 0 to 3.
     #[must_use]
     pub fn read_latency(&self) -> u32 {
         self.read_latency
+    }
+
+    /// s: steps at the start of a rotation in which nothing is seen, 0 or 1.
+    #[must_use]
+    pub fn settling(&self) -> u32 {
+        self.settling
     }
 
     /// Steps for one slot.
@@ -185,10 +193,31 @@ impl SerialTiming {
     }
 }
 
+/// A deep lane has a register for the word, and one for the operand if `mad` or `variance` work on the word.
+fn read_latency(design: &Design) -> u32 {
+    let word = match design.pipelining() {
+        Pipelining::Plain => 0,
+        Pipelining::Deep => {
+            let sums = |kind| matches!(kind, FeatureKind::Mad | FeatureKind::Variance);
+            1 + u32::from(design.features().iter().any(|feature| sums(feature.kind())))
+        }
+    };
+    design.lane_memory().kind.read_latency() + word
+}
+
+/// A deep lane has a register behind the hit.
+fn settling(design: &Design) -> u32 {
+    match design.pipelining() {
+        Pipelining::Plain => 0,
+        Pipelining::Deep => 1,
+    }
+}
+
 fn phases(design: &Design) -> Vec<(Phase, u64)> {
     let n = u64::from(design.region_pixels());
     let lanes = u64::from(design.lanes());
-    let read = u64::from(design.lane_memory().read_latency());
+    let read = u64::from(read_latency(design));
+    let rotation = u64::from(settling(design)) + lanes;
     let last_sent = match design.temporal().reference {
         Reference::Previous => false,
         Reference::LastSent => true,
@@ -207,10 +236,10 @@ fn phases(design: &Design) -> Vec<(Phase, u64)> {
         Filter::None if last_sent => list.push((Phase::Temporal, 3 * n)),
         Filter::None => list.push((Phase::Temporal, n * (3 + read))),
     }
-    list.push((Phase::RotateCount, lanes));
+    list.push((Phase::RotateCount, rotation));
     for feature in design.features() {
         list.push((Phase::Pass(feature.kind()), feature::pass_steps(design, feature)));
-        list.push((Phase::RotateScore(feature.kind()), lanes));
+        list.push((Phase::RotateScore(feature.kind()), rotation));
     }
     if last_sent {
         list.push((Phase::Copy, n * (2 + read)));

@@ -29,10 +29,16 @@ pub struct SerialRcm {
 /// Where in a frame the array is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stage {
-    /// Takes pixels; the last one is still being written for so many clocks.
-    Taking { writing: u64 },
+    /// Takes pixels; the last one is still being written for so many clocks. T0 of the frame before was so many
+    /// edges ago: its last step may be seen once the array is ready again.
+    Taking { writing: u64, before: Option<u64> },
     /// So many edges ago was T0.
     Working { clock: u64 },
+}
+
+impl Stage {
+    /// As after a reset.
+    const EMPTY: Self = Self::Taking { writing: 0, before: None };
 }
 
 impl SerialRcm {
@@ -50,7 +56,7 @@ impl SerialRcm {
             payload: design.payload(),
             borders: (0..design.regions()).map(|region| region_border(design, region)).collect(),
             regions: Regions::new(design),
-            stage: Stage::Taking { writing: 0 },
+            stage: Stage::EMPTY,
             is_forwarding: false,
             intake,
             output,
@@ -95,10 +101,10 @@ impl SerialRcm {
     #[must_use]
     pub fn clocks_until_ready(&self) -> u64 {
         match self.stage {
-            Stage::Taking { writing } if self.intake.is_full() => {
+            Stage::Taking { writing, .. } if self.intake.is_full() => {
                 writing + self.schedule.clocks_until_ready(0)
             }
-            Stage::Taking { writing } => writing,
+            Stage::Taking { writing, .. } => writing,
             Stage::Working { clock } => self.schedule.clocks_until_ready(clock),
         }
     }
@@ -125,7 +131,7 @@ impl SerialRcm {
     fn reset(&mut self) {
         self.intake.forget();
         self.regions.forget();
-        self.stage = Stage::Taking { writing: 0 };
+        self.stage = Stage::EMPTY;
     }
 
     fn take(&mut self, input: &SerialInput<'_>) {
@@ -134,7 +140,11 @@ impl SerialRcm {
             // The thresholds stay still from here, and nobody sees the scores before they are due.
             self.judge(input.thresholds);
         }
-        self.stage = Stage::Taking { writing: clocks };
+        let before = match self.stage {
+            Stage::Taking { before, .. } => before,
+            Stage::Working { clock } => Some(clock),
+        };
+        self.stage = Stage::Taking { writing: clocks, before };
         self.pass(1);
     }
 
@@ -150,13 +160,13 @@ impl SerialRcm {
     /// Lets clocks pass. A pixel that is written for c clocks was taken c - 1 edges before T0.
     fn pass(&mut self, clocks: u64) {
         self.stage = match self.stage {
-            Stage::Taking { writing } if clocks < writing => {
-                Stage::Taking { writing: writing - clocks }
-            }
-            Stage::Taking { writing } if self.intake.is_full() => {
+            Stage::Taking { writing, .. } if clocks >= writing && self.intake.is_full() => {
                 Stage::Working { clock: clocks - writing }
             }
-            Stage::Taking { .. } => Stage::Taking { writing: 0 },
+            Stage::Taking { writing, before } => Stage::Taking {
+                writing: writing.saturating_sub(clocks),
+                before: before.map(|clock| clock.saturating_add(clocks)),
+            },
             Stage::Working { clock } => Stage::Working { clock: clock.saturating_add(clocks) },
         };
     }
@@ -169,7 +179,7 @@ impl SerialRcm {
         self.output.stop_saying();
         self.output.ready = self.clocks_until_ready() == 0;
         let seen = match self.stage {
-            Stage::Taking { .. } => None,
+            Stage::Taking { before, .. } => before.and_then(|clock| self.schedule.at(clock)),
             Stage::Working { clock } => self.schedule.at(clock),
         };
         if let Some((slot, seen)) = seen {

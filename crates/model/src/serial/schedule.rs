@@ -20,6 +20,8 @@ pub(super) struct Schedule {
     lanes: u32,
     fold: u32,
     regions: u32,
+    /// Steps of a rotation before the first that shows a score.
+    settling: u64,
     /// Clocks from T0 to the clock of the first step.
     lead: u64,
     slot_steps: u64,
@@ -56,6 +58,7 @@ impl Schedule {
             lanes: design.lanes(),
             fold: design.fold(),
             regions: design.regions(),
+            settling: timing.settling().into(),
             lead: timing.edges_to_step(0),
             slot_steps: timing.slot_steps(),
             steps: timing.steps(),
@@ -95,7 +98,8 @@ impl Schedule {
     fn seen(&self, what: What, step: u64) -> Option<Seen> {
         match what {
             What::Rotation { number, decides } => {
-                Some(Seen::Score { number, lane: narrow(step), decides })
+                let lane = narrow(step.checked_sub(self.settling)?);
+                Some(Seen::Score { number, lane, decides })
             }
             What::UnloadLanes => Some(Seen::Pixels { position: narrow(step) }),
             What::UnloadRaster => {

@@ -23,7 +23,7 @@ pub(crate) struct Recipe {
     pub(crate) blank_irrelevant: bool,
     pub(crate) raw_payload: bool,
     pub(crate) constant: bool,
-    /// `hardware.pipelining = "deep"`, of a pipelined design.
+    /// `hardware.pipelining = "deep"`.
     pub(crate) deep: bool,
 }
 

@@ -68,6 +68,7 @@ module rcm #(
         .RAW_PAYLOAD(0),
         .RASTER(0),
         .BLOCK(0),
+        .DEEP(0),
         .FEATURES(1),
         .ALL(0),
         .FRACTION(0),

@@ -23,6 +23,7 @@ module serial_array #(
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
     parameter RASTER = 0,           // 1: the frame enters row by row, else one pixel per lane
     parameter BLOCK = 0,            // 1: the memories are block RAM, else distributed RAM
+    parameter DEEP = 0,             // 1: more registers, for a faster clock
     parameter FEATURES = 1,         // spatial features, 1 to 4
     parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
     parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
@@ -103,6 +104,7 @@ module serial_array #(
         end
         if (RASTER != 0 && RASTER != 1) begin : g_raster RASTER_must_be_0_or_1 u_refused (); end
         if (BLOCK != 0 && BLOCK != 1) begin : g_block BLOCK_must_be_0_or_1 u_refused (); end
+        if (DEEP != 0 && DEEP != 1) begin : g_deep DEEP_must_be_0_or_1 u_refused (); end
         if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
         if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
@@ -142,6 +144,9 @@ module serial_array #(
         || (FEATURES > 2 && KINDS[5:4] == 3) || (FEATURES > 3 && KINDS[7:6] == 3);
     localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
     localparam FLAGS = FEATURES > 1 ? 2 : 1;
+    // Clocks from an address to the word in hand, and to the accumulator.
+    localparam WORD = (BLOCK != 0 ? 1 : 0) + (DEEP != 0 ? 1 : 0);
+    localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE) ? 1 : 0);
 
     // Feed.
     wire working, reopen, start, open, take, place;
@@ -192,7 +197,7 @@ module serial_array #(
     serial_sequencer #(
         .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN),
         .CLAMPS(SHARED != 0 ? 0 : 1), .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
-        .BLOCK(BLOCK), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS),
+        .LATE(LATE), .DEEP(DEEP), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS),
         .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION),
         .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS),
@@ -222,7 +227,7 @@ module serial_array #(
     wire shown_rotate, shown_unload;
     wire [SLOT_BITS-1:0] shown_slot;
 
-    serial_shown #(.WIDTH(SHOWN_BITS), .BLOCK(BLOCK)) u_shown (
+    serial_shown #(.WIDTH(SHOWN_BITS), .LATE(LATE)) u_shown (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i({rotate, unload, slot, position, index, region}),
         .bits_o(shown)
     );
@@ -248,8 +253,8 @@ module serial_array #(
     generate
         for (i = 0; i < GROUPS; i = i + 1) begin : g_group
             serial_group #(
-                .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK), .RASTER(RASTER), .GROUP(i),
-                .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(LAST_SENT), .BORDERS(BORDERS),
+                .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .WORD(WORD), .LATE(LATE), .RASTER(RASTER),
+                .GROUP(i), .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(LAST_SENT), .BORDERS(BORDERS),
                 .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE)
             ) u_group (
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
@@ -308,7 +313,7 @@ module serial_array #(
             end
 
             serial_lane #(
-                .WIDTH(WIDTH), .WORDS(FOLD << WORD_BITS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK),
+                .WIDTH(WIDTH), .WORDS(FOLD << WORD_BITS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK), .DEEP(DEEP),
                 .ACC_BITS(ACC_BITS), .CHAIN_BITS(CHAIN_BITS), .FLAGS(FLAGS), .RASTER(RASTER),
                 .COPIES(LAST_SENT), .BORDERS(BORDERS), .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER),
                 .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION), .AUX_BITS(AUX_BITS)

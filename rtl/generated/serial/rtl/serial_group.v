@@ -3,14 +3,16 @@
 // group has registers of its own, which synthesis is to keep.
 //
 // This is the table of all controls: what each is for, and which designs use it. Those that go with the
-// address come in its clock, those that work on the word read come in the word's clock.
+// address come in its clock, those that work on the word read come in the word's clock, and those that work
+// on the accumulator come in its clock.
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)
 module serial_group #(
     parameter WIDTH = 8,         // bits of a pixel
     parameter ADDRESS_BITS = 7,  // of an address in the memory of a lane
-    parameter BLOCK = 0,         // 1: a word comes a clock after its address
+    parameter WORD = 0,          // clocks from an address to the word in hand
+    parameter LATE = 0,          // ... to the accumulator
     parameter RASTER = 0,        // 1: one pixel for all lanes; 0: one for each
     parameter GROUP = 0,         // number of this group; with RASTER groups have 64 lanes
     parameter LANE_BITS = 10,    // of the number of a lane, at least 1
@@ -38,7 +40,7 @@ module serial_group #(
     input  wire                    write_active_i,  // write if the first flag is set
     input  wire                    write_border_i,  // write if the side is on the frame's border
     input  wire [             1:0] side_i,          // left, right, top, bottom
-    // With the word read.
+    // With the word read, or with the accumulator.
     input  wire [    ACC_BITS-1:0] constant_i,      // the operand, unless from_memory
     input  wire                    from_memory_i,   // the operand is the word read
     input  wire                    subtract_i,      // invert the operand
@@ -168,70 +170,72 @@ module serial_group #(
     );
 
     // With the word read.
-    serial_control #(.WIDTH(ACC_BITS), .LATE(BLOCK)) u_constant (
+    serial_control #(.WIDTH(ACC_BITS), .LATE(WORD)) u_constant (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(constant_i), .bits_o(constant_o)
     );
-    serial_control #(.LATE(BLOCK)) u_from_memory (
+    serial_control #(.LATE(WORD)) u_from_memory (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(from_memory_i), .bits_o(from_memory_o)
     );
-    serial_control #(.LATE(BLOCK)) u_subtract (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(subtract_i), .bits_o(subtract_o)
-    );
-    serial_control #(.LATE(BLOCK)) u_by_sign (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(by_sign_i), .bits_o(by_sign_o)
-    );
-    serial_control #(.USED(MEDIAN), .LATE(BLOCK)) u_by_run (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(by_run_i), .bits_o(by_run_o)
-    );
-    serial_control #(.LATE(BLOCK)) u_carry (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(carry_i), .bits_o(carry_o)
-    );
-    serial_control #(.LATE(BLOCK)) u_enable (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(enable_i), .bits_o(enable_o)
-    );
-    serial_control #(.LATE(BLOCK)) u_clear (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(clear_i), .bits_o(clear_o)
-    );
-    serial_control #(.USED(RUNS), .LATE(BLOCK)) u_run (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_i), .bits_o(run_o)
-    );
-    serial_control #(.USED(CORNER), .LATE(BLOCK)) u_run_corner (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_corner_i), .bits_o(run_corner_o)
-    );
-    serial_control #(.USED(RUNS), .LATE(BLOCK)) u_run_clear (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_clear_i), .bits_o(run_clear_o)
-    );
-    serial_control #(.LATE(BLOCK)) u_count (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(count_i), .bits_o(count_o)
-    );
-    serial_control #(.USED(CORNER), .LATE(BLOCK)) u_count_corner (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(count_corner_i), .bits_o(count_corner_o)
-    );
-    serial_control #(.USED(SUMS), .LATE(BLOCK)) u_double (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(double_i), .bits_o(double_o)
-    );
-    serial_control #(.USED(SUMS), .LATE(BLOCK)) u_divide (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(divide_i), .bits_o(divide_o)
-    );
-    serial_control #(.USED(MAD), .LATE(BLOCK)) u_deviate (
+    serial_control #(.USED(MAD), .LATE(WORD)) u_deviate (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(deviate_i), .bits_o(deviate_o)
     );
-    serial_control #(.USED(VARIANCE), .LATE(BLOCK)) u_masked (
+    serial_control #(.USED(VARIANCE), .LATE(WORD)) u_masked (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(masked_i), .bits_o(masked_o)
     );
-    serial_control #(.USED(VARIANCE), .LATE(BLOCK)) u_from_aux (
+    serial_control #(.USED(VARIANCE), .LATE(WORD)) u_from_aux (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(from_aux_i), .bits_o(from_aux_o)
     );
-    serial_control #(.LATE(BLOCK)) u_shift (
+
+    // With the accumulator.
+    serial_control #(.LATE(LATE)) u_subtract (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(subtract_i), .bits_o(subtract_o)
+    );
+    serial_control #(.LATE(LATE)) u_by_sign (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(by_sign_i), .bits_o(by_sign_o)
+    );
+    serial_control #(.USED(MEDIAN), .LATE(LATE)) u_by_run (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(by_run_i), .bits_o(by_run_o)
+    );
+    serial_control #(.LATE(LATE)) u_carry (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(carry_i), .bits_o(carry_o)
+    );
+    serial_control #(.LATE(LATE)) u_enable (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(enable_i), .bits_o(enable_o)
+    );
+    serial_control #(.LATE(LATE)) u_clear (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(clear_i), .bits_o(clear_o)
+    );
+    serial_control #(.USED(RUNS), .LATE(LATE)) u_run (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_i), .bits_o(run_o)
+    );
+    serial_control #(.USED(CORNER), .LATE(LATE)) u_run_corner (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_corner_i), .bits_o(run_corner_o)
+    );
+    serial_control #(.USED(RUNS), .LATE(LATE)) u_run_clear (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_clear_i), .bits_o(run_clear_o)
+    );
+    serial_control #(.LATE(LATE)) u_count (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(count_i), .bits_o(count_o)
+    );
+    serial_control #(.USED(CORNER), .LATE(LATE)) u_count_corner (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(count_corner_i), .bits_o(count_corner_o)
+    );
+    serial_control #(.USED(SUMS), .LATE(LATE)) u_double (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(double_i), .bits_o(double_o)
+    );
+    serial_control #(.USED(SUMS), .LATE(LATE)) u_divide (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(divide_i), .bits_o(divide_o)
+    );
+    serial_control #(.LATE(LATE)) u_shift (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(shift_i), .bits_o(shift_o)
     );
-    serial_control #(.USED(SUMS), .LATE(BLOCK)) u_keep (
+    serial_control #(.USED(SUMS), .LATE(LATE)) u_keep (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(keep_i), .bits_o(keep_o)
     );
-    serial_control #(.USED(RASTER), .LATE(BLOCK)) u_fetch (
+    serial_control #(.USED(RASTER), .LATE(LATE)) u_fetch (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(fetch_i), .bits_o(fetch_o)
     );
-    serial_control #(.USED(RASTER == 0), .LATE(BLOCK)) u_unload (
+    serial_control #(.USED(RASTER == 0), .LATE(LATE)) u_unload (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(unload_i), .bits_o(unload_o)
     );
 

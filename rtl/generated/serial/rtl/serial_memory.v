@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The memory of a serial lane, with a single port: what is read is what a write at the same edge
-// replaces. Distributed RAM answers in the same clock, block RAM in the next one.
+// replaces. Distributed RAM answers in the same clock, block RAM in the next one; with LATE each a clock later.
 `default_nettype none
 
 module serial_memory #(
     parameter WIDTH = 8,         // bits of a pixel
     parameter WORDS = 128,       // words of the memory, at least 2
     parameter ADDRESS_BITS = 7,  // ceil(log2(WORDS))
-    parameter BLOCK = 0          // 1: block RAM
+    parameter BLOCK = 0,         // 1: block RAM
+    parameter LATE = 0           // 1: a register behind it
 ) (
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    write_i,    // write data_i at this edge
@@ -24,9 +25,20 @@ module serial_memory #(
             ADDRESS_BITS_must_be_clog2_of_WORDS u_refused ();
         end
         if (BLOCK != 0 && BLOCK != 1) begin : g_block_flag BLOCK_must_be_0_or_1 u_refused (); end
+        if (LATE != 0 && LATE != 1) begin : g_late_flag LATE_must_be_0_or_1 u_refused (); end
     endgenerate
 
+    wire [WIDTH-1:0] word;
+
     generate
+        if (LATE != 0) begin : g_late
+            reg [WIDTH-1:0] word_q;
+            always @(posedge clk_i) word_q <= word;
+            assign data_o = word_q;
+        end else begin : g_not_late
+            assign data_o = word;
+        end
+
         if (BLOCK != 0) begin : g_block
             (* ram_style = "block" *)
             reg [WIDTH-1:0] pixels_q[0:WORDS-1];
@@ -37,11 +49,11 @@ module serial_memory #(
                 data_q <= pixels_q[address_i];
             end
 
-            assign data_o = data_q;
+            assign word = data_q;
         end else begin : g_distributed
             frame_store #(.WIDTH(WIDTH), .PIXELS(WORDS), .ADDRESS_BITS(ADDRESS_BITS)) u_store (
                 .clk_i(clk_i), .write_i(write_i), .address_i(address_i), .data_i(data_i),
-                .data_o(data_o)
+                .data_o(word)
             );
         end
     endgenerate

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The order of things in the serial array: one step per clock, the same for all lanes. What leaves
-// here is registered once (with block RAM, what works on the word read is registered twice) before it
-// reaches a lane.
+// here is registered once before it reaches a lane. What works on the word read, or on the operand, is registered
+// again where that comes later than the address.
 //
 // A pass walks over the centers of a square inside a larger square: `center_q` is the address of
 // the center, neighbors lie at a constant distance from it. Where a window must not leave the square
@@ -18,7 +18,8 @@ module serial_sequencer #(
     parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
     parameter RASTER = 0,           // 1: pixels leave by the chain of scores
-    parameter BLOCK = 0,            // 1: a word comes a clock after its address
+    parameter LATE = 0,             // clocks from an address to the accumulator, 0 to 3
+    parameter DEEP = 0,             // 1: a score is whole a clock after its last step
     parameter FOLD = 1,             // regions per lane
     parameter LANES = 784,          // lanes of the array
     parameter FEATURES = 1,         // spatial features, 1 to 4
@@ -91,6 +92,7 @@ module serial_sequencer #(
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
         if (LANES < 1) begin : g_lane_count LANES_must_be_1_or_more u_refused (); end
         if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end
+        if (LATE < 0 || LATE > 3) begin : g_late LATE_must_be_0_to_3 u_refused (); end
     endgenerate
 
     localparam PIXELS = SIDE * SIDE;
@@ -143,7 +145,7 @@ module serial_sequencer #(
     localparam [4:0] START = 5'd2;     // median: the first candidate
     localparam [4:0] SEARCH = 5'd3;    // ... nine comparisons and an adjustment for each bit
     localparam [4:0] READ = 5'd4;      // a word to be written elsewhere, or compared
-    localparam [4:0] IDLE = 5'd5;      // block RAM: the accumulator is a step behind
+    localparam [4:0] IDLE = 5'd5;      // the accumulator is a step behind
     localparam [4:0] WRITE = 5'd6;
     localparam [4:0] REFERENCE = 5'd7;
     localparam [4:0] TEST = 5'd8;      // changed?
@@ -161,7 +163,12 @@ module serial_sequencer #(
     localparam [4:0] KEEP = 5'd20;
     localparam [4:0] UNLOAD = 5'd21;
     localparam [4:0] SHIFT = 5'd22;
+    localparam [4:0] WAIT = 5'd23;     // ... two steps
+    localparam [4:0] LONGER = 5'd24;   // ... three steps
+    localparam [4:0] SETTLE = 5'd25;   // the score becomes whole
     localparam [4:0] FIRST = MEDIAN != 0 ? START : READ;
+    localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
+    localparam [4:0] SCORED = DEEP != 0 ? SETTLE : ROTATE;
 
     localparam [1:0] TEMPORAL = 2'd0;
     localparam [1:0] BORDER = 2'd1;
@@ -182,8 +189,9 @@ module serial_sequencer #(
     reg [SCALE_BITS-1:0] scale_q;
 
     // Where a pass ends.
+    wire waiting = state_q == IDLE || (LATE > 1 && state_q == WAIT) || (LATE > 2 && state_q == LONGER);
     wire window_pass = MEDIAN != 0
-        && (state_q == START || state_q == SEARCH || state_q == IDLE || state_q == WRITE
+        && (state_q == START || state_q == SEARCH || waiting || state_q == WRITE
             || state_q == REFERENCE || state_q == TEST) && job_q == TEMPORAL;
     wire bordering = BORDERS && job_q == BORDER;
     wire wide_pass = INNER != 0 && MEDIAN != 0 && (window_pass || bordering);
@@ -284,8 +292,10 @@ module serial_sequencer #(
     wire divided = scale_q == (squares ? UNIT : MAD ? DIVISOR : UNIT);
 
     always @(posedge clk_i) begin
-        if (state == START) scale_q <= UNIT << (WIDTH - 1);
-        else if (SUMS && state == DIVIDE && !dividing)
+        // Made ready in the states that come before it is needed, so that it does not wait for the next state.
+        if (MEDIAN != 0 && (state_q == LOAD || testing || unloading || shifting))
+            scale_q <= UNIT << (WIDTH - 1);
+        else if (in_sum || halving)
             scale_q <= squares ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
         else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);
         else if (state_q == START || adjusting || dividing || place_ends) scale_q <= scale_q >> 1;
@@ -302,20 +312,23 @@ module serial_sequencer #(
             end
             DRAIN: state = LOAD;
             START: state = SEARCH;
-            SEARCH: if (adjusting && scale_q == 0) state = BLOCK != 0 ? IDLE : WRITE;
+            SEARCH: if (adjusting && scale_q == 0) state = BEHIND;
             READ: begin
                 if (LAST_SENT != 0 && MEDIAN == 0 && job_q == TEMPORAL) state = REFERENCE;
-                else state = BLOCK != 0 ? IDLE : WRITE;
+                else state = BEHIND;
             end
+            LONGER: state = WAIT;
+            WAIT: state = IDLE;
             IDLE: state = WRITE;
+            SETTLE: state = ROTATE;
             WRITE: begin
                 if (job_q == TEMPORAL) state = LAST_SENT != 0 ? REFERENCE : TEST;
-                else if (bordering) state = border_ends ? ROTATE : READ;
+                else if (bordering) state = border_ends ? SCORED : READ;
                 else state = last_center ? UNLOAD : READ;
             end
             REFERENCE: state = TEST;
             TEST: begin
-                state = last_center ? ROTATE : FIRST;
+                state = last_center ? SCORED : FIRST;
                 if (last_center && BORDERS) begin
                     state = READ;
                     job = BORDER;
@@ -328,7 +341,7 @@ module serial_sequencer #(
                 else if (CORNER && next_kind == 2'd1) state = RING;
                 else state = SUM;
             end
-            GRADIENT, RING: if (pass_ends) state = ROTATE;
+            GRADIENT, RING: if (pass_ends) state = SCORED;
             SUM: if (pass_ends) state = squares ? DIVIDE : FRACTION != 0 ? DOUBLE : HALF;
             DOUBLE: begin
                 if (squares) state = any_pairs ? SQUARE : corrects ? CORRECT : DOUBLE;
@@ -340,7 +353,7 @@ module serial_sequencer #(
             DEVIATE: if (pass_ends) state = KEEP;
             SQUARE: if (last_center && !more_pairs) state = corrects ? CORRECT : DOUBLE;
             CORRECT: state = scale_q[0] ? KEEP : DOUBLE;
-            KEEP: state = ROTATE;
+            KEEP: state = SCORED;
             UNLOAD: begin
                 if (RASTER != 0) state = SHIFT;
                 else if (last_center) state = last_slot ? DRAIN : FIRST;
@@ -370,7 +383,7 @@ module serial_sequencer #(
         end else if (in_ring) begin
             part_q <= ring_test ? 2'd0 : part_q + 2'd1;
             if (ring_test) tap_q <= ring_last ? 4'd0 : tap_q + 4'd1;
-        end else if (bordering && (reading || writing || state_q == IDLE)) begin
+        end else if (bordering && (reading || writing || waiting)) begin
             tap_q <= 4'd0;
             if (writing && last_column) part_q <= part_q + 2'd1;
         end else if (searching || (doubling && !squares)) begin
@@ -571,6 +584,7 @@ module serial_sequencer #(
 
     assign constant_o = constant;
     assign from_memory_o = (searching && !adjusting) || reading || writing || relating
+        || (DEEP != 0 && SUMS && unloading)
         || (in_gradient && !gradient_test) || (in_ring && !ring_test) || in_sum || squaring;
     assign subtract_o = (searching && !adjusting) || writing || relating || dividing || correcting
         || (in_gradient && !gradient_test && part_q[0] == tap_q[2])

@@ -85,7 +85,7 @@ impl Array {
             memory: Memory {
                 kind: memory.kind.name(),
                 why: why(&memory),
-                read_latency: memory.read_latency(),
+                read_latency: memory.kind.read_latency(),
                 words: memory.depth,
                 slot_words: memory.slot_words,
                 areas: memory.areas.iter().map(row).collect(),

@@ -39,9 +39,12 @@ pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
     }
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
-    match design.config().hardware.pixels_per_clock {
+    let hardware = &design.config().hardware;
+    if hardware.pipelining.is_some() {
+        lines.push(("organization", hardware.in_words()));
+    }
+    match hardware.pixels_per_clock {
         Some(pixels) => {
-            lines.push(("organization", design.config().hardware.in_words()));
             lines.push(("stream", word_line(pixels)));
             lines.push(("memory", raster_memory_line(design)));
         }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of deep pipelined RPUs: a register that is missing, one too many, or one that forgets its reset.
+//! The faults of deep designs: a register that is missing, one too many, or one that forgets its reset.
 
 use super::faults::{Fault, fault};
-use super::planted::Planted::{Deep, DeepMoments, DeepSent};
+use super::planted::Planted::{
+    Deep, DeepMoments, DeepSent, SerialDeep, SerialDeepSent as SerialSent,
+};
 
 /// Every fault, by module.
 #[rustfmt::skip]
@@ -58,4 +60,25 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", DeepSent, "deep_last_sent", "valid_q && !blanked", "valid_q"),
     fault("reset", DeepSent, "deep_last_sent",
         "if (rst_i) valid_q <= 1'b0;\n        else valid_q <= valid_o;", "valid_q <= valid_o;"),
+
+    fault("operator", SerialDeep, "serial_memory",
+        "always @(posedge clk_i) word_q <= word;", "always @* word_q = word;"),
+    fault("operator", SerialDeep, "serial_lane",
+        "always @(posedge clk_i) source_q <= found;", "always @* source_q = found;"),
+    fault("operator", SerialDeep, "serial_lane",
+        "always @(posedge clk_i) below_q <= deviates && negative;",
+        "always @* below_q = deviates && negative;"),
+    fault("index", SerialSent, "serial_lane", "assign pixel_o = source_q[WIDTH-1:0];", "assign pixel_o = word;"),
+    fault("operator", SerialDeep, "serial_lane",
+        "always @(posedge clk_i) scored_q <= scores;", "always @(posedge clk_i) scored_q <= scored_q;"),
+    fault("constant", SerialDeep, "serial_sequencer", "DEEP != 0 ? SETTLE : ROTATE", "ROTATE"),
+    fault("constant", SerialDeep, "serial_sequencer", "SETTLE: state = ROTATE;", "SETTLE: state = SETTLE;"),
+    fault("constant", SerialDeep, "serial_sequencer", "LONGER: state = WAIT;", "LONGER: state = IDLE;"),
+    fault("constant", SerialSent, "serial_sequencer", "WAIT: state = IDLE;", "WAIT: state = WRITE;"),
+    fault("constant", SerialSent, "serial_sequencer", "(LATE > 1 && state_q == WAIT)", "1'b0"),
+    fault("constant", SerialDeep, "serial_sequencer", "DEEP != 0 && SUMS && unloading", "1'b0"),
+    fault("constant", SerialDeep, "serial_array", "WORD + (DEEP != 0 && (MAD || VARIANCE) ? 1 : 0)", "WORD + 0"),
+    fault("constant", SerialDeep, "serial_array", "+ (DEEP != 0 ? 1 : 0);", "+ 0;"),
+    fault("index", SerialDeep, "serial_control", "bits_q[LATE*WIDTH+:WIDTH]", "bits_q[0+:WIDTH]"),
+    fault("index", SerialDeep, "serial_shown", "bits_q[LATE*WIDTH+:WIDTH]", "bits_q[0+:WIDTH]"),
 ];

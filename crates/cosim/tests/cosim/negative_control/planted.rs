@@ -52,6 +52,10 @@ pub(crate) enum Planted {
     SerialBlock,
     /// Serial: more than one group of lanes.
     SerialMany,
+    /// Serial and deep: mean absolute deviation and edges, a raster, block memory.
+    SerialDeep,
+    /// Serial and deep: everything across borders, the pixels last sent, pixels on every lane.
+    SerialDeepSent,
     /// Serial: median, edges and corners, thresholds built in.
     SerialConstant,
     /// Raster: the paper's scores, in a frame that the core completes on the right and below.
@@ -145,6 +149,18 @@ impl Planted {
                  [[spatial]]\nfeature = \"edge\"\nlevel = 1\n[temporal]\nlevel = 0\n\
                  [hardware]\norganization = \"serial\"\nfeed = \"raster\"\n"
             }
+            Self::SerialDeep => {
+                "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                 mean_fraction_bits = 1\n[[spatial]]\nfeature = \"edge\"\n[hardware]\n\
+                 organization = \"serial\"\nfeed = \"raster\"\nmemory = \"block\"\n\
+                 pipelining = \"deep\"\n"
+            }
+            Self::SerialDeepSent => {
+                "[frame]\npixel_bits = 4\n[region]\nsize = 4\nneighborhood = \"shared\"\n\
+                 [[spatial]]\nfeature = \"edge\"\nlevel = 9\n[[spatial]]\nfeature = \"variance\"\n\
+                 min_score = 2\n[temporal]\nlevel = 2\nreference = \"last-sent\"\n[hardware]\n\
+                 organization = \"serial\"\nmemory = \"block\"\nfold = 2\npipelining = \"deep\"\n"
+            }
             Self::SerialConstant => {
                 "[region]\nsize = 4\n[[spatial]]\nfeature = \"edge\"\n[[spatial]]\n\
                  feature = \"corner\"\n[hardware]\norganization = \"serial\"\n\
@@ -192,6 +208,7 @@ impl Planted {
             Self::SerialSent => (4, 2),
             Self::SerialRaster => (3, 3),
             Self::SerialFold => (3, 1),
+            Self::SerialDeepSent => (3, 2),
             Self::SerialBlock => (5, 1),
             Self::SerialMany => (13, 6),
             Self::SerialPaper
@@ -199,6 +216,7 @@ impl Planted {
             | Self::SerialCorner
             | Self::SerialMad
             | Self::SerialVariance
+            | Self::SerialDeep
             | Self::SerialConstant => (2, 1),
             _ => (1, 1),
         }
@@ -238,9 +256,11 @@ impl Planted {
     /// Compiled where a frame takes long.
     pub(crate) fn simulator(self) -> Simulator {
         match self {
-            Self::SerialMany | Self::SerialSent | Self::SerialBlock | Self::RasterBanks => {
-                Simulator::Verilator
-            }
+            Self::SerialMany
+            | Self::SerialSent
+            | Self::SerialBlock
+            | Self::SerialDeepSent
+            | Self::RasterBanks => Simulator::Verilator,
             _ => Simulator::Iverilog,
         }
     }

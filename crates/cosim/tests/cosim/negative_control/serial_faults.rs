@@ -92,14 +92,14 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("width", Many, "serial_group", "8'd1 << lane[5:3]", "8'd1 << lane[4:3]"),
     fault("width", Many, "serial_group", "8'd1 << lane[2:0]", "8'd1 << lane[1:0]"),
 
-    fault("constant", Mad, "serial_group", ".USED(MAD), .LATE(BLOCK)) u_deviate", ".USED(VARIANCE), .LATE(BLOCK)) u_deviate"),
+    fault("constant", Mad, "serial_group", ".USED(MAD), .LATE(WORD)) u_deviate", ".USED(VARIANCE), .LATE(WORD)) u_deviate"),
     fault("index", Paper, "serial_group", ".bits_i(run_clear_i)", ".bits_i(count_i)"),
 
-    fault("reset", Paper, "serial_control", "if (rst_i) bits_q <= {WIDTH{1'b0}};\n                else bits_q", "bits_q"),
+    fault("reset", Paper, "serial_control", "if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};\n                else bits_q", "bits_q"),
     fault("constant", Paper, "serial_control", "if (USED == 0)", "if (USED == 0 || WIDTH > 1)"),
-    fault("index", Block, "serial_control", "late_q <= bits_q", "late_q <= bits_i"),
-    fault("reset", Paper, "serial_shown", "if (rst_i) bits_q <= {WIDTH{1'b0}};\n        else bits_q", "bits_q"),
-    fault("reset", Block, "serial_shown", "if (rst_i) late_q <= {WIDTH{1'b0}};\n                else late_q", "late_q"),
+    fault("index", Block, "serial_control", "bits_q[LATE*WIDTH+:WIDTH]", "bits_q[0+:WIDTH]"),
+    fault("reset", Paper, "serial_shown", "if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};\n        else bits_q", "bits_q"),
+    fault("index", Block, "serial_shown", "bits_q[LATE*WIDTH+:WIDTH]", "bits_q[0+:WIDTH]"),
 
     fault("constant", Sent, "serial_decision", ".write_i(rotate_i && last)", ".write_i(rotate_i)"),
     fault("operator", Sent, "serial_decision", ".data_i(active ||", ".data_i(!active ||"),

@@ -80,12 +80,13 @@ pub(crate) fn serial_matrix() -> Vec<String> {
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
                  [hardware]\norganization = 'serial'\nfold = {fold}\nfeed = '{feed}'\n\
-                 thresholds = '{thresholds}'\n",
+                 pipelining = '{pipelining}'\nthresholds = '{thresholds}'\n",
                 width = columns * size,
                 height = rows * size,
                 neighborhood = pick(0, "isolated", "shared"),
                 filter = pick(1, "median3x3", "none"),
                 reference = pick(2, "previous", "last-sent"),
+                pipelining = PIPELINING[(index + choice.count_ones() as usize) % 2],
                 feed = pick(3, "parallel", "raster"),
                 payload = pick((index + 1) % 4, "denoised", "raw"),
                 irrelevant = pick(index % 4, "zero", "hold"),

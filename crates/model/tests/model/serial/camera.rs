@@ -26,10 +26,16 @@ fn play(
     let mut pixels = applied(recipe, frame).into_iter();
     let idle = vec![0; recipe.ports() as usize];
     let (mut clocks, mut scores, mut decisions) = (0, 0, 0);
+    // The last pixels may leave after the array is ready again.
+    let mut behind = recipe.address_to_data().max(1) - 1;
     loop {
         let now = if rcm.output().ready { pixels.next() } else { None };
         if clocks > 0 && rcm.output().ready && now.is_none() {
-            break;
+            if behind == 0 {
+                break;
+            }
+            behind -= 1;
+            clocks -= 1;
         }
         let valid = now.is_some();
         let pixels = now.unwrap_or_else(|| idle.clone());
@@ -153,7 +159,7 @@ fn films_over_the_matrix() {
                     blank_irrelevant: number % 5 < 3,
                     raw_payload: on(4),
                     constant: number.is_multiple_of(11),
-                    deep: false,
+                    deep: number % 4 < 2,
                 };
                 let frames = hard_frames(&base);
                 let film: Vec<Frame> =

@@ -85,6 +85,7 @@ fn every_planted_fault_is_noticed() {
         ("irrelevant", Spoil::Recipe(|recipe| recipe.base.blank_irrelevant = false)),
         ("payload", Spoil::Recipe(|recipe| recipe.base.raw_payload = true)),
         ("fold", Spoil::Recipe(|recipe| recipe.fold = 3)),
+        ("pipelining", Spoil::Recipe(|recipe| recipe.base.deep = true)),
         ("depth", Spoil::Recipe(|recipe| recipe.base.bits = 9)),
     ];
     for raster in [false, true] {

@@ -142,6 +142,40 @@ fn block_memory_is_a_clock_late() {
     assert_eq!(outputs.len() - 1, 256 + 43_797 + 1);
 }
 
+/// Block memory and `mad`, deep: three clocks from an address to the accumulator, so that the last pixel is seen
+/// two clocks after the array is ready again, while the next frame enters.
+#[test]
+fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
+    let design = design(
+        "[frame]\nwidth = 4\nheight = 4\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+         [temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"mad\"\nmin_score = 0\n\
+         [hardware]\norganization = \"serial\"\nmemory = \"block\"\npipelining = \"deep\"\n",
+    );
+    // n = 16: 16 * 6 to compare, 1 + 1, 32 + 8 + 3 for the deviation, 1 + 1, 16 pixels.
+    let steps = 96 + 2 + 43 + 2 + 16;
+    let ready = 16 + 1 + steps;
+    let mut rcm = SerialRcm::new(&design);
+    let thresholds = Thresholds::of(&design);
+    let mut leaves = Vec::new();
+    for edge in 1..=2 * ready {
+        let pixels = [if edge < ready { 100 } else { 7 }];
+        let input =
+            SerialInput { reset: false, valid: true, pixels: &pixels, thresholds: &thresholds };
+        let output = rcm.step(&input);
+        assert_eq!(
+            output.ready,
+            edge < 16 || (ready..ready + 16).contains(&edge) || edge == 2 * ready
+        );
+        if output.forward_valid[0] {
+            leaves.push((edge, output.forward_position, output.forward_pixel[0]));
+        }
+    }
+    let first = 16 + 1 + 3 + steps - 16;
+    let due: Vec<_> = (0..16).map(|position| (first + position, position, 100)).collect();
+    assert_eq!(leaves[..16], due);
+    assert_eq!(due[15].0, ready + 2);
+}
+
 #[test]
 fn a_reset_takes_no_pixel_and_makes_ready() {
     let design = design("[frame]\nwidth = 8\nheight = 8\n[hardware]\norganization = \"serial\"\n");

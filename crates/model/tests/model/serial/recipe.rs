@@ -75,7 +75,13 @@ impl SerialRecipe {
             slot *= 2;
         }
         let luts = i64::from(self.base.bits) * ((self.fold * slot + 63) / 64);
-        if luts <= 128 { 0 } else { 1 }
+        let sums = self.base.features.iter().any(|f| matches!(f.name, "mad" | "variance"));
+        i64::from(luts > 128) + i64::from(self.base.deep) * if sums { 2 } else { 1 }
+    }
+
+    /// s.
+    pub(crate) fn settling(&self) -> i64 {
+        i64::from(self.base.deep)
     }
 
     /// The phases of a slot.
@@ -125,7 +131,7 @@ impl SerialRecipe {
     pub(crate) fn steps(&self, phase: Phase) -> i64 {
         match phase {
             Phase::Hidden(steps) => steps,
-            Phase::Rotation => self.lanes(),
+            Phase::Rotation => self.settling() + self.lanes(),
             Phase::Unload if self.raster => self.base.n() * (1 + self.lanes()),
             Phase::Unload => self.base.n(),
         }

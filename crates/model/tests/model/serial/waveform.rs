@@ -107,7 +107,10 @@ fn rotate(
         let facts = &facts[region as usize];
         let decision = (facts.srs, facts.trs, facts.srs && facts.trs);
         let score = Some((number as u32, region as u32, facts.scores[number]));
-        (start + lane, Shown { score, decision: last.then_some(decision), ..Shown::default() })
+        (
+            start + recipe.settling() + lane,
+            Shown { score, decision: last.then_some(decision), ..Shown::default() },
+        )
     };
     served(recipe, slot).into_iter().map(score).collect()
 }
