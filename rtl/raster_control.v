@@ -59,8 +59,9 @@ module raster_control #(
     wire                segment_end;
 
     reg own_q;  // the core advances by itself
-    reg settling_q;
-    reg [SETTLE_BITS-1:0] settle_q;
+    reg settling_q;                     // the frame's last advance has been, the next frame waits
+    reg [SETTLE_BITS-1:0] settle_q;     // for so many clocks
+    reg settled_q;                      // for none: a register, so that no comparison stands before ready_o
 
     wire step = own_q || (ready_o && valid_i);
     wire next_row = step && row_end_q;
@@ -162,10 +163,10 @@ module raster_control #(
             own_q      <= 1'b0;
             settling_q <= 1'b1;
             settle_q   <= LAST_SETTLE[SETTLE_BITS-1:0];
+            settled_q  <= LAST_SETTLE == 0;
         end else if (settling_q) begin
-            if (settle_q != {SETTLE_BITS{1'b0}}) begin
-                settle_q <= settle_q - 1'b1;
-            end
+            settle_q <= settle_q - 1'b1;
+            if (settle_q == {{(SETTLE_BITS - 1) {1'b0}}, 1'b1}) settled_q <= 1'b1;
             if (frame_over_o) begin
                 settling_q <= 1'b0;
                 ready_o    <= 1'b1;
@@ -179,7 +180,7 @@ module raster_control #(
     end
 
     assign step_o = step;
-    assign frame_over_o = settling_q && settle_q == {SETTLE_BITS{1'b0}} && !busy_i;
+    assign frame_over_o = settling_q && settled_q && !busy_i;
     assign pad_o = own_q;
     assign taken_end_o = taken_end_q;
     assign repeat_o = !taken_row_q;

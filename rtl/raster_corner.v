@@ -15,6 +15,8 @@ module raster_corner #(
     input  wire                   step_i,    // columns come in; the centers are those of the step before
     input  wire                   left_i,    // the first center has nothing on its left
     input  wire                   right_i,   // the last center has nothing on its right
+    input  wire                   top_i,     // the incoming columns have nothing at the top: any word is in upper_i
+    input  wire                   bottom_i,  // ... at the bottom: in lower_i
     input  wire [LANES*WIDTH-1:0] upper_i,   // the incoming columns, top
     input  wire [LANES*WIDTH-1:0] middle_i,  // ... middle
     input  wire [LANES*WIDTH-1:0] lower_i,   // ... bottom
@@ -58,10 +60,11 @@ module raster_corner #(
     generate
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_lane
             wire [WIDTH-1:0] middle = middle_i[lane*WIDTH+:WIDTH];
+            wire [WIDTH-1:0] top = top_i ? middle : upper_i[lane*WIDTH+:WIDTH];
+            wire [WIDTH-1:0] bottom = bottom_i ? middle : lower_i[lane*WIDTH+:WIDTH];
             always @(posedge clk_i) begin
                 if (step_i) begin
-                    newest_q[lane*COLUMN+:COLUMN] <=
-                        {lower_i[lane*WIDTH+:WIDTH], middle, upper_i[lane*WIDTH+:WIDTH]};
+                    newest_q[lane*COLUMN+:COLUMN] <= {bottom, middle, top};
                     newest_high_q[lane*BOUND+:BOUND] <= {1'b0, middle} + {1'b0, level_i};
                     newest_low_q[lane*BOUND+:BOUND]  <= {1'b0, middle} - {1'b0, level_i};
                 end

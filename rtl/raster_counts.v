@@ -71,6 +71,7 @@ module raster_counts #(
     end
 
     // Those of the rows above it.
+    wire [FEATURES*KEPT_BITS-1:0] kept_above;
     wire [FEATURES*KEPT_BITS-1:0] above;
     wire [FEATURES*KEPT_BITS-1:0] kept;
     wire write;
@@ -80,7 +81,12 @@ module raster_counts #(
         .WIDTH(FEATURES * KEPT_BITS), .WORDS(COLUMNS), .ADDRESS_BITS(COLUMN_BITS), .OUTPUT_STAGE(DEEP)
     ) u_rows (
         .clk_i(clk_i), .write_i(write), .write_address_i(write_column), .data_i(kept),
-        .read_i(1'b1), .read_address_i(column_q), .data_o(above)
+        .read_i(1'b1), .read_address_i(column_q), .data_o(kept_above)
+    );
+    // The place is known for a row of a region, so that there is a clock for the way from the memory, which may stand
+    // far from here.
+    raster_delay #(.WIDTH(FEATURES * KEPT_BITS), .DEPTH(DEEP && SIDE > LANES ? 1 : 0)) u_above (
+        .clk_i(clk_i), .data_i(kept_above), .data_o(above)
     );
 
     wire [FEATURES*ROW_BITS-1:0] last_row;

@@ -21,6 +21,8 @@ module raster_edge #(
     input  wire                   step_i,    // columns come in; the centers are those of the step before
     input  wire                   left_i,    // the first center has nothing on its left
     input  wire                   right_i,   // the last center has nothing on its right
+    input  wire                   top_i,     // the incoming columns have nothing at the top: any word is in upper_i
+    input  wire                   bottom_i,  // ... at the bottom: in lower_i
     input  wire [LANES*WIDTH-1:0] upper_i,   // the incoming columns, top
     input  wire [LANES*WIDTH-1:0] middle_i,  // ... middle
     input  wire [LANES*WIDTH-1:0] lower_i,   // ... bottom
@@ -62,10 +64,10 @@ module raster_edge #(
             wire [PAIR-1:0] lower;
 
             adder #(.WIDTH(PAIR)) u_upper (
-                .plain_i({1'b0, middle}), .other_i({1'b0, top}), .sum_o(upper)
+                .plain_i({1'b0, middle}), .other_i({1'b0, top_i ? middle : top}), .sum_o(upper)
             );
             adder #(.WIDTH(PAIR)) u_lower (
-                .plain_i({1'b0, middle}), .other_i({1'b0, bottom}), .sum_o(lower)
+                .plain_i({1'b0, middle}), .other_i({1'b0, bottom_i ? middle : bottom}), .sum_o(lower)
             );
 
             always @(posedge clk_i) begin

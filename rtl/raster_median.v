@@ -17,6 +17,8 @@ module raster_median #(
     input  wire                   step_i,    // columns come in; the centers are those of the step earlier
     input  wire                   left_i,    // the first center has nothing on its left
     input  wire                   right_i,   // the last center has nothing on its right
+    input  wire                   top_i,     // the incoming columns have nothing at the top: any word is in upper_i
+    input  wire                   bottom_i,  // ... at the bottom: in lower_i
     input  wire [LANES*WIDTH-1:0] upper_i,   // the incoming columns, top
     input  wire [LANES*WIDTH-1:0] middle_i,  // ... middle
     input  wire [LANES*WIDTH-1:0] lower_i,   // ... bottom
@@ -68,29 +70,37 @@ module raster_median #(
             wire [WIDTH-1:0] a = upper_i[lane*WIDTH+:WIDTH];
             wire [WIDTH-1:0] b = middle_i[lane*WIDTH+:WIDTH];
             wire [WIDTH-1:0] c = lower_i[lane*WIDTH+:WIDTH];
+            wire [2:0] low, mid, high;  // how comparisons end for each result: a > b, b > c, a > c
+            wire [WIDTH-1:0] sort_a, sort_b, sort_c;
             if (DEEP) begin : g_deep
+                // If there is nothing at the top, a is not chosen; at the bottom, c; then b is the mid one.
+                reg [2:0] low_q, mid_q, high_q;
                 reg [WIDTH-1:0] a_q, b_q, c_q;
-                reg ab_q, bc_q, ac_q;
                 always @(posedge clk_i) begin
                     {a_q, b_q, c_q} <= {a, b, c};
-                    {ab_q, bc_q, ac_q} <= {a > b, b > c, a > c};
-                    if (sort_step)
-                        newest_q[lane*COLUMN+:COLUMN] <= {
-                            high_of(ab_q, bc_q, ac_q, a_q, b_q, c_q),
-                            mid_of(ab_q, bc_q, ac_q, a_q, b_q, c_q),
-                            low_of(ab_q, bc_q, ac_q, a_q, b_q, c_q)
-                        };
+                    {low_q, mid_q, high_q} <= {3{a > b, b > c, a > c}};
+                    if (top_i) {low_q[2], high_q[2]} <= 2'b10;
+                    if (bottom_i) {low_q[1:0], high_q[1:0], mid_q[0]} <= 5'b00_11_0;
+                    if (top_i || bottom_i) mid_q[2:1] <= 2'b11;
                 end
+                assign {low, mid, high} = {low_q, mid_q, high_q};
+                assign {sort_a, sort_b, sort_c} = {a_q, b_q, c_q};
             end else begin : g_plain
-                wire ab = a > b;
-                wire bc = b > c;
-                wire ac = a > c;
-                always @(posedge clk_i) begin
-                    if (sort_step)
-                        newest_q[lane*COLUMN+:COLUMN] <= {
-                            high_of(ab, bc, ac, a, b, c), mid_of(ab, bc, ac, a, b, c), low_of(ab, bc, ac, a, b, c)
-                        };
-                end
+                assign sort_a = top_i ? b : a;
+                assign sort_b = b;
+                assign sort_c = bottom_i ? b : c;
+                // How a comparison of two that are the same ends does not matter, so that no selection stands before it.
+                assign low = {a > b, b > c, sort_a > sort_c};
+                assign mid = low;
+                assign high = low;
+            end
+            always @(posedge clk_i) begin
+                if (sort_step)
+                    newest_q[lane*COLUMN+:COLUMN] <= {
+                        high_of(high[2], high[1], high[0], sort_a, sort_b, sort_c),
+                        mid_of(mid[2], mid[1], mid[0], sort_a, sort_b, sort_c),
+                        low_of(low[2], low[1], low[0], sort_a, sort_b, sort_c)
+                    };
             end
         end
     endgenerate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The columns of 3x3 windows: words of a stream, each with the words one and two rows above it, the upper or
-// the lower one replaced by the middle at a border.
+// The columns of 3x3 windows: words of a stream, each with the words one and two rows above it, and whether there is
+// such a row. Who takes a column puts the middle in the place of a word that is not there: there it often costs nothing.
 //
 // One memory holds both rows: a word is read with the one above it, and written back a row further down.
 `default_nettype none
@@ -20,9 +20,11 @@ module raster_window #(
     input  wire                 bottom_i,  // there is no row below the middle
     input  wire                 repeat_i,  // the word above comes in again, instead of word_i (REPEATS)
     output wire                 step_o,    // a column comes out
-    output wire [WORD_BITS-1:0] upper_o,   // it, top
+    output wire                 top_o,     // there is no row above its middle
+    output wire                 bottom_o,  // ... below it
+    output wire [WORD_BITS-1:0] upper_o,   // it, top: any word with top_o
     output wire [WORD_BITS-1:0] middle_o,  // ... middle
-    output wire [WORD_BITS-1:0] lower_o    // ... bottom
+    output wire [WORD_BITS-1:0] lower_o    // ... bottom: any word with bottom_o
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.
@@ -79,7 +81,7 @@ module raster_window #(
             reg [WORD_BITS-1:0]    word_2q;
             reg [ADDRESS_BITS-1:0] old_place_2q;
             reg                    top_2q, bottom_2q, repeat_2q;
-            reg                    step_3q;
+            reg                    step_3q, top_3q, bottom_3q;
             reg [WORD_BITS-1:0]    upper_q, middle_q, lower_q;
             always @(posedge clk_i) begin
                 step_2q      <= step_q && !rst_i;
@@ -89,14 +91,18 @@ module raster_window #(
                 bottom_2q    <= bottom_q;
                 repeat_2q    <= repeat_q;
                 step_3q      <= step_2q && !rst_i;
-                upper_q      <= top_2q ? middle : above;
+                top_3q       <= top_2q;
+                bottom_3q    <= bottom_2q;
+                upper_q      <= above;
                 middle_q     <= middle;
-                lower_q      <= bottom_2q ? middle : incoming;
+                lower_q      <= incoming;
             end
             assign incoming = REPEATS && repeat_2q ? middle : word_2q;
             assign write = step_2q;
             assign write_place = old_place_2q;
             assign step_o = step_3q;
+            assign top_o = top_3q;
+            assign bottom_o = bottom_3q;
             assign upper_o = upper_q;
             assign middle_o = middle_q;
             assign lower_o = lower_q;
@@ -105,9 +111,11 @@ module raster_window #(
             assign write = step_q;
             assign write_place = old_place_q;
             assign step_o = step_q;
-            assign upper_o = top_q ? middle : above;
+            assign top_o = top_q;
+            assign bottom_o = bottom_q;
+            assign upper_o = above;
             assign middle_o = middle;
-            assign lower_o = bottom_q ? middle : incoming;
+            assign lower_o = incoming;
         end
     endgenerate
 

@@ -55,7 +55,7 @@ module rpu (
 
     raster_median #(.WIDTH({= p =}), .LANES(1), .DEEP(0)) u_median (
         .clk_i(clk_i), .step_i(raw_advance), .left_i(raw_center_left_q), .right_i(raw_right),
-        .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower), .median_o(denoised_pixel)
+        .top_i(1'b0), .bottom_i(1'b0), .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower), .median_o(denoised_pixel)
     );
 
     raster_pulse #(.DEPTH({= median_registers =})) u_denoised_valid (

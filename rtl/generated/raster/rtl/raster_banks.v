@@ -17,7 +17,7 @@ module raster_banks #(
     input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
     input  wire [       WIDTH-1:0] data_i,           // what
     input  wire [ADDRESS_BITS-1:0] read_address_i,   // where to read
-    output wire [       WIDTH-1:0] data_o            // what was there, GROUPS + 4 clocks after its address
+    output wire [       WIDTH-1:0] data_o            // what was there, GROUPS + 5 clocks after its address
 );
 
     localparam GROUP_WORD_BITS = BANK_BITS + GROUP_BITS;
@@ -49,7 +49,6 @@ module raster_banks #(
     generate
         for (group = 0; group < GROUPS; group = group + 1) begin : g_group
             localparam FIRST = group << GROUP_BITS;  // its first bank
-            localparam [SLOT_BITS-1:0] FIRST_SLOT = FIRST;
             localparam LEFT = WORDS - (FIRST << BANK_BITS);  // words from there on
             localparam NEEDED = (LEFT + (1 << BANK_BITS) - 1) >> BANK_BITS;
             localparam BANKS = NEEDED < 1 << GROUP_BITS ? NEEDED : 1 << GROUP_BITS;
@@ -66,40 +65,46 @@ module raster_banks #(
             assign write_place[group+1] = write_q;
             assign word[group+1] = word_q;
 
-            // The word that is written, beside the banks of this group.
-            reg [BANK_BITS-1:0] place_q;
-            reg [WIDTH-1:0] here_q;
-            always @(posedge clk_i) begin
-                place_q <= write_q[BANK_BITS-1:0];
-                here_q  <= word_q;
-            end
-
-            // All banks are read. A register for the way from each of them; then the word is in the one whose number was
-            // asked for three clocks before.
-            wire [SLOT_BITS-1:0] slot;
-            raster_delay #(.WIDTH(SLOT_BITS), .DEPTH(3)) u_slot (
-                .clk_i(clk_i), .data_i(read_q[BANK_BITS+:SLOT_BITS]), .data_o(slot)
-            );
+            // Each bank has registers of its own, so that a wire to its blocks is short. They move when it is meant: so
+            // they differ from those of other banks, and synthesis does not make one register of them. All banks are
+            // read; what comes from one that is not meant is 0.
             wire [BANKS*WIDTH-1:0] bank_words;
             reg [BANKS*WIDTH-1:0] bank_words_q;
             for (bank = 0; bank < BANKS; bank = bank + 1) begin : g_bank
                 localparam [SLOT_BITS-1:0] OWN = FIRST + bank;
-                reg own_q;  // the word is written here
-                always @(posedge clk_i) own_q <= write[group+1] && write_q[BANK_BITS+:SLOT_BITS] == OWN;
+                reg asked_q, given_q, own_q;  // it is read; written; written at the next edge
+                reg [BANK_BITS-1:0] own_read_q, own_write_q;
+                reg [WIDTH-1:0] own_word_q;
+                wire comes;  // its word comes
+                always @(posedge clk_i) begin
+                    asked_q <= read_place[group][BANK_BITS+:SLOT_BITS] == OWN;
+                    given_q <= write[group] && write_place[group][BANK_BITS+:SLOT_BITS] == OWN && !rst_i;
+                    own_q   <= given_q;
+                    if (asked_q) own_read_q <= read_q[BANK_BITS-1:0];
+                    if (given_q) begin
+                        own_write_q <= write_q[BANK_BITS-1:0];
+                        own_word_q  <= word_q;
+                    end
+                end
                 raster_memory #(.WIDTH(WIDTH), .WORDS(1 << BANK_BITS), .ADDRESS_BITS(BANK_BITS), .OUTPUT_STAGE(1)) u_words (
-                    .clk_i(clk_i), .write_i(own_q), .write_address_i(place_q), .data_i(here_q),
-                    .read_i(1'b1), .read_address_i(read_q[BANK_BITS-1:0]), .data_o(bank_words[bank*WIDTH+:WIDTH])
+                    .clk_i(clk_i), .write_i(own_q), .write_address_i(own_write_q), .data_i(own_word_q),
+                    .read_i(1'b1), .read_address_i(own_read_q), .data_o(bank_words[bank*WIDTH+:WIDTH])
                 );
+                raster_delay #(.WIDTH(1), .DEPTH(3)) u_comes (.clk_i(clk_i), .data_i(asked_q), .data_o(comes));
+                always @(posedge clk_i) begin
+                    if (comes) bank_words_q[bank*WIDTH+:WIDTH] <= bank_words[bank*WIDTH+:WIDTH];
+                    else bank_words_q[bank*WIDTH+:WIDTH] <= {WIDTH{1'b0}};
+                end
             end
 
             integer number;
-            always @(posedge clk_i) begin
-                bank_words_q <= bank_words;
-                found_q      <= found[group];
-                for (number = 0; number < BANKS; number = number + 1) begin
-                    if (slot == FIRST_SLOT + number[SLOT_BITS-1:0]) found_q <= bank_words_q[number*WIDTH+:WIDTH];
-                end
+            wire [WIDTH-1:0] earlier = found[group];
+            reg [WIDTH-1:0] any;  // what comes from the groups before, or from a bank of this one
+            always @* begin
+                any = earlier;
+                for (number = 0; number < BANKS; number = number + 1) any = any | bank_words_q[number*WIDTH+:WIDTH];
             end
+            always @(posedge clk_i) found_q <= any;
             assign found[group+1] = found_q;
         end
     endgenerate

@@ -138,10 +138,10 @@ module raster_core #(
     // for as early as it takes them to pass the groups: at the earliest when their word reaches the tail.
     localparam BANK_BITS = 14;
     localparam STORE_BANKS = (FRAME_WORDS + (1 << BANK_BITS) - 1) >> BANK_BITS;
-    localparam IN_GROUPS = DEEP && STORE == 0 && !LAST_SENT && STORE_BANKS > 1 && CENTER_CLOCKS > 1;
-    localparam MOST_GROUPS = IN_GROUPS ? CENTER_CLOCKS - 1 : 1;
+    localparam IN_GROUPS = DEEP && STORE == 0 && !LAST_SENT && STORE_BANKS > 1 && CENTER_CLOCKS > 2;
+    localparam MOST_GROUPS = IN_GROUPS ? CENTER_CLOCKS - 2 : 1;
     localparam LEAST_GROUP_BITS = $clog2((STORE_BANKS + MOST_GROUPS - 1) / MOST_GROUPS);
-    localparam GROUP_BITS = LEAST_GROUP_BITS > 2 ? LEAST_GROUP_BITS : 2;
+    localparam GROUP_BITS = LEAST_GROUP_BITS > 1 ? LEAST_GROUP_BITS : 1;
     localparam GROUPS = IN_GROUPS ? (STORE_BANKS + (1 << GROUP_BITS) - 1) >> GROUP_BITS : 0;
 
     // ---- When and where
@@ -194,21 +194,22 @@ module raster_core #(
         if (MEDIAN) begin : g_median
             wire column_step;
             wire [WORD-1:0] upper, middle, lower;
-            wire column_left, column_right;
+            wire column_top, column_bottom, column_left, column_right;
 
             raster_window #(
                 .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
                 .REPEATS(ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
             ) u_raw_window (
                 .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .word_i(word), .top_i(top[0]), .bottom_i(bottom[0]),
-                .repeat_i(row_repeated), .step_o(column_step), .upper_o(upper), .middle_o(middle), .lower_o(lower)
+                .repeat_i(row_repeated), .step_o(column_step), .top_o(column_top), .bottom_o(column_bottom),
+                .upper_o(upper), .middle_o(middle), .lower_o(lower)
             );
             raster_delay #(.WIDTH(2), .DEPTH(COLUMN_CLOCKS)) u_sides (
                 .clk_i(clk_i), .data_i({left[0], right[0]}), .data_o({column_left, column_right})
             );
             raster_median #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_median (
                 .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
+                .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
             );
             raster_pulse #(.DEPTH(MEDIAN_CLOCKS)) u_scored_step (
                 .clk_i(clk_i), .rst_i(rst_i), .bit_i(step), .bit_o(scored_step)
@@ -247,14 +248,14 @@ module raster_core #(
         if (HITS > 0) begin : g_window
             wire column_step;
             wire [WORD-1:0] upper, middle, lower;
-            wire column_top, column_bottom, column_left, column_right;
+            wire scored_top, scored_bottom, column_top, column_bottom, column_left, column_right;
             reg [WORD-1:0] center_q;
 
             always @(posedge clk_i) if (column_step) center_q <= middle;
             assign center_word = center_q;
 
             raster_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
-                .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({column_top, column_bottom})
+                .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({scored_top, scored_bottom})
             );
             raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
                 .clk_i(clk_i), .data_i({left[MEDIAN], right[MEDIAN]}), .data_o({column_left, column_right})
@@ -263,15 +264,15 @@ module raster_core #(
                 .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
                 .REPEATS(!MEDIAN && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
             ) u_window (
-                .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_word), .top_i(column_top),
-                .bottom_i(column_bottom), .repeat_i(scored_repeated), .step_o(column_step), .upper_o(upper),
-                .middle_o(middle), .lower_o(lower)
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_word), .top_i(scored_top),
+                .bottom_i(scored_bottom), .repeat_i(scored_repeated), .step_o(column_step), .top_o(column_top),
+                .bottom_o(column_bottom), .upper_o(upper), .middle_o(middle), .lower_o(lower)
             );
 
             if (EDGE) begin : g_edge
                 raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
                     .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                    .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(edge_level_i), .hit_o(edges)
+                    .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(edge_level_i), .hit_o(edges)
                 );
             end else begin : g_no_edge
                 wire unused_edge_level = |edge_level_i || |edge_min_i;
@@ -280,7 +281,7 @@ module raster_core #(
             if (CORNER) begin : g_corner
                 raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
                     .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                    .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(corner_level_i), .hit_o(corners)
+                    .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(corner_level_i), .hit_o(corners)
                 );
             end else begin : g_no_corner
                 wire unused_corner_level = |corner_level_i || |corner_min_i;
@@ -327,7 +328,7 @@ module raster_core #(
     wire [PLACE_BITS-1:0] reference_place;
 
     wire reference_read;
-    raster_pulse #(.DEPTH(IN_GROUPS ? CENTER_CLOCKS - 1 - GROUPS : 1)) u_reference_read (
+    raster_pulse #(.DEPTH(IN_GROUPS ? CENTER_CLOCKS - 2 - GROUPS : 1)) u_reference_read (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(IN_GROUPS ? tail : center_step), .bit_o(reference_read)
     );
     generate
