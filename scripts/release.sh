@@ -43,6 +43,11 @@ step_netlists() {
     foveate cosim --netlist --preset bare --rounds 1 --set "spatial=[{feature='variance'}]"
     foveate cosim --netlist --preset serial "${array[@]}" --set "denoise.filter='none'" --set region.size=4 \
         --set "hardware.feed='raster'" --set hardware.fold=4 --set "hardware.memory='block'"
+    # Block RAM with a port to write and a port to read.
+    local raster=(--preset raster "${array[@]}" --grid 4x3 --set region.size=4 --set frame.pixel_bits=4)
+    foveate cosim --netlist "${raster[@]}"
+    foveate cosim --netlist "${raster[@]}" --set "hardware.pipelining='deep'" --set "temporal.reference='last-sent'" \
+        --set "render.payload='raw'"
 }
 step_area() { foveate estimate --compare --markdown; }
 step_lint() { scripts/lint.sh; }

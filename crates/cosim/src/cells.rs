@@ -11,7 +11,7 @@ use askama::Template;
 /// Text of a DSP slice that multiplies.
 const DSP: &str = include_str!("../../../tb/cells/dsp48e2.v");
 
-/// A block RAM with a single port.
+/// A block RAM with a port to read and a port to write, or one that does both.
 #[derive(Template)]
 #[template(path = "cells/block_ram.v")]
 struct BlockRam {
@@ -58,6 +58,21 @@ pub fn cell_models(
         text += &model.ok_or(CosimError::NoModel { cell })?;
     }
     Ok(text)
+}
+
+/// Whether a block RAM of this netlist has the upper half of a word's parity bits wired to those of the lower
+/// half, as Yosys did before April 2026 where a word has more than 36 bits: <https://github.com/YosysHQ/yosys/pull/5833>.
+/// Bits of data are among them.
+#[must_use]
+pub fn wired_wrongly(netlist: &str) -> bool {
+    let port = |cell: &str, name: &str| {
+        cell.lines().find_map(|line| line.trim().strip_prefix(name).map(str::to_owned))
+    };
+    let rams = netlist.split("  RAMB36E2 #(").skip(1);
+    rams.filter_map(|text| text.split("\n  );").next()).any(|cell| {
+        let is_wide = cell.contains(".WRITE_WIDTH_B(32'd72)");
+        is_wide && port(cell, ".DINPADINP") == port(cell, ".DINPBDINP")
+    })
 }
 
 /// The module of that name.

@@ -29,6 +29,16 @@ pub enum CosimError {
         cell: String,
     },
 
+    /// The netlist is not that of the Verilog.
+    #[error(
+        "{yosys} wires block RAM of 64 bits and more wrongly (YosysHQ/yosys#5833), so its netlist is not this design; \
+         take a Yosys of May 2026 or later (FOVEATE_YOSYS), fewer `hardware.pixels_per_clock`, or co-simulate the RTL"
+    )]
+    WiredWrongly {
+        /// The version of Yosys.
+        yosys: String,
+    },
+
     /// The design does not allow what was asked for.
     #[error(transparent)]
     Design(#[from] DesignError),

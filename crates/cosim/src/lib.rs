@@ -37,7 +37,7 @@ mod testing;
 mod timed;
 
 pub use self::core::{WrittenCore, write_core};
-pub use cells::cell_models;
+pub use cells::{cell_models, wired_wrongly};
 pub use compare::Difference;
 pub use diagram::timing_diagram;
 pub use error::CosimError;

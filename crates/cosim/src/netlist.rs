@@ -5,7 +5,7 @@
 //! its cells. Memories start unknown, and so do registers without an initial value, so that an X which
 //! the RTL would not show does not hide; registers with one start with it, as on the device.
 
-use crate::cells::cell_models;
+use crate::cells::{cell_models, wired_wrongly};
 use crate::error::CosimError;
 use foveate_design::Design;
 use foveate_emit::Top;
@@ -54,10 +54,13 @@ impl Netlist {
         }
         let synthesis =
             EstimateJob::with_sources(design, top, verilog).synthesize(toolchain, cache)?;
+        if wired_wrongly(&synthesis.verilog) {
+            return Err(CosimError::WiredWrongly { yosys: synthesis.tool.version });
+        }
         let library = yosys::cell_models(toolchain, cache, "xilinx/cells_sim.v")?;
         let models = cell_models(&library, synthesis.cells()?)?;
-        let sources =
-            vec![(MODELS_FILE.to_owned(), models), (NETLIST_FILE.to_owned(), synthesis.verilog)];
+        let verilog = chosen(&synthesis.verilog);
+        let sources = vec![(MODELS_FILE.to_owned(), models), (NETLIST_FILE.to_owned(), verilog)];
         Ok(Self { tool: synthesis.tool, sources })
     }
 
@@ -65,5 +68,41 @@ impl Netlist {
     pub(crate) fn record(&self) -> NetlistRecord {
         let sha256 = sources_sha256(&self.sources);
         NetlistRecord { tool: self.tool.clone(), sha256 }
+    }
+}
+
+/// The memory of the leaf `raster_valid` in which any bits will do to begin with, if they are bits.
+const ANY_BITS: &str = "lost_bits_q.";
+
+/// The netlist with bits in that memory: the leaf makes them of an X in simulation, but a table cannot.
+fn chosen(netlist: &str) -> String {
+    let mut lines: Vec<String> = netlist.lines().map(str::to_owned).collect();
+    let mut begins = 0;
+    for at in 0..lines.len() {
+        if lines[at].starts_with("  RAM") {
+            begins = at;
+        }
+        if lines[at].starts_with("  ) ") && lines[at].contains(ANY_BITS) {
+            for line in lines[begins..at].iter_mut().filter(|line| line.contains(".INIT")) {
+                // Not all alike.
+                *line = line.replace("xx", "59").replace('x', "0");
+            }
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_one_memory_begins_with_bits() {
+        let cell = |name: &str, init: &str| {
+            format!("  RAM32M16 #(\n    .INIT_A(64'h{init})\n  ) \\{name}.0.0  (\n  );\n")
+        };
+        let text = [cell("a.words_q", "xxxx"), cell("a.lost_bits_q", "xxxx")].concat();
+        let expected = [cell("a.words_q", "xxxx"), cell("a.lost_bits_q", "5959")].concat();
+        assert_eq!(chosen(&text), expected);
     }
 }

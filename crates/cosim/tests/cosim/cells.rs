@@ -5,7 +5,7 @@
 
 use crate::common::in_parallel;
 use foveate_cosim::{
-    CosimError, Difference, Dut, Recorder, Recording, Run, Simulator, cell_models,
+    CosimError, Difference, Dut, Recorder, Recording, Run, Simulator, cell_models, wired_wrongly,
 };
 use foveate_design::{Direction, Port, PortRole, Qualifier};
 use foveate_toolchain::testing::require_tools;
@@ -30,6 +30,21 @@ const MEMORY: &str = "module dut (
 endmodule
 ";
 
+/// The same with a port of its own to read, which can show a word at the edge at which another is written there.
+const TWO_PORTS: &str = "module dut (
+    input wire clk_i, input wire write_i, input wire [BITS-1:0] address_i,
+    input wire [WIDTH-1:0] data_i, input wire known_i,
+    output reg known_o, output wire [WIDTH-1:0] data_o,
+    input wire read_i, input wire [BITS-1:0] read_address_i
+);
+    always @(posedge clk_i) known_o <= known_i;
+    raster_memory #(.WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(BITS)) u_memory (
+        .clk_i(clk_i), .write_i(write_i), .write_address_i(address_i), .data_i(data_i),
+        .read_i(read_i), .read_address_i(read_address_i), .data_o(data_o)
+    );
+endmodule
+";
+
 const PRODUCT: &str = "module dut (
     input wire clk_i, input wire signed [26:0] a_i, input wire signed [17:0] b_i,
     output reg signed [44:0] product_o
@@ -37,6 +52,15 @@ const PRODUCT: &str = "module dut (
     always @(posedge clk_i) product_o <= a_i * b_i;
 endmodule
 ";
+
+/// How many ports a memory has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Ports {
+    /// One that reads and writes.
+    One,
+    /// One to write and one to read.
+    Two,
+}
 
 fn port(name: &str, direction: Direction, role: PortRole, width: u32) -> Port {
     let qualifier = match role {
@@ -53,10 +77,10 @@ fn random(state: &mut u64) -> u64 {
 }
 
 /// A memory of that many words, and what it must do with few addresses that are often met again.
-fn memory(width: u32, words: u32) -> (Dut, Recording) {
+fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
     use Direction::{Input, Output};
     let bits = words.ilog2();
-    let ports = vec![
+    let mut list = vec![
         port("clk_i", Input, PortRole::Clock, 1),
         port("write_i", Input, PortRole::Valid, 1),
         port("address_i", Input, PortRole::Border, bits),
@@ -65,39 +89,58 @@ fn memory(width: u32, words: u32) -> (Dut, Recording) {
         port("known_o", Output, PortRole::ForwardValid, 1),
         port("data_o", Output, PortRole::ForwardPixel, width),
     ];
-    let mut recorder = Recorder::new(&ports).unwrap();
+    if ports == Ports::Two {
+        list.push(port("read_i", Input, PortRole::ForwardReady, 1));
+        list.push(port("read_address_i", Input, PortRole::ReferencePixel, bits));
+    }
+    let mut recorder = Recorder::new(&list).unwrap();
     let (inputs, outputs) = (recorder.inputs().clone(), recorder.outputs().clone());
-    let (mut state, mut written) = (1, BTreeMap::new());
+    let (mut state, mut written, mut shown) = (1, BTreeMap::new(), None);
     let mut addresses: Vec<u64> = (0..60).map(|_| random(&mut state) % u64::from(words)).collect();
     addresses.extend((0..bits).map(|bit| 1 << bit).chain([0, u64::from(words) - 1]));
-    let mask = (1 << width) - 1;
+    let mask = u64::MAX >> (64 - width);
     for _ in 0..2000 {
-        let address = addresses[usize::try_from(random(&mut state)).unwrap() % addresses.len()];
-        let (write, data) = (random(&mut state) % 2, random(&mut state) & mask);
-        let before = written.get(&address).copied();
+        let mut any = || addresses[usize::try_from(random(&mut state)).unwrap() % addresses.len()];
+        let (address, elsewhere) = (any(), any());
+        let (write, data) = (random(&mut state) % 2, random(&mut state) << 32 ^ random(&mut state));
+        // A port of its own reads in two of three clocks, often where the other writes.
+        let (read, read_address) = match (ports, random(&mut state) % 6) {
+            (Ports::One, _) => (1, address),
+            (Ports::Two, dice) => {
+                (u64::from(dice < 4), if dice == 0 { address } else { elsewhere })
+            }
+        };
+        if read == 1 {
+            shown = written.get(&read_address).copied();
+        }
         let (mut input, mut output) = (inputs.record(), outputs.record());
-        for (field, value) in
-            inputs.fields().iter().zip([write, address, data, before.is_some().into()])
-        {
+        let known = u64::from(shown.is_some());
+        let values = [write, address, data & mask, known, read, read_address];
+        for (field, value) in inputs.fields().iter().zip(values) {
             field.set(&mut input, 0, value);
         }
-        outputs.fields()[0].set(&mut output, 0, before.is_some().into());
-        outputs.fields()[1].set(&mut output, 0, before.unwrap_or(0));
+        outputs.fields()[0].set(&mut output, 0, known);
+        outputs.fields()[1].set(&mut output, 0, shown.unwrap_or(0));
         recorder.push(&input, &output).unwrap();
         if write == 1 {
-            written.insert(address, data);
+            written.insert(address, data & mask);
         }
     }
-    let text = MEMORY.replace("WIDTH-1", &(width - 1).to_string());
+    let (text, leaves) = match ports {
+        Ports::One => (MEMORY, &["frame_store", "serial_memory"][..]),
+        Ports::Two => (TWO_PORTS, &["raster_memory"][..]),
+    };
+    let text = text.replace("WIDTH-1", &(width - 1).to_string());
     let text = text.replace("BITS-1", &(bits - 1).to_string());
     let values = format!(".WIDTH({width}), .WORDS({words}), .ADDRESS_BITS({bits})");
     let text = text.replace(".WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(BITS)", &values);
-    let leaf = |name: &str| {
-        let leaf = foveate_emit::LEAVES.iter().find(|leaf| leaf.name == name).unwrap();
+    let leaf = |name: &&str| {
+        let leaf = foveate_emit::LEAVES.iter().find(|leaf| leaf.name == *name).unwrap();
         (format!("{name}.v"), leaf.contents.to_owned())
     };
-    let sources = vec![leaf("frame_store"), leaf("serial_memory"), ("dut.v".to_owned(), text)];
-    (dut(ports, sources), recorder.finish().unwrap())
+    let mut sources: Vec<Source> = leaves.iter().map(leaf).collect();
+    sources.push(("dut.v".to_owned(), text));
+    (dut(list, sources), recorder.finish().unwrap())
 }
 
 /// Products of the extremes and of random factors.
@@ -184,17 +227,28 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
     }
     let shapes = [(1, 1 << 14), (2, 1 << 13), (4, 1 << 12), (8, 1 << 11), (16, 1 << 10)];
     let larger = [(1, 1 << 15), (8, 1 << 12), (16, 1 << 11), (32, 1 << 10), (10, 1 << 12)];
-    let failures = in_parallel(&[&shapes[..], &larger].concat(), |&(width, words)| {
-        let (rtl, recording) = memory(width, words);
+    // Words that are wider than a port; one is of two cells, and one has a port to spare.
+    let wide = [(9, 1 << 11), (36, 1 << 9), (27, 1 << 9), (40, 1 << 10)];
+    let one = [&shapes[..], &larger].concat().into_iter().map(|shape| (Ports::One, shape));
+    let two = [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (Ports::Two, shape));
+    let memories: Vec<(Ports, (u32, u32))> = one.chain(two).collect();
+    let failures = in_parallel(&memories, |&(ports, (width, words))| {
+        let (rtl, recording) = memory(ports, width, words);
         let (netlist, cells) = synthesized(&rtl);
         let is_ram = |cell: &&String| cell.starts_with("RAMB");
         if cells.iter().filter(is_ram).count() == 0 {
-            return Err(format!("{width} bits, {words} words: no block RAM in {cells:?}"));
+            return Err(format!(
+                "{ports:?} {width} bits, {words} words: no block RAM in {cells:?}"
+            ));
         }
         for dut in [&rtl, &netlist] {
             match run(dut, &recording) {
                 Ok(found) if found.is_empty() => {}
-                other => return Err(format!("{width} bits, {words} words, {cells:?}: {other:?}")),
+                other => {
+                    return Err(format!(
+                        "{ports:?} {width} bits, {words} words, {cells:?}: {other:?}"
+                    ));
+                }
             }
         }
         Ok(())
@@ -233,35 +287,83 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
     if !require_tools(TOOLS) {
         return;
     }
-    for (width, words, cell) in [(8, 1 << 11, "RAMB18E2"), (16, 1 << 11, "RAMB36E2")] {
-        let (rtl, recording) = memory(width, words);
+    let word = "word_q <= quiet && read_enable === 1'b1";
+    let through = "word_q <= quiet && writes_there ? data : quiet && read_enable === 1'b1";
+    let wires = "    integer i;";
+    let there =
+        "    wire writes_there = &enables && write_address == read_address;\n    integer i;";
+    for (ports, width, words, cell) in [
+        (Ports::One, 8, 1 << 11, "RAMB18E2"),
+        (Ports::One, 16, 1 << 11, "RAMB36E2"),
+        (Ports::Two, 8, 1 << 11, "RAMB18E2"),
+        (Ports::Two, 36, 1 << 9, "RAMB18E2"),
+    ] {
+        let (rtl, recording) = memory(ports, width, words);
         let (netlist, cells) = synthesized(&rtl);
         assert!(cells.contains(cell), "{cells:?}");
+        let shape = format!("{ports:?} {width} bits");
+        let write_first = edited(&edited(&netlist, 0, wires, there), 0, word, through);
+        assert!(!run(&write_first, &recording).unwrap().is_empty(), "{shape}: writes first");
+        // A byte that is not enabled is written, with what is unknown.
+        let always = edited(&netlist, 0, "enables !== {ENABLES{1'b0}}", "1'b1");
+        assert_eq!(run(&always, &recording).unwrap(), [], "{shape}");
+        let always = edited(&always, 0, "enables[i] !== 1'b0", "1'b1");
+        assert!(!run(&always, &recording).unwrap().is_empty(), "{shape}: writes always");
         for (from, to) in [
-            (
-                "reads ? words[address]",
-                "reads && WEA ? {DINPADINP, DINADIN} : reads ? words[address]",
-            ),
-            ("ADDRARDADDR / DATA", "ADDRARDADDR / (2 * DATA)"),
-            ("<= {DINPADINP, DINADIN}", "<= {DINPADINP, DINADIN} & ~4"),
-            ("WEA === {MOST{1'b1}}", "1'b1"),
+            (") / DATA;", ") / (2 * DATA);"),
+            ("? data[8*i+:8]", "? data[8*i+:8] & ~8'd4"),
             ("posedge CLKARDCLK", "negedge CLKARDCLK"),
         ] {
             let found = run(&edited(&netlist, 0, from, to), &recording).unwrap();
-            assert!(!found.is_empty(), "{cell}: not found: {to}");
+            assert!(!found.is_empty(), "{shape}: not found: {to}");
         }
+        let writer = if width == 36 { "B" } else { "A" };
+        let (mode, other) =
+            (format!(".WRITE_MODE_{writer}("), format!(".WRITE_WIDTH_{writer}(32'd"));
         for (from, to, said) in [
             (".DOA_REG(32'sd0)", ".DOA_REG(32'sd1)", "output_registers"),
-            (".WRITE_MODE_A(\"READ_FIRST\")", ".WRITE_MODE_A(\"NO_CHANGE\")", "READ_FIRST"),
-            (".READ_WIDTH_B(32'd0)", ".READ_WIDTH_B(32'd1)", "port_B"),
-            (".WRITE_WIDTH_A(32'd", ".WRITE_WIDTH_A(32'd1", "one_width"),
+            (&format!("{mode}\"READ_FIRST\")"), &format!("{mode}\"NO_CHANGE\")"), "READ_FIRST"),
+            (&other, &format!("{other}1"), "one_width"),
             (".DOA_REG(", ".IS_CLKARDCLK_INVERTED(1'b1), .DOA_REG(", "inverted"),
             (".DOA_REG(", ".EN_ECC_READ(\"TRUE\"), .DOA_REG(", "EN_ECC_READ"),
             (".INIT_00(256'hx", ".INIT_00(256'h0", "start_unknown"),
         ] {
             refused(&edited(&netlist, 1, from, to), &recording, said);
         }
+        if ports == Ports::One {
+            let both = edited(&netlist, 1, ".READ_WIDTH_B(32'd0)", ".READ_WIDTH_B(32'd9)");
+            refused(&both, &recording, "one_port");
+        } else {
+            // A port that only reads must not write, and both have one clock.
+            let (enable, none) = if width == 36 { (".WEA(2'h0)", 2) } else { (".WEBWE(", 4) };
+            let text = &netlist.sources[1].1;
+            let at = text.find(enable).unwrap();
+            let end = at + text[at..].find(')').unwrap() + 1;
+            let name = enable.split('(').next().unwrap();
+            let written = format!("{name}({none}'h1)");
+            let found = run(&edited(&netlist, 1, &text[at..end], &written), &recording);
+            assert!(!found.unwrap().is_empty(), "{shape}: both ports write");
+            for clock in [".CLKBWRCLK(~clk_i)", ".CLKBWRCLK(1'h0)"] {
+                let clocks = edited(&netlist, 1, ".CLKBWRCLK(clk_i)", clock);
+                assert!(!run(&clocks, &recording).unwrap().is_empty(), "{shape}: {clock}");
+            }
+        }
     }
+}
+
+/// A Yosys from before April 2026 gives the upper half of a word the parity bits of the lower one
+/// (<https://github.com/YosysHQ/yosys/pull/5833>). The model shows it.
+#[test]
+fn a_word_of_64_bits_shows_how_yosys_wires_it() {
+    if !require_tools(TOOLS) {
+        return;
+    }
+    let (rtl, recording) = memory(Ports::Two, 64, 1 << 9);
+    assert_eq!(run(&rtl, &recording).unwrap(), []);
+    let (netlist, cells) = synthesized(&rtl);
+    assert!(cells.contains("RAMB36E2"), "{cells:?}");
+    let found = run(&netlist, &recording).unwrap();
+    assert_eq!(!found.is_empty(), wired_wrongly(&netlist.sources[1].1), "{found:?}");
 }
 
 /// It does not compile, and the message has this in it.

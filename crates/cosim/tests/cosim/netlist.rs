@@ -27,6 +27,14 @@ const DEEP: &str = "[region]\nsize = 4\n[temporal]\nreference = \"last-sent\"\n[
 const FOLDED: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
                       organization = \"serial\"\nfeed = \"raster\"\nfold = 2\n";
 
+/// A core of `raster` with its memories in block RAM of two ports: one port writes, the other reads.
+const RASTER: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
+                      organization = \"raster\"\n";
+/// A deep one whose queue has words that are wider than a port, and whose pixels are written twice.
+const RASTER_DEEP: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[temporal]\nreference = \"last-sent\"\n\
+                           [render]\npayload = \"raw\"\n[hardware]\norganization = \"raster\"\n\
+                           pipelining = \"deep\"\n";
+
 fn job(toml: &str, level: Level, regions: (u32, u32), output: &Path) -> Job {
     let design = design(&Config::from_toml(toml).unwrap(), regions);
     let mut job = Job::new(&design, directed(level, 1), output).unwrap();
@@ -53,6 +61,8 @@ fn netlists_agree_with_the_model() {
         (VARIANCE, Level::Rpu, (1, 1)),
         (DEEP, Level::Rpu, (1, 1)),
         (FOLDED, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
+        (RASTER, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
+        (RASTER_DEEP, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
     ];
     let failures = in_parallel(&jobs, |&(toml, level, regions)| {
         let job = job(toml, level, regions, &output.path().join(level.to_string()));
