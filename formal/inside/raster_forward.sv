@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// One active region, any of any frame, is followed from its decision to the port: its words leave once, in order, and are
+// those that were stored of this frame; or it is lost, because the first word of a later row of regions took the place of
+// one of the buffer. Words come at every clock from one reset on, and a decision as many clocks after the last word of its
+// region as the core needs; the sink takes and refuses as it likes.
+`include "reset.vh"
+localparam F_N = SIDE * SEGMENT;                 // words of a region
+localparam F_ROW = SIDE * ROW_WORDS;             // words of a row of regions
+localparam F_DECIDED = (DEEP ? 6 : 4) + 1;       // clocks from a region's last word to its decision
+
+// ---- What comes: words in their order, and decisions
+reg [5:0] f_arriving = 6'd0;                     // number in its row of regions of the word that arrives next
+reg [5:0] f_stored = 6'd0;                       // ... of the one that is stored next
+reg f_store = 1'b0;
+reg [START_BITS-1:0] f_place = 0;
+reg [F_DECIDED:0] f_done = 0;
+reg [REGION_BITS-1:0] f_region = 0;              // the region that is decided next
+reg [REGION_BITS-1:0] f_first = 0;               // the first region of the row of regions that is stored
+wire [5:0] f_column = f_stored % ROW_WORDS;
+wire f_last_word = store_i && f_stored >= (SIDE - 1) * ROW_WORDS && f_column % SEGMENT == SEGMENT - 1;
+always @* begin
+    if (started) assume(!rst_i);
+    assume(arriving_i == started);
+    assume(rows_end_i == (f_arriving == F_ROW - 1));
+    assume(store_i == f_store);
+    assume(store_place_i == f_place);
+    assume(decision_i == f_done[F_DECIDED-1]);
+    assume(decision_i || !active_i);
+    assume(region_i == f_region);
+end
+always @(posedge clk_i) begin
+    f_store <= arriving_i;
+    if (arriving_i) f_arriving <= f_arriving == F_ROW - 1 ? 6'd0 : f_arriving + 6'd1;
+    if (store_i) begin
+        f_stored <= f_stored == F_ROW - 1 ? 6'd0 : f_stored + 6'd1;
+        f_place <= f_place == WORDS - 1 ? 0 : f_place + 1;
+        if (f_stored == F_ROW - 1) f_first <= f_first == COLUMNS * (ROWS - 1) ? 0 : f_first + COLUMNS;
+    end
+    f_done <= {f_done, f_last_word};
+    if (decision_i) f_region <= f_region == COLUMNS * ROWS - 1 ? 0 : f_region + 1;
+    if (rst_i) begin
+        f_arriving <= 6'd0;
+        f_store    <= 1'b0;
+        f_stored   <= 6'd0;
+        f_place    <= 0;
+        f_first    <= 0;
+        f_done     <= 0;
+        f_region   <= 0;
+    end
+end
+
+// ---- The region and the word of it that are watched
+(* anyconst *) wire [REGION_BITS-1:0] f_ours;
+(* anyconst *) wire [3:0] f_word;
+(* anyseq *) wire f_pick;
+always @* assume(f_ours < COLUMNS * ROWS && f_word < F_N);
+reg f_latest;   // the word as it was stored last
+reg f_kept;     // ... of the frame that is watched
+wire [5:0] f_at = f_word / SEGMENT * ROW_WORDS + (f_ours % COLUMNS) * SEGMENT + f_word % SEGMENT;
+reg [1:0] f_state = 2'd0;
+localparam F_NONE = 2'd0, F_WAITS = 2'd1, F_HELD = 2'd2, F_OVER = 2'd3;
+wire f_watched = active_i && f_pick && f_state == F_NONE && region_i == f_ours;
+reg [2:0] f_rows;      // rows of regions of which words are stored, from that of the region on
+wire f_next_row = store_i && f_stored == 6'd0;
+wire f_stale = f_rows + f_next_row > BANKS;
+reg [REGION_BITS-1:0] f_before = 0;  // the first region of the row of regions before that which is stored
+always @(posedge clk_i) begin
+    if (store_i && f_stored == F_ROW - 1) f_before <= f_first;
+    if (rst_i) f_before <= 0;
+end
+// Of the region that is decided they are one or two: words of the next row may have come.
+wire [2:0] f_count = f_region - f_region % COLUMNS == (f_stored == 6'd0 ? f_before : f_first) ? 3'd1 : 3'd2;
+always @(posedge clk_i) begin
+    if (store_i && f_ours >= f_first && f_ours < f_first + COLUMNS && f_stored == f_at) f_latest <= scored_i[0];
+end
+
+// ---- The events by docs/raster.md
+reg [3:0] f_waiting = 4'd0, f_ahead;
+reg [1:0] f_entered = 2'd0, f_since = 2'd2;
+reg f_held = 1'b0;
+reg [3:0] f_next;
+wire [3:0] f_recent = f_entered[0] + (DEEP ? f_entered[1] : 1'b0);
+wire f_last = fetch && f_next == F_N - 1;
+wire f_held_lost = f_held && lost && !fetch;
+wire f_begins = (!f_held || f_last) && f_waiting > f_recent && f_since == 2'd2;
+reg f_fetched = 1'b0, f_fetched_ours, f_port = 1'b0, f_port_ours;
+reg [3:0] f_fetched_word, f_port_word;
+always @(posedge clk_i) begin
+    f_waiting <= f_waiting + active_i - f_begins;
+    f_entered <= {f_entered[0], active_i};
+    f_since <= f_begins ? 2'd1 : 2'd2;
+    f_held <= f_begins ? !lost : f_held && !f_held_lost && !f_last;
+    f_next <= f_begins ? 4'd0 : f_next + fetch;
+    if (f_watched) begin
+        f_state <= F_WAITS;
+        f_ahead <= f_waiting - f_begins;
+        f_kept <= f_latest;
+    end
+    f_rows <= (f_watched ? f_count : f_rows) + f_next_row;
+    if (f_state == F_WAITS && f_begins) begin
+        f_ahead <= f_ahead - 4'd1;
+        if (f_ahead == 4'd0) f_state <= lost ? F_OVER : F_HELD;
+    end
+    if (f_state == F_HELD && (f_held_lost || f_last)) f_state <= F_OVER;
+    if (step) begin
+        f_fetched <= fetch;
+        f_fetched_ours <= f_state == F_HELD;
+        f_fetched_word <= f_next;
+        f_port <= f_fetched;
+        f_port_ours <= f_fetched_ours;
+        f_port_word <= f_fetched_word;
+    end
+    if (rst_i) begin
+        f_waiting <= 4'd0;
+        f_entered <= 2'd0;
+        f_since   <= 2'd2;
+        f_held    <= 1'b0;
+        f_state   <= F_NONE;
+        f_fetched <= 1'b0;
+        f_port    <= 1'b0;
+    end
+end
+always @* if (started && !rst_i) begin
+    assert(f_waiting < 1 << QUEUE_BITS);
+    assert(fetch == (step && f_held && !f_held_lost));
+    assert(valid_o == f_port);
+    if (lost) assert(f_held_lost || f_begins);
+    if (f_state == F_WAITS && f_begins && f_ahead == 4'd0) assert(lost == f_stale);
+    if (f_state == F_HELD) assert(f_held_lost == f_stale);
+    if (valid_o && f_port_ours) begin
+        assert(region_o == f_ours);
+        assert(position_o == f_port_word * LANES);
+        if (f_port_word == f_word) assert(pixel_o[0] == f_kept);
+    end
+end
