@@ -100,9 +100,10 @@ def instances(rpu, toml):
 
     define("N", re.search(r"^size = (\d+)", toml, re.M).group(1))
     define("P", re.search(r"^pixel_bits = (\d+)", toml, re.M).group(1))
-    for key in ("filter", "neighborhood", "reference", "irrelevant", "payload", "combine"):
-        value = re.search(rf'^{key} = "(.*)"', toml, re.M).group(1)
-        define(f"{key}_{value.replace('-', '_')}")
+    for key in ("filter", "neighborhood", "reference", "irrelevant", "payload", "combine", "pipelining"):
+        # Serial designs have no pipelining.
+        for value in re.findall(rf'^{key} = "(.*)"', toml, re.M):
+            define(f"{key}_{value.replace('-', '_')}")
     for port in re.findall(r"^    (?:input|output) +wire +(?:\[[^]]*\])? *(\w+)", rpu, re.M):
         define(f"has_{port}")
     for _, text, instance in re.findall(r"(\w+) #\(((?:[^()]|\([^()]*\))*)\)\s*(\w+)\s*\(", rpu):

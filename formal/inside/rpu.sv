@@ -239,19 +239,24 @@ always @(posedge clk_i) begin
 end
 
 reg [7:0] f_steps;  // tail steps of the frame
+`ifdef PIPELINING_DEEP
+wire f_tail_step = count_step;
+`else
+wire f_tail_step = tail_step;
+`endif
 always @(posedge clk_i) begin
     if (rst_i) f_steps <= 0;
-    else if (tail_step) f_steps <= f_steps == F_PIXELS - 1 ? 0 : f_steps + 1;
+    else if (f_tail_step) f_steps <= f_steps == F_PIXELS - 1 ? 0 : f_steps + 1;
 end
 reg f_second_last;
-always @(posedge clk_i) f_second_last <= !rst_i && tail_step && f_steps == F_PIXELS - 1;
+always @(posedge clk_i) f_second_last <= !rst_i && f_tail_step && f_steps == F_PIXELS - 1;
 
 // Pixels leave at every step after an active decision, and at no other.
 reg f_told, f_forwards;
 wire f_told_now = decision_valid_o ? active_o : f_told;
 always @(posedge clk_i) begin
     f_told     <= !rst_i && f_told_now;
-    f_forwards <= !rst_i && tail_step && f_told_now;
+    f_forwards <= !rst_i && f_tail_step && f_told_now;
 end
 
 // Properties that are proven without a bound.
