@@ -23,6 +23,14 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
     }
 }
 
+/// Whether the lanes make the operand of the word first: a difference, or bits of it.
+pub(super) fn makes_operand(feature: &SpatialFeature) -> bool {
+    match feature.kind() {
+        FeatureKind::Edge | FeatureKind::Corner => false,
+        FeatureKind::Mad | FeatureKind::Variance => true,
+    }
+}
+
 /// Bits that a feature needs of the registers; 0 where it does not use one.
 #[derive(Default)]
 pub(super) struct Needs {

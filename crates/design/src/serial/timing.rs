@@ -193,14 +193,11 @@ impl SerialTiming {
     }
 }
 
-/// A deep lane has a register for the word, and one for the operand if `mad` or `variance` work on the word.
+/// A deep lane has a register for the word, and one for the operand if a feature makes it of the word.
 fn read_latency(design: &Design) -> u32 {
     let word = match design.pipelining() {
         Pipelining::Plain => 0,
-        Pipelining::Deep => {
-            let sums = |kind| matches!(kind, FeatureKind::Mad | FeatureKind::Variance);
-            1 + u32::from(design.features().iter().any(|feature| sums(feature.kind())))
-        }
+        Pipelining::Deep => 1 + u32::from(design.features().iter().any(feature::makes_operand)),
     };
     design.lane_memory().kind.read_latency() + word
 }
