@@ -295,7 +295,7 @@ module serial_sequencer #(
         // Made ready in the states that come before it is needed, so that it does not wait for the next state.
         if (MEDIAN != 0 && (state_q == LOAD || testing || unloading || shifting))
             scale_q <= UNIT << (WIDTH - 1);
-        else if (in_sum || halving)
+        else if (in_sum)
             scale_q <= squares ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
         else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);
         else if (state_q == START || adjusting || dividing || place_ends) scale_q <= scale_q >> 1;

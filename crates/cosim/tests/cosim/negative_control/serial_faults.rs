@@ -134,7 +134,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Fold, "serial_sequencer", "LAST_LANE = (LANES - 1) * FOLD;", "LAST_LANE = LANES - 1;"),
     fault("constant", Paper, "serial_sequencer", "scale_q <= UNIT << (WIDTH - 1);", "scale_q <= UNIT << (WIDTH - 2);"),
     fault("constant", Paper, "serial_sequencer", "state_q == LOAD || testing || unloading", "state_q == LOAD || unloading"),
-    fault("constant", Mad, "serial_sequencer", "else if (in_sum || halving)", "else if (in_sum)"),
+    fault("constant", Mad, "serial_sequencer", "else if (in_sum)", "else if (dividing)"),
     fault("width", Sent, "serial_sequencer", "row_q != 0 && row_q <= LAST_COUNTED", "row_q <= LAST_COUNTED"),
     fault("index", Sent, "serial_sequencer", "2'd2: center_q <= BOTTOM_START;", "2'd2: center_q <= TOP_START;"),
 ];
