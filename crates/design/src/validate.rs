@@ -5,7 +5,9 @@ use std::ops::RangeInclusive;
 
 use crate::depth::{self, DEFAULT_BITS};
 use crate::rules::Grid;
-use crate::{Config, Design, DesignError, FeatureKind, HardwareConfig, SpatialFeature, Temporal};
+use crate::{
+    Config, Design, DesignError, FeatureKind, HardwareConfig, Pipelining, SpatialFeature, Temporal,
+};
 
 /// Frame size where the configuration leaves it out.
 const DEFAULT_SIDE: u32 = 224;
@@ -159,6 +161,12 @@ impl HardwareConfig {
                 Err(self.clash(key, value, remedy))
             }
         }
+    }
+
+    /// The pipelining as a key of a design that may be without it. The default is left out, so that designs have the
+    /// fingerprints from before there was this key.
+    pub(crate) fn deep_pipelining(&self) -> Option<Pipelining> {
+        self.pipelining.filter(|&pipelining| pipelining != Pipelining::Plain)
     }
 
     /// The error for a `key` whose value the organization does not take.

@@ -7,7 +7,7 @@ mod timing;
 pub use timing::PipelinedTiming;
 
 use crate::rules::{Grid, Rules, Unit};
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Pipelining, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 
 /// The organization as the answers to [`Rules`].
 pub(crate) struct Pipelined;
@@ -54,8 +54,7 @@ impl Rules for Pipelined {
         match asked.feed {
             None | Some(Feed::Parallel) => Ok(HardwareConfig {
                 feed: None,
-                // The default is left out, so that designs have the fingerprints from before there was this key.
-                pipelining: asked.pipelining.filter(|&pipelining| pipelining != Pipelining::Plain),
+                pipelining: asked.deep_pipelining(),
                 ..asked.clone()
             }),
             Some(Feed::Raster) => {

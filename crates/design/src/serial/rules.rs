@@ -4,7 +4,7 @@
 use super::{SerialTiming, ports::ports};
 use crate::rules::{Grid, Rules, Unit};
 use crate::validate::in_range;
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Pipelining, Port, Timing};
+use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
 
 /// Smallest side of a region.
 const MIN_SIDE: u32 = 4;
@@ -55,8 +55,7 @@ impl Rules for Serial {
         in_range("hardware.fold", asked.fold, 1..=regions, &why)?;
         Ok(HardwareConfig {
             feed: Some(asked.feed.unwrap_or_default()),
-            // The default is left out, so that designs have the fingerprints from before there was this key.
-            pipelining: asked.pipelining.filter(|&pipelining| pipelining != Pipelining::Plain),
+            pipelining: asked.deep_pipelining(),
             ..asked.clone()
         })
     }
