@@ -9,7 +9,7 @@ use super::FitRequest;
 use crate::row::real;
 
 /// The planned clock in Hz. It is below the low ends of the serial arrays in `docs/area.md`, of which the slowest
-/// is at 57 MHz. A design that is faster is folded again, by its own clock.
+/// is at 56 MHz. A design that is faster is folded again, by its own clock.
 const PLANNED_HZ: u64 = 50_000_000;
 
 /// The most clocks that a frame may take, at the clock that was given or at the planned one.
