@@ -37,6 +37,7 @@ module raster_counts #(
 
     localparam ROW_BITS = $clog2(SIDE + 1);                 // hits of a row of a region
     localparam KEPT_BITS = $clog2((SIDE - 1) * SIDE + 1);   // ... of all rows but the last
+    localparam EARLY = SIDE > LANES;                        // a row of a region is more than a word
 
     // The hits of a row of a region.
     reg [FEATURES*ROW_BITS-1:0] row_q;
@@ -83,18 +84,20 @@ module raster_counts #(
         .clk_i(clk_i), .write_i(write), .write_address_i(write_column), .data_i(kept),
         .read_i(1'b1), .read_address_i(column_q), .data_o(kept_above)
     );
-    // The place is known for a row of a region, so that there is a clock for the way from the memory, which may stand
-    // far from here.
-    raster_delay #(.WIDTH(FEATURES * KEPT_BITS), .DEPTH(DEEP && SIDE > LANES ? 1 : 0)) u_above (
-        .clk_i(clk_i), .data_i(kept_above), .data_o(above)
+    // Nothing is above a region's first row. Where a row of a region takes several words, its place is known early, and
+    // the memory, which may stand far from here, has a clock for the way.
+    wire top;
+    raster_delay #(.WIDTH(1), .DEPTH(DEEP && !EARLY ? 1 : 0)) u_top (.clk_i(clk_i), .data_i(top_q), .data_o(top));
+    raster_delay #(.WIDTH(FEATURES * KEPT_BITS), .DEPTH(DEEP && EARLY ? 1 : 0)) u_above (
+        .clk_i(clk_i), .data_i(top ? {FEATURES * KEPT_BITS{1'b0}} : kept_above), .data_o(above)
     );
 
     wire [FEATURES*ROW_BITS-1:0] last_row;
-    wire ended, top, bottom;
+    wire ended, bottom;
     wire [COLUMN_BITS-1:0] column;
     raster_pulse #(.DEPTH(DEEP)) u_ended (.clk_i(clk_i), .rst_i(rst_i), .bit_i(ended_q), .bit_o(ended));
-    raster_delay #(.WIDTH(FEATURES * ROW_BITS + COLUMN_BITS + 2), .DEPTH(DEEP)) u_row (
-        .clk_i(clk_i), .data_i({row_q, old_column_q, top_q, bottom_q}), .data_o({last_row, column, top, bottom})
+    raster_delay #(.WIDTH(FEATURES * ROW_BITS + COLUMN_BITS + 1), .DEPTH(DEEP)) u_row (
+        .clk_i(clk_i), .data_i({row_q, old_column_q, bottom_q}), .data_o({last_row, column, bottom})
     );
 
     reg [FEATURES*COUNT_BITS-1:0] counts_q;
@@ -104,7 +107,7 @@ module raster_counts #(
     generate
         for (each = 0; each < FEATURES; each = each + 1) begin : g_feature
             wire [COUNT_BITS-1:0] hits = {{(COUNT_BITS - ROW_BITS) {1'b0}}, last_row[each*ROW_BITS+:ROW_BITS]};
-            wire [KEPT_BITS-1:0] others = top ? {KEPT_BITS{1'b0}} : above[each*KEPT_BITS+:KEPT_BITS];
+            wire [KEPT_BITS-1:0] others = above[each*KEPT_BITS+:KEPT_BITS];
             always @(posedge clk_i)
                 counts_q[each*COUNT_BITS+:COUNT_BITS] <= hits + {{(COUNT_BITS - KEPT_BITS) {1'b0}}, others};
             assign kept[each*KEPT_BITS+:KEPT_BITS] = counts_q[each*COUNT_BITS+:KEPT_BITS];

@@ -209,7 +209,7 @@ fn matrix(store: Store, forward: bool) -> Vec<Design> {
             config.hardware.store = Some(store);
             config.hardware.forward = Some(forward);
             config.hardware.pipelining = Some(pipelining);
-            let (size, pixels) = [(4, 1), (4, 2), (5, 1), (8, 4)][turn % 4];
+            let (size, pixels) = [(4, 1), (4, 2), (5, 1), (8, 4), (4, 4)][turn % 5];
             (config.region.size, config.hardware.pixels_per_clock) = (size, Some(pixels));
             config.denoise.filter = Filter::ALL[turn / 2 % 2];
             config.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];

@@ -50,6 +50,13 @@ module raster_median #(
         high_of = ab ? (ac ? a : c) : (bc ? b : c);
     endfunction
 
+    // Of a, b and c: 0: a, 1: b, 2 or 3: c.
+    function [WIDTH-1:0] chosen(
+        input [1:0] choice, input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
+    );
+        chosen = choice[1] ? c : choice[0] ? b : a;
+    endfunction
+
     localparam COLUMN = 3 * WIDTH;
 
     // Sorted columns {high, mid, low}: the newest word, the centers, and the one on their left.
@@ -70,38 +77,35 @@ module raster_median #(
             wire [WIDTH-1:0] a = upper_i[lane*WIDTH+:WIDTH];
             wire [WIDTH-1:0] b = middle_i[lane*WIDTH+:WIDTH];
             wire [WIDTH-1:0] c = lower_i[lane*WIDTH+:WIDTH];
-            wire [2:0] low, mid, high;  // how comparisons end for each result: a > b, b > c, a > c
-            wire [WIDTH-1:0] sort_a, sort_b, sort_c;
+            wire ab = a > b;
+            wire bc = b > c;
+            wire [COLUMN-1:0] sorted;  // {high, mid, low}
             if (DEEP) begin : g_deep
                 // If there is nothing at the top, a is not chosen; at the bottom, c; then b is the mid one.
-                reg [2:0] low_q, mid_q, high_q;
+                wire ac = a > c;
+                reg [1:0] low_q, mid_q, high_q;
                 reg [WIDTH-1:0] a_q, b_q, c_q;
                 always @(posedge clk_i) begin
                     {a_q, b_q, c_q} <= {a, b, c};
-                    {low_q, mid_q, high_q} <= {3{a > b, b > c, a > c}};
-                    if (top_i) {low_q[2], high_q[2]} <= 2'b10;
-                    if (bottom_i) {low_q[1:0], high_q[1:0], mid_q[0]} <= 5'b00_11_0;
-                    if (top_i || bottom_i) mid_q[2:1] <= 2'b11;
+                    low_q  <= {!bottom_i && (top_i || ab ? bc : ac), top_i || ab};
+                    mid_q  <= {!top_i && !bottom_i && ab != bc && ab == ac, top_i || bottom_i || ab == bc};
+                    high_q <= {!bottom_i && (!top_i && ab ? !ac : !bc), top_i || !ab};
                 end
-                assign {low, mid, high} = {low_q, mid_q, high_q};
-                assign {sort_a, sort_b, sort_c} = {a_q, b_q, c_q};
+                assign sorted = {
+                    chosen(high_q, a_q, b_q, c_q), chosen(mid_q, a_q, b_q, c_q), chosen(low_q, a_q, b_q, c_q)
+                };
             end else begin : g_plain
-                assign sort_a = top_i ? b : a;
-                assign sort_b = b;
-                assign sort_c = bottom_i ? b : c;
+                wire [WIDTH-1:0] top = top_i ? b : a;
+                wire [WIDTH-1:0] bottom = bottom_i ? b : c;
                 // How a comparison of two that are the same ends does not matter, so that no selection stands before it.
-                assign low = {a > b, b > c, sort_a > sort_c};
-                assign mid = low;
-                assign high = low;
+                wire ac = top > bottom;
+                assign sorted = {
+                    high_of(ab, bc, ac, top, b, bottom), mid_of(ab, bc, ac, top, b, bottom),
+                    low_of(ab, bc, ac, top, b, bottom)
+                };
             end
-            always @(posedge clk_i) begin
-                if (sort_step)
-                    newest_q[lane*COLUMN+:COLUMN] <= {
-                        high_of(high[2], high[1], high[0], sort_a, sort_b, sort_c),
-                        mid_of(mid[2], mid[1], mid[0], sort_a, sort_b, sort_c),
-                        low_of(low[2], low[1], low[0], sort_a, sort_b, sort_c)
-                    };
-            end
+            always @(posedge clk_i)
+                if (sort_step) newest_q[lane*COLUMN+:COLUMN] <= sorted;
         end
     endgenerate
 

@@ -190,9 +190,9 @@ impl Planted {
                  organization = \"raster\"\npipelining = \"deep\"\nforward = false\n"
             }
             Self::RasterOutside => {
-                "[frame]\nwidth = 16\nheight = 8\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
-                 [hardware]\norganization = \"raster\"\npipelining = \"deep\"\nstore = \"external\"\n\
-                 forward = false\n"
+                "[frame]\nwidth = 64\nheight = 8\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+                 [hardware]\norganization = \"raster\"\npixels_per_clock = 4\npipelining = \"deep\"\n\
+                 store = \"external\"\nforward = false\n"
             }
             Self::RasterMoments => {
                 "[frame]\nwidth = 16\nheight = 15\npixel_bits = 16\n[region]\nsize = 4\n[denoise]\n\
