@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// pixels * (sum of squares) - (sum)^2, which is pixels^2 times the variance. DEEP puts a register
-// between the products and their difference.
+// pixels * (sum of squares) - (sum)^2, which is pixels^2 times the variance. With DEEP the squares
+// come a clock behind the pixels, so that the square of the sum has a register.
 `default_nettype none
 
 module variance_score #(
@@ -9,12 +9,12 @@ module variance_score #(
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares
     parameter PRODUCT_BITS = 28,     // bits of pixels * (sum of squares)
     parameter SCORE_BITS = 26,       // bits of the score
-    parameter DEEP = 0               // 0: score_o after the edge that ends done_i; 1: an edge later
+    parameter DEEP = 0               // 1: sum_i is there a clock before done_i
 ) (
     input  wire                       clk_i,         // clock, rising edge
     input  wire                       rst_i,         // synchronous reset, active high
-    input  wire                       done_i,        // the sums are those of a whole frame
-    input  wire [       SUM_BITS-1:0] sum_i,         // of the pixels
+    input  wire                       done_i,        // the sum of squares is that of a whole frame
+    input  wire [       SUM_BITS-1:0] sum_i,         // of the pixels of that frame
     input  wire [SQUARE_SUM_BITS-1:0] square_sum_i,  // of their squares
     output reg  [     SCORE_BITS-1:0] score_o        // of the last whole frame
 );
@@ -36,8 +36,8 @@ module variance_score #(
     localparam [PRODUCT_BITS-1:0] FACTOR = PIXELS;
 
     wire [PRODUCT_BITS-1:0] sum = {{(PRODUCT_BITS - SUM_BITS) {1'b0}}, sum_i};
-    wire load;
-    wire [PRODUCT_BITS-1:0] larger;
+    wire [PRODUCT_BITS-1:0] square_sum = {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_i};
+    wire [PRODUCT_BITS-1:0] larger = FACTOR * square_sum;
     wire [PRODUCT_BITS-1:0] smaller;
     // The difference is smaller than either product.
     /* verilator lint_off UNUSEDSIGNAL */
@@ -46,28 +46,17 @@ module variance_score #(
 
     generate
         if (DEEP) begin : g_deep
-            reg load_q;
-            reg [SQUARE_SUM_BITS-1:0] square_sum_q;
-            reg [   PRODUCT_BITS-1:0] smaller_q;
-            always @(posedge clk_i) begin
-                load_q       <= done_i && !rst_i;
-                square_sum_q <= square_sum_i;
-                smaller_q    <= sum * sum;
-            end
-            assign load    = load_q;
-            assign larger  = FACTOR * {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_q};
+            reg [PRODUCT_BITS-1:0] smaller_q;
+            always @(posedge clk_i) smaller_q <= sum * sum;
             assign smaller = smaller_q;
         end else begin : g_plain
-            wire [PRODUCT_BITS-1:0] square_sum = {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_i};
-            assign load    = done_i;
-            assign larger  = FACTOR * square_sum;
             assign smaller = sum * sum;
         end
     endgenerate
 
     always @(posedge clk_i) begin
         if (rst_i) score_o <= {SCORE_BITS{1'b0}};
-        else if (load) score_o <= score[SCORE_BITS-1:0];
+        else if (done_i) score_o <= score[SCORE_BITS-1:0];
     end
 
 endmodule

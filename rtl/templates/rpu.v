@@ -300,9 +300,18 @@ module rpu (
     wire [{= variance.square_bits - 1 =}:0] square = front_pixel * front_pixel;
     wire [{= variance.square_sum_bits - 1 =}:0] square_sum;
     wire square_done;
+    {%- if deep %}
+    reg [{= variance.square_bits - 1 =}:0] square_q;
+    reg square_step_q, square_last_q;
+    always @(posedge clk_i) begin
+        square_q      <= square;
+        square_step_q <= front_step && !rst_i;
+        square_last_q <= front_last;
+    end
+    {%- endif %}
     region_sum #(.WIDTH({= variance.square_bits =}), .SUM_BITS({= variance.square_sum_bits =})) u_square_sum (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .last_i(front_last),
-        .value_i(square), .done_o(square_done), .sum_o(square_sum)
+        .clk_i(clk_i), .rst_i(rst_i), .step_i({% if deep %}square_step_q{% else %}front_step{% endif %}), .last_i({% if deep %}square_last_q{% else %}front_last{% endif %}),
+        .value_i(square{% if deep %}_q{% endif %}), .done_o(square_done), .sum_o(square_sum)
     );
     wire [{= variance.score_bits - 1 =}:0] variance_score;
     variance_score #(
