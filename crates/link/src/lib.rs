@@ -20,6 +20,7 @@ mod quality;
 mod report;
 mod search;
 mod sender;
+mod stream;
 mod sweep;
 mod text;
 mod timeline;

@@ -6,15 +6,18 @@
 //! | raw | a row | when it has been read |
 //! | pixel | the events of a row | when the row has been read |
 //! | region by rows | two bits and the forwarded pixels of a row of regions | when its decisions fall |
-//! | region array | two bits of the regions of a slot; their forwarded pixels | when they leave the array |
+//! | region array | two bits of the regions of a slot, or of a row of regions; their forwarded pixels | when they leave the array |
 //!
 //! *By rows*, every row of regions is an array of its own that takes pixels as they are read, and its
-//! pixels are at hand when the decision falls. *Array* is the generated `rcm`: it takes a frame when all of
-//! it has been read, and its pixels leave when [`Departure`] says.
+//! pixels are at hand when the decision falls. *Array* is the generated `rcm`. [`Departure`] says what it does. It
+//! takes a frame when all of it has been read, and gives decisions and pixels slot by slot. Or it takes pixels as they
+//! are read, and gives those of one row of regions after the other: bits of a row when its last decision falls, pixels
+//! when its last word is out.
 
-use foveate_design::{Departure, Design};
+use foveate_design::{Departure, Design, RasterTiming};
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
+use crate::stream::{Leaving, Streamed, own_clocks};
 use crate::{LinkError, Timeline, Unit};
 
 /// What the region camera sends of one frame, and what a pixel camera does.
@@ -24,6 +27,8 @@ pub struct Sent {
     pub rows: Vec<u64>,
     /// Forwarded pixels of every slot; one slot where no regions share a unit.
     pub slots: Vec<u64>,
+    /// Which regions are active.
+    pub active: Vec<bool>,
     /// Events of the pixels of every row.
     pub events: Vec<u64>,
 }
@@ -43,7 +48,7 @@ impl Sent {
             rows[row as usize] += pixels;
             slots[(region % design.fold()) as usize] += pixels;
         }
-        Self { rows, slots, events }
+        Self { rows, slots, active: active.to_vec(), events }
     }
 }
 
@@ -87,6 +92,9 @@ impl<'a> Cameras<'a> {
     /// The most clocks that the array adds to a time, once what it waits for has been read.
     #[must_use]
     pub fn own_clocks(&self) -> u64 {
+        if let Some(timing) = self.departure.stream {
+            return own_clocks(timing, self.design.regions());
+        }
         let Departure { take_clocks, decision_clocks, forward_clocks, slot_clocks, alone, .. } =
             self.departure;
         let last_slot = u64::from(self.design.fold() - 1) * slot_clocks;
@@ -103,8 +111,11 @@ impl<'a> Cameras<'a> {
         u64::try_from(hertz).unwrap_or(u64::MAX)
     }
 
-    /// Clocks of a frame, whole or row by row.
+    /// The most clocks of a frame, whole or row by row.
     fn frame_clocks(&self) -> u64 {
+        if let Some(timing) = self.departure.stream {
+            return timing.most_clocks_per_frame();
+        }
         let by_rows = match self.departure.alone {
             true => u64::from(self.design.height()) * u64::from(self.design.stream_side()),
             false => 0,
@@ -153,6 +164,33 @@ impl<'a> Cameras<'a> {
     /// The generated array.
     #[must_use]
     pub fn region_array(&self, sent: &[Sent]) -> Vec<Unit> {
+        match self.departure.stream {
+            Some(timing) => self.streamed(timing, sent),
+            None => self.slot_by_slot(sent),
+        }
+    }
+
+    /// An array that takes pixels as they are read: a row of regions after the other.
+    fn streamed(&self, timing: RasterTiming, sent: &[Sent]) -> Vec<Unit> {
+        let map = DECISION_BITS * u64::from(self.design.columns());
+        let mut array = Streamed::new(timing, self.timeline, self.clock_hz);
+        let mut units = Vec::new();
+        for (frame, sent) in (0..).zip(sent) {
+            let rows = array.next(&sent.active).into_iter().zip(&sent.rows);
+            for (row, (Leaving { decided, sent }, &pixels)) in (0..).zip(rows) {
+                let read = self.timeline.row(frame, row * self.design.region_size());
+                units.push(Unit { frame, read, decided, sent: decided, bits: map });
+                let bits = pixels * u64::from(self.design.pixel_bits());
+                // They may be out before the last decision of the row, if that is about no pixels.
+                let unit = |sent| Unit { frame, read, decided: decided.min(sent), sent, bits };
+                units.extend(sent.map(unit));
+            }
+        }
+        units
+    }
+
+    /// An array that takes a frame when all of it has been read.
+    fn slot_by_slot(&self, sent: &[Sent]) -> Vec<Unit> {
         let (fold, regions) = (self.design.fold(), self.design.regions());
         let Departure { decision_frames, decision_clocks, .. } = self.departure;
         let Departure { forward_frames, forward_clocks, slot_clocks, .. } = self.departure;

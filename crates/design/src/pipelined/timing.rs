@@ -94,6 +94,7 @@ impl PipelinedTiming {
                 slot_clocks: 0,
                 kept_rows: None,
                 alone: true,
+                stream: None,
             },
         }
     }

@@ -5,10 +5,12 @@
 mod memory;
 mod ports;
 mod rules;
+mod stream;
 mod timing;
 
 pub use memory::RasterMemory;
 pub(crate) use rules::Raster;
+pub use stream::{RasterStream, RowDeparture};
 pub use timing::{RasterTiming, SecondPass};
 
 #[cfg(test)]

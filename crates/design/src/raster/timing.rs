@@ -187,11 +187,25 @@ impl RasterTiming {
         self.advances() + u64::from(self.decision_latency)
     }
 
+    /// The most clocks from one frame to the next that follows at once: all of its regions are active, and the next
+    /// frame waits for them where it has to.
+    #[must_use]
+    pub fn most_clocks_per_frame(&self) -> u64 {
+        // The last word is taken at the edge after the one after which it is on the ports.
+        let left =
+            if self.waits_for_pending { self.take_clocks() + self.last_word() + 1 } else { 0 };
+        left.max(self.clocks_per_frame())
+    }
+
+    /// Clocks from the first word of a frame that is taken to the last, if words come at every clock.
+    fn take_clocks(&self) -> u64 {
+        let whole = u64::from(self.taken_rows - 1) * u64::from(self.row_words);
+        whole + u64::from(self.taken_words)
+    }
+
     /// What every organization answers.
     pub(super) fn answers(&self) -> Timing {
         let clocks = self.clocks_per_frame();
-        let take = u64::from(self.taken_rows - 1) * u64::from(self.row_words)
-            + u64::from(self.taken_words);
         let mut figures = vec![
             ("cycles_per_frame", clocks),
             ("taken_words", self.taken()),
@@ -228,7 +242,7 @@ impl RasterTiming {
                 ("pixels leave", leave),
             ],
             departure: Departure {
-                take_clocks: take,
+                take_clocks: self.take_clocks(),
                 decision_frames: 0,
                 decision_clocks: self.last_decision(),
                 forward_frames: 0,
@@ -236,6 +250,7 @@ impl RasterTiming {
                 slot_clocks: 0,
                 kept_rows: (!self.waits_for_pending).then_some(self.buffer_rows),
                 alone: false,
+                stream: Some(*self),
             },
         }
     }

@@ -181,6 +181,7 @@ impl SerialTiming {
                 slot_clocks: slot,
                 kept_rows: None,
                 alone: false,
+                stream: None,
             },
         }
     }

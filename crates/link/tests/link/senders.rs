@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When cameras send, worked out by hand from docs/timing.md and docs/serial.md.
+//! When cameras send, worked out by hand from docs/timing.md, docs/serial.md and docs/raster.md.
 
 use foveate_design::{Config, Design};
 use foveate_link::{Cameras, Sent, Timeline, Unit};
@@ -109,6 +109,61 @@ fn a_serial_array_sends_slot_by_slot_within_the_frame() {
     assert_eq!(ns, expected);
 }
 
+/// 20x12 pixels in regions of 4, 5x3 of them, without windows: S is 2 and D is 6. The sensor reads a word every 50 us,
+/// and a clock takes 1 us.
+#[test]
+fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() {
+    let core = "hardware.organization=\"raster\"";
+    let set =
+        [core, "region.size=4", "spatial=[{feature=\"variance\"}]", "denoise.filter=\"none\""];
+    let (design, timeline) = (design(&set), timeline());
+    let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
+    // Regions 0 and 4 of the first row, none of the second, 11 and 12 of the third.
+    let mut active = [false; 15];
+    [0, 4, 11, 12].iter().for_each(|&region: &usize| active[region] = true);
+    let first = Sent::of(&design, &active, vec![0; 12]);
+    assert_eq!(first.rows, [32, 0, 32]);
+    let sent = [first, Sent::of(&design, &[false; 15], vec![0; 12])];
+    assert!(at(None).region_by_rows(&sent).is_none(), "the array does it");
+    // The last word of a row of regions comes with its row; with `variance` D is 9. The last region waits for nothing:
+    // it enters the queue at 10, is held at 12, its 16 words are fetched from 13 to 28, and the last is out at 29.
+    // Region 12 comes 200 us after region 11, and so does not wait either: it is out before the last decision of its row.
+    let (decision, pixels) = (9, 29);
+    let expected = [
+        (1_000, 4_000 + decision, 4_000 + decision, 10),
+        (1_000, 4_000 + decision, 4_000 + pixels, 32 * 8),
+        (5_000, 8_000 + decision, 8_000 + decision, 10),
+        (9_000, 12_000 + decision, 12_000 + decision, 10),
+        (9_000, 11_600 + pixels, 11_600 + pixels, 32 * 8),
+        (13_000, 16_000 + decision, 16_000 + decision, 10),
+        (17_000, 20_000 + decision, 20_000 + decision, 10),
+        (21_000, 24_000 + decision, 24_000 + decision, 10),
+    ];
+    assert_eq!(times(&at(Some(MEGAHERTZ)).region_array(&sent)), expected);
+    // Without a clock, what waits for nothing else comes with its words.
+    let units = at(None).region_array(&sent);
+    assert_eq!(times(&units)[1], (1_000, 4_000, 4_000, 32 * 8));
+    assert_eq!(times(&units)[4], (9_000, 11_600, 11_600, 32 * 8));
+    // 240 words, and 9 clocks until the last is decided, in 12 ms.
+    assert_eq!(at(None).needed_clock_hz(), 20_750);
+}
+
+/// A window waits for a row and a word more; below the frame the core makes them by itself.
+#[test]
+fn a_raster_core_with_windows_waits_for_the_rows_below() {
+    let set = ["hardware.organization=\"raster\"", "region.size=4"];
+    let (design, timeline) = (design(&set), timeline());
+    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
+    let none = [Sent::of(&design, &[false; 15], vec![0; 12])];
+    // Median and edges: two rows and two words of 50 us, and D of 11.
+    let above = |rows: u64| 1_000 * (rows + 2) + 100 + 11;
+    // Two rows of 20 words and two words, one at every clock.
+    let below = 12_000 + 42 + 11;
+    let expected = [(1_000, above(4)), (5_000, above(8)), (9_000, below)];
+    let expected = expected.map(|(read, at)| (read, at, at, 10));
+    assert_eq!(times(&cameras.region_array(&none)), expected);
+}
+
 #[test]
 fn rows_and_frames_of_the_others() {
     let (design, timeline) = (design(&[]), timeline());
@@ -132,6 +187,33 @@ fn an_array_that_is_too_slow_is_refused() {
     assert!(error.contains("every 12000000 ns") && error.contains("12001501 ns"), "{error}");
     let without = Cameras::new("clip", &design, &timeline, None).unwrap();
     assert_eq!(without.needed_clock_hz(), 8_000);
+}
+
+/// The same of a raster core, of whose clocks most are needed at the slowest clock that keeps up: at a faster one it is
+/// done with a frame before the next one has come far. A nanosecond is lost to rounding.
+#[test]
+fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
+    let core = "hardware.organization=\"raster\"";
+    let (mad, sent) = ("spatial=[{feature=\"mad\"}]", "temporal.reference=\"last-sent\"");
+    let words = ["hardware.pixels_per_clock=2", "frame.width=30"];
+    for set in [&[][..], &[mad], &words, &[sent, "frame.height=8"], &[sent, mad]] {
+        let design = design(&[&[core, "region.size=4"], set].concat());
+        let timeline = Timeline::new("clip", &[0, 12_000], design.height()).unwrap();
+        let all = vec![true; design.regions() as usize];
+        let sent = [(); 2].map(|()| Sent::of(&design, &all, vec![0; 12]));
+        let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
+        let (needed, own) = (at(None).needed_clock_hz(), at(None).own_clocks());
+        let later = |clock: u64| {
+            let (without, with) =
+                (at(None).region_array(&sent), at(Some(clock)).region_array(&sent));
+            let later = with.iter().zip(&without).map(|(with, without)| with.sent - without.sent);
+            // The clocks of this test are far below 1 GHz, and its times below a minute.
+            (later.max().unwrap() - 1) * clock / 1_000_000_000
+        };
+        assert!((own - 2..=own).contains(&later(needed)), "{set:?}: {}", later(needed));
+        assert!(later(100 * needed) < own, "{set:?}");
+        assert!(Cameras::new("clip", &design, &timeline, Some(needed - 1)).is_err(), "{set:?}");
+    }
 }
 
 /// Every time of the array is later by no more clocks than are stated, and one by just as many.

@@ -95,7 +95,7 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
 }
 
 /// The recipe of a number: choices turn at different speeds.
-fn recipe(number: usize) -> RasterRecipe {
+pub(super) fn recipe(number: usize) -> RasterRecipe {
     let on = |speed: usize| number / speed % 2 == 1;
     let feature =
         |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 2 };

@@ -4,7 +4,7 @@
 
 use std::ops::RangeInclusive;
 
-use foveate_design::{Config, Design};
+use foveate_design::{Config, Design, RasterTiming};
 use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
 
 /// A design with one feature, all of whose regions are active in every frame.
@@ -111,6 +111,8 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     // The last word is on the ports after edge 278 and taken at 279.
     let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=278)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
+    let most = |design| RasterTiming::of(design).most_clocks_per_frame();
+    assert_eq!((most(&previous), most(&last_sent)), (158, 279));
 }
 
 /// The first word of row of regions g is stored at edge 64 g + 21. The sink is not ready before edge 400: the

@@ -4,6 +4,7 @@
 
 mod camera;
 mod controls;
+mod departure;
 mod driver;
 mod examples;
 mod expected;

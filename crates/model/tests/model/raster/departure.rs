@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Behind a sensor that reads words at a rate of its own, the core decides every row of regions, and its last word
+//! leaves, when [`RasterStream`] says.
+
+use std::collections::VecDeque;
+
+use foveate_design::{RasterStream, RasterTiming, RowDeparture};
+use foveate_frame::Frame;
+use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+
+use super::camera::recipe;
+use super::driver::words;
+use super::recipe::RasterRecipe;
+use crate::frames::Random;
+use crate::hard_cases::hard_frames;
+
+/// How a sensor reads a frame: clocks from word to word, and clocks between frames.
+type Pace = (u64, u64);
+
+/// What is fed: words with the edges at which they have been read, and when each frame begins.
+struct Sensor {
+    words: VecDeque<(u64, Vec<u16>)>,
+    begins: Vec<(u64, Pace)>,
+}
+
+fn sensor(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> Sensor {
+    let (mut sensor, mut now) = (Sensor { words: VecDeque::new(), begins: Vec::new() }, 0);
+    for (frame, &pace) in film.iter().zip(paces.iter().cycle()) {
+        sensor.begins.push((now, pace));
+        for word in words(recipe, frame, &mut Random(7)) {
+            now += pace.0;
+            sensor.words.push_back((now, word));
+        }
+        now += pace.1;
+    }
+    sensor
+}
+
+/// What the core shows after every edge until nothing is under way.
+fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<RasterOutput> {
+    let design = recipe.design();
+    let (mut rcm, thresholds) = (RasterRcm::new(&design), Thresholds::of(&design));
+    let nothing = vec![0; recipe.pixels as usize];
+    let mut shown = vec![rcm.output().clone()];
+    let mut left = RasterTiming::of(&design).edges_to_ready() + 5;
+    while left > 0 {
+        let now = shown.len() as u64;
+        let word = words.front().filter(|(read, _)| *read <= now).map(|(_, word)| word.clone());
+        let input = RasterInput {
+            reset: false,
+            valid: word.is_some(),
+            pixels: word.as_ref().unwrap_or(&nothing),
+            reference_valid: false,
+            reference_pixels: &[],
+            forward_ready: true,
+            thresholds: &thresholds,
+        };
+        if word.is_some() && rcm.output().ready {
+            words.pop_front();
+        }
+        shown.push(rcm.step(&input).clone());
+        left -= u64::from(words.is_empty() && !rcm.is_pending());
+    }
+    shown
+}
+
+/// What was seen of a frame: its active regions, and of every row of regions the edges after which its last decision
+/// and its last word were on the ports.
+#[derive(Default)]
+struct Seen {
+    active: Vec<bool>,
+    rows: Vec<RowDeparture>,
+}
+
+fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
+    let (columns, regions) = (recipe.base.columns(), recipe.base.columns() * recipe.base.rows());
+    let mut frames: Vec<Seen> = Vec::new();
+    let mut waiting = VecDeque::new();
+    let last = (recipe.base.n() - recipe.pixels) as u32;
+    for (edge, output) in shown.iter().enumerate() {
+        if output.decision_valid {
+            if output.region == 0 {
+                frames.push(Seen::default());
+            }
+            let (frame, row) = (frames.len() - 1, (i64::from(output.region) / columns) as usize);
+            let Seen { active, rows } = &mut frames[frame];
+            active.push(output.active);
+            rows.resize(row + 1, RowDeparture { decided: 0, left: None });
+            rows[row].decided = edge as u128;
+            waiting.extend((output.active && recipe.forward).then_some((frame, row)));
+        }
+        if output.forward_valid && output.forward_position == last {
+            let (frame, row) = waiting.pop_front().unwrap();
+            frames[frame].rows[row].left = Some(edge as u128);
+        }
+    }
+    assert!(waiting.is_empty() && !shown.last().unwrap().lost);
+    assert!(frames.iter().all(|seen| seen.active.len() as i64 == regions));
+    frames
+}
+
+/// Rows of regions that have been compared, and how many of them sent some of their regions, but not all.
+fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> (usize, usize) {
+    let sensor = sensor(recipe, film, paces);
+    let seen = seen(recipe, &shown(recipe, sensor.words));
+    assert_eq!(seen.len(), film.len());
+    let mut stream = RasterStream::new(RasterTiming::of(&recipe.design()), 1);
+    let (mut rows, mut partly) = (0, 0);
+    for (seen, (begin, (word, _))) in seen.iter().zip(sensor.begins) {
+        let of_row = word * recipe.taken_of_row() as u64;
+        let read = |row: u32| {
+            let begin = begin + u64::from(row) * of_row;
+            (begin.into(), (begin + of_row).into())
+        };
+        assert_eq!(stream.frame(read, &seen.active), seen.rows, "{paces:?}, {recipe:?}");
+        rows += seen.rows.len();
+        let of_row = seen.active.chunks(recipe.base.columns() as usize);
+        partly += of_row.filter(|row| row.contains(&true) && row.contains(&false)).count();
+    }
+    (rows, partly)
+}
+
+/// Frames in which every other region, as chance has it, is another than in the frame before.
+fn blinking(recipe: &RasterRecipe) -> Vec<Frame> {
+    let (width, height) = (recipe.base.width as u32, recipe.base.height as u32);
+    let mut random = Random(3);
+    let mut light = vec![false; (recipe.base.columns() * recipe.base.rows()) as usize];
+    let frame = |_| {
+        light.iter_mut().for_each(|light| *light ^= random.below(2) > 0);
+        let place = |x: u32, y: u32| {
+            let (column, row) = (i64::from(x) / recipe.base.side, i64::from(y) / recipe.base.side);
+            (row * recipe.base.columns() + column) as usize
+        };
+        let pixel = |x, y| 200 * u16::from(light[place(x, y)]);
+        Frame::from_fn(width, height, recipe.base.bits, pixel).unwrap()
+    };
+    (0..4).map(frame).collect()
+}
+
+/// K of 1, 2 and 4, N of 2 to 8, ragged frames, with and without median, windows, second pass and pixels that leave,
+/// plain and deep; frames that come as fast as words can, and slower ones, with and without pauses. Regions are
+/// active by chance, or all of them.
+#[test]
+fn every_row_of_regions_leaves_when_the_design_says() {
+    let (mut rows, mut partly) = (0, 0);
+    for (number, least) in (0..56).flat_map(|number| [0, 1].map(|least| (number, least))) {
+        let mut recipe = recipe(number);
+        recipe.forward = number % 9 > 0 || recipe.base.last_sent;
+        recipe.base.temporal_min = least;
+        recipe.base.features.iter_mut().for_each(|feature| feature.min_milli = 0);
+        let film = if least == 0 { hard_frames(&recipe.base) } else { blinking(&recipe) };
+        for paces in [&[(1, 0)][..], &[(3, 0)], &[(1, 400), (7, 11), (2, 0)]] {
+            let (compared, sent) = check(&recipe, &film, paces);
+            (rows, partly) = (rows + compared, partly + sent);
+        }
+    }
+    // Enough of both kinds: the queue has something to do, and something to leave out.
+    assert!(rows > 3_000 && partly > 1_000, "{rows} {partly}");
+}
