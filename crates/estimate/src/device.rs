@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::area::{Area, quotient};
+use crate::speed::number;
 
 /// What a device has.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,6 +32,17 @@ impl Device {
     pub fn xcvu9p() -> Self {
         let (name, [lut, lut_memory, ff, dsp, bram18]) = XCVU9P;
         Self { name: name.to_owned(), lut, lut_memory, ff, dsp, bram18 }
+    }
+
+    /// What an area costs: its shares of the device, added: LUTs, block RAM, DSP blocks, and a little for flip-flops,
+    /// of which there are two for every LUT.
+    #[must_use]
+    pub fn cost(&self, area: &Area) -> f64 {
+        let share = |used: u64, of: u64| number(used) / number(of);
+        share(area.lut_total_packed, self.lut)
+            + share(area.bram18, self.bram18)
+            + share(area.dsp, self.dsp)
+            + share(area.ff, self.ff) / 100.0
     }
 }
 

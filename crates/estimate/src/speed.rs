@@ -91,7 +91,7 @@ impl Speed {
 }
 
 #[allow(clippy::cast_precision_loss, reason = "clocks of a frame are far below 2^53")]
-fn number(clocks: u64) -> f64 {
+pub(crate) fn number(clocks: u64) -> f64 {
     clocks as f64
 }
 

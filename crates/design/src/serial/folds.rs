@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far a serial design can be folded before it is too slow.
+//! How far a serial design can be folded before it is too slow, and which folds may be the cheapest.
 
 use super::{Phase, SerialTiming};
-use crate::{Design, DesignError};
+use crate::{Design, DesignError, MemoryKind};
 
 impl Design {
     /// The same design with another fold.
@@ -32,6 +32,42 @@ impl Design {
             folded.is_ok_and(|d| SerialTiming::of(&d).clocks_per_frame() <= max_clocks)
         };
         (1..=most.min(self.regions())).rev().find(reaches)
+    }
+
+    /// The folds that may be the cheapest with at most `max_clocks` per frame, that with the fewest lanes first. Lanes
+    /// are logic, and what else a fold costs are the block RAMs of their memories. So every fold that is not here has
+    /// no fewer lanes than one that is, and no fewer block RAMs. Of those with as many lanes it is the one that leaves
+    /// the fewest slots empty. Empty where [`Self::largest_fold`] is none.
+    #[must_use]
+    pub fn frugal_folds(&self, max_clocks: u64) -> Vec<u32> {
+        let Some(largest) = self.largest_fold(max_clocks) else { return Vec::new() };
+        let (mut folds, mut fewest_blocks) = (Vec::new(), u64::MAX);
+        for lanes in self.regions().div_ceil(largest)..=self.regions() {
+            let fold = self.regions().div_ceil(lanes);
+            if self.regions().div_ceil(fold) != lanes {
+                continue;
+            }
+            let Ok(folded) = self.with_fold(fold) else { continue };
+            let blocks = folded.lane_blocks();
+            // Fewer slots take fewer clocks, so it is fast enough.
+            if blocks < fewest_blocks {
+                folds.push(fold);
+                fewest_blocks = blocks;
+            }
+            if fewest_blocks == 0 {
+                break;
+            }
+        }
+        folds
+    }
+
+    /// RAMB18 of the memories of all lanes.
+    fn lane_blocks(&self) -> u64 {
+        let memory = self.lane_memory();
+        match memory.kind {
+            MemoryKind::Distributed => 0,
+            MemoryKind::Block => memory.blocks * u64::from(self.lanes()),
+        }
     }
 }
 

@@ -10,6 +10,8 @@ use crate::{Design, Filter, MemoryKind, Reference, index_bits};
 const MAX_MEMORY_LUTS: u64 = 128;
 /// Words of one bit that a memory LUT holds.
 const LUT_WORDS: u64 = 64;
+/// Bits of a word of a RAMB18, and how many such words it holds. The ninth and the eighteenth bit come with the others.
+const RAMB18: [(u64, u64); 5] = [(1, 16_384), (2, 8_192), (4, 4_096), (9, 2_048), (18, 1_024)];
 
 /// What an area of a slot holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -75,6 +77,8 @@ pub struct LaneMemory {
     pub address_bits: u32,
     /// Memory LUTs that it takes as distributed memory.
     pub luts: u64,
+    /// RAMB18 that it takes as block memory, if all of them have words of the same width.
+    pub blocks: u64,
     /// Of what it is built.
     pub kind: MemoryKind,
     /// Why of that.
@@ -113,7 +117,10 @@ impl LaneMemory {
         }
         let slot_words = words.next_power_of_two();
         let depth = u64::from(design.fold()) * u64::from(slot_words);
-        let luts = u64::from(design.pixel_bits()) * depth.div_ceil(LUT_WORDS);
+        let bits = u64::from(design.pixel_bits());
+        let luts = bits * depth.div_ceil(LUT_WORDS);
+        let blocks = RAMB18.map(|(wide, words)| bits.div_ceil(wide) * depth.div_ceil(words));
+        let blocks = blocks.into_iter().min().expect("a block has words");
         let (kind, why) = match design.config().hardware.memory {
             Some(kind) => (kind, MemoryChoice::Configured),
             None if luts <= MAX_MEMORY_LUTS => {
@@ -121,7 +128,7 @@ impl LaneMemory {
             }
             None => (MemoryKind::Block, MemoryChoice::Limit(MAX_MEMORY_LUTS)),
         };
-        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, kind, why }
+        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, blocks, kind, why }
     }
 
     /// The area of that kind, if a slot has it.

@@ -318,6 +318,52 @@ fn the_largest_fold_is_the_last_that_is_fast_enough() {
     assert_eq!(folded.config().validate().unwrap(), folded);
 }
 
+/// 784 regions with slots of 128 words of 8 bits, of which a RAMB18 holds 2,048: 16 slots. So 47 lanes of 17 slots take
+/// two each, 49 of 16 slots one each; two lanes of 392 slots 24.5 each, rounded up; 98 lanes of 8 slots are distributed.
+#[test]
+fn frugal_folds_have_fewer_lanes_or_fewer_block_rams() {
+    let single = design(&["hardware.feed=raster"]);
+    let clocks = |fold: u32| timing(&single.with_fold(fold).unwrap()).clocks_per_frame();
+    assert_eq!(single.frugal_folds(clocks(17)), [17, 16, 8]);
+    // A clock less, and 17 slots are too many; 47 lanes have no fewer.
+    assert_eq!(single.frugal_folds(clocks(17) - 1), [16, 8]);
+    // Two lanes of 448 or of 392 slots; seven of 112, one of 784, which fill their blocks.
+    assert_eq!(single.frugal_folds(clocks(448)), [392, 112, 8]);
+    assert_eq!(single.frugal_folds(clocks(784)), [784, 8]);
+    assert_eq!(single.frugal_folds(clocks(1)), [1]);
+    assert!(single.frugal_folds(clocks(1) - 1).is_empty());
+    let blocks = |fold: u32| single.with_fold(fold).unwrap().lane_memory().blocks;
+    assert_eq!([16, 17, 32, 33, 392, 784].map(blocks), [1, 2, 2, 3, 25, 49]);
+    // Four bits have twice the words of nine; twelve take words of 18 or of 9 and 4.
+    let of_bits = |bits: &str, fold: &str| design(&[bits, fold]).lane_memory().blocks;
+    assert_eq!(of_bits("frame.pixel_bits=4", "hardware.fold=32"), 1);
+    assert_eq!(of_bits("frame.pixel_bits=12", "hardware.fold=16"), 2);
+    assert!(Config::default().validate().unwrap().frugal_folds(u64::MAX).is_empty());
+}
+
+/// Of all folds that are fast enough none has fewer lanes and no more block RAMs than one of the frugal, or the other
+/// way round.
+#[test]
+fn no_fold_beats_the_frugal() {
+    let single = design(&["frame.width=100", "frame.height=40", "hardware.memory=block"]);
+    let all: Vec<_> = (1..=single.regions()).map(|fold| single.with_fold(fold).unwrap()).collect();
+    let cost = |design: &Design| {
+        let lanes = u64::from(design.lanes());
+        (lanes, lanes * design.lane_memory().blocks)
+    };
+    for limit in all.iter().map(|design| timing(design).clocks_per_frame()) {
+        let frugal = single.frugal_folds(limit);
+        let frugal: Vec<_> = frugal.iter().map(|&fold| &all[fold as usize - 1]).collect();
+        assert!(frugal.iter().all(|design| timing(design).clocks_per_frame() <= limit));
+        let costs: Vec<_> = frugal.iter().map(|design| cost(design)).collect();
+        assert!(costs.is_sorted_by(|one, next| one.0 < next.0 && one.1 > next.1), "{costs:?}");
+        for other in all.iter().filter(|design| timing(design).clocks_per_frame() <= limit) {
+            let (lanes, blocks) = cost(other);
+            assert!(costs.iter().any(|own| own.0 <= lanes && own.1 <= blocks), "{limit}");
+        }
+    }
+}
+
 /// Whatever makes a design of a design checks it as if it had been written.
 #[test]
 fn a_pipelined_design_has_no_other_fold() {

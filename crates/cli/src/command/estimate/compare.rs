@@ -4,7 +4,7 @@
 use foveate_design::{
     Config, Design, DesignError, FeatureKind, Feed, Filter, Organization, SpatialConfig,
 };
-use foveate_estimate::{Comparison, Skipped};
+use foveate_estimate::{Comparison, FoldCost, Skipped, cheapest_fold};
 
 use super::flow::Flow;
 use crate::args::EstimateArgs;
@@ -12,7 +12,7 @@ use crate::error::CliError;
 use crate::output;
 use crate::progress::Progress;
 
-/// Frames per second of the folded arrays, the fewer the more regions share a lane. Each is folded as deep as
+/// Frames per second of the folded arrays, the fewer the more regions may share a lane. Each has the cheapest fold that
 /// its clock allows.
 const FOLDED_RATES: [u64; 2] = [500, 30];
 
@@ -92,19 +92,21 @@ fn with_feature(base: &Config, kind: FeatureKind, filter: Filter) -> Config {
     config
 }
 
-/// Median and the default feature, one pixel at a time, in as few lanes as still do that many frames per second.
+/// Median and the default feature, one pixel at a time, in the cheapest number of lanes that does that many frames per
+/// second.
 fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<Wanted, CliError> {
     let feature = FeatureKind::default();
     let mut config = with_feature(base, feature, Filter::Median3x3);
     config.hardware.organization = Organization::Serial;
     config.hardware.feed = Some(Feed::Raster);
     config.hardware.fold = 1;
-    let clock = |design: &Design| match given {
-        Some(mhz) => Ok(Some(mhz)),
-        None => Ok(flow.estimate(design, false)?.clock.map(|clock| clock.mhz)),
+    let synthesize = |design: &Design| {
+        let report = flow.estimate(design, false)?;
+        let clock_mhz = given.or(report.clock.map(|clock| clock.mhz));
+        Ok::<_, CliError>(FoldCost { clock_mhz, area: report.rcm })
     };
     let design = match config.validate() {
-        Ok(single) => Ok(deepest(single, rate, &clock)?),
+        Ok(single) => Ok(cheapest_fold(single, rate, synthesize)?),
         Err(error) => Err(error),
     };
     let fold = design.as_ref().map_or(1, |design| design.config().hardware.fold);
@@ -113,35 +115,4 @@ fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<W
         family: "serial with raster feed".to_owned(),
         design,
     })
-}
-
-/// The deepest fold that reaches a rate at its own clock; fold 1 if none does.
-fn deepest(
-    single: Design,
-    rate: u64,
-    clock: &dyn Fn(&Design) -> Result<Option<f64>, CliError>,
-) -> Result<Design, CliError> {
-    let mut planned = clock(&single)?;
-    // The clock of a folded array is not that of fold 1. Where it is slower, the next fold is shallower.
-    while let Some(mhz) = planned {
-        let Some(fold) = single.largest_fold(most_clocks(mhz, rate)) else { break };
-        let folded = single.with_fold(fold)?;
-        let own = clock(&folded)?;
-        if own.is_some_and(|own| folded.timing().clocks_per_frame() <= most_clocks(own, rate)) {
-            return Ok(folded);
-        }
-        planned = own;
-    }
-    Ok(single)
-}
-
-/// Clocks that a frame may take at so many frames per second.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "positive and far below 2^53"
-)]
-fn most_clocks(mhz: f64, rate: u64) -> u64 {
-    (mhz * 1e6 / rate as f64).floor() as u64
 }

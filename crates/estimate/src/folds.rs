@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which fold of a serial array is the cheapest at a rate.
+//!
+//! Fewer lanes take less logic, but the memory of a lane is whole block RAMs: 47 lanes of 17 regions may take twice
+//! the blocks of 49 lanes of 16. So the folds that may be the cheapest ([`Design::frugal_folds`]) are synthesized, and
+//! the areas are weighed as everywhere ([`Device::cost`]). How fast a fold is, only its own clock says.
+
+use std::collections::BTreeMap;
+
+use foveate_design::Design;
+
+use crate::Device;
+use crate::area::Area;
+use crate::speed::number;
+
+/// What a synthesis tells of a fold.
+#[derive(Clone, Debug)]
+pub struct FoldCost {
+    /// Its clock in MHz; none of a design without logic between registers.
+    pub clock_mhz: Option<f64>,
+    /// Area of the array.
+    pub area: Area,
+}
+
+/// The cheapest fold of a design that reaches a rate in frames per second at its own clock, of those tried; the design
+/// itself, which has fold 1, if none does.
+///
+/// # Errors
+/// Whatever `synthesize` says.
+pub fn cheapest_fold<E>(
+    single: Design,
+    rate: u64,
+    synthesize: impl Fn(&Design) -> Result<FoldCost, E>,
+) -> Result<Design, E> {
+    let device = Device::xcvu9p();
+    let mut tried: BTreeMap<u32, Option<f64>> = BTreeMap::new();
+    let mut fast: Vec<(f64, Design)> = Vec::new();
+    // The clock of a folded array is not that of fold 1. If the one with the fewest lanes is too slow at its own, that
+    // clock says which folds are tried next.
+    let mut planned = synthesize(&single)?.clock_mhz;
+    while let Some(mhz) = planned {
+        let folds = single.frugal_folds(most_clocks(mhz, rate));
+        for &fold in &folds {
+            if tried.contains_key(&fold) {
+                continue;
+            }
+            let Ok(folded) = single.with_fold(fold) else { continue };
+            let FoldCost { clock_mhz, area } = synthesize(&folded)?;
+            let reaches = |mhz| folded.timing().clocks_per_frame() <= most_clocks(mhz, rate);
+            let is_fast = clock_mhz.is_some_and(reaches);
+            tried.insert(fold, clock_mhz.filter(|_| !is_fast));
+            if is_fast {
+                fast.push((device.cost(&area), folded));
+            }
+        }
+        planned = folds.first().and_then(|first| tried.get(first).copied().flatten());
+    }
+    let best = fast.into_iter().min_by(|one, other| one.0.total_cmp(&other.0));
+    Ok(best.map_or(single, |(_, design)| design))
+}
+
+/// Clocks that a frame may take at so many frames per second.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "positive and far below 2^53"
+)]
+fn most_clocks(mhz: f64, rate: u64) -> u64 {
+    (mhz * 1e6 / number(rate)).floor() as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::convert::Infallible;
+
+    use foveate_design::Config;
+
+    use super::*;
+
+    fn single() -> Design {
+        let toml = "hardware = { organization = 'serial', feed = 'raster' }";
+        Config::from_toml(toml).unwrap().validate().unwrap()
+    }
+
+    /// The fold that is chosen at 500 frames per second, and all that were synthesized. A lane has so many LUTs; up to 8
+    /// slots its memory is made of some, else of block RAMs.
+    fn chosen(clock: impl Fn(u32) -> f64, luts: impl Fn(u32) -> u64) -> (u32, Vec<u32>) {
+        let tried = RefCell::new(Vec::new());
+        let found = cheapest_fold(single(), 500, |design| {
+            let (fold, lanes) = (design.fold(), u64::from(design.lanes()));
+            tried.borrow_mut().push(fold);
+            let blocks = if fold > 8 { design.lane_memory().blocks * lanes } else { 0 };
+            let lut_total_packed = lanes * luts(fold);
+            let area = Area { lut_total_packed, bram18: blocks, ..Area::default() };
+            Ok::<_, Infallible>(FoldCost { clock_mhz: Some(clock(fold)), area })
+        });
+        let Ok(found) = found;
+        (found.fold(), tried.into_inner())
+    }
+
+    /// The clock at which a fold does 500 frames per second, and a little more.
+    fn needed(fold: u32) -> f64 {
+        let clocks = single().with_fold(fold).unwrap().timing().clocks_per_frame();
+        number(clocks) * 500.0 / 1e6 + 1e-6
+    }
+
+    /// Of 784 regions. 94 block RAMs of 4,320 are 2.18 % of the device, 49 are 1.13 %.
+    #[test]
+    fn a_fold_with_fewer_lanes_and_twice_the_block_rams_is_not_chosen() {
+        let at = |_| needed(17);
+        let small = |fold| if fold == 8 { 170 } else { 40 };
+        assert_eq!(chosen(at, small), (16, vec![1, 17, 16, 8]));
+        // 45 block RAMs are 1.0417 % of the device, 12,315 LUTs: 6,157.5 for each of two lanes.
+        let (less, more) = (chosen(at, |fold| if fold == 8 { 9_999 } else { 6_157 }), 6_158);
+        assert_eq!(less.0, 16);
+        assert_eq!(chosen(at, |fold| if fold == 8 { 9_999 } else { more }).0, 17);
+        // 49 block RAMs are 13,409.7 LUTs: 136.8 for each of 98 lanes with distributed memory.
+        let distributed = |luts| chosen(at, move |fold| if fold == 8 { luts } else { 0 }).0;
+        assert_eq!([136, 137].map(distributed), [8, 16]);
+    }
+
+    /// A fold counts only if it is fast enough at its own clock; that of the one with the fewest lanes says what is
+    /// tried next.
+    #[test]
+    fn every_fold_has_a_clock_of_its_own() {
+        let small = |fold| if fold == 8 { 170 } else { 40 };
+        let slow = |fold| if fold == 17 { needed(17) - 0.001 } else { needed(17) };
+        assert_eq!(chosen(slow, small), (16, vec![1, 17, 16, 8]));
+        // 53 lanes of 15 slots have a block RAM each, and 98 lanes of 8 slots more LUTs.
+        let slower = |fold| if fold > 15 { needed(15) } else { needed(17) };
+        assert_eq!(chosen(slower, small), (15, vec![1, 17, 16, 8, 15]));
+        assert_eq!(chosen(|_| needed(1) - 0.001, small), (1, vec![1]), "fold 1 is the fastest");
+        let fast_alone = |fold| if fold == 1 { needed(17) } else { 0.001 };
+        assert_eq!(chosen(fast_alone, small), (1, vec![1, 17, 16, 8]), "what else is too slow");
+    }
+}
