@@ -10,7 +10,7 @@ use foveate_estimate::{Device, Speed};
 use super::FitRequest;
 use super::constraints::{Held, all_hold, excess};
 use super::looks::{Look, Search};
-use super::plan::{max_clocks, slower};
+use super::plan::{expected, max_clocks, slower};
 use super::rough::rough;
 use crate::cost::{Silicon, Synthesized};
 use crate::row::real;
@@ -20,6 +20,8 @@ use crate::{ExploreError, Hooks};
 const NEAREST: usize = 6;
 /// Designs that are synthesized before checking whether one meets the limits.
 const BATCH: usize = 8;
+/// The most designs that are folded again for their own clocks.
+const SLOWER: usize = 4;
 
 /// A design that could be built.
 #[derive(Clone, Debug)]
@@ -61,15 +63,9 @@ impl Candidate {
         excess(&self.held)
     }
 
-    /// The shares of the paper's device, added: LUTs, block RAM, DSP blocks, and a little for flip-flops,
-    /// of which there are two for every LUT.
+    /// What the array costs, as everywhere.
     pub(super) fn cost(&self) -> f64 {
-        let (area, device) = (&self.silicon.array, Device::xcvu9p());
-        let share = |used: u64, of: u64| real(used) / real(of);
-        share(area.lut_total_packed, device.lut)
-            + share(area.bram18, device.bram18)
-            + share(area.dsp, device.dsp)
-            + share(area.ff, device.ff) / 100.0
+        Device::xcvu9p().cost(&self.silicon.array)
     }
 }
 
@@ -123,24 +119,34 @@ pub(super) fn build(
     Ok(Built { candidates, left_out })
 }
 
-/// Folds the cheapest design that holds as deep as its own clock allows, which is faster than planned, or gives it
-/// half the pixels per clock, and so on while that is cheaper.
+/// Folds designs that hold again, each for its own clock, which is faster than planned, or gives them half the pixels
+/// per clock. What is expected to be cheaper than the cheapest so far is synthesized, the most promising first.
 fn make_slower(
     candidates: &mut Vec<Candidate>,
     request: &FitRequest<'_>,
     hooks: &dyn Hooks,
 ) -> Result<(), ExploreError> {
     let Some(min_fps) = request.constraints.min_fps else { return Ok(()) };
-    while candidates.len() < request.most {
-        let holding = candidates.iter().filter(|candidate| candidate.holds());
-        let best = holding.min_by(|one, other| one.cost().total_cmp(&other.cost()));
-        let Some(best) = best else { break };
-        let slower = best.speed.and_then(|speed| slower(&best.design, &speed, min_fps));
-        let Some(design) = slower else { break };
-        if candidates.iter().any(|tried| tried.design.config() == design.config()) {
-            break;
-        }
-        let look = best.look.clone();
+    let most = request.most.min(candidates.len() + SLOWER);
+    while candidates.len() < most {
+        let holding = || candidates.iter().filter(|candidate| candidate.holds());
+        let Some(least) = holding().map(Candidate::cost).min_by(f64::total_cmp) else { break };
+        let is_new = |design: &Design| {
+            candidates.iter().all(|tried| tried.design.config() != design.config())
+        };
+        let slower = holding().flat_map(|candidate| {
+            let speed = candidate.speed.as_ref();
+            let slower = speed.map(|speed| slower(&candidate.design, speed, min_fps));
+            let expected = |design| {
+                let cost = expected(&design, &candidate.design, &candidate.silicon);
+                (cost, &candidate.look, design)
+            };
+            slower.unwrap_or_default().into_iter().filter(is_new).map(expected)
+        });
+        let promising = slower.filter(|(cost, ..)| *cost < least);
+        let best = promising.min_by(|one, other| one.0.total_cmp(&other.0));
+        let Some((_, look, design)) = best else { break };
+        let look = look.clone();
         candidates.extend(synthesize(&[(&look, design)], request, hooks)?);
     }
     Ok(())
@@ -247,8 +253,8 @@ fn synthesize(
     Ok(designs.iter().zip(found).map(candidate).collect())
 }
 
-/// Ways to build a camera. If regions may share a unit, these are, for each feed, the deepest fold that is
-/// fast enough and its halvings, because fewer units are not always smaller in total. If no fold is fast
+/// Ways to build a camera. If regions may share a unit, these are, for each feed, the folds that are fast enough and
+/// may be the cheapest, and halvings of the deepest, because only a synthesis says which one is. If no fold is fast
 /// enough, these are the organizations with a unit for each region, and at a planned clock also fold 1. An
 /// organization with one unit for all regions comes with the fewest pixels per clock that are fast enough; at a
 /// planned clock with the most, if none is.
@@ -273,14 +279,14 @@ fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
         feeds.filter_map(move |&feed| with(organization, Some(feed), None))
     };
     for single in folding.into_iter().flat_map(fed) {
-        let fold = max_clocks.map_or(Some(single.regions()), |clocks| single.largest_fold(clocks));
-        fast |= fold.is_some();
-        let fold = fold.or(planned.then_some(1));
-        let Some(deepest) = fold.and_then(|fold| single.with_fold(fold).ok()) else { continue };
-        let halvings = 0..=deepest.fold().max(1).ilog2();
-        found.extend(
-            halvings.filter_map(|halving| single.with_fold(deepest.fold() >> halving).ok()),
-        );
+        let folds = single.frugal_folds(max_clocks.unwrap_or(u64::MAX));
+        fast |= !folds.is_empty();
+        let folds = if folds.is_empty() && planned { vec![1] } else { folds };
+        let deepest = folds.first().map_or(0, |deepest| deepest / 2);
+        let halvings = std::iter::successors(Some(deepest), |fold| Some(fold / 2));
+        let halvings = halvings.take_while(|fold| *fold > 0).filter(|fold| !folds.contains(fold));
+        let all = folds.iter().copied().chain(halvings);
+        found.extend(all.filter_map(|fold| single.with_fold(fold).ok()));
     }
     if !fast {
         let each = others.iter().filter_map(|&&organization| with(organization, None, None));
@@ -302,6 +308,8 @@ fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
 
 #[cfg(test)]
 mod tests {
+    use foveate_design::Feed;
+
     use super::*;
 
     /// The raster designs among the ways to build a camera of 64x48 pixels, by their pixels per clock, and whether
@@ -313,6 +321,17 @@ mod tests {
         let of = |organization| ways.iter().filter(move |d| d.organization() == organization);
         let words = of(Organization::Raster).map(Design::pixels_per_clock).collect();
         (words, of(Organization::Pipelined).next().is_some())
+    }
+
+    /// 784 regions: 17 regions per lane are the most that are fast enough; 16 and 8 take fewer block RAMs.
+    #[test]
+    fn lanes_share_as_many_regions_as_may_be_cheapest_and_halvings_of_the_most() {
+        let look = Config::from_toml("").unwrap();
+        let bounds = Bounds { max_clocks: Some(210_623), planned: true, memory: None };
+        let ways = ways(&look, &look, bounds);
+        let raster = ways.iter().filter(|design| design.feed() == Feed::Raster);
+        let folds = raster.filter(|design| design.organization().folds()).map(Design::fold);
+        assert_eq!(folds.collect::<Vec<_>>(), [17, 16, 8, 4, 2, 1]);
     }
 
     /// 3,072 pixels take 3,072, 1,536 or 768 clocks, and some more between frames.

@@ -7,11 +7,11 @@
 //!    region sizes and features, each with the thresholds that agree best with the ideal. For the best
 //!    of them it tries all pixel bits, windows, filters and references ([`looks`]).
 //! 3. Of the looks that meet the limits, only the simplest are built: a look is dropped if a simpler one
-//!    meets the limits too. Each is built with every feed and with the deepest fold that is fast enough
-//!    and its halvings, or pipelined if no serial array is fast enough; and as a raster core, if one is fast
+//!    meets the limits too. Each is built with every feed and with the folds that are fast enough and may be the
+//!    cheapest, or pipelined if no serial array is fast enough; and as a raster core, if one is fast
 //!    enough ([`build`]). The most promising designs are synthesized first ([`rough`]). Where no clock is given,
 //!    a planned one says which of them are tried, and the clock that is estimated from the netlist says whether
-//!    they are fast enough ([`plan`]).
+//!    they are fast enough, and which are folded again ([`plan`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
 
 mod build;

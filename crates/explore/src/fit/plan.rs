@@ -2,10 +2,11 @@
 //! Folds before and after a design's clock is known. A clock is estimated from a netlist, and what is to be
 //! synthesized has none: so a planned clock says which folds are tried, and no rate is told at it.
 
-use foveate_design::Design;
-use foveate_estimate::Speed;
+use foveate_design::{Design, MemoryKind};
+use foveate_estimate::{Area, Device, Speed};
 
 use super::FitRequest;
+use crate::cost::Silicon;
 use crate::row::real;
 
 /// The planned clock in Hz. It is below the low ends of the serial arrays in `docs/area.md`, of which the slowest
@@ -18,18 +19,44 @@ pub(super) fn max_clocks(request: &FitRequest<'_>) -> Option<u64> {
     request.constraints.min_fps.map(|fps| clocks(hertz, fps))
 }
 
-/// The design with the deepest fold that is fast enough at the low end of its own clock, if that is deeper than
-/// its fold; of an organization without folds that with half the pixels per clock, if that is fast enough.
-pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Option<Design> {
+/// The deeper folds of a design that are fast enough at the low end of its clock and may be the cheapest; of an
+/// organization without folds the design with half the pixels per clock, if that is fast enough.
+pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design> {
     let most = clocks(speed.low_clock_mhz * 1e6, min_fps);
     if !design.organization().folds() {
         let mut config = design.config().clone();
         config.hardware.pixels_per_clock = Some(design.pixels_per_clock() / 2);
         let half = config.validate().ok();
-        return half.filter(|half| half.timing().clocks_per_frame() <= most);
+        return half.filter(|half| half.timing().clocks_per_frame() <= most).into_iter().collect();
     }
-    let fold = design.largest_fold(most)?;
-    if fold > design.fold() { design.with_fold(fold).ok() } else { None }
+    let folds = design.frugal_folds(most).into_iter().filter(|fold| *fold > design.fold());
+    folds.filter_map(|fold| design.with_fold(fold).ok()).collect()
+}
+
+/// What a slower design is expected to cost, after the synthesis of the one that it is made of. A lane has the logic of
+/// that design's lanes, and its memory follows from the fold. Half the pixels per clock are half the logic.
+pub(super) fn expected(design: &Design, of: &Design, silicon: &Silicon) -> f64 {
+    let Silicon { unit, units, array, .. } = silicon;
+    if !of.organization().folds() {
+        let lut_total_packed = array.lut_total_packed / 2;
+        return Device::xcvu9p().cost(&Area { lut_total_packed, ..*array });
+    }
+    let (logic, lanes) =
+        (unit.lut_total_packed - unit.lut_memory_packed, u64::from(design.lanes()));
+    let shared = array.lut_total_packed.saturating_sub(units * unit.lut_total_packed);
+    let memory = design.lane_memory();
+    let (luts, blocks) = match memory.kind {
+        MemoryKind::Distributed => (memory.luts, 0),
+        MemoryKind::Block => (0, memory.blocks),
+    };
+    let area = Area {
+        lut_total_packed: shared + lanes * (logic + luts),
+        bram18: lanes * blocks,
+        dsp: array.dsp * lanes / units.max(&1),
+        ff: array.ff * lanes / units.max(&1),
+        ..*array
+    };
+    Device::xcvu9p().cost(&area)
 }
 
 /// The most clocks per frame that reach this many frames per second.
@@ -54,11 +81,14 @@ mod tests {
         let speed = |mhz| Speed { low_clock_mhz: mhz, ..Speed::given(1000.0, 1) };
         let (low, fps) = (60.0, 500.0);
         let fast = |design: &Design| low * 1e6 / real(design.timing().clocks_per_frame()) >= fps;
-        let found = slower(&single, &speed(low), fps).unwrap();
-        assert!(found.fold() > 1 && fast(&found), "{}", found.fold());
-        assert!(!fast(&single.with_fold(found.fold() + 1).unwrap()), "{}", found.fold());
-        assert!(slower(&found, &speed(low), fps).is_none(), "it is as deep already");
-        assert!(slower(&found, &speed(low / 2.0), fps).is_none(), "it is too deep already");
+        let all = slower(&single, &speed(low), fps);
+        assert!(all.iter().all(|design| design.fold() > 1 && fast(design)));
+        let found = &all[0];
+        // No fold with fewer lanes is fast enough.
+        let deeper = (found.fold() + 1..=64).map(|fold| single.with_fold(fold).unwrap());
+        assert!(deeper.filter(fast).all(|deeper| deeper.lanes() == found.lanes()));
+        assert!(slower(found, &speed(low), fps).is_empty(), "it is as deep already");
+        assert!(slower(found, &speed(low / 2.0), fps).is_empty(), "it is too deep already");
     }
 
     /// 1,574 clocks or a little more take two pixels at a clock, 3,110 take one.
@@ -68,9 +98,26 @@ mod tests {
                     pixels_per_clock = 2\n";
         let double = Config::from_toml(text).unwrap().validate().unwrap();
         let speed = Speed { low_clock_mhz: 60.0, ..Speed::given(1000.0, 1) };
-        let single = slower(&double, &speed, 15_000.0).unwrap();
-        assert_eq!(single.pixels_per_clock(), 1);
-        assert!(slower(&double, &speed, 30_000.0).is_none(), "one pixel at a clock is too slow");
-        assert!(slower(&single, &speed, 1.0).is_none(), "there are no fewer");
+        let single = slower(&double, &speed, 15_000.0);
+        assert_eq!(single.iter().map(Design::pixels_per_clock).collect::<Vec<_>>(), [1]);
+        assert!(slower(&double, &speed, 30_000.0).is_empty(), "one pixel at a clock is too slow");
+        assert!(slower(&single[0], &speed, 1.0).is_empty(), "there are no fewer");
+    }
+
+    /// Four lanes of 16 regions from eight of 8: their logic is half, and each has a block RAM instead of 128 LUTs.
+    #[test]
+    fn a_slower_design_has_fewer_lanes_and_the_memory_of_its_fold() {
+        let text =
+            "[frame]\nwidth = 64\nheight = 64\n[hardware]\norganization = \"serial\"\nfold = 8\n";
+        let eight = Config::from_toml(text).unwrap().validate().unwrap();
+        let unit = Area { lut_total_packed: 168, lut_memory_packed: 128, ..Area::default() };
+        let array = Area { lut_total_packed: 300 + 8 * 168, ff: 80, ..Area::default() };
+        let silicon = Silicon { unit, units: 8, array, levels: 7 };
+        let cost = |fold: u32| expected(&eight.with_fold(fold).unwrap(), &eight, &silicon);
+        let area =
+            |lut_total_packed, bram18, ff| Area { lut_total_packed, bram18, ff, ..Area::default() };
+        let device = Device::xcvu9p();
+        assert!((cost(16) - device.cost(&area(300 + 4 * 40, 4, 40))).abs() < 1e-12);
+        assert!((cost(8) - device.cost(&array)).abs() < 1e-12);
     }
 }

@@ -35,10 +35,9 @@ pub(super) fn rough(design: &Design) -> f64 {
             let lanes = f64::from(design.lanes());
             let logic = (2.5 + features + if median { 0.5 } else { 0.0 }) * bits;
             let memory = design.lane_memory();
-            let words = real(memory.depth);
             let (luts, blocks) = match memory.kind {
-                MemoryKind::Distributed => ((words / 64.0).ceil() * bits, 0.0),
-                MemoryKind::Block => (0.0, (words * bits / 18_432.0).ceil()),
+                MemoryKind::Distributed => (real(memory.luts), 0.0),
+                MemoryKind::Block => (0.0, real(memory.blocks)),
             };
             (300.0 + lanes * (logic + luts)) / real(device.lut)
                 + lanes * blocks / real(device.bram18)
