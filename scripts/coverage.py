@@ -2,11 +2,12 @@
 """Called by coverage.sh: adds up Verilator's coverage points per module and compares the holes with those that are explained.
 
 A line of a leaf is one point, covered where one design covers it: what a feature needs is idle in a design without it. So is a
-bit of a serial leaf: one sequencer and its controls are there for all features and feeds, and much of it stays still in each
-design. Other bits are points of each design, because the same bit is the highest of one and not of another; so are the lines of a
-rendered module, which are other lines in another design.
+bit of a serial or a raster leaf: one sequencer, or one core, is there for all features and feeds, and much of it stays still in
+each design. Other bits are points of each design, because the same bit is the highest of one and not of another; so are the lines
+of a rendered module, which are other lines in another design.
 """
 import collections
+import functools
 import os
 import re
 import sys
@@ -15,7 +16,7 @@ WORK, NAMES = sys.argv[1], sys.argv[2:]
 HOLES = "scripts/coverage_holes.txt"
 RENDERED = ("rpu", "rcm")
 QUICK = 2  # designs of `--quick`
-# A bit has toggled when it rose and fell; a start at random counts as one change.
+# A bit has toggled when it rose and fell. All start at 0, so one that is 1 from reset on has risen.
 LEAST = {"line": 1, "toggle": 2}
 
 
@@ -30,8 +31,18 @@ def points(name):
         kind = {"v_line": "line", "v_branch": "line", "v_toggle": "toggle"}.get(kind)
         if kind and "rtl/" in fields["f"]:
             module = module.split("__")[0]
-            what = fields["o"] if kind == "toggle" else f"line {fields['l']} {fields['o']}"
+            what = fields["o"] if kind == "toggle" else f"{fields['o']} {line_of(os.path.join(WORK, name, fields['f']), fields['l'])}"
             yield kind, module, what, int(match.group(2))
+
+
+@functools.cache
+def lines_of(path):
+    return open(path).read().splitlines()
+
+
+def line_of(path, number):
+    """A line is called by its text, so that a reason still holds where it has moved; its number is only for us."""
+    return f"{lines_of(path)[int(number) - 1].strip()}\n{number}"
 
 
 def explained():
@@ -52,7 +63,7 @@ def main():
     seen = collections.defaultdict(list)
     for name in NAMES:
         for kind, module, what, count in points(name):
-            is_merged = module.startswith("serial_") or (kind == "line" and module not in RENDERED)
+            is_merged = module.startswith(("serial_", "raster_")) or (kind == "line" and module not in RENDERED)
             design = None if is_merged else name
             point = kind, module, what, design
             best[point] = max(best[point], count)
@@ -65,9 +76,9 @@ def main():
         if count >= LEAST[kind]:
             covered[module, kind] += 1
         else:
-            signal = re.sub(r"\[\d+\]$", "", what)
+            signal = re.sub(r"\[\d+\]$|\n\d+$", "", what)
             where = design or " ".join(seen[kind, module, what, design])
-            holes[kind, module, signal][where].append(what[len(signal):])
+            holes[kind, module, signal][where].append(what[len(signal):].strip())
     modules = sorted({module for module, _ in total})
     print(f"\n{'module':20} {'lines':>12} {'toggles':>14}")
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Line and toggle coverage of the Verilog under the vectors of `foveate cosim`, per module, over a few designs, and what the
 # vectors never reach. The vectors are those that co-simulation gives to Icarus; they are replayed in Verilator. A serial
-# design is an array of 3x2 regions.
+# design is an array of 3x2 regions, a raster core has 4x3 or more.
 # What docs/verification.md explains is listed in scripts/coverage_holes.txt; any other hole is an error. Installs what is missing.
 #
 #   scripts/coverage.sh [--quick]
@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
         context->time(top->nextTimeSlot());
     }
     top->final();
+    // The sum of what instances count would say of a bit that is 1 in two of them that it moves.
+    context->coveragep()->forcePerInstance(true);
     context->coveragep()->write("coverage.dat");
 }
 END
@@ -45,10 +47,13 @@ corner="{feature='corner',level=20,min_score=3}"
 all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30}]"
 fraction="{feature='mad',min_score=4,mean_fraction_bits=2}"
 serial="--level rcm --grid 3x2 --set hardware.organization='serial'"
+raster="--level rcm --set hardware.organization='raster'"
+deep="--set hardware.pipelining='deep'"
 names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
-    names+=(shared raw odd large serial_sent serial_all serial_none serial_shared serial_raster serial_block)
+    names+=(shared raw odd large serial_sent serial_all serial_none serial_shared serial_raster serial_block
+        serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
@@ -60,6 +65,15 @@ if [ "${1:-}" != --quick ]; then
         "paper $serial --set region.size=4 --set region.neighborhood='shared' --set temporal.reference='last-sent' --set hardware.fold=2"
         "paper $serial --set region.size=5 --set region.neighborhood='shared' --set hardware.feed='raster' --set hardware.fold=4"
         "bare $serial --set region.size=16 --set frame.pixel_bits=10 --set hardware.fold=4 --set spatial=[$edge,$fraction] --set render.payload='raw'"
+        "paper $serial $deep --set region.size=4 --set temporal.reference='last-sent' --set hardware.fold=2 --set spatial=$all"
+        "bare $serial $deep --set region.size=5 --set hardware.fold=2 --set hardware.feed='raster' --set hardware.memory='block' --set spatial=[$corner,$fraction]"
+        "paper $deep --set temporal.reference='last-sent' --set spatial=$all"
+        "paper $raster --grid 4x3 --set region.size=4"
+        "paper $raster --grid 5x6 --rounds 6 --set region.size=5 --set denoise.filter='none' --set spatial=[$fraction,{feature='variance',min_score=30}] --set temporal.reference='last-sent'"
+        "paper $raster --grid 8x3 $deep --set region={size=8,neighborhood='shared'} --set frame={width=222,height=222} --set hardware.pixels_per_clock=4 --set spatial=$all --set decision.combine='all' --set temporal.reference='last-sent' --set render={payload='raw',irrelevant='hold'}"
+        "paper $raster --grid 8x2 --set region.size=8 --set frame={width=218,height=222} --set hardware.pixels_per_clock=4 --set hardware.store='external'"
+        "bare $raster --grid 5x3 $deep --set region.size=5 --set frame={width=222,height=222} --set hardware.store='single-port' --set spatial=[$corner]"
+        "bare $raster --grid 4x3 $deep --set region.size=6 --set frame={width=224,height=222} --set hardware.forward=false --set spatial=[{feature='mad',min_score=4}]"
     )
 fi
 for index in "${!names[@]}"; do
@@ -73,12 +87,13 @@ for index in "${!names[@]}"; do
     (
         cd "$KEEP"
         top=rpu_replay
-        [[ $name != serial* ]] || top=rcm_replay
+        [[ $name != serial* && $name != raster* ]] || top=rcm_replay
         mapfile -t files < <(find . -name '*.v' | sort)
         verilator --cc --exe --build --timing --top-module "$top" --prefix Vreplay --Mdir build --coverage-line --coverage-toggle \
-            -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique "${files[@]}" "$work/main.cpp" >build.log 2>&1 ||
+            -MAKEFLAGS OPT_FAST=-O0 -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique "${files[@]}" "$work/main.cpp" >build.log 2>&1 ||
             { tail -5 build.log >&2 && exit 3; }
-        build/Vreplay +vectors=vectors.hex +verilator+rand+reset+2 >run.log
+        # From 0, because a constant that starts at random may count as one that moves.
+        build/Vreplay +vectors=vectors.hex +verilator+rand+reset+0 >run.log
         grep -q '^PASS' run.log || { echo "coverage: the replay of $name does not pass, see $KEEP/run.log" >&2 && exit 1; }
     )
 done
