@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Mutants of the Verilog of both organizations: the co-simulation vectors must kill every one that is neither proven equivalent
+# Mutants of the Verilog of all organizations: the co-simulation vectors must kill every one that is neither proven equivalent
 # nor waived in mutation/survivors.txt with a reason. Any other survivor is an error, and so is a waiver that nothing needs.
 # Installs what is missing.
 #

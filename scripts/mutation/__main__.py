@@ -19,8 +19,8 @@ import shutil
 import sys
 import time
 
-from design import LATER, ORGANIZATIONS, USUAL, WORK, designs, recorded
-from mutants import drawn, pools, wanted
+from design import LATER, ORGANIZATIONS, WORK, designs, recorded
+from mutants import drawn, only, pools, wanted
 from verdicts import REASONS, Journal, claimed_equal, judge, judge_longer, prove, reasons, replay
 
 
@@ -30,6 +30,8 @@ def examine(organization, options, excuses, used):
     all_of = recorded(organization, options.jobs, options.sample)
     found = pools(all_of, options.seed)
     takes = wanted(found, options.count)
+    if options.modules:
+        found = only(found, options.modules)
     print(f"{organization}: {len(all_of)} designs recorded in {time.monotonic() - began:.0f} s, {len(found)} modules with"
           f" {sum(map(len, found.values()))} possible mutants", flush=True)
     if options.sample:
@@ -131,7 +133,9 @@ def print_counts(organization, found, mutants, open_ones, seconds):
 
 def main():
     parser = argparse.ArgumentParser(prog="mutation.sh", description="Mutants of the Verilog against the co-simulation vectors.")
-    parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help=f"{', '.join(ORGANIZATIONS)}; by default {' and '.join(USUAL)}")
+    parser.add_argument("organizations", nargs="*", metavar="ORGANIZATION", help=f"{', '.join(ORGANIZATIONS)}; by default all")
+    parser.add_argument("--modules", nargs="+", metavar="NAME",
+                        help="only those mutants of a whole run that are in these modules: serial_lane, rcm, rcm@deep, 'raster_c*'")
     parser.add_argument("--count", type=int, default=320, help="mutants of an organization (%(default)s)")
     parser.add_argument("--sample", type=int, metavar="N",
                         help="only N of them, evenly spread, in the smallest designs; the others only for survivors")
@@ -144,15 +148,18 @@ def main():
     parser.add_argument("--resume", action="store_true",
                         help="go on where a run was ended; what other designs or vectors touch is found anew")
     options = parser.parse_args()
-    organizations = options.organizations or USUAL
+    organizations = options.organizations or ORGANIZATIONS
     if set(organizations) - set(ORGANIZATIONS):
         parser.error(f"an organization is one of {', '.join(ORGANIZATIONS)}, not {' '.join(organizations)}")
+    if options.modules and len(organizations) != 1:
+        parser.error("--modules are those of one organization")
     if not options.resume:
         shutil.rmtree(WORK, ignore_errors=True)
     excuses, used = reasons(), set()
     open_ones = sum(examine(organization, options, excuses, used) for organization in organizations)
     unused = []
-    if not options.sample and options.prove and list(organizations) == USUAL and (options.seed, options.count) == (1, 320):
+    is_whole = list(organizations) == ORGANIZATIONS and (options.seed, options.count) == (1, 320)
+    if is_whole and options.prove and not (options.sample or options.modules):
         unused = [key for key in excuses if key not in used]
         for place, was, now in unused:
             print(f"{REASONS}: no survivor needs this; remove it: {place}\n    - {was}\n    + {now}")

@@ -19,8 +19,6 @@ WORK = os.path.join(TARGET, "mutation")
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 DESIGNS = "mutation/designs.txt"
 ORGANIZATIONS = ["pipelined", "serial", "raster"]
-# Those that are run by default: of the others survivors have not been looked at yet.
-USUAL = ORGANIZATIONS[:2]
 # Rounds and seed of the vectors of each stage.
 STAGES = ((1, 1), (3, 2))
 LATER = 1
@@ -85,12 +83,14 @@ class Design:
         return os.path.getsize(self.vectors[stage])
 
     def digest(self, phase):
-        """Changes with the sources and, where a phase replays them, with the vectors that were recorded first."""
+        """Changes with the sources and, where a phase replays them, with the vectors that were recorded first; with the proofs,
+        where it has any."""
         with self.lock:
             if phase not in self.digests:
                 replayed = phase == "long" or phase == "short" and not self.late
                 vectors = open(self.vectors[LATER if self.late else 0], "rb").read() if replayed else b""
-                texts = json.dumps([self.texts, STAGES], sort_keys=True).encode()
+                method = "" if phase == "long" else open(proof.__file__).read()
+                texts = json.dumps([self.texts, STAGES, method], sort_keys=True).encode()
                 self.digests[phase] = hashlib.sha256(texts + vectors).hexdigest()
             return self.digests[phase]
 

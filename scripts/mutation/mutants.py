@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Mutants: one edit of one module each, and which of them are drawn."""
 import collections
+import fnmatch
 import random
 import re
+import sys
 
 from edits import edits
 
@@ -85,6 +87,15 @@ def wanted(pools, count):
             break
         takes[max(open_places, key=lambda place: len(pools[place]) ** 0.5 / (takes[place] + 1))] += 1
     return takes
+
+
+def only(pools, patterns):
+    """The modules that a run names: a leaf, a rendered module with or without its design, or a pattern as of file names."""
+    named = {pattern: [place for place in pools if fnmatch.filter((place, place.partition("@")[0]), pattern)] for pattern in patterns}
+    nothing = [pattern for pattern in named if not named[pattern]]
+    if nothing:
+        sys.exit(f"mutation: no module is called {' or '.join(nothing)}; the modules are {' '.join(pools)}")
+    return {place: pools[place] for place in pools if any(place in places for places in named.values())}
 
 
 def drawn(pools, takes, pool, check):

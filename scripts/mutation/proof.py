@@ -17,11 +17,14 @@ import threading
 
 YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
 # Memories stay as they are where netlists are only compared.
-READ = ["proc", "setattr -mod -unset keep_hierarchy *", "flatten", "memory -nomap", "opt -full"]
-SMALL = ["wreduce", "opt -full", "wreduce -memx", "opt -full", "opt_clean -purge"]
+READ = ["proc", "setattr -mod -unset keep_hierarchy *", "flatten", "memory -nomap"]
+SMALL = ["opt -full", "wreduce", "opt -full", "wreduce -memx", "opt -full", "opt_clean -purge"]
 # Memories with a name; those without one are constants, and stay inside.
 CUT = ["expose -evert t:$mem_v2"]
-BITS = ["memory_map", "opt -full", "splitnets -ports", "opt_clean -purge"]
+# Before anything is simplified: of a register that is never loaded Yosys makes an unknown value, and whatever is compared with
+# that is equal.
+ZERO = ["setundef -undriven -zero", "zinit -all"]
+BITS = ["memory_map", *ZERO, "opt -full", "splitnets -ports", "opt_clean -purge"]
 MITER = ["miter -equiv -flatten gold gate miter", "hierarchy -top miter", "opt -full", "techmap", "opt -full", "dffunmap",
          "setundef -undriven -zero", "setundef -init -zero", "zinit -all", "opt -full", "dffunmap", "abc -g AND", "opt_clean"]
 # Random inputs from reset, for a few seconds: most of what is not equal ends here.
@@ -70,16 +73,23 @@ def run(command, seconds=READING, **options):
 
 
 def netlist(design, work, module=None, text=None, inside=None):
-    """The netlist with all names of its own numbered, and how many nets have no driver or more than one."""
+    """The netlist, whatever the order in which Yosys made its parts, and how many nets have no driver or more than one."""
     out = os.path.join(folder(work), "netlist.il")
     script = load(design, sources(design, work, module, text), inside)
     script += READ[:1] + ["tee -q -o " + out + ".check check"] + READ[1:] + SMALL
-    script += ["rename -top top", "rename -enumerate", f"write_rtlil {out}"]
+    script += ["rename -top top", "autoname", f"write_rtlil {out}"]
     if run([YOSYS, "-q", "-p", "; ".join(script)]) is None:
         return None, 0
     found = re.search(r"found and reported (\d+) problems", open(out + ".check").read(), re.I)
     cells = re.sub(r"^\s*attribute (?!\\init ).*\n|^#.*\n|^autoidx .*\n", "", open(out).read(), flags=re.M)
-    return cells, int(found.group(1))
+    return in_order(cells), int(found.group(1))
+
+
+def in_order(text):
+    """The text of a netlist whose parts have names that tell where they are, not when they were made: the parts sorted, each with
+    the initial value of its wire."""
+    part = re.compile(r"^(?:  attribute .*\n)*  (?:wire|memory|cell|connect) .*\n(?:    .*\n|  end\n)*", re.M)
+    return part.sub("", text) + "".join(sorted(part.findall(text)))
 
 
 def equal(design, work, module, text, inside=None):
@@ -96,7 +106,7 @@ def proven(design, work, sides, inside, cut):
     out = os.path.join(folder(work), "miter.aig")
     script = []
     for side, paths in sides.items():
-        script += load(design, paths, inside) + READ + ["opt_clean -purge", f"tee -q -o {out}.{side} dump t:$mem_v2"]
+        script += load(design, paths, inside) + READ + ZERO + ["opt -full", "opt_clean -purge", f"tee -q -o {out}.{side} dump t:$mem_v2"]
         script += (CUT if cut else []) + BITS + [f"rename -top {side}", f"design -stash {side}"]
     script += [f"design -copy-from {side} -as {side} {side}" for side in sides] + MITER + [f"write_aiger -zinit {out}"]
     if run([YOSYS, "-q", "-p", "; ".join(script)]) is None:

@@ -8,9 +8,10 @@ from types import SimpleNamespace
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "mutation"))
 
+import proof  # noqa: E402
 import verdicts  # noqa: E402
 from edits import edits  # noqa: E402
-from mutants import Mutant, drawn, wanted  # noqa: E402
+from mutants import Mutant, drawn, only, wanted  # noqa: E402
 from verilog import declared, literals, partners, statements, tokens  # noqa: E402
 
 MODULE = """\
@@ -106,6 +107,13 @@ class Drawing(unittest.TestCase):
         self.assertEqual(takes["small"], 3)
         self.assertGreater(takes["large"], takes["middle"])
 
+    def test_modules_are_named_with_or_without_their_design_or_by_a_pattern(self):
+        pools = dict.fromkeys(["serial_lane", "serial_group", "rcm@deep", "rcm@plain", "rpu@deep"])
+        self.assertEqual(list(only(pools, ["rcm", "serial_lane"])), ["serial_lane", "rcm@deep", "rcm@plain"])
+        self.assertEqual(list(only(pools, ["*@deep"])), ["rcm@deep", "rpu@deep"])
+        with self.assertRaisesRegex(SystemExit, "no module is called serial_lanes"):
+            only(pools, ["rcm", "serial_lanes"])
+
     def test_a_refused_mutant_is_replaced_by_the_next(self):
         pool = [SimpleNamespace(number=number, verdict=None, place=lambda: "leaf") for number in range(5)]
 
@@ -114,6 +122,64 @@ class Drawing(unittest.TestCase):
 
         kept = drawn({"leaf": pool}, {"leaf": 2}, SimpleNamespace(map=map), check)
         self.assertEqual([mutant.number for mutant in kept], [2, 3])
+
+
+class Netlists(unittest.TestCase):
+    WIRE = "  wire \\{}\n"
+    CELL = "  cell $dff \\{}\n    parameter \\WIDTH 1\n    connect \\Q \\{}\n  end\n"
+
+    def text(self, *parts):
+        return proof.in_order("module \\top\n" + "".join(parts) + "end\n")
+
+    def test_the_order_of_parts_tells_nothing(self):
+        parts = [self.WIRE.format("a"), self.WIRE.format("b"), self.CELL.format("x", "a"), self.CELL.format("y", "b")]
+        self.assertEqual(self.text(*parts), self.text(*reversed(parts)))
+        self.assertEqual(self.text(*parts).count("\n"), 12)
+
+    def test_what_a_cell_drives_and_how_a_wire_begins_tells_them_apart(self):
+        one, zero = "  attribute \\init 1'1\n", "  attribute \\init 1'0\n"
+        a, b = self.WIRE.format("a"), self.WIRE.format("b")
+        self.assertNotEqual(self.text(one, a, zero, b), self.text(zero, a, one, b))
+        ways = [[self.CELL.format("x", one), self.CELL.format("y", other)] for one, other in ("ab", "ba")]
+        self.assertNotEqual(*(self.text(*way) for way in ways))
+
+
+class Proofs(unittest.TestCase):
+    """With Yosys and ABC."""
+    DELAY = """\
+module delay (input wire clk_i, input wire we_i, input wire [1:0] at_i, input wire bit_i, output wire bit_o, output wire word_o);
+    reg bit_q, more_q, read_q;
+    reg words_q[0:3];
+    assign bit_o = bit_q && more_q;
+    assign word_o = read_q;
+    always @(posedge clk_i) begin
+        bit_q  <= bit_i;
+        more_q <= bit_i;
+        read_q <= words_q[at_i];
+        if (we_i) words_q[at_i] <= bit_i;
+    end
+endmodule
+"""
+
+    def equal(self, was, now):
+        self.assertIn(was, self.DELAY)
+        with tempfile.TemporaryDirectory() as work:
+            os.mkdir(os.path.join(work, "rtl"))
+            with open(os.path.join(work, "rtl", "delay.v"), "w") as out:
+                out.write(self.DELAY)
+            design = SimpleNamespace(files=["rtl/delay.v"], bench=None, sources=work, top="delay", chparam=lambda: "")
+            return proof.equal(design, work, "delay", self.DELAY.replace(was, now))
+
+    def test_another_form_of_the_same_is_equal(self):
+        self.assertTrue(self.equal("bit_q && more_q", "more_q"))
+
+    def test_a_register_that_is_never_loaded_is_not_equal(self):
+        self.assertFalse(self.equal("bit_q  <= bit_i;", "bit_q  <= bit_q;"))
+        self.assertFalse(self.equal("read_q <= words_q[at_i];", "read_q <= read_q;"))
+
+    def test_a_memory_that_is_never_written_is_not_equal(self):
+        self.assertFalse(self.equal("if (we_i)", "if (we_i && !we_i)"))
+        self.assertFalse(self.equal("<= bit_i;\n    end", "<= words_q[at_i];\n    end"))
 
 
 class Reasons(unittest.TestCase):
