@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Table I for every region in its turn: votes, SRS, TRS, active. The reference is the previous frame.
+module properties #(parameter ALL = 0, parameter DEEP = 0) (
+    input wire clk_i, rst_i, judged, input wire [8:0] counts, input wire [2:0] edge_min, corner_min, temporal_min
+);
+    `include "reset.vh"
+    localparam REGIONS = 5, PIXELS = 4;
+    localparam WIDTH = 12 + 3;  // of what is on the ports with a decision
+    wire decided, will_be_active, mark, decision_valid, srs, trs, active;
+    wire [2:0] region, edges, corners, changes;
+    wire unused_mad, unused_variance;
+    raster_decision #(
+        .EDGE(1), .CORNER(1), .ALL(ALL), .DEEP(DEEP), .PIXELS(PIXELS),
+        .COUNT_BITS(3), .REGIONS(REGIONS), .REGION_BITS(3), .MAD_BITS(1), .VARIANCE_BITS(1)
+    ) dut (
+        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .counts_i(counts), .mad_i(1'b0), .variance_i(1'b0),
+        .edge_min_i(edge_min), .corner_min_i(corner_min), .mad_min_i(1'b1), .variance_min_i(1'b0),
+        .temporal_min_i(temporal_min), .lost_i(1'b0), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
+        .will_be_active_o(will_be_active), .mark_o(mark), .decision_valid_o(decision_valid), .region_o(region),
+        .srs_o(srs), .trs_o(trs), .active_o(active), .edge_score_o(edges), .corner_score_o(corners),
+        .mad_score_o(unused_mad), .variance_score_o(unused_variance), .temporal_count_o(changes)
+    );
+
+    // By the contract. Corners are the upper count.
+    reg [2:0] turn = 3'd0;
+    wire edge_vote = counts[5:3] >= edge_min;
+    wire corner_vote = counts[8:6] >= corner_min;
+    wire relevant = ALL ? edge_vote && corner_vote : edge_vote || corner_vote;
+    wire changes_enough = counts[2:0] >= temporal_min;
+    reg [(1+DEEP)*WIDTH-1:0] expected = 0;
+    reg [DEEP:0] due = 0;
+    always @(posedge clk_i) begin
+        if (judged) turn <= turn == REGIONS - 1 ? 3'd0 : turn + 3'd1;
+        expected <= {expected, {relevant, changes_enough, relevant && changes_enough, turn, counts}};
+        due <= {due, judged};
+        if (rst_i) begin
+            turn <= 3'd0;
+            due <= 0;
+        end
+    end
+    always @* if (started) begin
+        assert(decision_valid == due[DEEP]);
+        if (decision_valid)
+            assert({srs, trs, active, region, corners, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
+        else assert(!srs && !trs && !active);
+    end
+endmodule
