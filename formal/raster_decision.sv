@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Table I for every region in its turn: votes, SRS, TRS, active. The reference is the previous frame.
-module properties #(parameter ALL = 0, parameter DEEP = 0) (
-    input wire clk_i, rst_i, judged, input wire [8:0] counts, input wire [2:0] edge_min, corner_min, temporal_min
+// Table I for every region in its turn: votes, SRS, TRS, active, and the count that stands for changes where the region has
+// no reference (LAST_SENT). No region is lost here. A region is judged two clocks after a reset at the earliest: it takes
+// rows of pixels.
+module properties #(
+    parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 0, parameter DEEP = 0
+) (
+    input wire clk_i, rst_i, judged, lost, input wire [8:0] counts, input wire [2:0] edge_min, corner_min, temporal_min
 );
     `include "reset.vh"
-    localparam REGIONS = 5, PIXELS = 4;
+    localparam REGIONS = 8, PIXELS = 4;
     localparam WIDTH = 12 + 3;  // of what is on the ports with a decision
     wire decided, will_be_active, mark, decision_valid, srs, trs, active;
     wire [2:0] region, edges, corners, changes;
     wire unused_mad, unused_variance;
     raster_decision #(
-        .EDGE(1), .CORNER(1), .ALL(ALL), .DEEP(DEEP), .PIXELS(PIXELS),
+        .EDGE(1), .CORNER(1), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(PIXELS),
         .COUNT_BITS(3), .REGIONS(REGIONS), .REGION_BITS(3), .MAD_BITS(1), .VARIANCE_BITS(1)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .counts_i(counts), .mad_i(1'b0), .variance_i(1'b0),
         .edge_min_i(edge_min), .corner_min_i(corner_min), .mad_min_i(1'b1), .variance_min_i(1'b0),
-        .temporal_min_i(temporal_min), .lost_i(1'b0), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
+        .temporal_min_i(temporal_min), .lost_i(lost), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
         .will_be_active_o(will_be_active), .mark_o(mark), .decision_valid_o(decision_valid), .region_o(region),
         .srs_o(srs), .trs_o(trs), .active_o(active), .edge_score_o(edges), .corner_score_o(corners),
         .mad_score_o(unused_mad), .variance_score_o(unused_variance), .temporal_count_o(changes)
@@ -26,17 +30,30 @@ module properties #(parameter ALL = 0, parameter DEEP = 0) (
     wire edge_vote = counts[5:3] >= edge_min;
     wire corner_vote = counts[8:6] >= corner_min;
     wire relevant = ALL ? edge_vote && corner_vote : edge_vote || corner_vote;
-    wire changes_enough = counts[2:0] >= temporal_min;
+    reg [REGIONS-1:0] referenced = 0;
+    wire [2:0] changed = !LAST_SENT || referenced[turn] ? counts[2:0] : PIXELS;
+    wire changes_enough = changed >= temporal_min;
     reg [(1+DEEP)*WIDTH-1:0] expected = 0;
     reg [DEEP:0] due = 0;
     always @(posedge clk_i) begin
-        if (judged) turn <= turn == REGIONS - 1 ? 3'd0 : turn + 3'd1;
-        expected <= {expected, {relevant, changes_enough, relevant && changes_enough, turn, counts}};
+        if (judged) begin
+            turn <= turn == REGIONS - 1 ? 3'd0 : turn + 3'd1;
+            if (relevant && changes_enough) referenced[turn] <= 1'b1;
+            else if (BLANKS && !relevant) referenced[turn] <= 1'b0;
+        end
+        expected <= {expected, {relevant, changes_enough, relevant && changes_enough, turn, counts[8:3], changed}};
         due <= {due, judged};
         if (rst_i) begin
             turn <= 3'd0;
+            referenced <= 0;
             due <= 0;
         end
+    end
+    reg was_reset = 1'b1;
+    always @(posedge clk_i) was_reset <= rst_i;
+    always @* begin
+        assume(!lost);
+        if (was_reset) assume(!judged);
     end
     always @* if (started) begin
         assert(decision_valid == due[DEEP]);
