@@ -181,6 +181,10 @@ endmodule
         self.assertFalse(self.equal("if (we_i)", "if (we_i && !we_i)"))
         self.assertFalse(self.equal("<= bit_i;\n    end", "<= words_q[at_i];\n    end"))
 
+    def test_an_initial_value_counts_where_an_output_shows_it(self):
+        self.assertFalse(self.equal("read_q;\n    reg", "read_q = 1'b1;\n    reg"))
+        self.assertTrue(self.equal("more_q, read_q;", "more_q = 1'b1, read_q;"))
+
 
 class Reasons(unittest.TestCase):
     def read(self, text):
