@@ -11,7 +11,7 @@ use foveate_design::Design;
 
 use crate::Device;
 use crate::area::Area;
-use crate::speed::number;
+use crate::speed::{most_clocks, number};
 
 /// What a synthesis tells of a fold.
 #[derive(Clone, Debug)]
@@ -33,20 +33,21 @@ pub fn cheapest_fold<E>(
     synthesize: impl Fn(&Design) -> Result<FoldCost, E>,
 ) -> Result<Design, E> {
     let device = Device::xcvu9p();
+    let most = |mhz: f64| most_clocks(mhz * 1e6, number(rate));
     let mut tried: BTreeMap<u32, Option<f64>> = BTreeMap::new();
     let mut fast: Vec<(f64, Design)> = Vec::new();
     // The clock of a folded array is not that of fold 1. If the one with the fewest lanes is too slow at its own, that
     // clock says which folds are tried next.
     let mut planned = synthesize(&single)?.clock_mhz;
     while let Some(mhz) = planned {
-        let folds = single.frugal_folds(most_clocks(mhz, rate));
+        let folds = single.frugal_folds(most(mhz));
         for &fold in &folds {
             if tried.contains_key(&fold) {
                 continue;
             }
             let Ok(folded) = single.with_fold(fold) else { continue };
             let FoldCost { clock_mhz, area } = synthesize(&folded)?;
-            let reaches = |mhz| folded.timing().clocks_per_frame() <= most_clocks(mhz, rate);
+            let reaches = |mhz| folded.timing().clocks_per_frame() <= most(mhz);
             let is_fast = clock_mhz.is_some_and(reaches);
             tried.insert(fold, clock_mhz.filter(|_| !is_fast));
             if is_fast {
@@ -57,16 +58,6 @@ pub fn cheapest_fold<E>(
     }
     let best = fast.into_iter().min_by(|one, other| one.0.total_cmp(&other.0));
     Ok(best.map_or(single, |(_, design)| design))
-}
-
-/// Clocks that a frame may take at so many frames per second.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "positive and far below 2^53"
-)]
-fn most_clocks(mhz: f64, rate: u64) -> u64 {
-    (mhz * 1e6 / number(rate)).floor() as u64
 }
 
 #[cfg(test)]

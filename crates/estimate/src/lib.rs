@@ -44,5 +44,5 @@ pub use route::{
     RouteJob, RouteReport, Routed, Used, place_and_route, render_routes_markdown,
     render_routes_text,
 };
-pub use speed::Speed;
+pub use speed::{Speed, most_clocks};
 pub use synthesis::sources;

@@ -90,6 +90,17 @@ impl Speed {
     }
 }
 
+/// The most clocks per frame that reach this many frames per second at a clock in Hz.
+#[must_use]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "positive and below 2^53"
+)]
+pub fn most_clocks(hertz: f64, fps: f64) -> u64 {
+    (hertz / fps.max(1e-9)).floor() as u64
+}
+
 #[allow(clippy::cast_precision_loss, reason = "clocks of a frame are far below 2^53")]
 pub(crate) fn number(clocks: u64) -> f64 {
     clocks as f64

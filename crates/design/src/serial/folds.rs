@@ -2,7 +2,7 @@
 //! How far a serial design can be folded before it is too slow, and which folds may be the cheapest.
 
 use super::{Phase, SerialTiming};
-use crate::{Design, DesignError, MemoryKind};
+use crate::{Design, DesignError};
 
 impl Design {
     /// The same design with another fold.
@@ -63,11 +63,8 @@ impl Design {
 
     /// RAMB18 of the memories of all lanes.
     fn lane_blocks(&self) -> u64 {
-        let memory = self.lane_memory();
-        match memory.kind {
-            MemoryKind::Distributed => 0,
-            MemoryKind::Block => memory.blocks * u64::from(self.lanes()),
-        }
+        let (_, blocks) = self.lane_memory().taken();
+        blocks * u64::from(self.lanes())
     }
 }
 

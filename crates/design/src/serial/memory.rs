@@ -131,6 +131,15 @@ impl LaneMemory {
         Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, blocks, kind, why }
     }
 
+    /// Memory LUTs and RAMB18 that it takes, built as it is.
+    #[must_use]
+    pub fn taken(&self) -> (u64, u64) {
+        match self.kind {
+            MemoryKind::Distributed => (self.luts, 0),
+            MemoryKind::Block => (0, self.blocks),
+        }
+    }
+
     /// The area of that kind, if a slot has it.
     #[must_use]
     pub fn area(&self, kind: AreaKind) -> Option<&Area> {

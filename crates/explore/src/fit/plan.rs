@@ -2,8 +2,8 @@
 //! Folds before and after a design's clock is known. A clock is estimated from a netlist, and what is to be
 //! synthesized has none: so a planned clock says which folds are tried, and no rate is told at it.
 
-use foveate_design::{Design, MemoryKind};
-use foveate_estimate::{Area, Device, Speed};
+use foveate_design::Design;
+use foveate_estimate::{Area, Device, Speed, most_clocks};
 
 use super::FitRequest;
 use crate::cost::Silicon;
@@ -16,13 +16,13 @@ const PLANNED_HZ: u64 = 50_000_000;
 /// The most clocks that a frame may take, at the clock that was given or at the planned one.
 pub(super) fn max_clocks(request: &FitRequest<'_>) -> Option<u64> {
     let hertz = real(request.clock_hz.unwrap_or(PLANNED_HZ));
-    request.constraints.min_fps.map(|fps| clocks(hertz, fps))
+    request.constraints.min_fps.map(|fps| most_clocks(hertz, fps))
 }
 
 /// The deeper folds of a design that are fast enough at the low end of its clock and may be the cheapest; of an
 /// organization without folds the design with half the pixels per clock, if that is fast enough.
 pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design> {
-    let most = clocks(speed.low_clock_mhz * 1e6, min_fps);
+    let most = most_clocks(speed.low_clock_mhz * 1e6, min_fps);
     if !design.organization().folds() {
         let mut config = design.config().clone();
         config.hardware.pixels_per_clock = Some(design.pixels_per_clock() / 2);
@@ -44,11 +44,7 @@ pub(super) fn expected(design: &Design, of: &Design, silicon: &Silicon) -> f64 {
     let (logic, lanes) =
         (unit.lut_total_packed - unit.lut_memory_packed, u64::from(design.lanes()));
     let shared = array.lut_total_packed.saturating_sub(units * unit.lut_total_packed);
-    let memory = design.lane_memory();
-    let (luts, blocks) = match memory.kind {
-        MemoryKind::Distributed => (memory.luts, 0),
-        MemoryKind::Block => (0, memory.blocks),
-    };
+    let (luts, blocks) = design.lane_memory().taken();
     let area = Area {
         lut_total_packed: shared + lanes * (logic + luts),
         bram18: lanes * blocks,
@@ -57,16 +53,6 @@ pub(super) fn expected(design: &Design, of: &Design, silicon: &Silicon) -> f64 {
         ..*array
     };
     Device::xcvu9p().cost(&area)
-}
-
-/// The most clocks per frame that reach this many frames per second.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "positive and below 2^53"
-)]
-fn clocks(hertz: f64, fps: f64) -> u64 {
-    (hertz / fps.max(1e-9)).floor() as u64
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! A rough cost of a design before it is synthesized, only to try the promising ones first. What is
 //! chosen is chosen by what Yosys counts.
 
-use foveate_design::{Design, FeatureKind, Filter, MemoryKind, Organization, RasterMemory};
+use foveate_design::{Design, FeatureKind, Filter, Organization, RasterMemory};
 use foveate_estimate::Device;
 
 use crate::row::real;
@@ -34,13 +34,9 @@ pub(super) fn rough(design: &Design) -> f64 {
                 .sum();
             let lanes = f64::from(design.lanes());
             let logic = (2.5 + features + if median { 0.5 } else { 0.0 }) * bits;
-            let memory = design.lane_memory();
-            let (luts, blocks) = match memory.kind {
-                MemoryKind::Distributed => (real(memory.luts), 0.0),
-                MemoryKind::Block => (0.0, real(memory.blocks)),
-            };
-            (300.0 + lanes * (logic + luts)) / real(device.lut)
-                + lanes * blocks / real(device.bram18)
+            let (luts, blocks) = design.lane_memory().taken();
+            (300.0 + lanes * (logic + real(luts))) / real(device.lut)
+                + lanes * real(blocks) / real(device.bram18)
         }
         // Read off docs/organizations.md: a core with its store inside, and what each pixel of a word adds.
         Organization::Raster => {
