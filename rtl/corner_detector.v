@@ -52,7 +52,10 @@ module corner_detector #(
         left_q[0+:WIDTH]
     };
 
-    wire [WIDTH:0] brighter_than = {1'b0, center} + {1'b0, level_i};
+    // What a neighbor must exceed, or stay below, on one side or the other. A bound out of the range of pixels has its
+    // highest bit set: then no neighbor does.
+    wire [WIDTH:0] high = {1'b0, center} + {1'b0, level_i};
+    wire [WIDTH:0] low = {1'b0, center} - {1'b0, level_i};
     wire [7:0] brighter;
     wire [7:0] darker;
     wire [7:0] bright;  // brighter and darker, as the runs see them
@@ -63,9 +66,9 @@ module corner_detector #(
     genvar i;
     generate
         for (i = 0; i < 8; i = i + 1) begin : g_ring
-            wire [WIDTH:0] neighbor = {1'b0, ring[i*WIDTH+:WIDTH]};
-            assign brighter[i]   = neighbor > brighter_than;
-            assign darker[i]     = neighbor + {1'b0, level_i} < {1'b0, center};
+            wire [WIDTH-1:0] neighbor = ring[i*WIDTH+:WIDTH];
+            assign brighter[i]   = !high[WIDTH] && neighbor > high[WIDTH-1:0];
+            assign darker[i]     = !low[WIDTH] && neighbor < low[WIDTH-1:0];
             assign bright_run[i] = bright[i] && bright[(i+1)%8] && bright[(i+2)%8]
                                    && bright[(i+3)%8] && bright[(i+4)%8];
             assign dark_run[i]   = dark[i] && dark[(i+1)%8] && dark[(i+2)%8]

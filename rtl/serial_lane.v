@@ -66,8 +66,8 @@ module serial_lane #(
     input  wire                    double_i,         // the operand is the accumulator itself
     input  wire                    divide_i,         // keep the sum only if it is not negative
     input  wire                    deviate_i,        // the operand is |2^FRACTION * word - aux|
-    input  wire                    masked_i,         // ... is 0 unless its bit under the constant is 1
-    input  wire                    from_aux_i,       // ... is aux
+    input  wire                    masked_i,         // do not add it unless its bit under the constant is 1
+    input  wire                    from_aux_i,       // the operand is aux
     // Chain of scores. Nothing clears it: scores that move on leave zeros behind. What is in it after a reset
     // moves on with the temporal counts of the first frame, which are not shown.
     input  wire                    shift_i,          // take score and flags of the lane behind
@@ -150,18 +150,19 @@ module serial_lane #(
         end
 
         if (SUMS) begin : g_sums
+            localparam MEAN_BITS = WIDTH + FRACTION;
             wire [ACC_BITS-1:0] deviation;
             wire [ACC_BITS-1:0] choice;
             wire                deviates = MAD != 0 && deviate_i;
             wire                negative;
+            wire                takes;     // the accumulator takes the sum, if it is enabled
 
             if (MAD != 0) begin : g_deviation
-                localparam MEAN_BITS = WIDTH + FRACTION;
                 wire [MEAN_BITS:0] scaled = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word} << FRACTION;
                 wire [MEAN_BITS:0] difference = scaled - {1'b0, aux[MEAN_BITS-1:0]};
                 wire unused_aux = |aux;  // one bit of two, where a mean has but one
                 assign negative = difference[MEAN_BITS];
-                assign deviation = {{(ACC_BITS - MEAN_BITS) {negative}}, difference[MEAN_BITS-1:0]};
+                assign deviation = {{(ACC_BITS - MEAN_BITS) {1'b0}}, difference[MEAN_BITS-1:0]};
             end else begin : g_no_deviation
                 wire unused_deviate = deviate_i;
                 assign negative = 1'b0;
@@ -172,16 +173,24 @@ module serial_lane #(
                 wire [ACC_BITS-1:0] wide_aux = {{(ACC_BITS - AUX_BITS) {1'b0}}, aux};
                 wire [ACC_BITS-1:0] plain = from_aux_i ? wide_aux : wide_word;
                 wire chosen = !masked_i || |(plain & constant_i);
-                assign choice = (from_memory_i || from_aux_i) ? plain & {ACC_BITS{chosen}}
-                                                              : constant_i;
+                assign choice = (from_memory_i || from_aux_i) ? plain : constant_i;
+                if (DEEP != 0) begin : g_late
+                    reg chosen_q;
+                    always @(posedge clk_i) chosen_q <= chosen;
+                    assign takes = chosen_q;
+                end else begin : g_now
+                    assign takes = chosen;
+                end
             end else begin : g_plain
                 wire unused_masked = masked_i || from_aux_i;
                 assign choice = from_memory_i ? wide_word : constant_i;
+                assign takes  = 1'b1;
             end
 
             assign found = deviates ? deviation : choice;
 
-            // A difference below zero is inverted, too.
+            // A difference below zero is inverted, too, in the bits of a mean. Those above are 0, and stay so: nothing
+            // else is inverted when deviations are added.
             wire turned;
             if (DEEP != 0 && MAD != 0) begin : g_below
                 reg below_q;
@@ -191,7 +200,9 @@ module serial_lane #(
                 assign turned = deviates ? negative : invert;
             end
 
-            assign operand = double_i ? acc_q : source ^ {ACC_BITS{turned}};
+            wire [ACC_BITS-1:0] inverted =
+                source ^ {{(ACC_BITS - MEAN_BITS) {invert}}, {MEAN_BITS{turned}}};
+            assign operand = double_i ? acc_q : inverted;
 
             carry_adder #(.WIDTH(ACC_BITS)) u_sum (
                 .plain_i(acc_q), .other_i(operand), .carry_i(turned && carry_i), .sum_o(sum)
@@ -206,7 +217,7 @@ module serial_lane #(
 
             always @(posedge clk_i) begin
                 if (clear_i) acc_q <= {ACC_BITS{1'b0}};
-                else if (enable_i && (!divide_i || stays)) acc_q <= sum;
+                else if (enable_i && takes && (!divide_i || stays)) acc_q <= sum;
             end
         end else begin : g_no_sums
             wire unused_sums = double_i || divide_i || deviate_i || masked_i || from_aux_i;
@@ -234,8 +245,8 @@ module serial_lane #(
             // A run goes on with a hit of the same sign, starts anew with one of the other, and ends
             // without. Once it has been five long it stays.
             reg  [4:0] run_q;
-            reg        positive_q;
-            wire       on = !run_corner_i || (stays && positive_q != acc_q[ACC_BITS-1]);
+            reg        negative_q;
+            wire       on = !run_corner_i || (stays && negative_q == acc_q[ACC_BITS-1]);
             wire       reaches = run_q[3] && on;
             assign five = run_q[4];
             assign hit = count_corner_i ? five || reaches : stays || run_q[0];
@@ -244,7 +255,7 @@ module serial_lane #(
                 if (run_clear_i) run_q <= 5'b00000;
                 else if (run_i && !five && (stays || run_corner_i))
                     run_q <= {reaches, run_q[2:0] & {3{on}}, stays};
-                if (run_i) positive_q <= !acc_q[ACC_BITS-1];
+                if (run_i) negative_q <= acc_q[ACC_BITS-1];
             end
         end else if (MEDIAN != 0) begin : g_run
             reg [4:0] run_q;
@@ -280,6 +291,12 @@ module serial_lane #(
     wire [CHAIN_BITS-1:0] moved = shift_i ? word_i : fetch_i ? fetched : keep_i ? summed : chain_q;
     wire scores = count_i && hit;
     wire scored;
+    wire [CHAIN_BITS-1:0] counted;
+
+    // What moves is on the direct input of the carry chain, so a hit takes no second LUT of the lowest bit.
+    carry_adder #(.WIDTH(CHAIN_BITS)) u_score (
+        .plain_i(moved), .other_i({{(CHAIN_BITS - 1) {1'b0}}, scored}), .carry_i(1'b0), .sum_o(counted)
+    );
 
     generate
         if (DEEP != 0) begin : g_scored
@@ -304,7 +321,7 @@ module serial_lane #(
     endgenerate
 
     always @(posedge clk_i) begin
-        chain_q <= moved + {{(CHAIN_BITS - 1) {1'b0}}, scored};
+        chain_q <= counted;
         if (shift_i) flags_q <= flags_i;
     end
 

@@ -12,18 +12,26 @@ wire [8*WIDTH-1:0] f_ring = {
 };
 wire [WIDTH:0] f_center = {1'b0, center_q[WIDTH+:WIDTH]};
 wire [WIDTH:0] f_level = {1'b0, level_i};
+// In two steps, each of which the solver decides at once: what is compared, neighbor by neighbor, and the runs of that.
+// The ring of the module begins two neighbors later.
+wire [7:0] f_brighter = {brighter[5:0], brighter[7:6]};
+wire [7:0] f_darker = {darker[5:0], darker[7:6]};
 reg f_corner, f_all_brighter, f_all_darker;
 reg [WIDTH:0] f_neighbor;
 integer f_start, f_k;
 always @* begin
+    for (f_k = 0; f_k < 8; f_k = f_k + 1) begin
+        f_neighbor = {1'b0, f_ring[f_k*WIDTH+:WIDTH]};
+        assert(f_brighter[f_k] == (f_neighbor > f_center + f_level));
+        assert(f_darker[f_k] == (f_neighbor + f_level < f_center));
+    end
     f_corner = 1'b0;
     for (f_start = 0; f_start < 8; f_start = f_start + 1) begin
         f_all_brighter = 1'b1;
         f_all_darker = 1'b1;
         for (f_k = 0; f_k < 5; f_k = f_k + 1) begin
-            f_neighbor = {1'b0, f_ring[((f_start+f_k)%8)*WIDTH+:WIDTH]};
-            if (!(f_neighbor > f_center + f_level)) f_all_brighter = 1'b0;
-            if (!(f_neighbor + f_level < f_center)) f_all_darker = 1'b0;
+            if (!f_brighter[(f_start+f_k)%8]) f_all_brighter = 1'b0;
+            if (!f_darker[(f_start+f_k)%8]) f_all_darker = 1'b0;
         end
         if (f_all_brighter || f_all_darker) f_corner = 1'b1;
     end

@@ -57,8 +57,8 @@ module serial_group #(
     input  wire                    double_i,        // the operand is the accumulator itself
     input  wire                    divide_i,        // keep the sum only if it is not negative
     input  wire                    deviate_i,       // the operand is |2^FRACTION * word - aux|
-    input  wire                    masked_i,        // ... is 0 unless its bit under the constant is 1
-    input  wire                    from_aux_i,      // ... is aux
+    input  wire                    masked_i,        // do not add it unless its bit under the constant is 1
+    input  wire                    from_aux_i,      // the operand is aux
     input  wire                    shift_i,         // scores move on by one lane
     input  wire                    keep_i,          // the score becomes the accumulator
     input  wire                    fetch_i,         // the score becomes the word read

@@ -73,8 +73,8 @@ module serial_sequencer #(
     output wire                     double_o,          // the operand is the accumulator itself
     output wire                     divide_o,          // keep the sum only if it is not negative
     output wire                     deviate_o,         // the operand is |2^FRACTION * word - aux|
-    output wire                     masked_o,          // ... is 0 unless its bit under the constant is 1
-    output wire                     from_aux_o,        // ... is aux
+    output wire                     masked_o,          // do not add it unless its bit under the constant is 1
+    output wire                     from_aux_o,        // the operand is aux
     output wire                     shift_o,           // scores move on by one lane
     output wire                     keep_o,            // the score becomes the accumulator
     output wire                     fetch_o,           // the score becomes the word read
