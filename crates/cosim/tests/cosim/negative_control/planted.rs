@@ -40,7 +40,7 @@ pub(crate) enum Planted {
     SerialCorner,
     /// Serial: mean absolute deviation alone.
     SerialMad,
-    /// Serial: mean absolute deviation and variance.
+    /// Serial: mean absolute deviation, with a mean of more bits than the sum of a region has, and variance.
     SerialVariance,
     /// Serial: everything that a raster across borders, folds and the pixels last sent need.
     SerialSent,
@@ -124,7 +124,8 @@ impl Planted {
                  mean_fraction_bits = 2\n[hardware]\norganization = \"serial\"\n"
             }
             Self::SerialVariance => {
-                "[region]\nsize = 5\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                "[frame]\npixel_bits = 3\n[region]\nsize = 6\n[denoise]\nfilter = \"none\"\n\
+                 [[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 6\n\
                  [[spatial]]\nfeature = \"variance\"\n[hardware]\norganization = \"serial\"\n"
             }
             Self::SerialSent => {

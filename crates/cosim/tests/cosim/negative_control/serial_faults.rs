@@ -37,6 +37,8 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Mad, "serial_lane", "turned && carry_i", "carry_i"),
     fault("operator", Mad, "serial_lane", "takes && (!divide_i || stays)", "takes"),
     fault("operator", Variance, "serial_lane", "enable_i && takes &&", "enable_i &&"),
+    // A mean with more bits than the sum of a region has.
+    fault("reset", Variance, "serial_lane", "if (shift_i) aux_q <= {AUX_BITS{1'b0}};\n                else if", "if"),
     fault("operator", Mad, "serial_lane", "{(ACC_BITS - MEAN_BITS) {invert}}", "{(ACC_BITS - MEAN_BITS) {turned}}"),
     fault("constant", Paper, "serial_lane", "{{(CHAIN_BITS - 1) {1'b0}}, scored}", "{CHAIN_BITS{1'b0}}"),
     fault("constant", Paper, "serial_lane", "invert && carry_i", "1'b1"),
