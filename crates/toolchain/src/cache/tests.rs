@@ -4,7 +4,7 @@
 use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 use super::evict::STALE;
 use super::*;
@@ -244,8 +244,17 @@ fn users_and_removers_do_not_meet() {
         }
     });
     assert!(built.into_inner() > 12, "nothing was removed");
-    limited(folder.path(), LIMIT).get_or_build(&key("last"), "file", sized(1)).unwrap();
-    assert!(evict::size(folder.path()) <= LIMIT);
+    // Where another test of this process is just starting a program, that holds copies of the locks until it runs.
+    let end = Instant::now() + Duration::from_secs(20);
+    for number in 0.. {
+        let last = key(&format!("last {number}"));
+        limited(folder.path(), LIMIT).get_or_build(&last, "file", sized(1)).unwrap();
+        if evict::size(folder.path()) <= LIMIT {
+            break;
+        }
+        assert!(Instant::now() < end, "more is left than is allowed");
+        std::thread::sleep(Duration::from_millis(20));
+    }
     let rests = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
     let rests: Vec<_> = rests.filter(|name| name.to_string_lossy().contains("ing-")).collect();
     assert!(rests.is_empty(), "{rests:?}");
