@@ -35,7 +35,7 @@ pub(crate) fn netlist(
         path: std::env::temp_dir().display().to_string(),
         source,
     })?;
-    let stimulus = Stimulus { level: Simulated::Rpu, seed, rounds: 0, frames };
+    let stimulus = Stimulus { level: Simulated::Rpu, seed, rounds: 0, frames, enough: None };
     let mut job = Job::new(&part, stimulus, &folder.path().join("replay"))?;
     job.limit = LIMIT;
     let start = Instant::now();

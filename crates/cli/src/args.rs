@@ -153,7 +153,8 @@ pub(crate) struct CosimArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
     /// What to simulate: one RPU that sees every region in turn, or an array. The default is one RPU; with
-    /// --rtl it is both, if the folder has both, and a file that belongs to neither is an error
+    /// --rtl it is both, if the folder has both, and of serial and raster designs the whole frame, too. A file, or a
+    /// module with parameter values, that none of these reaches is then an error
     #[arg(long, value_enum)]
     pub(crate) level: Option<Level>,
     /// Regions of the array for --level rcm, columns x rows. The default is 3x2, or more if two lanes need

@@ -43,6 +43,13 @@ pub enum CosimError {
     #[error(transparent)]
     Design(#[from] DesignError),
 
+    /// The hierarchy that Verilator wrote cannot be read.
+    #[error("the hierarchy that Verilator wrote cannot be read: {why}; Verilator 5 is expected")]
+    Elaboration {
+        /// What is wrong with it.
+        why: String,
+    },
+
     /// The Verilog has no module of the name that is to be simulated.
     #[error("the Verilog ({files}) has no module `{top}`; give the sources of the whole core")]
     NoTop {

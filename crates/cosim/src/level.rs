@@ -7,6 +7,9 @@ use foveate_emit::{SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
+/// Lanes of an array that Verilator builds in a minute or two.
+const MAX_UNITS: u32 = 1024;
+
 /// How much of the hardware is simulated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -44,15 +47,43 @@ impl Level {
         Self::Rcm { columns, rows: rows_for(columns) }
     }
 
+    /// Whether the array is copies of module `rpu` and nothing else: its size says only how many there
+    /// are, and none of them knows of it.
+    #[must_use]
+    pub fn is_copies(design: &Design) -> bool {
+        design.unit().rpu_in_rcm
+    }
+
+    /// Whether the design's own array is simulated by default: its widths, memories and counters follow from its
+    /// size, and it has no more lanes than Verilator builds in a minute or two.
+    #[must_use]
+    pub fn is_whole_affordable(design: &Design) -> bool {
+        !Self::is_copies(design) && design.unit().count <= MAX_UNITS
+    }
+
     /// The levels that between them simulate Verilog that somebody gives: one for each of the modules
-    /// `rpu` and `rcm` that is there, the array as [`Level::sample`]. Without either it is `rpu`, whose
-    /// simulation says what is missing.
+    /// `rpu` and `rcm` that is there, the array as [`Level::sample`] and, if it is more than that and
+    /// [affordable](Self::is_whole_affordable), whole. Without either it is `rpu`, whose simulation says what
+    /// is missing.
     #[must_use]
     pub fn all_of(design: &Design, sources: &[SourceFile]) -> Vec<Self> {
-        let levels = [Self::Rpu, Self::sample(design)];
+        let mut levels = vec![Self::Rpu, Self::sample(design)];
+        if Self::is_whole_affordable(design) && !levels[1].is_whole(design) {
+            levels.push(Self::Full);
+        }
         let is_there = |level: &Self| declares(sources, level.top().module());
         let found: Vec<Self> = levels.into_iter().filter(is_there).collect();
         if found.is_empty() { vec![Self::Rpu] } else { found }
+    }
+
+    /// Whether it simulates the design's own array.
+    #[must_use]
+    pub fn is_whole(self, design: &Design) -> bool {
+        match self {
+            Self::Full => true,
+            Self::Rcm { columns, rows } => (columns, rows) == (design.columns(), design.rows()),
+            Self::Rpu => false,
+        }
     }
 
     /// The module that is simulated.

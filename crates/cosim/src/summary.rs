@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The result of one check of a design: its runs, and the Verilog modules that no run reached.
+//! The result of one check of a design: its runs, and the Verilog that no run reached, parameter values included.
 
+use crate::elaboration::NotElaborated;
 use crate::hierarchy::NotSimulated;
 use crate::report::CosimReport;
 use serde::{Deserialize, Serialize};
@@ -24,8 +25,20 @@ pub struct Summary {
     /// For Verilog that was given: modules that no run has reached, by file. Runs that were not started
     /// because of a mismatch count as if they had run.
     pub not_simulated: Vec<NotSimulated>,
+    /// For Verilog that was given: modules with parameter values that the design has and no run has elaborated.
+    #[serde(default)]
+    pub not_elaborated: Vec<NotElaborated>,
     /// Whether all of the Verilog had to be simulated. It is false if the user chose a level.
     pub whole: bool,
+}
+
+/// Verilog that no run has reached.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Left {
+    /// Modules that no run has reached, by file.
+    pub modules: Vec<NotSimulated>,
+    /// Modules with parameter values that no run has elaborated.
+    pub variants: Vec<NotElaborated>,
 }
 
 /// The verdict of a summary.
@@ -46,13 +59,22 @@ impl Summary {
         design: String,
         runs: Vec<CosimReport>,
         not_run: Vec<String>,
-        not_simulated: Vec<NotSimulated>,
+        left: Left,
         whole: bool,
     ) -> Self {
+        let Left { modules: not_simulated, variants: not_elaborated } = left;
         let format_version = FORMAT_VERSION;
         let passed = false;
-        let mut summary =
-            Self { format_version, passed, design, runs, not_run, not_simulated, whole };
+        let mut summary = Self {
+            format_version,
+            passed,
+            design,
+            runs,
+            not_run,
+            not_simulated,
+            not_elaborated,
+            whole,
+        };
         summary.passed = summary.verdict() == Verdict::Passed;
         summary
     }
@@ -62,16 +84,19 @@ impl Summary {
     pub fn verdict(&self) -> Verdict {
         if self.runs.is_empty() || !self.runs.iter().all(CosimReport::passed) {
             Verdict::Mismatch
-        } else if self.whole && !self.not_simulated.is_empty() {
+        } else if self.whole && !(self.not_simulated.is_empty() && self.not_elaborated.is_empty()) {
             Verdict::Incomplete
         } else {
             Verdict::Passed
         }
     }
 
-    /// Every file with modules that were not simulated, in one line.
+    /// Every file with modules that were not simulated, and every module with parameter values that were not
+    /// elaborated, in one line.
     #[must_use]
     pub fn left_out(&self) -> String {
-        self.not_simulated.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+        let files = self.not_simulated.iter().map(ToString::to_string);
+        let variants = self.not_elaborated.iter().map(ToString::to_string);
+        files.chain(variants).collect::<Vec<_>>().join("; ")
     }
 }

@@ -26,8 +26,8 @@ struct Replay {
     simulator: &'static str,
 }
 
-/// Clocks of a frame from which a bench is slower in Icarus than Verilator takes to compile it.
-const ICARUS_CLOCKS: u64 = 200_000;
+/// Clocks of a frame, of all lanes, from which a bench is slower in Icarus than Verilator takes to compile it.
+const ICARUS_CLOCKS: u64 = 40_000;
 
 /// Every file of the core of `design` but its benches and its timing diagram, which come from the model.
 #[must_use]
@@ -54,7 +54,10 @@ pub fn core(design: &Design) -> Vec<SourceFile> {
 }
 
 fn replay(design: &Design) -> Replay {
-    let is_long = design.timing().clocks_per_frame() > ICARUS_CLOCKS;
+    let unit = design.unit();
+    // Of an array of copies the bench simulates a few.
+    let lanes = if unit.rpu_in_rcm { 1 } else { u64::from(unit.count) };
+    let is_long = design.timing().clocks_per_frame().saturating_mul(lanes) > ICARUS_CLOCKS;
     Replay { banner: banner(design), simulator: if is_long { "verilator" } else { "iverilog" } }
 }
 

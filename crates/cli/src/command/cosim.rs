@@ -5,8 +5,8 @@ mod plan;
 mod text;
 
 use foveate_cosim::{
-    CosimError, CosimReport, Job, Progress, Simulator, Summary, Verdict, junit_error, junit_xml,
-    not_simulated,
+    CosimError, CosimReport, Job, Left, Level, Progress, Simulator, Summary, Verdict, junit_error,
+    junit_xml, not_elaborated, not_simulated,
 };
 use foveate_staging::{check_file, write_file};
 use foveate_toolchain::{Cache, Toolchain};
@@ -28,17 +28,30 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     let complaint = match summary.verdict() {
         Verdict::Passed => return written,
         Verdict::Mismatch => "model and RTL do not agree".to_owned(),
-        Verdict::Incomplete => format!(
-            "no mismatch, but not all of the Verilog was simulated: {}. Foveate simulates `rpu` and \
-             `rcm` with the modules that they instantiate; remove other files from the folder, or choose \
-             one of the two with --level",
-            summary.left_out()
-        ),
+        Verdict::Incomplete => incomplete(&summary),
     };
     if let Err(error) = written {
         eprintln!("foveate: {error}");
     }
     Err(CliError::Failed(complaint))
+}
+
+/// What was not simulated, and what helps.
+fn incomplete(summary: &Summary) -> String {
+    let mut text =
+        format!("no mismatch, but not all of the Verilog was simulated: {}.", summary.left_out());
+    if !summary.not_simulated.is_empty() {
+        text.push_str(
+            " Foveate simulates `rpu` and `rcm` with the modules that they instantiate; remove other files \
+             from the folder, or choose one of the two with --level.",
+        );
+    }
+    if !summary.not_elaborated.is_empty() {
+        text.push_str(
+            " Only a run with --full has these modules with these parameter values; --level asks for a part.",
+        );
+    }
+    text
 }
 
 /// Runs one job after the other, up to one that does not agree.
@@ -50,12 +63,7 @@ fn all(
 ) -> Result<Summary, CliError> {
     let first = jobs.first().expect("there is at least one");
     let design = first.design.fingerprint();
-    let left_out = if args.rtl.is_some() {
-        let tops: Vec<&str> = jobs.iter().map(|job| job.stimulus.level.top().module()).collect();
-        not_simulated(&first.sources, &tops)
-    } else {
-        Vec::new()
-    };
+    let left_out = left_out(args, &jobs, toolchain)?;
     let (mut reports, mut left) = (Vec::new(), jobs.into_iter());
     for mut job in left.by_ref() {
         let report = one(args, &mut job, toolchain, cache).inspect_err(|error| {
@@ -75,6 +83,23 @@ fn all(
     reports.iter_mut().take(earlier).for_each(|report| report.waves = None);
     let names = left.map(|job| job.name()).collect();
     Ok(Summary::new(design, reports, names, left_out, plan::is_whole(args)))
+}
+
+/// What the jobs leave out of the Verilog that is given.
+fn left_out(args: &CosimArgs, jobs: &[Job], toolchain: &Toolchain) -> Result<Left, CosimError> {
+    let Some(first) = jobs.first().filter(|_| args.rtl.is_some()) else {
+        return Ok(Left::default());
+    };
+    let levels: Vec<Level> = jobs.iter().map(|job| job.stimulus.level).collect();
+    let tops: Vec<&str> = levels.iter().map(|level| level.top().module()).collect();
+    let modules = not_simulated(&first.sources, &tops);
+    // Who asks for a part knows that the rest is left out.
+    let variants = if plan::is_whole(args) {
+        not_elaborated(&first.design, &first.sources, &levels, toolchain)?
+    } else {
+        Vec::new()
+    };
+    Ok(Left { modules, variants })
 }
 
 fn one(

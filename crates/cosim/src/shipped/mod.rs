@@ -2,7 +2,7 @@
 //! The benches that come with a generated core: one of `rpu`, one of `rcm`, each with vectors that show
 //! regions of every kind.
 //!
-//! A large array is replayed as a small [`grid`] of the same Verilog. The [`script`] chooses frames that
+//! An array of copies of `rpu` is replayed as a small [`grid`] of them, any other whole. The [`script`] chooses frames that
 //! lead to active, held and blank regions under the thresholds of the design; the [`tally`] counts what
 //! the vectors then hold, so that a bench which does not show everything never says `PASS`.
 
@@ -19,6 +19,7 @@ mod tally;
 mod tape;
 
 use crate::error::CosimError;
+use crate::level::Level;
 use crate::harness::{bench_file, told_bench};
 use foveate_design::{Design, Port, PortRole};
 use foveate_emit::{SourceFile, Top};
@@ -35,7 +36,7 @@ pub use tally::Tally;
 /// Clocks of the longest vectors. Verilator needs a quarter of an hour for them.
 const MAX_CLOCKS: u64 = 1 << 31;
 /// Decisions of the largest vectors: each takes a few lines.
-const MAX_DECISIONS: u64 = 1 << 16;
+const MAX_DECISIONS: u64 = 1 << 18;
 
 /// The bench of one module of a core, and what its vectors show.
 #[derive(Clone, Debug)]
@@ -57,6 +58,17 @@ pub struct ShippedBench {
 }
 
 impl ShippedBench {
+    /// What the benches of a core simulate between them.
+    ///
+    /// # Errors
+    /// When no grid stands for that of the design.
+    pub fn levels(design: &Design) -> Result<Vec<Level>, CosimError> {
+        let array = grid::part(design, Top::Rcm)?;
+        let (columns, rows) = (array.columns(), array.rows());
+        let array = Level::Rcm { columns, rows };
+        Ok(vec![Level::Rpu, if array.is_whole(design) { Level::Full } else { array }])
+    }
+
     /// Plays the frames that show everything to the model of `top`, and makes a bench of it. Equal designs
     /// give equal files.
     ///

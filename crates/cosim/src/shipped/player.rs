@@ -15,8 +15,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Pixels of a frame that a reset forgets.
 const FORGOTTEN: usize = 3;
-/// Every so many pixels comes one clock later.
+/// Every so many pixels comes one clock later; of long frames fewer, because a pause takes two lines.
 const PAUSE_EVERY: usize = 29;
+const PAUSE_EVERY_OF_MANY: usize = 997;
+const MANY_BEATS: usize = 20_000;
 /// Clocks after a frame at which pixels are offered that an array at work must not take.
 const REFUSED: usize = 3;
 
@@ -100,8 +102,9 @@ impl<'a> Player<'a> {
     }
 
     fn stream(&mut self, beats: &[Vec<u16>], thresholds: &Thresholds) -> Result<(), CosimError> {
+        let every = if beats.len() < MANY_BEATS { PAUSE_EVERY } else { PAUSE_EVERY_OF_MANY };
         for (number, pixels) in beats.iter().enumerate() {
-            if number % PAUSE_EVERY == PAUSE_EVERY - 1 {
+            if number % every == every - 1 {
                 self.idle(1, thresholds)?;
             }
             self.wait(thresholds)?;

@@ -22,6 +22,14 @@ const FEW_CLOCKS: u64 = 20_000;
 const NEAR: [Motif; 4] = [Motif::Bump, Motif::Noise, Motif::Smooth, Motif::Bump];
 /// Frames that go beyond the borders of regions.
 const WIDE_FRAMES: u32 = 8;
+/// Regions side by side from which a frame has a ground that differs from place to place: a word that is stored
+/// or read at a wrong place then shows, wherever that is.
+const WIDE_COLUMNS: u32 = 16;
+/// Regions of such a frame for each that shows something.
+const REGIONS_PER_ACTOR: u32 = 64;
+/// Blocks of the ground side by side, and the levels that they have.
+const GROUND_BLOCKS: u32 = 8;
+const GROUND_LEVELS: u32 = 4;
 /// How often a picture is drawn anew before another is tried.
 const TRIALS: usize = 2;
 
@@ -82,9 +90,9 @@ impl Script {
             .map(|number| actor(part, &mut studio, &plan.usual, number, &mut random))
             .collect();
         let flat = Picture::Flat.draw(stage.side, stage.max, false, &mut random);
-        let shot = |thresholds, square: &dyn Fn(usize, &Actor) -> Vec<u16>| {
+        let shot = |turn, thresholds, square: &dyn Fn(usize, &Actor) -> Vec<u16>| {
             let squares: Vec<_> = cast.iter().enumerate().map(|(i, a)| square(i, a)).collect();
-            Shot { frame: stage.frame(&squares, &flat), thresholds, stalls: false }
+            Shot { frame: stage.frame(&squares, turn), thresholds, stalls: false }
         };
         let mixed = |number: usize, actor: &Actor| match number % 3 {
             0 => actor.other.clone(),
@@ -92,21 +100,23 @@ impl Script {
             _ => flat.clone(),
         };
         let mut sequences = vec![vec![
-            shot(plan.usual, &|_, actor| actor.first.clone()),
-            shot(plan.usual, &|_, actor| actor.first.clone()),
-            shot(plan.usual, &mixed),
-            shot(plan.blank, &|_, _| flat.clone()),
-            shot(plan.usual, &|_, actor| actor.last.clone()),
+            shot(0, plan.usual, &|_, actor| actor.first.clone()),
+            shot(0, plan.usual, &|_, actor| actor.first.clone()),
+            shot(1, plan.usual, &mixed),
+            shot(2, plan.blank, &|_, _| flat.clone()),
+            shot(2, plan.usual, &|_, actor| actor.last.clone()),
         ]];
         // First, so that a reset follows.
         let pictures = [|actor: &Actor| actor.first.clone(), |actor: &Actor| actor.other.clone()];
-        let stalled = (0..stalled_frames(part)).map(|number| Shot {
-            stalls: true,
-            ..shot(plan.usual, &|_, actor| pictures[number % pictures.len()](actor))
+        let stalled = (0..stalled_frames(part)).map(|number| {
+            let usual = || shot(0, plan.usual, &|_, actor| pictures[number % pictures.len()](actor));
+            // More regions are lost than have something of their own to show: counters are to get far.
+            let wide = || Shot { frame: stage.wide(0), thresholds: plan.usual, stalls: false };
+            Shot { stalls: true, ..if stage.has_ground() { wide() } else { usual() } }
         });
         let stalled: Vec<Shot> = stalled.collect();
         if !stalled.is_empty() {
-            let last = shot(plan.usual, &|_, actor| actor.last.clone());
+            let last = shot(1, plan.usual, &|_, actor| actor.last.clone());
             sequences.insert(0, stalled.into_iter().chain([last]).collect());
         }
         let drawn = cast.len() * stage.side * stage.side;
@@ -116,14 +126,14 @@ impl Script {
             let near = NEAR.iter().map(|&motif| {
                 artists.iter_mut().for_each(|artist| artist.draw_near_minimum(motif));
                 let squares: Vec<_> = artists.iter().map(|artist| artist.pixels.clone()).collect();
-                Shot { frame: stage.frame(&squares, &flat), thresholds: plan.usual, stalls: false }
+                Shot { frame: stage.frame(&squares, 0), thresholds: plan.usual, stalls: false }
             });
             sequences.push(near.collect());
             for more in [0, 1].into_iter().filter(|_| part.thresholds() == Mode::Runtime) {
                 let exact = cast[0].exact(part, &plan.usual, more);
                 sequences.push(vec![
-                    shot(exact, &|_, actor| actor.first.clone()),
-                    shot(exact, &|_, actor| actor.other.clone()),
+                    shot(0, exact, &|_, actor| actor.first.clone()),
+                    shot(0, exact, &|_, actor| actor.other.clone()),
                 ]);
             }
         }
@@ -154,14 +164,18 @@ struct Stage<'a> {
     places: Vec<u32>,
     side: usize,
     max: u16,
+    /// The level of a region that shows nothing.
+    flat: u16,
 }
 
 impl<'a> Stage<'a> {
     /// Everywhere in a small array, else evenly spread, the first and the last region among them.
     fn new(part: &'a Design) -> Self {
         let regions = part.regions();
-        let count = (MAX_DRAWN / part.region_pixels()).clamp(6, 48).min(regions);
+        let least = (MAX_DRAWN / part.region_pixels()).clamp(6, 48);
+        let count = least.max(regions / REGIONS_PER_ACTOR).min(regions);
         let last = u64::from(count - 1).max(1);
+        let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
         let place = |number: u32| {
             let place = u64::from(number) * u64::from(regions - 1) / last;
             u32::try_from(place).expect("a region of the array")
@@ -170,19 +184,39 @@ impl<'a> Stage<'a> {
             part,
             places: (0..count).map(place).collect(),
             side: part.region_size() as usize,
-            max: u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits"),
+            max,
+            flat: Picture::Flat.draw(1, max, false, &mut Random::new(1))[0],
         }
     }
 
-    /// A frame with these squares at the places, and `flat` elsewhere.
-    fn frame(&self, squares: &[Vec<u16>], flat: &[u16]) -> Frame {
+    /// A frame with these squares at the places, and the ground of this turn elsewhere.
+    fn frame(&self, squares: &[Vec<u16>], turn: u32) -> Frame {
         let (part, side) = (self.part, self.part.region_size());
         let pixel = |x: u32, y: u32| {
             let region = y / side * part.columns() + x / side;
-            let square = self.places.binary_search(&region).map_or(flat, |at| &squares[at]);
-            square[(y % side * side + x % side) as usize]
+            match self.places.binary_search(&region) {
+                Ok(at) => squares[at][(y % side * side + x % side) as usize],
+                Err(_) => self.ground(x / side, y / side, turn),
+            }
         };
         self.drawn(pixel)
+    }
+
+    /// Whether the ground differs from place to place and from turn to turn.
+    fn has_ground(&self) -> bool {
+        self.part.columns() >= WIDE_COLUMNS
+    }
+
+    /// The level of a region that shows nothing: in a wide frame one of a few, by blocks of regions.
+    fn ground(&self, column: u32, row: u32, turn: u32) -> u16 {
+        if !self.has_ground() {
+            return self.flat;
+        }
+        let block = column * GROUND_BLOCKS / self.part.columns();
+        let mixed = (row * GROUND_BLOCKS + block).wrapping_mul(0x9e37_79b9) >> 16;
+        let level = (mixed + turn * (1 + mixed / GROUND_LEVELS % 2)) % GROUND_LEVELS;
+        let level = level * u32::from(self.max) / (GROUND_LEVELS - 1);
+        u16::try_from(level).expect("no more than the largest")
     }
 }
 

@@ -40,6 +40,7 @@ use run::Run;
 pub(crate) use serial::Feed;
 pub use serial::SerialCodec;
 use std::sync::atomic::AtomicBool;
+use turns::Extent;
 
 /// Regions of the largest array: each is an RPU of the model, with buffers of its own.
 const MAX_REGIONS: u64 = 1 << 16;
@@ -59,7 +60,15 @@ pub struct Stimulus {
     pub rounds: u32,
     /// Frames of the caller, of the size and depth of the design.
     pub frames: Vec<Frame>,
+    /// Clocks in a round that are enough: where all directed sequences take more, about as many of them
+    /// are recorded as take so many, but always the [`MOST_TELLING`]. Without it all are.
+    pub enough: Option<u64>,
 }
+
+/// Directed sequences that every round has, from the first on: extremes, a reset in a frame, and what comes third.
+const MOST_TELLING: usize = 3;
+/// Frame times that a directed sequence takes: some frames, with gaps.
+const FRAMES_OF_A_SEQUENCE: u64 = 6;
 
 /// Runs the model of an organization and records; the only place that lists them here.
 fn driver(organization: Organization) -> fn(Run<'_>) -> Result<(), CosimError> {
@@ -72,7 +81,7 @@ fn driver(organization: Organization) -> fn(Run<'_>) -> Result<(), CosimError> {
 
 impl Default for Stimulus {
     fn default() -> Self {
-        Self { level: Level::Rpu, seed: 1, rounds: 3, frames: Vec::new() }
+        Self { level: Level::Rpu, seed: 1, rounds: 3, frames: Vec::new(), enough: None }
     }
 }
 
@@ -80,7 +89,7 @@ impl Stimulus {
     /// Runs the model and records. `progress` hears how many sequences of how many are done.
     ///
     /// # Errors
-    /// When a frame is not of the design's kind, the or there is no place for the files.
+    /// When a frame is not of the design's kind, the array is too large, or there is no place for the files.
     pub fn record(
         &self,
         design: &Design,
@@ -106,7 +115,7 @@ impl Stimulus {
         let run = Run {
             level: self.level,
             seed: self.seed,
-            rounds: self.rounds,
+            extent: self.extent(&simulated),
             frames: &self.frames,
             design,
             simulated: &simulated,
@@ -116,6 +125,13 @@ impl Stimulus {
         };
         driver(simulated.organization())(run)?;
         recorder.finish()
+    }
+
+    fn extent(&self, simulated: &Design) -> Extent {
+        let sequence = FRAMES_OF_A_SEQUENCE * simulated.timing().clocks_per_frame().max(1);
+        let fit = |clocks: u64| usize::try_from(clocks / sequence).unwrap_or(usize::MAX);
+        let most = self.enough.map_or(usize::MAX, |clocks| fit(clocks).max(MOST_TELLING));
+        Extent { rounds: self.rounds, most }
     }
 
     /// Refuses an array that would not fit into memory, before any of it is made.

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the driver of an organization is given.
 
+use super::turns::Extent;
 use crate::level::Level;
 use crate::recording::Recorder;
 use foveate_design::Design;
 use foveate_frame::Frame;
 use std::sync::atomic::AtomicBool;
 
-/// One recording to make; the first four are those of the stimulus.
+/// One recording to make; the first four follow from the stimulus.
 pub(super) struct Run<'a> {
     pub(super) level: Level,
     pub(super) seed: u64,
-    pub(super) rounds: u32,
+    pub(super) extent: Extent,
     pub(super) frames: &'a [Frame],
     /// The design of the caller's frames.
     pub(super) design: &'a Design,

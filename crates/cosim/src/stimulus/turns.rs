@@ -3,10 +3,18 @@
 
 use crate::error::CosimError;
 
+/// How much is recorded of the directed sequences.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    /// How often they are run through.
+    pub(super) rounds: u32,
+    /// How many of them, from the first on.
+    pub(super) most: usize,
+}
+
 /// What is recorded, in this order.
 pub(super) struct Turns<'a, Sequence, Part> {
-    /// How often the directed sequences are run through.
-    pub(super) rounds: u32,
+    pub(super) extent: Extent,
     pub(super) directed: &'a [Sequence],
     /// The parts of the caller's frames, each a sequence.
     pub(super) given: Vec<Part>,
@@ -22,11 +30,13 @@ impl<Sequence, Part> Turns<'_, Sequence, Part> {
         given: impl Fn(&mut Session, usize, Part) -> Result<(), CosimError>,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
-        let total = u64::from(self.rounds) * self.directed.len() as u64 + self.given.len() as u64;
+        let directed_ones = &self.directed[..self.extent.most.min(self.directed.len())];
+        let rounds = self.extent.rounds;
+        let total = u64::from(rounds) * directed_ones.len() as u64 + self.given.len() as u64;
         let mut done = 0;
         progress(done, total);
-        for round in 0..self.rounds as usize {
-            for (number, sequence) in self.directed.iter().enumerate() {
+        for round in 0..rounds as usize {
+            for (number, sequence) in directed_ones.iter().enumerate() {
                 directed(session, sequence, round, number)?;
                 done += 1;
                 progress(done, total);

@@ -8,6 +8,7 @@ mod designs;
 mod diagram;
 mod folders;
 mod gates;
+mod large;
 mod machinery;
 mod matrix;
 mod negative_control;

@@ -2,7 +2,7 @@
 //! Reports as text, JSON and JUnit XML.
 
 use foveate_cosim::{
-    CosimReport, Level, Mismatch, NotSimulated, PortMismatch, Seconds, Simulator, Summary, Verdict,
+    CosimReport, Level, Mismatch, Left, NotElaborated, NotSimulated, PortMismatch, Seconds, Simulator, Summary, Verdict,
     junit_xml,
 };
 
@@ -73,8 +73,30 @@ fn a_mismatch_names_everything() {
 /// A summary of these runs, with a file that none of them reached or without.
 fn summary(runs: Vec<CosimReport>, spare: bool, whole: bool) -> Summary {
     let (file, modules) = ("rtl/spare.v".to_owned(), vec!["spare".to_owned()]);
-    let left_out = if spare { vec![NotSimulated { file, modules }] } else { Vec::new() };
-    Summary::new("0123456789abcdef".to_owned(), runs, Vec::new(), left_out, whole)
+    let modules = if spare { vec![NotSimulated { file, modules }] } else { Vec::new() };
+    summary_of(runs, Left { modules, variants: Vec::new() }, whole)
+}
+
+fn summary_of(runs: Vec<CosimReport>, left: Left, whole: bool) -> Summary {
+    Summary::new("0123456789abcdef".to_owned(), runs, Vec::new(), left, whole)
+}
+
+/// A parameter value that no run has elaborated is no pass, in words, JSON and JUnit.
+#[test]
+fn a_parameter_value_that_was_not_elaborated_is_no_pass() {
+    let left = || {
+        let (module, parameters) = ("store".to_owned(), vec!["WORDS = 4b000".to_owned()]);
+        let variants = vec![NotElaborated { module, is_module_known: true, parameters }];
+        Left { modules: Vec::new(), variants }
+    };
+    let whole = summary_of(vec![report(None)], left(), true);
+    assert_eq!(whole.verdict(), Verdict::Incomplete);
+    assert_eq!(whole.left_out(), "store with WORDS = 4b000");
+    let json = serde_json::to_value(&whole).unwrap();
+    assert_eq!(json["not_elaborated"][0]["parameters"][0], "WORDS = 4b000");
+    let xml = junit_xml(&whole);
+    assert!(xml.contains("failures=\"1\"") && xml.contains("store with WORDS = 4b000"), "{xml}");
+    assert_eq!(summary_of(vec![report(None)], left(), false).verdict(), Verdict::Passed);
 }
 
 #[test]

@@ -186,7 +186,7 @@ fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(
         let design = design(organization, feed, fold);
         let level = Level::Rcm { columns: design.columns(), rows: design.rows() };
         let frames = frames.to_vec();
-        let stimulus = Stimulus { level, seed: 1, rounds: 0, frames };
+        let stimulus = Stimulus { level, seed: 1, rounds: 0, frames, enough: None };
         let output = tempfile::tempdir().unwrap();
         let folder = output.path().join("replay");
         let report = cosimulate(&design, Simulator::Iverilog, stimulus.clone(), &folder, |_| {});
@@ -278,7 +278,7 @@ fn the_vectors_of_a_raster_core_give_the_same() {
         config.hardware.organization = Organization::Raster;
         config.hardware.pixels_per_clock = Some(wide);
         let design = config.validate().unwrap();
-        let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone() };
+        let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone(), enough: None };
         let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
         assert!(raster(&design, &recording) == functional(&design, &frames), "{config:?}");
     }
@@ -301,7 +301,7 @@ fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
             config.hardware.forward = Some(forward);
             let design = config.validate().unwrap();
             let stimulus =
-                Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone() };
+                Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone(), enough: None };
             let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
             let mut expected = functional(&design, &frames);
             if !forward {

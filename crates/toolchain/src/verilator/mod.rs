@@ -116,6 +116,32 @@ pub fn lint(
     toolchain.run_checked(&invocation).map(drop)
 }
 
+/// The hierarchy below `top`, with these parameters of it, as Verilator's XML: every module with the values of its
+/// parameters, without `generate` branches that are not taken.
+///
+/// # Errors
+/// When Verilator is missing, or refuses the sources.
+pub fn elaborate(
+    toolchain: &Toolchain,
+    sources: &[Source],
+    top: &str,
+    parameters: &[(&str, u32)],
+) -> Result<Vec<u8>, ToolError> {
+    const HIERARCHY: &str = "hierarchy.xml";
+    let dir = tempfile::tempdir()
+        .map_err(ToolError::temporary("create a folder in", &std::env::temp_dir()))?;
+    let parameters = parameters.iter().map(|(name, value)| format!("-G{name}={value}"));
+    let invocation = toolchain
+        .invocation(Tool::Verilator)?
+        .args(["--xml-only", "--xml-output", HIERARCHY, "--no-timing", "--top-module", top])
+        .args(Lint::Lenient.flags())
+        .args(parameters);
+    let invocation = with_sources(invocation, dir.path(), sources, None)?;
+    toolchain.run_checked(&invocation)?;
+    let written = dir.path().join(HIERARCHY);
+    fs::read(&written).map_err(ToolError::io("read", &written))
+}
+
 impl VerilatorJob {
     fn key(&self, toolchain: &Toolchain) -> Result<Key, ToolError> {
         let key = tools_key("verilator", toolchain)?

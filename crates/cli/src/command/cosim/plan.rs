@@ -11,6 +11,9 @@ use foveate_emit::SourceFile;
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
 
+/// Clocks of the whole frame that are enough where nobody asked for it: some ten seconds of a raster core.
+const ENOUGH: u64 = 40_000_000;
+
 /// The co-simulations, the smallest first; at least one.
 pub(super) fn jobs(args: &CosimArgs) -> Result<Vec<Job>, CliError> {
     let (design, frames) = args.design.with_frames(&args.inputs, args.frames)?;
@@ -20,7 +23,9 @@ pub(super) fn jobs(args: &CosimArgs) -> Result<Vec<Job>, CliError> {
             Level::Rpu => 3,
             Level::Rcm { .. } | Level::Full => 1,
         });
-        let stimulus = Stimulus { level, seed: args.seed, rounds, frames: frames.clone() };
+        // The whole frame is simulated beside a small one, which all sequences have shown.
+        let enough = (!args.full && level == Level::Full).then_some(ENOUGH);
+        let stimulus = Stimulus { level, seed: args.seed, rounds, frames: frames.clone(), enough };
         let mut job = Job::new(&design, stimulus, &args.replay)?;
         job.simulator = match args.simulator {
             SimulatorChoice::Verilator => Simulator::Verilator,

@@ -29,6 +29,9 @@ pub(super) fn of(summary: &Summary, width: usize) -> String {
     for left_out in &summary.not_simulated {
         add(&mut text, &format!("not simulated: {left_out}"), "", width);
     }
+    for left_out in &summary.not_elaborated {
+        add(&mut text, &format!("not elaborated: {left_out}"), "", width);
+    }
     text
 }
 

@@ -18,7 +18,7 @@ pub use machine::PipelinedCodec;
 use session::Session;
 
 pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { level, seed, rounds, frames, simulated, recorder, cancel, progress, .. } = run;
+    let Run { level, seed, extent, frames, simulated, recorder, cancel, progress, .. } = run;
     let mut random = Random::new(seed);
     let (machine, lanes) = match level {
         Level::Rpu => (Machine::Rpu(Box::new(PipelinedRpu::new(simulated))), 1),
@@ -28,5 +28,5 @@ pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
     };
     let driver = Driver::new(simulated, machine, lanes as usize, recorder, random.fork(), cancel);
     let timing = PipelinedTiming::of(simulated);
-    Session::new(simulated, timing, level, driver, random).run(rounds, frames, progress)
+    Session::new(simulated, timing, level, driver, random).run(extent, frames, progress)
 }

@@ -4,7 +4,7 @@
 use super::super::motif::Artist;
 use super::super::random::Random;
 use super::super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
-use super::super::turns::Turns;
+use super::super::turns::{Extent, Turns};
 use super::driver::Driver;
 use crate::error::CosimError;
 use crate::level::Level;
@@ -44,7 +44,7 @@ impl<'a> Session<'a> {
 
     pub(super) fn run(
         &mut self,
-        rounds: u32,
+        extent: Extent,
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
@@ -54,7 +54,7 @@ impl<'a> Session<'a> {
         };
         let with_frames = if frames.is_empty() { 0 } else { regions };
         let given = |session: &mut Self, _, region| session.given(region, frames);
-        let turns = Turns { rounds, directed: SEQUENCES, given: (0..with_frames).collect() };
+        let turns = Turns { extent, directed: SEQUENCES, given: (0..with_frames).collect() };
         turns.record(self, Self::directed, given, progress)
     }
 

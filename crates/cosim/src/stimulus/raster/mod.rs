@@ -26,8 +26,8 @@ use session::Session;
 pub(crate) use words::words;
 
 pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { level, seed, rounds, frames, design, simulated, recorder, cancel, progress } = run;
+    let Run { level, seed, extent, frames, design, simulated, recorder, cancel, progress } = run;
     let mut random = Random::new(seed);
     let driver = Driver::new(simulated, recorder, random.fork(), cancel);
-    Session::new(design, simulated, level, driver, random).run(rounds, frames, progress)
+    Session::new(design, simulated, level, driver, random).run(extent, frames, progress)
 }

@@ -6,7 +6,7 @@ use super::super::gallery::Gallery;
 use super::super::parts::{self, MAX_CLOCKS};
 use super::super::random::Random;
 use super::super::sequence::Gaps;
-use super::super::turns::Turns;
+use super::super::turns::{Extent, Turns};
 use super::driver::Driver;
 use super::memory::Lapse;
 use super::sequence::{End, Sequence, sequences};
@@ -46,13 +46,13 @@ impl<'a> Session<'a> {
 
     pub(crate) fn run(
         &mut self,
-        rounds: u32,
+        extent: Extent,
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
         let directed = &sequences(self.design);
         let given = |session: &mut Self, number, corner| session.given(number, corner, frames);
-        let turns = Turns { rounds, directed, given: self.parts(frames) };
+        let turns = Turns { extent, directed, given: self.parts(frames) };
         turns.record(self, Self::directed, given, progress)
     }
 

@@ -23,9 +23,9 @@ use foveate_design::SerialTiming;
 use session::Session;
 
 pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { level, seed, rounds, frames, design, simulated, recorder, cancel, progress } = run;
+    let Run { level, seed, extent, frames, design, simulated, recorder, cancel, progress } = run;
     let mut random = Random::new(seed);
     let driver = Driver::new(simulated, recorder, random.fork(), cancel);
     let timing = SerialTiming::of(simulated);
-    Session::new(design, simulated, level, &timing, driver, random).run(rounds, frames, progress)
+    Session::new(design, simulated, level, &timing, driver, random).run(extent, frames, progress)
 }

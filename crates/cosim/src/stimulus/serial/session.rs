@@ -6,7 +6,7 @@ use super::super::gallery::Gallery;
 use super::super::parts;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
-use super::super::turns::Turns;
+use super::super::turns::{Extent, Turns};
 use super::driver::Driver;
 use super::feed::Feed;
 use super::sequence::{End, SEQUENCES, Sequence};
@@ -62,12 +62,12 @@ impl<'a> Session<'a> {
 
     pub(crate) fn run(
         &mut self,
-        rounds: u32,
+        extent: Extent,
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
         let given = |session: &mut Self, number, first| session.given(number, first, frames);
-        let turns = Turns { rounds, directed: SEQUENCES, given: self.parts(frames) };
+        let turns = Turns { extent, directed: SEQUENCES, given: self.parts(frames) };
         turns.record(self, Self::directed, given, progress)
     }
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which modules, with which parameter values, a run elaborates: what Verilator makes of the Verilog.
+//!
+//! A module that takes a `generate` branch for large frames only is reached in the text and never seen by a
+//! simulation of a small one. So what is generated is elaborated, and what is simulated, and the modules
+//! with their parameter values are compared. [`crate::hierarchy`] finds files that nothing instantiates.
+
+mod variant;
+mod wiring;
+mod xml;
+
+use crate::error::CosimError;
+use crate::level::Level;
+use foveate_design::{Design, DesignError};
+use foveate_emit::{Parameter, SourceFile, Top};
+use foveate_toolchain::{Source, Toolchain, verilator};
+use std::collections::BTreeSet;
+use std::io::BufReader;
+pub use variant::NotElaborated;
+pub(crate) use variant::Variant;
+pub(crate) use wiring::Tile;
+
+/// What the hierarchy below a top is made of.
+#[derive(Debug, Default)]
+pub(crate) struct Elaboration {
+    /// Every module with the values of its parameters.
+    pub(crate) variants: BTreeSet<Variant>,
+    /// What the top instantiates, in order.
+    pub(crate) tiles: Vec<Tile>,
+}
+
+impl Elaboration {
+    fn of(
+        sources: &[Source],
+        top: Top,
+        parameters: &[Parameter],
+        toolchain: &Toolchain,
+    ) -> Result<Self, CosimError> {
+        let text = verilator::elaborate(toolchain, sources, top.module(), parameters)?;
+        xml::read(BufReader::new(text.as_slice()), top.module())
+    }
+}
+
+/// The modules, with their parameter values, that the design has and no run at one of these levels
+/// elaborates. An array of copies of `rpu` may be larger than what is simulated of it if each copy is connected
+/// to its own lanes.
+///
+/// # Errors
+/// When Verilator is missing or refuses the Verilog, or the toolchain's flag has stopped it.
+pub fn not_elaborated(
+    design: &Design,
+    sources: &[SourceFile],
+    levels: &[Level],
+    toolchain: &Toolchain,
+) -> Result<Vec<NotElaborated>, CosimError> {
+    let simulated = levels.iter().map(|level| Ok((level.top(), level.design(design)?)));
+    let simulated = simulated.collect::<Result<Vec<_>, DesignError>>()?;
+    let is_simulated = |top: Top| {
+        let same = |part: &Design| top.parameters(part) == top.parameters(design);
+        simulated.iter().any(|(other, part)| *other == top && same(part))
+    };
+    let open: Vec<Top> = [Top::Rpu, Top::Rcm]
+        .into_iter()
+        .filter(|top| crate::hierarchy::declares(sources, top.module()) && !is_simulated(*top))
+        .collect();
+    if open.is_empty() {
+        return Ok(Vec::new());
+    }
+    let named: Vec<Source> =
+        sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
+    let elaborate = |top: Top, part: &Design| {
+        Elaboration::of(&named, top, &top.parameters(part), toolchain)
+    };
+    let mut seen = BTreeSet::new();
+    for (top, part) in &simulated {
+        seen.append(&mut elaborate(*top, part)?.variants);
+    }
+    let mut left = Vec::new();
+    for top in open {
+        let whole = elaborate(top, design)?;
+        let is_wired = Level::is_copies(design) && wiring::is_right(design, &whole.tiles);
+        let is_own = |variant: &Variant| variant.module == top.module();
+        let unseen = whole.variants.into_iter().filter(|variant| !seen.contains(variant));
+        let unseen = unseen.filter(|variant| !(is_wired && is_own(variant)));
+        left.extend(unseen.map(|variant| variant.beside(&seen)));
+    }
+    Ok(left)
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether an array of copies connects each copy to the lanes of its own region.
+//!
+//! A simulation of a few copies shows what one does and how neighbors are told apart. That the other copies are
+//! connected in the same way is read from the elaborated array, however large it is.
+
+use super::xml::Token;
+use foveate_design::{Design, Direction, Port, PortRole};
+use foveate_emit::Top;
+use foveate_model::region_border;
+use std::collections::BTreeMap;
+
+/// An instance in the top.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Tile {
+    pub(super) module: String,
+    pub(super) ports: Vec<(String, Connection)>,
+}
+
+/// What is connected to a port.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Connection {
+    /// A whole signal.
+    All(String),
+    /// So many bits of a signal.
+    Part { signal: String, from: u64, width: u64 },
+    /// A constant.
+    Number(u64),
+    /// Anything else.
+    Other,
+}
+
+impl Connection {
+    pub(super) fn of(tokens: &[Token]) -> Self {
+        let number = |text: &str| u64::from_str_radix(text, 16).ok();
+        match tokens {
+            [Token::Signal(name)] => Self::All(name.clone()),
+            [Token::Select, Token::Signal(name), Token::Number(from), Token::Number(width)] => {
+                match (number(from), number(width)) {
+                    (Some(from), Some(width)) => Self::Part { signal: name.clone(), from, width },
+                    _ => Self::Other,
+                }
+            }
+            [Token::Number(value)] => number(value).map_or(Self::Other, Self::Number),
+            _ => Self::Other,
+        }
+    }
+}
+
+/// Whether there is one copy of `rpu` per region, in their order, and each has the lanes of its own region: of
+/// every port that the array has for all of them the whole, of every port that it has per region its part.
+pub(super) fn is_right(design: &Design, tiles: &[Tile]) -> bool {
+    let (array, unit) = (Top::Rcm.ports(design), Top::Rpu.ports(design));
+    let array: BTreeMap<&str, &Port> = array.iter().map(|port| (port.name.as_str(), port)).collect();
+    let regions = 0..design.regions();
+    tiles.len() == regions.len()
+        && regions.zip(tiles).all(|(region, tile)| {
+            let names: Vec<&str> = tile.ports.iter().map(|(name, _)| name.as_str()).collect();
+            tile.module == "rpu"
+                && unit.iter().all(|port| names.contains(&port.name.as_str()))
+                && names.len() == unit.len()
+                && tile.ports.iter().all(|(name, connection)| {
+                    let port = unit.iter().find(|port| port.name == *name);
+                    port.is_some_and(|port| fits(design, region, port, &array, connection))
+                })
+        })
+}
+
+fn fits(
+    design: &Design,
+    region: u32,
+    port: &Port,
+    array: &BTreeMap<&str, &Port>,
+    connection: &Connection,
+) -> bool {
+    let own = |width: u64| u64::from(region) * width;
+    match connection {
+        Connection::Number(value) => {
+            port.role == PortRole::Border && *value == u64::from(region_border(design, region))
+        }
+        Connection::All(signal) => {
+            signal == &port.name
+                && array.get(signal.as_str()).is_some_and(|whole| whole.lanes == 1)
+        }
+        Connection::Part { signal, from, width } => {
+            let is_lane = *width == u64::from(port.bits()) && *from == own(*width);
+            // What all say at once the array collects in a signal of its own.
+            let is_collected = port.direction == Direction::Output && !array.contains_key(signal.as_str());
+            let is_same = signal == &port.name
+                && array.get(signal.as_str()).is_some_and(|whole| whole.width == port.width);
+            is_lane && (is_same || is_collected)
+        }
+        Connection::Other => false,
+    }
+}

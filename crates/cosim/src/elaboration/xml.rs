@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Reads the hierarchy that Verilator writes as XML: modules, parameters, and what the top connects.
+
+use super::{Elaboration, Tile, Variant};
+use crate::elaboration::wiring::Connection;
+use crate::error::CosimError;
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+use std::io::BufRead;
+
+/// Where in the text the reader is.
+#[derive(Default)]
+struct Place {
+    elaboration: Elaboration,
+    module: Option<Variant>,
+    is_top: bool,
+    /// The parameter whose value comes next.
+    parameter: Option<String>,
+    tile: Option<Tile>,
+    /// The port of the tile, and what stands there.
+    port: Option<(String, Vec<Token>)>,
+}
+
+/// A part of what is connected to a port.
+pub(super) enum Token {
+    Select,
+    Signal(String),
+    Number(String),
+    Other,
+}
+
+/// Reads all of it; `top` is the module whose instances are wanted.
+pub(super) fn read(text: impl BufRead, top: &str) -> Result<Elaboration, CosimError> {
+    let mut reader = Reader::from_reader(text);
+    let (mut place, mut buffer) = (Place::default(), Vec::new());
+    loop {
+        match reader.read_event_into(&mut buffer) {
+            Ok(Event::Start(tag)) => place.begin(&tag, top),
+            Ok(Event::Empty(tag)) => {
+                place.begin(&tag, top);
+                place.end(tag.name().as_ref());
+            }
+            Ok(Event::End(tag)) => place.end(tag.name().as_ref()),
+            Ok(Event::Eof) => return Ok(place.elaboration),
+            Ok(_) => {}
+            Err(error) => return Err(CosimError::Elaboration { why: error.to_string() }),
+        }
+        buffer.clear();
+    }
+}
+
+impl Place {
+    fn begin(&mut self, tag: &BytesStart<'_>, top: &str) {
+        let name = tag.name();
+        match name.as_ref() {
+            b"module" => {
+                let module = value(tag, "origName").unwrap_or_default();
+                self.is_top = module == top && value(tag, "topModule").is_some();
+                self.module = Some(Variant { module, ..Variant::default() });
+            }
+            b"var" if value(tag, "param").is_some() => self.parameter = value(tag, "name"),
+            b"const" => {
+                let number = value(tag, "name").unwrap_or_default();
+                if let (Some(module), Some(name)) = (&mut self.module, self.parameter.take()) {
+                    module.parameters.insert(name, digits(&number));
+                } else {
+                    self.connect(Token::Number(digits(&number)));
+                }
+            }
+            b"instance" if self.is_top => {
+                let module = value(tag, "defName").unwrap_or_default();
+                self.tile = Some(Tile { module, ports: Vec::new() });
+            }
+            b"port" if self.tile.is_some() => {
+                self.port = value(tag, "name").map(|name| (name, Vec::new()));
+            }
+            b"sel" => self.connect(Token::Select),
+            b"varref" => self.connect(Token::Signal(value(tag, "name").unwrap_or_default())),
+            _ => self.connect(Token::Other),
+        }
+    }
+
+    fn connect(&mut self, token: Token) {
+        if let Some((_, tokens)) = &mut self.port {
+            tokens.push(token);
+        }
+    }
+
+    fn end(&mut self, name: &[u8]) {
+        match name {
+            b"module" => self.elaboration.variants.extend(self.module.take()),
+            b"var" => self.parameter = None,
+            b"instance" => self.elaboration.tiles.extend(self.tile.take()),
+            b"port" => {
+                if let (Some(tile), Some((port, tokens))) = (&mut self.tile, self.port.take()) {
+                    tile.ports.push((port, Connection::of(&tokens)));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn value(tag: &BytesStart<'_>, name: &str) -> Option<String> {
+    let attribute = tag.try_get_attribute(name).ok().flatten()?;
+    let text = String::from_utf8_lossy(&attribute.value).into_owned();
+    Some(text.replace("&apos;", "'").replace("&quot;", "\"").replace("&amp;", "&"))
+}
+
+/// The digits of a number such as `32'sh1f`; anything else as it is.
+fn digits(number: &str) -> String {
+    let digits = number.split_once('\'').map_or(number, |(_, rest)| rest);
+    let digits = digits.trim_start_matches('s').strip_prefix('h').unwrap_or(digits);
+    let short = digits.trim_start_matches('0');
+    if short.is_empty() { "0".to_owned() } else { short.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = r#"<?xml version="1.0"?><verilator_xml><netlist>
+        <module name="rcm" origName="rcm" topModule="1">
+          <var name="COLUMNS" param="true"><const name="32&apos;sh1c"/></var>
+          <var name="REGION" localparam="true"><const name="32&apos;h3"/></var>
+          <begin><instance name="u_rpu" defName="rpu" origName="u_rpu">
+            <port name="clk_i" direction="in"><varref name="clk_i"/></port>
+            <port name="pixel_i" direction="in"><sel>
+              <varref name="pixel_i"/><const name="15&apos;h18"/><const name="32&apos;sh8"/>
+            </sel></port>
+            <port name="border_i" direction="in"><const name="4&apos;h0"/></port>
+            <port name="odd_i" direction="in"><not><varref name="pixel_i"/></not></port>
+          </instance></begin>
+        </module>
+        <module name="memory__W8" origName="memory">
+          <var name="WIDTH" param="true"><const name="32&apos;h00000008"/></var>
+          <var name="STYLE" param="true"><const name="&quot;block&quot;"/></var>
+        </module></netlist></verilator_xml>"#;
+
+    #[test]
+    fn modules_parameters_and_connections_are_read() {
+        let Elaboration { variants, tiles } = read(TEXT.as_bytes(), "rcm").unwrap();
+        let said: Vec<String> = variants.iter().map(|v| format!("{v:?}")).collect();
+        assert_eq!(said.len(), 2, "{said:?}");
+        let memory = variants.iter().find(|variant| variant.module == "memory").unwrap();
+        assert_eq!(memory.parameters["WIDTH"], "8");
+        assert_eq!(memory.parameters["STYLE"], "\"block\"");
+        let rcm = variants.iter().find(|variant| variant.module == "rcm").unwrap();
+        assert_eq!(rcm.parameters.len(), 1, "no localparam: {rcm:?}");
+        assert_eq!(tiles.len(), 1);
+        let ports: Vec<_> = tiles[0].ports.iter().map(|(_, connection)| connection).collect();
+        let part = Connection::Part { signal: "pixel_i".to_owned(), from: 0x18, width: 8 };
+        let all = Connection::All("clk_i".to_owned());
+        assert_eq!(ports, [&all, &part, &Connection::Number(0), &Connection::Other]);
+    }
+
+    #[test]
+    fn a_text_that_is_no_hierarchy_is_an_error() {
+        assert!(read("<a></b>".as_bytes(), "rcm").is_err());
+    }
+}
