@@ -52,12 +52,26 @@ pub enum Shape {
 }
 
 /// A line, or points of one kind.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Line {
     /// Its name in the legend.
     pub name: String,
     /// Its points; a line goes from one to the next.
     pub points: Vec<(f64, f64)>,
+    /// How it is drawn.
+    pub look: Look,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Look {
+    /// In the next colour.
+    #[default]
+    Plain,
+    /// In the next colour, with gaps and with rings for dots, through which a line below shows.
+    Open,
+    /// In front of all, in a form and a colour of its own: what the chart is about.
+    Target,
 }
 
 /// One bar per group.

@@ -6,23 +6,24 @@ use plotters::coord::Shift;
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use crate::bars::draw_bars;
 use crate::chart::SIZE;
-use crate::{Bars, Chart, Line, Shape};
+use crate::legend::{LEGEND, names_of_bars, names_of_lines, names_of_points};
+use crate::{Chart, Line, Look, Shape};
 
-/// Columns of pixels for the legend, and letters of a name in it.
-const LEGEND: u32 = 210;
-const LETTERS: usize = 25;
 const CAPTION: u32 = 24;
-const GROUND: RGBColor = rgb(LIGHT.ground);
-const INK: RGBColor = rgb(LIGHT.ink);
+pub(crate) const GROUND: RGBColor = rgb(LIGHT.ground);
+pub(crate) const INK: RGBColor = rgb(LIGHT.ink);
 const QUIET: RGBColor = rgb(LIGHT.quiet);
-const GRID: RGBColor = rgb(LIGHT.grid);
+pub(crate) const GRID: RGBColor = rgb(LIGHT.grid);
 /// With more points than this a line has no dots.
 const DOTS: usize = 40;
+/// The most labels of an axis across.
+const LABELS: usize = 11;
 
-type Result<DB> = std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+pub(crate) type Result<DB> =
+    std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
 pub(crate) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shift>) -> Result<DB> {
     root.fill(&GROUND)?;
@@ -34,40 +35,63 @@ pub(crate) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shi
         Shape::Lines(lines) => {
             let mut context = plain_axes(chart, lines, &plot)?;
             draw_series(lines, &mut context)?;
-            draw_names_of_lines::<DB>(lines, &legend)?;
+            names_of_lines::<DB>(lines, &legend)?;
         }
         Shape::Points(points) => {
             let mut context = plain_axes(chart, points, &plot)?;
             draw_points(points, &mut context)?;
-            draw_names_of_points::<DB>(points, &legend)?;
+            names_of_points::<DB>(points, &legend)?;
         }
         Shape::LogLines(lines) => {
             draw_log_lines::<DB>(chart, lines, &plot)?;
-            draw_names_of_lines::<DB>(lines, &legend)?;
+            names_of_lines::<DB>(lines, &legend)?;
         }
         Shape::Bars { groups, series } => {
             draw_bars::<DB>(chart, groups, series, &plot)?;
-            draw_names_of_bars::<DB>(series, &legend)?;
+            names_of_bars::<DB>(series, &legend)?;
         }
     }
     root.present()
 }
 
-/// Of a line by its number.
-fn colour(number: usize) -> RGBColor {
-    rgb(LIGHT.series[number % LIGHT.series.len()])
+/// How a line is told from the others.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbered {
+    pub(crate) colour: RGBColor,
+    /// Whether a line below shows through it.
+    pub(crate) is_open: bool,
 }
 
-const fn rgb([red, green, blue]: Colour) -> RGBColor {
+/// Lines with their colours, of which a target needs none. When all are taken, they are drawn with gaps from the first on.
+pub(crate) fn numbered(lines: &[Line]) -> impl Iterator<Item = (Numbered, &Line)> {
+    let colours = LIGHT.series.len();
+    let mut next = 0;
+    lines.iter().map(move |line| {
+        if line.look == Look::Target {
+            return (Numbered { colour: INK, is_open: false }, line);
+        }
+        let number = next;
+        next += 1;
+        let colour = rgb(LIGHT.series[number % colours]);
+        (Numbered { colour, is_open: line.look == Look::Open || number >= colours }, line)
+    })
+}
+
+/// A disc that nothing hides, with a ring and a dot.
+pub(crate) fn target<C: Clone>(at: C) -> [Circle<C, u32>; 3] {
+    [
+        Circle::new(at.clone(), 9, GROUND.filled()),
+        Circle::new(at.clone(), 7, INK.stroke_width(2)),
+        Circle::new(at, 3, INK.filled()),
+    ]
+}
+
+pub(crate) const fn rgb([red, green, blue]: Colour) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
-fn dashed(number: usize) -> bool {
-    number >= LIGHT.series.len()
-}
-
 /// A little more than the largest, so that nothing touches the frame.
-fn top(values: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn top(values: impl Iterator<Item = f64>) -> f64 {
     let largest = values.fold(0.0, f64::max);
     if largest > 0.0 { 1.05 * largest } else { 1.0 }
 }
@@ -97,7 +121,9 @@ fn plain_axes<'a, DB: DrawingBackend>(
     let last = if last > 0.0 { last } else { 1.0 };
     let height = top(points().map(|point| point.1));
     let mut context = lines_on(chart, area).build_cartesian_2d(0.0..last, 0.0..height)?;
-    draw_mesh(chart, &mut context, None)?;
+    // Where every value is whole, every label is: no more labels than whole numbers.
+    let whole = points().all(|(x, _)| x.fract() == 0.0).then(|| whole_labels(last));
+    draw_mesh(chart, &mut context, whole.unwrap_or(LABELS), &|&x| plain(x))?;
     Ok(context)
 }
 
@@ -113,8 +139,20 @@ fn draw_log_lines<DB: DrawingBackend>(
     let height = top(points().map(|point| point.1));
     let across = (0.8 * first..1.25 * last).log_scale();
     let mut context = lines_on(chart, area).build_cartesian_2d(across, 0.0..height)?;
-    draw_mesh(chart, &mut context, Some(&|&x| thousands(x)))?;
+    draw_mesh(chart, &mut context, LABELS, &|&x| thousands(x))?;
     draw_series(lines, &mut context)
+}
+
+/// Labels from 0 to this number, at most one for each number.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few, and not negative")]
+fn whole_labels(last: f64) -> usize {
+    last.min(LABELS as f64 - 1.0) as usize + 1
+}
+
+/// A label with no more digits than it needs.
+pub(crate) fn plain(value: f64) -> String {
+    // Steps of an axis are added up.
+    ((value * 1e9).round() / 1e9).to_string()
 }
 
 /// A label of a logarithmic axis, such as `20 k`.
@@ -129,13 +167,15 @@ type Plot<'a, DB, X> = ChartContext<'a, DB, Cartesian2d<X, RangedCoordf64>>;
 fn draw_mesh<DB: DrawingBackend, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
     chart: &Chart,
     context: &mut Plot<'_, DB, X>,
-    label: Option<&dyn Fn(&f64) -> String>,
+    labels: usize,
+    label: &dyn Fn(&f64) -> String,
 ) -> Result<DB> {
-    let mut mesh = context.configure_mesh();
-    if let Some(label) = &label {
-        mesh.x_label_formatter(label);
-    }
-    mesh.x_desc(&chart.x)
+    context
+        .configure_mesh()
+        .x_labels(labels)
+        .x_label_formatter(&label)
+        .y_label_formatter(&|&y| plain(y))
+        .x_desc(&chart.x)
         .y_desc(&chart.y)
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 15))
@@ -148,22 +188,37 @@ fn draw_series<DB: DrawingBackend, X: Ranged<ValueType = f64>>(
     lines: &[Line],
     context: &mut Plot<'_, DB, X>,
 ) -> Result<DB> {
-    for (number, line) in lines.iter().enumerate() {
-        let points = line.points.iter().copied();
-        if dashed(number) {
-            let style = colour(number).stroke_width(1);
-            context.draw_series(DashedLineSeries::new(points.clone(), 6, 4, style))?;
-        } else {
-            // Piece by piece: at a sharp corner a thick line as a whole gets a spike across the page.
-            let style = colour(number).stroke_width(2);
-            let piece = |ends: &[(f64, f64)]| PathElement::new(ends.to_vec(), style);
-            context.draw_series(line.points.windows(2).map(piece))?;
+    for (Numbered { colour, is_open }, line) in numbered(lines) {
+        if line.look == Look::Target {
+            continue;
         }
-        if line.points.len() <= DOTS {
-            let dot = |point| Circle::new(point, 3, colour(number).filled());
+        let (points, is_long) = (line.points.iter().copied(), line.points.len() > DOTS);
+        let style = colour.stroke_width(2);
+        let dashes = |ends: &[(f64, f64)], style| {
+            DashedLineSeries::new(ends.to_vec(), 6, 4, style).into_iter()
+        };
+        // Piece by piece: at a sharp corner a thick line as a whole gets a spike across the page. A gap between points that lie
+        // close together needs the line as a whole.
+        match (is_open, is_long) {
+            (true, true) => context.draw_series(dashes(&line.points, colour.stroke_width(1)))?,
+            (true, false) => {
+                context.draw_series(line.points.windows(2).flat_map(|ends| dashes(ends, style)))?
+            }
+            (false, _) => {
+                let piece = |ends: &[(f64, f64)]| PathElement::new(ends.to_vec(), style);
+                context.draw_series(line.points.windows(2).map(piece))?
+            }
+        };
+        if !is_long {
+            let dot = |point| match is_open {
+                true => Circle::new(point, 5, style),
+                false => Circle::new(point, 3, colour.filled()),
+            };
             context.draw_series(points.map(dot))?;
         }
     }
+    let targets = lines.iter().filter(|line| line.look == Look::Target);
+    context.draw_series(targets.flat_map(|line| line.points.iter().copied().flat_map(target)))?;
     Ok(())
 }
 
@@ -171,119 +226,14 @@ fn draw_points<DB: DrawingBackend>(
     series: &[Line],
     context: &mut Plot<'_, DB, RangedCoordf64>,
 ) -> Result<DB> {
-    for (number, points) in series.iter().enumerate() {
-        let dot = |&point: &(f64, f64)| Circle::new(point, 3, colour(number).filled());
+    for (number, points) in numbered(series) {
+        let dot = |&point: &(f64, f64)| Circle::new(point, 3, number.colour.filled());
         context.draw_series(points.points.iter().map(dot))?;
     }
     Ok(())
 }
 
-fn draw_bars<DB: DrawingBackend>(
-    chart: &Chart,
-    groups: &[String],
-    series: &[Bars],
-    area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
-    let number = |count: usize| f64::from(u32::try_from(count).expect("bars are few"));
-    let tops = series.iter().flat_map(|bars| {
-        bars.values.iter().copied().chain(bars.ranges.iter().map(|range| range.1))
-    });
-    let mut context = ChartBuilder::on(area)
-        .caption(&chart.title, ("sans-serif", 20))
-        .margin(12)
-        .x_label_area_size(168)
-        .y_label_area_size(64)
-        .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..top(tops))?;
-    context
-        .configure_mesh()
-        .disable_x_mesh()
-        .x_labels(0)
-        .y_desc(&chart.y)
-        .label_style(("sans-serif", 13))
-        .axis_desc_style(("sans-serif", 15))
-        .light_line_style(GROUND)
-        .bold_line_style(GRID)
-        .draw()?;
-    let wide = 0.8 / number(series.len().max(1));
-    for (at, bars) in series.iter().enumerate() {
-        let left = |group: usize| number(group) + 0.1 + wide * number(at);
-        let bar = |(group, &value): (usize, &f64)| {
-            let corners = [(left(group), 0.0), (left(group) + 0.9 * wide, value)];
-            Rectangle::new(corners, rgb(bars.colour).filled())
-        };
-        context.draw_series(bars.values.iter().enumerate().map(bar))?;
-        let whisker = |(group, &(from, to)): (usize, &(f64, f64))| {
-            let middle = left(group) + 0.45 * wide;
-            PathElement::new(vec![(middle, from), (middle, to)], INK.stroke_width(2))
-        };
-        context.draw_series(bars.ranges.iter().enumerate().map(whisker))?;
-    }
-    // Names of clips are long: they are written upwards, ending below their group.
-    let style = ("sans-serif", 13)
-        .into_font()
-        .transform(FontTransform::Rotate270)
-        .color(&INK)
-        .pos(Pos::new(HPos::Right, VPos::Center));
-    for (group, name) in groups.iter().enumerate() {
-        let (x, y) = context.backend_coord(&(number(group) + 0.5, 0.0));
-        let (x0, y0) = (area.get_base_pixel().0, area.get_base_pixel().1);
-        area.draw(&Text::new(cut(name, 20), (x - x0, y - y0 + 8), style.clone()))?;
-    }
-    let (width, height) = area.dim_in_pixel();
-    let axis = ("sans-serif", 15).into_font().color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
-    let [middle, bottom] = [width / 2, height].map(|at| i32::try_from(at).expect("within SIZE"));
-    let below = (middle, bottom - 2);
-    area.draw(&Text::new(chart.x.clone(), below, axis))
-}
-
-/// Heights of the rows of a legend.
-fn rows() -> impl Iterator<Item = i32> {
-    (56..).step_by(22)
-}
-
-fn draw_names_of_bars<DB: DrawingBackend>(
-    series: &[Bars],
-    area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
-    for (bars, y) in series.iter().zip(rows()) {
-        area.draw(&Rectangle::new([(4, y - 6), (18, y + 6)], rgb(bars.colour).filled()))?;
-        draw_name::<DB>(&bars.name, y, area)?;
-    }
-    Ok(())
-}
-
-fn draw_names_of_lines<DB: DrawingBackend>(
-    lines: &[Line],
-    area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
-    for (number, (line, y)) in lines.iter().zip(rows()).enumerate() {
-        let pieces: &[(i32, i32)] = if dashed(number) { &[(4, 11), (16, 23)] } else { &[(4, 23)] };
-        for &(from, to) in pieces {
-            let style = colour(number).stroke_width(3);
-            area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
-        }
-        draw_name::<DB>(&line.name, y, area)?;
-    }
-    Ok(())
-}
-
-fn draw_names_of_points<DB: DrawingBackend>(
-    series: &[Line],
-    area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
-    for (number, (points, y)) in series.iter().zip(rows()).enumerate() {
-        area.draw(&Circle::new((13, y), 4, colour(number).filled()))?;
-        draw_name::<DB>(&points.name, y, area)?;
-    }
-    Ok(())
-}
-
-fn draw_name<DB: DrawingBackend>(name: &str, y: i32, area: &DrawingArea<DB, Shift>) -> Result<DB> {
-    let font = ("sans-serif", 13).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw(&Text::new(cut(name, LETTERS), (29, y), font))
-}
-
-fn cut(name: &str, letters: usize) -> String {
+pub(crate) fn cut(name: &str, letters: usize) -> String {
     if name.chars().count() <= letters {
         return name.to_owned();
     }

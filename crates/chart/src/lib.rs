@@ -3,10 +3,12 @@
 //! same on a machine without fonts. Colours are those of the palette; from the eighth series on, lines
 //! are dashed. Knows nothing of what is drawn.
 
+mod bars;
 mod chart;
 mod draw;
 mod error;
+mod legend;
 mod page;
 
-pub use chart::{Bars, Chart, Line, Shape};
+pub use chart::{Bars, Chart, Line, Look, Shape};
 pub use error::ChartError;

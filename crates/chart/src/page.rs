@@ -57,11 +57,14 @@ impl DrawingBackend for Page<'_> {
         (x, y): BackendCoord,
         radius: u32,
         style: &S,
-        _fill: bool,
+        fill: bool,
     ) -> Result {
-        let reach = i32::try_from(radius).unwrap_or(i32::MAX - 1) + 1;
+        // A ring reaches half of its line further.
+        let half = f64::from(style.stroke_width()) / 2.0;
+        let reach = i32::try_from(radius + style.stroke_width()).unwrap_or(i32::MAX - 1) + 1;
         for (dx, dy) in (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy))) {
-            let covered = f64::from(radius) + 0.5 - f64::from(dx).hypot(f64::from(dy));
+            let inside = f64::from(radius) - f64::from(dx).hypot(f64::from(dy));
+            let covered = 0.5 + if fill { inside } else { half - inside.abs() };
             let colour = style.color();
             let alpha = colour.alpha * covered.clamp(0.0, 1.0);
             self.draw_pixel((x + dx, y + dy), BackendColor { alpha, ..colour })?;

@@ -3,7 +3,7 @@
 
 use crate::Layer;
 use crate::summary::{Macs, Summary, Tried, Tuning};
-use foveate_chart::{Chart, Line, Shape};
+use foveate_chart::{Chart, Line, Look, Shape};
 
 /// A counted frame.
 #[derive(Clone, Debug)]
@@ -31,6 +31,7 @@ pub(crate) struct Drawn {
 /// A line whose points belong to something.
 struct Series {
     name: String,
+    look: Look,
     points: Vec<(String, (f64, f64))>,
 }
 
@@ -75,8 +76,9 @@ pub(crate) fn charts(summary: &Summary, frames: &[Counted]) -> Vec<Drawn> {
 /// Where the halo of the windows eats what is saved.
 fn depth(summary: &Summary) -> Drawn {
     let layers = || summary.layers.iter().enumerate().filter(|(_, layer)| layer.macs > 0);
-    let line = |name: &str, share: fn(&Layer) -> f64| Series {
+    let line = |name: &str, look, share: fn(&Layer) -> f64| Series {
         name: name.to_owned(),
+        look,
         points: (1u32..)
             .zip(layers())
             .map(|(number, (at, layer))| (layer_id(at), (f64::from(number), 100.0 * share(layer))))
@@ -88,15 +90,17 @@ fn depth(summary: &Summary) -> Drawn {
         "layer with multiplications, from the input on",
         "share of the layer's positions [%]",
         vec![
-            line("needed", |layer| layer.needed_share),
-            line("passed on", |layer| layer.changed_share),
+            line("needed", Look::Plain, |layer| layer.needed_share),
+            // Most layers pass on all that they compute.
+            line("passed on", Look::Open, |layer| layer.changed_share),
         ],
     )
 }
 
 fn over_frames(summary: &Summary, frames: &[Counted]) -> Drawn {
-    let line = |name: &str, share: fn(&Counted) -> f64| Series {
+    let line = |name: &str, look, share: fn(&Counted) -> f64| Series {
         name: name.to_owned(),
+        look,
         #[allow(clippy::cast_precision_loss, reason = "a place in a chart")]
         points: frames
             .iter()
@@ -109,9 +113,10 @@ fn over_frames(summary: &Summary, frames: &[Counted]) -> Drawn {
         if summary.clips.len() > 1 { "frame, clip after clip" } else { "frame" },
         "share [%]",
         vec![
-            line("MACs needed", |frame| frame.macs.share(frame.macs.needed)),
-            line("regions changed", |frame| frame.changed),
-            line("regions active", |frame| frame.active),
+            line("MACs needed", Look::Plain, |frame| frame.macs.share(frame.macs.needed)),
+            line("regions changed", Look::Plain, |frame| frame.changed),
+            // Mostly the same regions.
+            line("regions active", Look::Open, |frame| frame.active),
         ],
     )
 }
@@ -120,6 +125,7 @@ fn over_frames(summary: &Summary, frames: &[Counted]) -> Drawn {
 fn saved(summary: &Summary, frames: &[Counted]) -> Drawn {
     let of = |name: &str, is_shown: &dyn Fn(&&Counted) -> bool| Series {
         name: name.to_owned(),
+        look: Look::Plain,
         points: frames
             .iter()
             .filter(is_shown)
@@ -153,8 +159,9 @@ fn saved(summary: &Summary, frames: &[Counted]) -> Drawn {
 /// The error of what was tried against what it needs, up to the error of outputs that never change.
 fn tuning(tuning: &Tuning) -> Drawn {
     let all = tried(tuning);
-    let line = |name: &str, kinds: &[&str]| Series {
+    let line = |name: &str, look, kinds: &[&str]| Series {
         name: name.to_owned(),
+        look,
         points: all
             .iter()
             .filter(|(_, limits, _)| kinds.contains(limits))
@@ -171,9 +178,9 @@ fn tuning(tuning: &Tuning) -> Drawn {
         "MACs needed [%]",
         "RMS error of the outputs [% of their standard deviation]",
         vec![
-            line("same relative limit", &["exact", "uniform"]),
-            line("never computed again", &["frozen"]),
-            line("chosen", &["chosen"]),
+            line("same relative limit", Look::Plain, &["exact", "uniform"]),
+            line("never computed again", Look::Plain, &["frozen"]),
+            line("chosen", Look::Target, &["chosen"]),
         ],
     )
 }
@@ -181,9 +188,9 @@ fn tuning(tuning: &Tuning) -> Drawn {
 fn chart(file: &str, title: &str, x: &str, y: &str, series: Vec<Series>) -> Drawn {
     let (lines, ids) = series
         .into_iter()
-        .map(|Series { name, points }| {
+        .map(|Series { name, look, points }| {
             let (ids, points) = points.into_iter().unzip();
-            (Line { name: name.to_owned(), points }, ids)
+            (Line { name, points, look }, ids)
         })
         .unzip();
     let chart = Chart {

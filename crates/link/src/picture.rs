@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bytes against quality as charts: the design's thresholds and the codecs' quantizers.
 
-use foveate_chart::{Chart, Line, Shape};
+use foveate_chart::{Chart, Line, Look, Shape};
 
 use crate::report::QUANTIZER;
 use crate::{ClipReport, Point, Quality};
@@ -39,7 +39,7 @@ fn caption(clip: &ClipReport) -> String {
     )
 }
 
-/// A line for each codec and each threshold in the order of the points, and the design on top. Pictures without
+/// A line for each codec and each threshold in the order of the points, and the design in front of all. Pictures without
 /// any difference have no PSNR, and no point there.
 fn lines(clip: &ClipReport, part: fn(&Quality) -> Option<f64>) -> Vec<Line> {
     let place = |bytes: u64, quality: &Quality| Some((coordinate(bytes), part(quality)?));
@@ -51,12 +51,13 @@ fn lines(clip: &ClipReport, part: fn(&Quality) -> Option<f64>) -> Vec<Line> {
     for point in of_codecs.chain(of_thresholds) {
         let name = name(point);
         if lines.last().is_none_or(|line| line.name != name) {
-            lines.push(Line { name, points: Vec::new() });
+            lines.push(Line { name, ..Line::default() });
         }
         let line = lines.last_mut().expect("one has just been added");
         line.points.extend(place(point.bytes_per_second, &point.quality));
     }
-    lines.push(Line { name: "this design".to_owned(), points: own.into_iter().collect() });
+    let points = own.into_iter().collect();
+    lines.push(Line { name: "this design".to_owned(), points, look: Look::Target });
     lines
 }
 

@@ -52,6 +52,7 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
                 .flat_map(|(_, series)| series.iter().skip(1))
                 .map(|(time_us, regions)| (seconds(*time_us), percent(part(regions), regions.all)))
                 .collect(),
+            ..Line::default()
         });
         let chart = Chart {
             file: file.to_owned(),

@@ -53,7 +53,7 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
                 let height = percent(count, histogram.all);
                 [(f64::from(at) * width, height), (f64::from(at + 1) * width, height)]
             });
-            lines.push(Line { name: set.name.clone(), points: steps.collect() });
+            lines.push(Line { name: set.name.clone(), points: steps.collect(), ..Line::default() });
         }
     }
     let mut findings = Findings::new(Study::MadHistogram, &watched, table);

@@ -181,5 +181,6 @@ fn line(clip: &Watched<Tally>, key: &Key, first: usize) -> Line {
     let point = |((value, _), sum): (&(u64, Config), Regions)| {
         (coordinate(*value), percent(sum.active, sum.all))
     };
-    Line { name: clip.name.clone(), points: key.points.iter().zip(tallies).map(point).collect() }
+    let points = key.points.iter().zip(tallies).map(point).collect();
+    Line { name: clip.name.clone(), points, ..Line::default() }
 }

@@ -43,7 +43,7 @@ fn against_bytes(keys: &[Key], together: &[&Outcome]) -> Chart {
         };
         let points: Vec<(f64, f64)> = own.map(point).collect();
         if !points.is_empty() {
-            lines.push(Line { name: key.name.clone(), points });
+            lines.push(Line { name: key.name.clone(), points, ..Line::default() });
         }
     }
     Chart {
@@ -75,7 +75,8 @@ fn bars(own: &Outcome, (group, axis): (&str, &str)) -> Option<Chart> {
         y: "share of objects [%]".to_owned(),
         caption: String::new(),
         shape: Shape::Bars {
-            groups: counted.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            // A share of few objects says little.
+            groups: counted.iter().map(|(name, c)| format!("{name} (n = {})", c.objects)).collect(),
             series: LEVELS.iter().enumerate().map(series).collect(),
         },
     };

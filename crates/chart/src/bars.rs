@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Groups of bars. Their names stand below them: level where there is room, else upwards.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::draw::{GRID, GROUND, INK, Result, cut, plain, rgb, top};
+use crate::{Bars, Chart};
+
+/// Around the plot, and left of it, in pixels.
+const MARGIN: u32 = 12;
+const LEFT: u32 = 64;
+/// From the axis to the names, and below them for what the axis is about.
+const ABOVE: u32 = 8;
+const TITLE: u32 = 28;
+/// Between two names that stand side by side.
+const APART: u32 = 10;
+/// Letters of a name, of which those of clips are long.
+const LETTERS: usize = 20;
+
+pub(crate) fn draw_bars<DB: DrawingBackend>(
+    chart: &Chart,
+    groups: &[String],
+    series: &[Bars],
+    area: &DrawingArea<DB, Shift>,
+) -> Result<DB> {
+    let number = |count: usize| f64::from(u32::try_from(count).expect("bars are few"));
+    let tops = series.iter().flat_map(|bars| {
+        bars.values.iter().copied().chain(bars.ranges.iter().map(|range| range.1))
+    });
+    let names: Vec<String> = groups.iter().map(|name| cut(name, LETTERS)).collect();
+    let style = ("sans-serif", 13).into_font().color(&INK);
+    let (mut widest, mut tallest) = (0, 0);
+    for name in &names {
+        let (width, height) = area.estimate_text_size(name, &style)?;
+        (widest, tallest) = (widest.max(width), tallest.max(height));
+    }
+    let (width, height) = area.dim_in_pixel();
+    let room = width.saturating_sub(2 * MARGIN + LEFT)
+        / u32::try_from(names.len().max(1)).unwrap_or(u32::MAX);
+    let is_level = widest + APART <= room;
+    let mut context = ChartBuilder::on(area)
+        .caption(&chart.title, ("sans-serif", 20))
+        .margin(MARGIN)
+        .x_label_area_size(ABOVE + TITLE + if is_level { tallest } else { widest })
+        .y_label_area_size(LEFT)
+        .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..top(tops))?;
+    context
+        .configure_mesh()
+        .disable_x_mesh()
+        .x_labels(0)
+        .y_label_formatter(&|&y| plain(y))
+        .y_desc(&chart.y)
+        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 15))
+        .light_line_style(GROUND)
+        .bold_line_style(GRID)
+        .draw()?;
+    let wide = 0.8 / number(series.len().max(1));
+    for (at, bars) in series.iter().enumerate() {
+        let left = |group: usize| number(group) + 0.1 + wide * number(at);
+        let bar = |(group, &value): (usize, &f64)| {
+            let corners = [(left(group), 0.0), (left(group) + 0.9 * wide, value)];
+            Rectangle::new(corners, rgb(bars.colour).filled())
+        };
+        context.draw_series(bars.values.iter().enumerate().map(bar))?;
+        let whisker = |(group, &(from, to)): (usize, &(f64, f64))| {
+            let middle = left(group) + 0.45 * wide;
+            PathElement::new(vec![(middle, from), (middle, to)], INK.stroke_width(2))
+        };
+        context.draw_series(bars.ranges.iter().enumerate().map(whisker))?;
+    }
+    let style = if is_level {
+        style.pos(Pos::new(HPos::Center, VPos::Top))
+    } else {
+        // They end below their group.
+        style.transform(FontTransform::Rotate270).pos(Pos::new(HPos::Right, VPos::Center))
+    };
+    let [above, middle, bottom] =
+        [ABOVE, width / 2, height].map(|at| i32::try_from(at).expect("within SIZE"));
+    for (group, name) in names.into_iter().enumerate() {
+        let (x, y) = context.backend_coord(&(number(group) + 0.5, 0.0));
+        let (x0, y0) = area.get_base_pixel();
+        area.draw(&Text::new(name, (x - x0, y - y0 + above), style.clone()))?;
+    }
+    let axis = ("sans-serif", 15).into_font().color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
+    area.draw(&Text::new(chart.x.clone(), (middle, bottom - 2), axis))
+}
