@@ -101,15 +101,18 @@ pub(super) fn input_form(
     let shape = tensor
         .and_then(|tensor| tensor.shape.as_ref())
         .ok_or_else(|| wrong("but it has no shape".to_owned()))?;
-    let mut lengths: Vec<Option<usize>> = shape
-        .dim
-        .iter()
-        .map(|dim| {
-            dim.dim_value
-                .and_then(|length| usize::try_from(length).ok())
-                .filter(|&length| length > 0)
-        })
-        .collect();
+    let mut lengths = Vec::new();
+    for (axis, dim) in shape.dim.iter().enumerate() {
+        // Without a length the axis is open. A length of 0 is one, and no picture has it.
+        let length = dim.dim_value.map(|length| {
+            usize::try_from(length).ok().filter(|&length| length > 0).ok_or_else(|| {
+                wrong(format!(
+                    "but its axis {axis} has the length {length}; lengths are 1 and more, and an axis of any length has a name instead (dim_param)"
+                ))
+            })
+        });
+        lengths.push(length.transpose()?);
+    }
     let layout = layout(input, &lengths, graph)?;
     if layout == Layout::Nhwc {
         lengths[1..].rotate_right(1);

@@ -105,6 +105,26 @@ fn impossible_models_are_refused() {
     }
 }
 
+#[test]
+fn a_length_that_no_picture_has_is_not_an_open_one() {
+    let lengths = |shape: [Option<i64>; 4]| {
+        let mut model = one_node("Relu", &[]);
+        let kind = model.graph.input[0].r#type.as_mut().unwrap().tensor_type.as_mut().unwrap();
+        for (dim, length) in kind.shape.as_mut().unwrap().dim.iter_mut().zip(shape) {
+            dim.dim_value = length;
+        }
+        model.read(8, 8).map(|_| ()).map_err(|error| error.to_string())
+    };
+    for (axis, length) in (0..4).flat_map(|axis| [0, -1, i64::MIN].map(|length| (axis, length))) {
+        let mut shape = [Some(1), Some(1), Some(8), Some(8)];
+        shape[axis] = Some(length);
+        let refusal = lengths(shape).unwrap_err();
+        let says = format!("its axis {axis} has the length {length}; lengths are 1 and more");
+        assert!(refusal.contains(&says) && !refusal.contains('\n'), "{refusal}");
+    }
+    assert_eq!(lengths([None, Some(1), None, None]), Ok(()));
+}
+
 /// What would be computed in another way than the standard says, or would take the memory of the machine.
 #[test]
 fn what_is_not_as_it_seems_is_refused() {
