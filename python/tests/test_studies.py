@@ -71,6 +71,7 @@ def test_a_study_writes_its_runs_tables_and_figure(done: Path) -> None:
     names = files(done)
     assert {"accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg", "accuracy.png"} <= set(names)
     assert not [name for name in names if Path(name).name.startswith(".")]
+    assert "Intervals cover seeds and images, not other training recipes" in names["accuracy.md"].decode()
     summary = json.loads(names["accuracy.json"])
     for entry in summary["sets"]:
         # Half of what is not validated; half of the test images.

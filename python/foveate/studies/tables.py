@@ -61,6 +61,7 @@ def accuracy_markdown(summary: Mapping[str, Any]) -> str:
                 f"| {row['significant']} of {row['seeds']} | {100 * row['sent_share']:.1f} % | {'' if paper is None else paper} |")
     lines.append("")
     lines += [f"* {line}" for entry in summary["sets"] for line in verdict(entry)]
+    lines.append("* Intervals cover seeds and images, not other training recipes, with which differences may be larger.")
     return "\n".join(lines) + "\n"
 
 
