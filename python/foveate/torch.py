@@ -10,10 +10,15 @@ from collections.abc import Sized
 from typing import Any, Generic, Protocol, TypeVar, cast
 
 import numpy as np
-import torch
-from torch.utils.data import Dataset
 
+from foveate._extras import missing
 from foveate._foveate import Camera, Design, Outcome, luma
+
+try:
+    import torch
+    from torch.utils.data import Dataset
+except ModuleNotFoundError:
+    raise missing("foveate.torch", "torch", "torch") from None
 
 __all__ = ["RegionDataset", "RegionTransform"]
 

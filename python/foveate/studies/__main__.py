@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from foveate._extras import need
 from foveate.studies.data import SETS, StudyError
 
 if TYPE_CHECKING:
@@ -19,8 +20,9 @@ def main(words: list[str] | None = None) -> int:
     options = _parser().parse_args(words)
     try:
         _checked(options)
+        _equipped(options)
         return _run(options)
-    except (StudyError, OSError) as problem:
+    except (StudyError, ImportError, OSError) as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
@@ -75,6 +77,18 @@ def _checked(options: argparse.Namespace) -> None:
         raise StudyError(f"--rate {options.rate}: expected a number above 0")
     if min(options.thresholds) < 1:
         raise StudyError(f"--thresholds {min(options.thresholds)}: expected 1 or more")
+
+
+def _equipped(options: argparse.Namespace) -> None:
+    """Refuse to begin without a package that is needed hours later."""
+    packages = {
+        "torch": True,
+        "matplotlib": True,
+        "onnx": options.study == "savings",
+        "torchvision": getattr(options, "model", "lenet5") != "lenet5",
+        "PIL": "pictures" in options.sets,
+    }
+    need("foveate.studies", [name for name, is_needed in packages.items() if is_needed], "studies")
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -6,10 +6,14 @@ from collections import OrderedDict
 from importlib import import_module
 from pathlib import Path
 
-import torch
-from torch import Tensor, nn
-
+from foveate._extras import missing
 from foveate.studies.data import StudyError
+
+try:
+    import torch
+    from torch import Tensor, nn
+except ModuleNotFoundError:
+    raise missing("foveate.studies", "torch", "studies") from None
 
 __all__ = ["MODELS", "make"]
 

@@ -15,14 +15,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import nn
 
+from foveate._extras import missing
 from foveate.studies import data, training
 from foveate.studies.cameras import Regions, Seen, name_of, seen
 from foveate.studies.data import DataSet, StudyError
 from foveate.studies.models import make
+
+try:
+    import torch
+    from torch import nn
+except ModuleNotFoundError:
+    raise missing("foveate.studies", "torch", "studies") from None
 
 __all__ = ["Bench", "Result", "Run", "Settings", "complete", "write_whole"]
 

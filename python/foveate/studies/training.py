@@ -7,11 +7,16 @@ import os
 from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import Tensor, nn
 
+from foveate._extras import missing
 from foveate.studies.data import Split, StudyError
+
+try:
+    import torch
+    from torch import Tensor, nn
+except ModuleNotFoundError:
+    raise missing("foveate.studies", "torch", "studies") from None
 
 __all__ = ["check_device", "digest", "initial", "order", "predict", "train"]
 
