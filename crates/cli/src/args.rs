@@ -18,6 +18,7 @@ mod outputs;
 #[cfg(test)]
 mod page;
 mod stress;
+mod threads;
 
 use std::fs;
 use std::path::PathBuf;
@@ -29,6 +30,7 @@ use foveate_design::{Config, Design, DesignError, Preset};
 use foveate_estimate::{ROUTE_DEVICES, RouteDevice};
 
 use self::input::InputArgs;
+use self::threads::ThreadArgs;
 use crate::error::CliError;
 pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use bench::BenchArgs;
@@ -281,6 +283,8 @@ pub(crate) struct SimulateArgs {
     /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     // Last, because what follows would be listed under their headings.
     #[command(flatten)]
     pub(crate) input: InputArgs,

@@ -43,6 +43,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
+    if let Some(threads) = cli.command.threads() {
+        threads.start()?;
+    }
     match &cli.command {
         Command::Check(args) => command::check::run(args),
         Command::Generate(args) => command::generate::run(args),

@@ -7,14 +7,14 @@ use foveate_frame::Frame;
 use crate::core::{Core, Keep};
 use crate::pixels::Pixels;
 use crate::plan::{Plan, index};
-use crate::workers::Workers;
+use crate::workers::{MAX_THREADS, Workers};
 use crate::{EngineError, Level, Outcome};
 use foveate_frame::{Plane, Raster};
 
 /// How an engine runs; what it computes does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Threads, that of the caller among them; 0 takes one per processor. Frames of fewer than some
+    /// Threads, that of the caller among them, at most [`MAX_THREADS`]; 0 takes one per processor. Frames of fewer than some
     /// ten thousand pixels are not worth dividing, and stay on the thread of the caller unless several
     /// are given at once.
     pub threads: usize,
@@ -61,8 +61,14 @@ impl Engine {
     /// An engine that runs as asked.
     ///
     /// # Errors
-    /// When the system does not give the threads.
+    /// When it asks for more than [`MAX_THREADS`], or the system does not give the threads.
     pub fn with_options(design: &Design, options: Options) -> Result<Self, EngineError> {
+        if options.threads > MAX_THREADS {
+            return Err(EngineError::TooManyThreads {
+                threads: options.threads,
+                most: MAX_THREADS,
+            });
+        }
         let threads = match options.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,

@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-/// The pixels are not a frame of the design, or the system cannot start the threads.
+/// The pixels are not a frame of the design, or the threads cannot be had.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EngineError {
@@ -63,6 +63,14 @@ pub enum EngineError {
         number: usize,
         /// What is wrong with it.
         error: Box<EngineError>,
+    },
+    /// More threads than an engine takes.
+    #[error("threads = {threads}: expected 1 to {most}, or 0, which takes one per processor")]
+    TooManyThreads {
+        /// Threads asked for.
+        threads: usize,
+        /// The most.
+        most: usize,
     },
     /// The system gave no threads.
     #[error("the system cannot start {threads} threads: {reason}; ask for fewer")]

@@ -36,3 +36,4 @@ pub use error::EngineError;
 pub use foveate_lanes::Level;
 pub use outcome::Outcome;
 pub use screens::Screens;
+pub use workers::MAX_THREADS;

@@ -7,6 +7,9 @@ use std::sync::{Mutex, PoisonError};
 
 use foveate_lanes::{Level, Task};
 
+/// The most threads that one may ask for. Beyond a thread per processor nothing is gained, and a system that is
+/// asked for thousands is busy with nothing else.
+pub const MAX_THREADS: usize = 256;
 /// Strips per thread: a thread that is interrupted holds up the others by half of its work at most.
 const STRIPS_PER_THREAD: usize = 2;
 /// Pixels of the smallest strip that is worth handing to another thread.

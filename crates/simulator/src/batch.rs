@@ -38,7 +38,7 @@ pub trait BatchHooks: Sync {
     fn cancelled(&self) -> bool;
 }
 
-/// Runs every clip into a folder below `output`, with as many clips in parallel as there are cores.
+/// Runs every clip into a folder below `output`, with as many clips in parallel as rayon has threads.
 /// `output` appears at the end.
 ///
 /// # Errors
@@ -87,10 +87,10 @@ impl Batch<'_> {
     fn run(&self) -> Result<BatchSummary, SimulatorError> {
         let results: Vec<Mutex<Option<ClipSummary>>> =
             self.clips.iter().map(|_| Mutex::new(None)).collect();
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
         // Threads of their own: one of rayon would start another clip while it waits within one.
+        let threads = rayon::current_num_threads();
         std::thread::scope(|scope| {
-            for _ in 0..cores.min(self.clips.len()) {
+            for _ in 0..threads.min(self.clips.len()) {
                 scope.spawn(|| self.work(&results));
             }
         });

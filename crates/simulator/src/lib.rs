@@ -15,6 +15,7 @@ mod simulation;
 pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
 pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
+pub use foveate_engine::MAX_THREADS;
 pub use foveate_footage::{Hooks, Progress, Silent};
 pub use output::{
     Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES,

@@ -99,9 +99,9 @@ impl Watcher<'_> {
                 tell();
             }
         };
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = rayon::current_num_threads();
         std::thread::scope(|scope| {
-            for _ in 0..cores.min(self.subjects.len()) {
+            for _ in 0..threads.min(self.subjects.len()) {
                 scope.spawn(work);
             }
         });

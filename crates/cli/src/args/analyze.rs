@@ -9,6 +9,7 @@ use foveate_studies::Study;
 
 use super::DesignArgs;
 use super::input::InputArgs;
+use super::threads::ThreadArgs;
 
 /// Run one of the paper's studies over clips or sets, and write its table and charts
 #[derive(Args, Debug)]
@@ -49,6 +50,8 @@ pub(crate) struct AnalyzeArgs {
     /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     #[command(flatten)]
     pub(crate) input: InputArgs,
 }

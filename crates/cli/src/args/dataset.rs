@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::DesignArgs;
 use super::input::InputArgs;
+use super::threads::ThreadArgs;
 
 /// Turn a data set into one that shows only active regions, in the same format, with labels and tags
 #[derive(Args, Debug)]
@@ -32,6 +33,8 @@ pub(crate) struct DatasetArgs {
     /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     /// Last, because what follows would be listed under its heading.
     #[command(flatten)]
     pub(crate) input: InputArgs,

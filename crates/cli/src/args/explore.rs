@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::input::InputArgs;
+use super::threads::ThreadArgs;
 
 /// Measure many designs over clips: error against the ideal camera, area, speed, Pareto front
 ///
@@ -55,6 +56,8 @@ pub(crate) struct ExploreArgs {
     /// Show no progress and no report; --json and --markdown still print
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     #[command(flatten)]
     pub(crate) input: InputArgs,
 }

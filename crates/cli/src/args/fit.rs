@@ -8,6 +8,7 @@ use foveate_explore::Constraints;
 
 use super::check::{Clock, Rate};
 use super::input::InputArgs;
+use super::threads::ThreadArgs;
 use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that meets limits on your clips
@@ -39,6 +40,8 @@ pub(crate) struct FitArgs {
     /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     /// Synthesize at most this many designs, the most promising first
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = at_least_one())]
     pub(crate) max_syntheses: u32,

@@ -12,6 +12,7 @@ use foveate_network::Mode;
 
 use super::DesignArgs;
 use super::input::InputArgs;
+use super::threads::ThreadArgs;
 use crate::error::CliError;
 
 /// Run a network on what a camera sends, and count what its masks save, layer by layer
@@ -73,6 +74,8 @@ pub(crate) struct InferArgs {
     /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     /// Last, because what follows would be listed under its heading.
     #[command(flatten)]
     pub(crate) input: InputArgs,

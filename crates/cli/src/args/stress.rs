@@ -3,6 +3,8 @@
 
 use clap::Args;
 
+use super::threads::ThreadArgs;
+
 /// Run the hard cases, and print what was expected, what came out and the worst error
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate stress --short
@@ -20,4 +22,6 @@ pub(crate) struct StressArgs {
     /// Show no progress
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
 }

@@ -26,4 +26,5 @@ mod signals;
 mod simulation;
 mod stress;
 mod studies;
+mod threads;
 mod units;

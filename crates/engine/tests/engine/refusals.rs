@@ -2,7 +2,7 @@
 //! What is no frame of the design is refused by name, and changes nothing.
 
 use foveate_design::{Config, Design};
-use foveate_engine::{Engine, EngineError, Outcome, Screens};
+use foveate_engine::{Engine, EngineError, MAX_THREADS, Options, Outcome, Screens};
 use foveate_frame::Frame;
 
 fn design(bits: u32) -> Design {
@@ -44,6 +44,20 @@ fn what_is_no_frame_of_the_design_is_refused() {
     let refused = message(engine.step_u16(&[0; 180], 20));
     assert_eq!(refused, "pixels of 6 bits need the type u8, but u16 was given");
     assert!(Engine::new(&design(9)).step_u8(&[0; 180], 20).is_err());
+}
+
+#[test]
+fn more_threads_than_help_are_refused_before_one_is_started() {
+    for threads in [MAX_THREADS + 1, 1_000_000, usize::MAX] {
+        let options = Options { threads, ..Options::default() };
+        let refusal = Engine::with_options(&design(6), options).unwrap_err().to_string();
+        let right = "expected 1 to 256, or 0, which takes one per processor";
+        assert_eq!(refusal, format!("threads = {threads}: {right}"));
+    }
+    for threads in [0, MAX_THREADS] {
+        let options = Options { threads, ..Options::default() };
+        assert!(Engine::with_options(&design(6), options).is_ok());
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{Builder, JoinHandle, available_parallelism};
+use std::thread::{Builder, JoinHandle};
 
 use super::picture::Picture;
 use super::{cannot_write, png};
@@ -58,7 +58,7 @@ impl Crew {
     }
 
     fn size() -> usize {
-        available_parallelism().map_or(1, usize::from).min(MOST)
+        rayon::current_num_threads().min(MOST)
     }
 
     /// At most how many pictures may be on their way.

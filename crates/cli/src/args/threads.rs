@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How many threads share the work of a command.
+
+use std::env;
+use std::thread::available_parallelism;
+
+use clap::Args;
+use foveate_simulator::MAX_THREADS;
+
+use super::Command;
+use crate::error::CliError;
+
+/// What says it where `--threads` does not. Rayon reads it, too.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
+
+/// How many threads share the work.
+#[derive(Args, Debug)]
+pub(crate) struct ThreadArgs {
+    /// Threads that share the work, up to 256; 0 takes one per processor. It changes no result. Without it
+    /// RAYON_NUM_THREADS says how many, or else it is one per processor
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) threads: Option<usize>,
+}
+
+impl ThreadArgs {
+    /// Starts so many threads.
+    ///
+    /// # Errors
+    /// When the variable has no such number, or the system gives no threads.
+    pub(crate) fn start(&self) -> Result<(), CliError> {
+        let Some(threads) = self.threads.map_or_else(variable, |threads| Ok(Some(threads)))? else {
+            return Ok(());
+        };
+        let threads = match threads {
+            0 => available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        };
+        let refused = |error| {
+            CliError::Usage(format!(
+                "the system cannot start {threads} threads: {error}; ask for fewer with --threads"
+            ))
+        };
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(refused)
+    }
+}
+
+impl Command {
+    /// How many threads share the work; `None` where one does it alone.
+    pub(crate) fn threads(&self) -> Option<&ThreadArgs> {
+        match self {
+            Self::Simulate(args) => Some(&args.threads),
+            Self::Dataset(args) => Some(&args.threads),
+            Self::Analyze(args) => Some(&args.threads),
+            Self::Explore(args) => Some(&args.threads),
+            Self::Fit(args) => Some(&args.threads),
+            Self::Infer(args) => Some(&args.threads),
+            Self::Stress(args) => Some(&args.threads),
+            Self::Check(_)
+            | Self::Generate(_)
+            | Self::Cosim(_)
+            | Self::Estimate(_)
+            | Self::Explain(_)
+            | Self::Link(_)
+            | Self::Bench(_)
+            | Self::Presets(_)
+            | Self::Completions(_) => None,
+        }
+    }
+}
+
+/// What the variable says, if anything.
+fn variable() -> Result<Option<usize>, CliError> {
+    let Some(text) = env::var_os(VARIABLE).filter(|text| !text.is_empty()) else {
+        return Ok(None);
+    };
+    let wrong = |right| CliError::Usage(format!("{VARIABLE} is `{}`: {right}", text.display()));
+    number(&text.to_string_lossy()).map(Some).map_err(wrong)
+}
+
+fn number(text: &str) -> Result<usize, String> {
+    let threads = text.parse().ok().filter(|threads| *threads <= MAX_THREADS);
+    threads
+        .ok_or_else(|| format!("expected 1 to {MAX_THREADS}, or 0, which takes one per processor"))
+}

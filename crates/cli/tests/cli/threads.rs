@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `--threads` and RAYON_NUM_THREADS: how many there are, which wins, and what is refused. The results are the same.
+
+use std::path::Path;
+
+use crate::common::{files_below, foveate, run_in, succeed_in};
+
+const VARIABLE: &str = "RAYON_NUM_THREADS";
+const RIGHT: &str = "expected 1 to 256, or 0, which takes one per processor";
+
+#[test]
+fn a_number_out_of_range_is_refused_with_the_range() {
+    let dir = tempfile::tempdir().unwrap();
+    let simulate = ["simulate", "scene:street", "-o", "out", "--frames", "2", "--quiet"];
+    for number in ["257", "-1", "1000000", "99999999999999999999999", "many", ""] {
+        let outcome = run_in(dir.path(), &[&simulate[..], &["--threads", number]].concat());
+        assert_eq!(outcome.code, 2, "{number}");
+        let says = format!("invalid value '{number}' for '--threads <N>': {RIGHT}");
+        assert!(number.is_empty() || outcome.stderr.contains(&says), "{}", outcome.stderr);
+    }
+    for number in ["257", "-1", "many"] {
+        let output = foveate(&simulate).current_dir(dir.path()).env(VARIABLE, number).output();
+        let output = output.unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(said, format!("foveate: {VARIABLE} is `{number}`: {RIGHT}\n"));
+    }
+    assert!(!dir.path().join("out").exists());
+}
+
+#[test]
+fn every_number_gives_the_same_files() {
+    let dir = tempfile::tempdir().unwrap();
+    let files = |threads: &[&str], variable: &str| {
+        let args = ["simulate", "scene:street", "-o", "out", "--frames", "4", "--quiet", "--force"];
+        let mut command = foveate(&[&args[..], threads].concat());
+        let status = command.current_dir(dir.path()).env(VARIABLE, variable).output().unwrap();
+        assert!(status.status.success(), "{status:?}");
+        let mut files = files_below(&dir.path().join("out"));
+        // It has the seconds that the run took.
+        files.retain(|(name, _)| name != Path::new("summary.json"));
+        files
+    };
+    let one = files(&["--threads", "1"], "");
+    for threads in ["0", "2", "256"] {
+        assert!(files(&["--threads", threads], "") == one, "{threads}");
+    }
+    assert!(files(&[], "3") == one && files(&[], "0") == one);
+    // The option wins, even over a variable that is wrong.
+    assert!(files(&["--threads", "2"], "100000") == one);
+}
+
+#[test]
+fn every_command_that_shares_its_work_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    for command in ["simulate", "dataset", "analyze", "explore", "fit", "infer", "stress"] {
+        assert!(
+            succeed_in(dir.path(), &[command, "--help"]).contains("--threads <N>"),
+            "{command}"
+        );
+    }
+}
+
+/// Threads of a simulation under way.
+#[cfg(target_os = "linux")]
+fn threads(folder: &Path, asked: &str, variable: &str) -> usize {
+    use std::time::{Duration, Instant};
+    let frames = ["--frames", "1000000", "--quiet", "--no-rendered"];
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"));
+    command.args(["simulate", "scene:street", "-o", "out", "--threads", asked]).args(frames);
+    let mut child = command.current_dir(folder).env(VARIABLE, variable).spawn().unwrap();
+    let count = || {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let line = status.lines().find_map(|line| line.strip_prefix("Threads:")).unwrap();
+        line.trim().parse::<usize>().unwrap()
+    };
+    // The most that there are until nothing has changed for a while.
+    let (mut most, mut since) = (0, Instant::now());
+    while since.elapsed() < Duration::from_secs(2) {
+        if count() > most {
+            (most, since) = (count(), Instant::now());
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    most
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn there_are_as_many_as_were_asked_for() {
+    let dir = tempfile::tempdir().unwrap();
+    let one = threads(dir.path(), "1", "");
+    assert_eq!(threads(dir.path(), "40", ""), one + 39);
+    assert_eq!(threads(dir.path(), "1", "40"), one, "the option wins");
+}
