@@ -119,15 +119,16 @@ def estimate(camera: Any) -> Estimate:
     return Estimate(json.loads(values), text)
 
 
-def infer(network: PathLike, inputs: Inputs, camera: Any = None, output: PathLike | None = None, **options: Any) -> Inference:
+def infer(network: PathLike, inputs: Any, camera: Any = None, output: PathLike | None = None, **options: Any) -> Inference:
     """Run a network on what a camera sends, and count what its masks save.
 
     Parameters
     ----------
     network : path
         An ONNX file whose input is [1, channels, height, width], with 1 or 3 channels.
-    inputs : path, pattern, "scene:NAME" or a list of these
-        Footage, as of ``simulate``. Images of a list are one clip; each other input is a clip of its own.
+    inputs : path, pattern, "scene:NAME" or a list of these, or array of shape (frames, height, width), or list of arrays
+        Footage, as of ``simulate``. Images of a list are one clip; each other input is a clip of its own. Or frames: grey
+        pixels as ``Camera.step`` takes them, together one clip, of which a copy is kept until the end.
     camera : Camera, Design, preset, file or dict, optional
         The camera in front of the network.
     output : path, optional
@@ -141,6 +142,13 @@ def infer(network: PathLike, inputs: Inputs, camera: Any = None, output: PathLik
     -------
     Inference
         Its ``summary``, ``outputs`` and tables.
+
+    Raises
+    ------
+    TypeError
+        If there is no such option, or ``inputs`` are neither footage nor frames.
+    FileNotFoundError, ValueError
+        If the network or an input cannot be read, or they do not go together.
     """
     if output is not None:
         return Inference(Path(output), json.loads(_foveate.infer(network, inputs, camera, output, **options)))

@@ -4,7 +4,7 @@
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 use foveate_design::Config;
-use foveate_engine::{Engine, Options};
+use foveate_engine::{Engine, MAX_THREADS, Options};
 use foveate_footage::FrameRate;
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -25,7 +25,7 @@ use crate::tools;
 ///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or something that has a
 ///     configuration. Without it the paper's design.
 /// threads : int, default 1
-///     Threads of a step; 0 takes one per processor. The bits do not depend on it.
+///     Threads of a step, up to 256; 0 takes one per processor. The bits do not depend on it.
 /// frame, region, denoise, decision, temporal, render, hardware : dict, optional
 ///     Keys to change, as in the file: `region={"size": 16}`.
 /// spatial : str, dict or list of these, optional
@@ -47,7 +47,8 @@ use crate::tools;
 /// Raises
 /// ------
 /// ValueError
-///     If it is no valid design. The message names the key, the value and what would be right.
+///     If it is no valid design, or `threads` is out of range. The message names the key, the value and what would
+///     be right.
 /// FileNotFoundError
 ///     If there is no such file.
 ///
@@ -60,6 +61,24 @@ pub(crate) struct Camera {
     config: Config,
     threads: usize,
     seen: Mutex<Seen>,
+}
+
+/// How many threads a step has: 0 is one per processor.
+#[derive(Clone, Copy)]
+struct Threads(usize);
+
+impl<'py> FromPyObject<'_, 'py> for Threads {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let right = format!("expected 1 to {MAX_THREADS}, or 0, which takes one per processor");
+        let wrong = format!("threads = {}: {right}", value.repr()?);
+        match value.extract() {
+            Ok(threads @ ..=MAX_THREADS) => Ok(Self(threads)),
+            _ if value.hasattr("__index__")? => Err(PyValueError::new_err(wrong)),
+            _ => Err(PyTypeError::new_err(wrong)),
+        }
+    }
 }
 
 /// What looks at frames of the size of the first one.
@@ -130,15 +149,15 @@ impl Camera {
 #[pymethods]
 impl Camera {
     #[new]
-    #[pyo3(signature = (config=None, /, *, threads=1, **sections))]
+    #[pyo3(signature = (config=None, /, *, threads=Threads(1), **sections), text_signature = "(config=None, /, *, threads=1, **sections)")]
     fn new(
         config: Option<&Bound<'_, PyAny>>,
-        threads: usize,
+        threads: Threads,
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let config = config::read(config, sections)?;
         config.validate().map_err(raise)?;
-        Ok(Self::of(config, threads))
+        Ok(Self::of(config, threads.0))
     }
 
     /// The design: with the size of the first frame, once there was one.
@@ -273,9 +292,9 @@ impl Camera {
     }
 
     #[staticmethod]
-    fn _from_toml(text: &str, threads: usize) -> PyResult<Self> {
+    fn _from_toml(text: &str, threads: Threads) -> PyResult<Self> {
         let config = Config::from_toml(text).map_err(raise)?;
-        Ok(Self::of(config, threads))
+        Ok(Self::of(config, threads.0))
     }
 }
 
@@ -309,18 +328,7 @@ impl Seen {
             self.eye = Some(Eye { design: Arc::new(design), engine });
             self.process = std::process::id();
         }
-        let bits = config.frame.pixel_bits;
-        match (frame, bits) {
-            (Grey::Bytes(_), 9..) => Err(PyTypeError::new_err(format!(
-                "the frame has dtype uint8, but the design has {bits} bits per pixel; give a frame of uint16 with \
-                 values of {bits} bits, or set frame={{\"pixel_bits\": 8}}"
-            ))),
-            (Grey::Words(_), ..=8) => Err(PyTypeError::new_err(format!(
-                "the frame has dtype uint16, but the design has {bits} bits per pixel; give a frame of uint8, or \
-                 set frame={{\"pixel_bits\": 16}}"
-            ))),
-            _ => Ok(()),
-        }
+        frame.check(config.frame.pixel_bits)
     }
 
     fn take_bytes(

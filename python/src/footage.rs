@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_footage::{
-    Crop, FrameRate, ImagesAs, InputOptions, Kind, Plan, Source, open, parse_time, plan,
-};
+use foveate_footage::{Kind, Plan, Source, open, plan};
 use foveate_frame::{Plane, Raster};
 use foveate_simulator::SimulatorError;
 use numpy::ndarray::Axis;
-use numpy::{PyArray2, PyReadonlyArray3, ToPyArray};
+use numpy::{
+    Element, PyArray2, PyArray3, PyArrayDescrMethods, PyArrayMethods, PyUntypedArrayMethods,
+    ToPyArray,
+};
 use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -19,7 +20,10 @@ use pyo3::types::PyDict;
 use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::{raise, value_error};
+use crate::frame::untyped;
+use crate::options::input_options;
 use crate::outcome::{Outcome, Screen, Taken};
+use crate::work::at_once;
 
 /// Inputs as paths: one, or a list of these.
 pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
@@ -31,67 +35,6 @@ pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
             "inputs are a path, a pattern or scene:NAME, or a list of these; arrays go to Camera.step",
         )
     })
-}
-
-/// The options of inputs by their names on the command line.
-pub(crate) fn input_options(options: Option<&Bound<'_, PyDict>>) -> PyResult<InputOptions> {
-    let mut found = InputOptions::default();
-    let Some(options) = options else { return Ok(found) };
-    for (name, value) in options.iter() {
-        if value.is_none() {
-            continue;
-        }
-        let name: String = name.extract()?;
-        let text = || -> PyResult<String> { Ok(value.str()?.to_string()) };
-        let wrong = |problem: String| PyValueError::new_err(format!("{name} = {value}: {problem}"));
-        match name.as_str() {
-            "max_frames" => {
-                let frames = value.extract().ok().filter(|&frames: &u32| frames > 0);
-                found.frames =
-                    Some(frames.ok_or_else(|| wrong("expected a number from 1 on".into()))?);
-            }
-            "rate" => found.frame_rate = FrameRate::parse(&text()?).map_err(wrong)?,
-            "input_fps" => {
-                found.selection.rate = Some(FrameRate::parse(&text()?).map_err(wrong)?);
-            }
-            "start" => found.selection.start_us = Some(parse_time(&text()?).map_err(wrong)?),
-            "end" => found.selection.end_us = Some(parse_time(&text()?).map_err(wrong)?),
-            "crop" => {
-                let (width, height, x, y) = value
-                    .extract()
-                    .map_err(|_| wrong("expected (width, height, x, y) in pixels".into()))?;
-                found.crop = Some(Crop { size: (width, height), at: (x, y) });
-            }
-            "resize" => {
-                let size = value.extract().ok().filter(|&(width, height): &(u32, u32)| {
-                    let sides = 1..=foveate_footage::MAX_SIDE;
-                    sides.contains(&width) && sides.contains(&height)
-                });
-                found.resize = Some(size.ok_or_else(|| {
-                    wrong(format!(
-                        "expected (width, height), each 1 to {}",
-                        foveate_footage::MAX_SIDE
-                    ))
-                })?);
-            }
-            "images" => {
-                found.images = match text()?.as_str() {
-                    "clip" => ImagesAs::Clip,
-                    "set" => ImagesAs::Set,
-                    "cifar-sheet" => ImagesAs::CifarSheet,
-                    _ => return Err(wrong("expected \"clip\", \"set\" or \"cifar-sheet\"".into())),
-                };
-            }
-            "labels" => found.labels = Some(value.extract()?),
-            _ => {
-                return Err(PyTypeError::new_err(format!(
-                    "unexpected argument {name}; inputs have max_frames, input_fps, rate, start, end, crop, resize, \
-                     images and labels"
-                )));
-            }
-        }
-    }
-    Ok(found)
 }
 
 /// A run over footage, made by `simulate`: an iterator of outcomes that holds one frame at a time.
@@ -263,9 +206,9 @@ pub(crate) fn simulate(
     camera: Option<&Bound<'_, PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Run> {
-    let (inputs, options) = (paths(inputs)?, input_options(options)?);
+    let (inputs, options) = (paths(inputs)?, input_options("simulate", &[], options)?);
     let config = config::read(camera, None)?;
-    py.detach(|| -> PyResult<Run> {
+    at_once(py, move || -> PyResult<Run> {
         if let Plan::Batch(clips) = plan(&inputs, &options).map_err(raise)? {
             return Err(value_error(format!(
                 "the inputs are {} clips; simulate them one after the other",
@@ -278,7 +221,7 @@ pub(crate) fn simulate(
         let (total, engine) = (source.frames(), Engine::new(&design));
         let state = State { source, engine, number: 0, ended: false };
         Ok(Run { design: Arc::new(design), total, state: Mutex::new(state) })
-    })
+    })?
 }
 
 /// Make a grey frame of red, green and blue, as footage is read: (77 R + 150 G + 29 B + 128) >> 8.
@@ -290,18 +233,43 @@ pub(crate) fn simulate(
 /// Returns
 /// -------
 /// array of uint8, shape (height, width)
+///
+/// Raises
+/// ------
+/// TypeError
+///     If it has another dtype.
+/// ValueError
+///     If it has another shape.
 #[pyfunction]
 pub(crate) fn luma<'py>(
     py: Python<'py>,
-    frame: PyReadonlyArray3<'py, u8>,
+    frame: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<u8>>> {
-    let view = frame.as_array();
-    if view.len_of(Axis(2)) != 3 {
-        return Err(PyValueError::new_err(format!(
-            "a frame of red, green and blue has shape (height, width, 3), not {:?}",
-            view.shape()
-        )));
+    const RIGHT: &str =
+        "a frame of red, green and blue is an array of uint8 with the shape (height, width, 3)";
+    let array = untyped(frame)?;
+    if array.ndim() != 3 || array.shape()[2] != 3 {
+        let hint = match array.shape() {
+            [_, _] => "; it is grey already",
+            [_, _, 4] => "; leave the fourth channel out, frame[:, :, :3]",
+            [3, _, _] => "; put the channels last, numpy.moveaxis(frame, 0, -1)",
+            [_, _, _, 3] => "; give the frames one by one",
+            _ => "",
+        };
+        let shape = array.getattr("shape")?;
+        return Err(PyValueError::new_err(format!("{RIGHT}, not {shape}{hint}")));
     }
+    let dtype = array.dtype();
+    if !dtype.is_equiv_to(&u8::get_dtype(py)) {
+        let hint = match dtype.kind() {
+            b'f' => "; for values from 0 to 1, numpy.uint8(numpy.round(255 * frame))",
+            b'u' if dtype.itemsize() == 2 => "; for values of 16 bits, numpy.uint8(frame >> 8)",
+            _ => "; for values from 0 to 255, frame.astype(\"uint8\")",
+        };
+        return Err(PyTypeError::new_err(format!("{RIGHT}, not of {}{hint}", dtype.str()?)));
+    }
+    let array = array.cast::<PyArray3<u8>>()?.try_readonly()?;
+    let view = array.as_array();
     let grey = py.detach(|| {
         view.map_axis(Axis(2), |colour| {
             let grey = foveate_footage::luma(colour[0].into(), colour[1].into(), colour[2].into());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame as Python holds it: an array of any layout. Rows whose pixels are adjacent are read where they lie.
 
+use foveate_frame::Raster;
 use numpy::ndarray::ArrayView2;
 use numpy::{
     Element, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray2, PyUntypedArray,
@@ -8,6 +9,8 @@ use numpy::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+
+use crate::error::value_error;
 
 /// An array that is known to be a grey frame.
 pub(crate) enum Grey<'py> {
@@ -54,6 +57,38 @@ impl<'py> Grey<'py> {
         )))
     }
 
+    /// Refuses a frame of another depth than the design's.
+    pub(crate) fn check(&self, bits: u32) -> PyResult<()> {
+        match (self, bits) {
+            (Self::Bytes(_), 9..) => Err(PyTypeError::new_err(format!(
+                "the frame has dtype uint8, but the design has {bits} bits per pixel; give a frame of uint16 with \
+                 values of {bits} bits, or set frame={{\"pixel_bits\": 8}}"
+            ))),
+            (Self::Words(_), ..=8) => Err(PyTypeError::new_err(format!(
+                "the frame has dtype uint16, but the design has {bits} bits per pixel; give a frame of uint8, or \
+                 set frame={{\"pixel_bits\": 16}}"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// A copy of it with the depth of the design.
+    pub(crate) fn raster(&self, bits: u32) -> PyResult<Raster> {
+        self.check(bits)?;
+        let (width, height) = self.size();
+        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+        let (width, height) = (side(width), side(height));
+        match self {
+            Self::Bytes(array) => {
+                let pixels = array.as_array().iter().copied().collect();
+                Raster::from_bytes(width, height, bits, pixels).map_err(value_error)
+            }
+            Self::Words(_) => {
+                Raster::from_words(width, height, bits, self.values()).map_err(value_error)
+            }
+        }
+    }
+
     /// The pixels row by row, copied.
     pub(crate) fn values(&self) -> Vec<u16> {
         match self {
@@ -72,7 +107,8 @@ impl<'py> Grey<'py> {
     }
 }
 
-fn untyped<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
+/// The value as an array. What is none is asked for one, as NumPy does.
+pub(crate) fn untyped<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
     if let Ok(array) = frame.cast::<PyUntypedArray>() {
         return Ok(array.clone());
     }

@@ -5,17 +5,22 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foveate_footage::{Hooks, Progress};
+use foveate_footage::{Hooks, Progress, in_memory};
+use foveate_frame::Raster;
 use foveate_inference::{
-    Computed, Inference, Mapping, Options, Record, parse_goal, parse_mode, read_accelerator,
+    Computed, Inference, InferenceError, Mapping, Options, Record, parse_goal, parse_mode,
+    read_accelerator,
 };
+use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::config;
 use crate::error::raise;
-use crate::footage::{input_options, paths};
+use crate::footage::paths;
+use crate::frame::{Grey, untyped};
+use crate::options::input_options;
 use crate::study::json;
 use crate::work::interruptible;
 
@@ -85,6 +90,56 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<Options> {
     })
 }
 
+/// The options that [`chosen`] takes, and the arguments.
+const OWN: [&str; 12] = [
+    "network",
+    "inputs",
+    "camera",
+    "output",
+    "mode",
+    "tune",
+    "reference",
+    "accelerator",
+    "mean",
+    "scale",
+    "pictures",
+    "force",
+];
+
+/// What a network is shown.
+enum Shown {
+    Paths(Vec<PathBuf>),
+    Frames(Vec<Raster>),
+}
+
+/// Footage by its name, or frames as arrays.
+fn shown(inputs: &Bound<'_, PyAny>, bits: u32) -> PyResult<Shown> {
+    match paths(inputs) {
+        // Nothing is no frames as well.
+        Ok(paths) if !paths.is_empty() => return Ok(Shown::Paths(paths)),
+        _ => {}
+    }
+    let wrong = |what: String| {
+        PyTypeError::new_err(format!(
+            "infer takes footage, which is a path, a pattern, scene:NAME or a list of these, or frames, which are \
+             an array of shape (frames, height, width) or a list of arrays (height, width); not {what}"
+        ))
+    };
+    let kind = inputs.get_type().name()?;
+    let frames = inputs.try_iter().map_err(|_| wrong(kind.to_string()))?;
+    let mut rasters: Vec<Raster> = Vec::new();
+    for frame in frames {
+        let frame = frame?;
+        let array = untyped(&frame).map_err(|_| wrong(format!("a {kind} of others")))?;
+        if array.ndim() != 2 {
+            let what = format!("a {kind} of arrays of shape {}", array.getattr("shape")?);
+            return Err(wrong(what));
+        }
+        rasters.push(Grey::of(&frame)?.raster(bits)?);
+    }
+    Ok(Shown::Frames(rasters))
+}
+
 /// A value that is given, taken out.
 fn take<'py>(options: &Bound<'py, PyDict>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(value) = options.get_item(name)? else { return Ok(None) };
@@ -105,10 +160,17 @@ pub(crate) fn infer(
 ) -> PyResult<String> {
     let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
     let chosen = chosen(&options)?;
-    let (inputs, input) = (paths(inputs)?, input_options(Some(&options))?);
+    let input = input_options("infer", &OWN, Some(&options))?;
     let config = config::read(camera, None)?;
+    let shown = shown(inputs, config.frame.pixel_bits)?;
     let summary = interruptible(py, |cancel| {
-        let inference = Inference::new(&config, &network, &inputs, &input).map_err(raise)?;
+        let inference = match shown {
+            Shown::Paths(paths) => Inference::new(&config, &network, &paths, &input),
+            Shown::Frames(frames) => in_memory("array", frames, &input)
+                .map_err(InferenceError::from)
+                .and_then(|source| Inference::of_source(&config, &network, source)),
+        }
+        .map_err(raise)?;
         inference.run(&output, &chosen, &mut Flag(cancel)).map_err(raise)
     })??;
     json(&summary)

@@ -12,6 +12,7 @@ mod error;
 mod footage;
 mod frame;
 mod inference;
+mod options;
 mod outcome;
 mod picture;
 mod study;

@@ -10,8 +10,9 @@ use pyo3::types::PyDict;
 
 use crate::config;
 use crate::error::{raise, value_error};
-use crate::footage::{input_options, paths};
-use crate::work::interruptible;
+use crate::footage::paths;
+use crate::options::input_options;
+use crate::work::{at_once, interruptible};
 
 /// A value as JSON, from which Python makes its own.
 pub(crate) fn json(value: &impl serde::Serialize) -> PyResult<String> {
@@ -29,12 +30,12 @@ pub(crate) fn explain(
     region: (u32, u32),
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(String, String)> {
-    let (inputs, options) = (paths(inputs)?, input_options(options)?);
+    let (inputs, options) = (paths(inputs)?, input_options("explain", &[], options)?);
     let config = config::read(camera, None)?;
-    let explanation = py.detach(|| {
+    let explanation = at_once(py, move || {
         let source = open(&inputs, &config, &options).map_err(raise)?;
         foveate_simulator::explain(&config, source, frame, region).map_err(raise)
-    })?;
+    })??;
     Ok((json(&explanation)?, explanation.to_string()))
 }
 
@@ -48,7 +49,7 @@ pub(crate) fn fidelity(
     ideal: Option<&Bound<'_, PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(String, Option<String>)> {
-    let (inputs, options) = (paths(inputs)?, input_options(options)?);
+    let (inputs, options) = (paths(inputs)?, input_options("fidelity", &["ideal"], options)?);
     let config = config::read(camera, None)?;
     let ideal =
         ideal.map_or_else(|| Ok(config.clone()), |ideal| config::read(Some(ideal), None))?;

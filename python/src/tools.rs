@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 use crate::config;
 use crate::error::raise;
 use crate::study::json;
-use crate::work::interruptible;
+use crate::work::{at_once_with, interruptible};
 
 /// Columns of a report.
 const WIDTH: usize = 100;
@@ -46,7 +46,7 @@ pub(crate) fn generate(
 #[pyfunction]
 pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(String, String)> {
     let design = design(camera)?;
-    let report = interruptible(py, |cancel| {
+    let report = at_once_with(py, move |cancel| {
         let toolchain = Toolchain::system().cancelled_by(cancel);
         let job = EstimateJob {
             leaves_of: Some(design.unit().split.to_owned()),

@@ -151,3 +151,21 @@ def test_luma_is_that_of_footage(tmp_path):
     assert np.array_equal(fv.luma(colour[::-1, ::2]), grey[::-1, ::2])
     with pytest.raises(ValueError, match=r"\(height, width, 3\)"):
         fv.luma(np.zeros((4, 4, 4), np.uint8))
+
+
+@pytest.mark.parametrize(("frame", "error", "message"), [
+    (np.zeros((4, 6, 3)), TypeError, r"array of uint8 with the shape \(height, width, 3\), not of float64; .*255 \* frame"),
+    (np.zeros((4, 6, 3), np.float32), TypeError, "not of float32; for values from 0 to 1, numpy.uint8"),
+    (np.zeros((4, 6, 3), np.uint16), TypeError, "not of uint16; for values of 16 bits"),
+    (np.zeros((4, 6, 3), np.int64), TypeError, r"not of int64; .*astype\(\"uint8\"\)"),
+    (np.zeros((4, 6, 3), bool), TypeError, "not of bool;"),
+    ([[[1, 2, 3]]], TypeError, "not of int64"),
+    (np.zeros((4, 6), np.uint8), ValueError, r"not \(4, 6\); it is grey already"),
+    (np.zeros((4, 6, 4), np.uint8), ValueError, r"not \(4, 6, 4\); leave the fourth channel out"),
+    (np.zeros((3, 4, 6), np.uint8), ValueError, r"not \(3, 4, 6\); put the channels last"),
+    (np.zeros((9, 4, 6, 3), np.uint8), ValueError, r"not \(9, 4, 6, 3\); give the frames one by one"),
+    (None, ValueError, r"not \(\)"),
+])
+def test_what_has_no_colours_is_refused_with_what_would_be_right(frame, error, message):
+    with pytest.raises(error, match=message):
+        fv.luma(frame)

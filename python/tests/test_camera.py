@@ -2,6 +2,7 @@
 """What a camera is, remembers and refuses."""
 import copy
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -156,6 +157,23 @@ def test_a_camera_is_copied_before_its_first_frame_only(frames):
         pickle.dumps(camera.step(frames[1]))
 
 
+@pytest.mark.parametrize("threads", [-1, 257, 1000000, 10**30, np.int64(-4)])
+def test_threads_have_a_range(threads):
+    with pytest.raises(ValueError, match=f"threads = {re.escape(repr(threads))}: expected 1 to 256, or 0, which takes one per processor"):
+        fv.Camera(threads=threads)
+
+
+def test_threads_are_a_whole_number():
+    for threads in ("2", 1.5, None, [1]):
+        with pytest.raises(TypeError, match=f"threads = {re.escape(repr(threads))}: expected 1 to 256, or 0"):
+            fv.Camera(threads=threads)
+    for threads in (0, 256, np.uint8(3)):
+        assert fv.Camera(threads=threads).step(np.zeros((8, 8), np.uint8)).number == 0
+    copy, arguments = fv.Camera(threads=3).__reduce__()
+    with pytest.raises(ValueError, match="threads = 4000"):
+        copy(arguments[0], 4000)
+
+
 def test_threads_change_no_bit():
     chance = np.random.default_rng(5)
     clip = chance.integers(0, 256, (3, 400, 600), np.uint8)
@@ -201,7 +219,7 @@ def test_footage_that_cannot_be_read_is_refused_as_on_the_command_line(tmp_path)
     ]:
         with pytest.raises(ValueError, match=message):
             fv.simulate("scene:street", **options)
-    with pytest.raises(TypeError, match="unexpected argument frame_count; inputs have max_frames"):
+    with pytest.raises(TypeError, match="simulate has no option frame_count; its options are max_frames"):
         fv.simulate("scene:street", frame_count=3)
     with pytest.raises(IndexError):
         fv.explain("scene:street", frame=0, region=(99, 0))

@@ -128,6 +128,48 @@ def test_a_network_behind_the_camera(command, tmp_path):
         fv.infer(network, "scene:street", mode="sparse")
 
 
+def test_a_network_takes_arrays_as_it_takes_footage(frames, tmp_path):
+    network = ROOT / "networks/denoiser.onnx"
+    path = tmp_path / "clip.y4m"
+    path.write_bytes(b"YUV4MPEG2 W83 H60 F30:1 Cmono\n" + b"".join(b"FRAME\n" + frame.tobytes() for frame in frames))
+    options = {"max_frames": 7, "resize": (48, 40), "reference": True}
+    expected = fv.infer(network, path, "steady", **options)
+    for given in (frames, list(frames), tuple(frames), np.asfortranarray(frames)):
+        found = fv.infer(network, given, "steady", **options)
+        for name, output in expected.outputs.items():
+            assert np.array_equal(found.outputs[name], output) and len(output) == 7, name
+        assert found.summary["macs"] == expected.summary["macs"] and found.summary["inputs"] == ["array"]
+    # As images of a set, each is a first frame.
+    every = fv.infer(network, frames[:3], images="set")
+    assert all(np.array_equal(part[1], fv.infer(network, frames[1:2], images="set").outputs[name][0]) for name, part in every.outputs.items())
+    found = fv.infer(network, frames[:2].astype(np.uint16) << 4, {"frame": {"pixel_bits": 12}})
+    assert found.summary["frames"] == 2
+
+
+@pytest.mark.parametrize(("inputs", "error", "message"), [
+    (np.zeros((8, 8), np.uint8), TypeError, r"infer takes footage, .* or frames, .*\(frames, height, width\).*; not a ndarray of arrays of shape \(8,\)"),
+    (np.zeros((2, 8, 8, 3), np.uint8), TypeError, r"arrays of shape \(8, 8, 3\)"),
+    (np.zeros((2, 8, 8)), TypeError, "a frame has dtype uint8, or uint16 above 8 bits per pixel, not float64"),
+    (np.zeros((2, 8, 8), np.uint16), TypeError, "dtype uint16, but the design has 8 bits"),
+    ([np.zeros((8, 8), np.uint8), np.zeros((8, 9), np.uint8)], ValueError, r"array\[1\].*9x8|9x8"),
+    (np.zeros((0, 8, 8), np.uint8), ValueError, "array holds no frame; at least one is needed"),
+    ([], ValueError, "array holds no frame; at least one is needed"),
+    (3, TypeError, "infer takes footage.*not int"),
+])
+def test_what_is_no_footage_is_refused_with_what_would_be_right(inputs, error, message):
+    with pytest.raises(error, match=message):
+        fv.infer(ROOT / "networks/denoiser.onnx", inputs)
+
+
+def test_options_of_a_network_are_named_with_the_nearest():
+    options = "network, inputs, camera, output, mode, tune, reference, accelerator, mean, scale, pictures, force, max_frames"
+    for wrong, meant in [("referense", ", but reference"), ("max_frame", ", but max_frames"), ("picture", ", but pictures"), ("zzz", "")]:
+        with pytest.raises(TypeError, match=f"infer has no option {wrong}{meant}; its options are {options}, "):
+            fv.infer(ROOT / "networks/denoiser.onnx", "scene:street", **{wrong: True})
+    with pytest.raises(TypeError, match="fidelity has no option ideel, but ideal; its options are ideal, max_frames"):
+        fv.fidelity("scene:street", ideel="paper")
+
+
 def idx_set(folder):
     """A labelled set of 12 images in IDX files."""
     chance = np.random.default_rng(3)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Threads, forks, signals and the end of the interpreter."""
 import multiprocessing
+import os
 import signal
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 
 import foveate as fv
-from conftest import equal
+from conftest import ROOT, equal
 
 
 def large(seed=0):
@@ -145,6 +146,8 @@ def test_the_interpreter_ends_with_frames_under_way():
 
 
 LONG = {
+    "explain": "fv.explain('scene:street', frame=900000, max_frames=1000000)",
+    "infer": f"fv.infer({str(ROOT / 'networks' / 'denoiser.onnx')!r}, 'scene:street', output=sys.argv[1], max_frames=1000000)",
     "simulate": "for _ in fv.simulate('scene:street', max_frames=1000000): pass",
     "fidelity": "fv.fidelity('scene:street', max_frames=1000000)",
     "events": "fv.events(fv.simulate('scene:street', max_frames=1000000))",
@@ -155,7 +158,7 @@ LONG = {
 
 @pytest.mark.parametrize("what", LONG)
 def test_ctrl_c_ends_long_work_at_once(what, tmp_path):
-    code = f"import foveate as fv; print('go', flush=True)\n{LONG[what]}"
+    code = f"import sys; import foveate as fv; print('go', flush=True)\n{LONG[what]}"
     process = subprocess.Popen(
         [sys.executable, "-c", code, str(tmp_path / "out")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
@@ -169,6 +172,40 @@ def test_ctrl_c_ends_long_work_at_once(what, tmp_path):
         assert process.returncode == 130 and "interrupted; the results so far are in" in errors
     else:
         assert process.returncode == -signal.SIGINT and errors.rstrip().endswith("KeyboardInterrupt")
+
+
+#: Stands for Yosys: at once there is a netlist that takes seconds to be read.
+YOSYS = """#!{python}
+import sys
+if "-V" in sys.argv:
+    sys.exit(print("Yosys 0.23 (git sha1 7ce5011c24b)"))
+with open("netlist.json", "w") as file:
+    file.write('{{"modules": {{"rpu": {{"cells": {{}}, "attributes": {{')
+    file.write(", ".join(f'"attribute{{number}}": "1"' for number in range(1000000)))
+    file.write("}}}}}}")
+open("netlist.v", "w").close()
+open({marks!r} + "/" + ("whole" if "write_verilog" in open(sys.argv[-1]).read() else "leaves"), "w").close()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="stands for Yosys as a script")
+def test_ctrl_c_ends_an_estimate_while_its_netlist_is_read(tmp_path):
+    (tmp_path / "yosys").write_text(YOSYS.format(python=sys.executable, marks=str(tmp_path)))
+    (tmp_path / "yosys").chmod(0o755)
+    process = subprocess.Popen(
+        [sys.executable, "-c", "import foveate as fv; fv.Camera().estimate()"], stderr=subprocess.PIPE, text=True,
+        env={**os.environ, "FOVEATE_YOSYS": str(tmp_path / "yosys"), "FOVEATE_CACHE": "off"},
+    )
+    begun = time.monotonic()
+    while not {"whole", "leaves"} <= {path.name for path in tmp_path.iterdir()}:
+        assert process.poll() is None and time.monotonic() - begun < 60
+        time.sleep(0.01)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    began = time.monotonic()
+    _, errors = process.communicate(timeout=60)
+    assert time.monotonic() - began < 1.5
+    assert process.returncode == -signal.SIGINT and errors.rstrip().endswith("KeyboardInterrupt")
 
 
 def test_the_command_is_there():

@@ -2,10 +2,11 @@
 //! Drives Yosys: one run for unit and array, one for the leaves, side by side.
 
 use std::collections::BTreeSet;
+use std::sync::atomic::Ordering;
 use std::thread;
 
 use foveate_toolchain::yosys::{self, YosysJob, YosysRun};
-use foveate_toolchain::{Cache, Source, Tool, Toolchain, sources_sha256};
+use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, sources_sha256};
 
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
@@ -91,11 +92,20 @@ pub fn estimate(
         let leaves = leaves.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         Ok::<_, EstimateError>((synthesis?, leaves?))
     })?;
+    // A netlist of many regions takes seconds to be read.
+    let go_on = || match toolchain.cancel_flag().load(Ordering::Relaxed) {
+        true => Err(EstimateError::Tool(ToolError::Interrupted)),
+        false => Ok(()),
+    };
+    go_on()?;
     let netlist = Netlist::parse(NETLIST, &synthesis.json)?;
+    go_on()?;
     let units = job.units(&netlist)?;
     let without: Vec<&str> = units.iter().map(String::as_str).collect();
     let paths = longest_paths(NETLIST, &synthesis.json, &[without[0], &job.array])?;
+    go_on()?;
     let clock = ClockEstimate::of(NETLIST, &synthesis.json, &job.array, Library::Xilinx)?;
+    go_on()?;
     let [unit, array] = paths.try_into().expect("a path for each of the two modules");
     Ok(Report::new(
         synthesis.tool,

@@ -73,15 +73,9 @@ pub fn open<P: AsRef<Path>>(
     options: &InputOptions,
 ) -> Result<Box<dyn Source>, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
-    let adjustment = Adjustment {
-        selection: options.selection,
-        crop: options.crop,
-        size: options.resize,
-        frames: options.frames,
-    };
     let feed = feed(&inputs, config, options)?;
     let names = inputs.iter().map(|input| input.display().to_string()).collect();
-    Ok(Box::new(Input::new(names, feed, adjustment)?))
+    Ok(Box::new(Input::new(names, feed, Adjustment::of(options))?))
 }
 
 /// What follows a prefix, such as the name of a scene.

@@ -32,6 +32,7 @@ pub use picture::{decode, luma, read};
 pub use plan::{Clip, Plan, plan};
 pub use source::ahead::{Frames, read_ahead};
 pub use source::form::{IdxFile, Labels, SetFiles, SetForm};
+pub use source::memory::in_memory;
 pub use source::select::{Selection, parse_time};
 pub use source::{FrameRate, Kind, Origin, Source, SourceFrame};
 pub use subject::{Subject, subjects};

@@ -5,6 +5,7 @@ pub(crate) mod ahead;
 pub(crate) mod feed;
 pub(crate) mod files;
 pub(crate) mod form;
+pub(crate) mod memory;
 pub(crate) mod resize;
 pub(crate) mod select;
 

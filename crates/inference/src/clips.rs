@@ -92,6 +92,20 @@ impl Clips {
         Ok(found)
     }
 
+    /// One clip that is open already.
+    pub(crate) fn of(source: Box<dyn Source>, config: &Config) -> Self {
+        let inputs = source.inputs().iter().map(PathBuf::from).collect();
+        let name = source.inputs().join(", ");
+        Self {
+            subjects: vec![Subject { name, inputs }],
+            config: config.clone(),
+            input: InputOptions::default(),
+            size: source.size(),
+            frames: source.frames(),
+            only: Some(source),
+        }
+    }
+
     pub(crate) fn count(&self) -> usize {
         self.subjects.len()
     }

@@ -15,7 +15,7 @@ use crate::tune::{Tuned, tune};
 use crate::{Goal, InferenceError, Mapping};
 use foveate_accelerator::Accelerator;
 use foveate_design::{Config, Design};
-use foveate_footage::{Hooks, InputOptions};
+use foveate_footage::{Hooks, InputOptions, Source};
 use foveate_network::{FrameSize, Mode, Network};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 use std::path::{Path, PathBuf};
@@ -70,7 +70,22 @@ impl Inference {
         inputs: &[PathBuf],
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
-        let clips = Clips::new(inputs, config, input)?;
+        Self::with(config, network, Clips::new(inputs, config, input)?)
+    }
+
+    /// The same for one clip or set that is open already.
+    ///
+    /// # Errors
+    /// As [`Inference::new`], without those of inputs.
+    pub fn of_source(
+        config: &Config,
+        network: &Path,
+        source: Box<dyn Source>,
+    ) -> Result<Self, InferenceError> {
+        Self::with(config, network, Clips::of(source, config))
+    }
+
+    fn with(config: &Config, network: &Path, clips: Clips) -> Result<Self, InferenceError> {
         let (width, height) = clips.size;
         let network_for = FrameSize { width: width as usize, height: height as usize };
         let path = network.to_owned();

@@ -6,8 +6,8 @@ use super::form::SetForm;
 use super::resize;
 use super::select::{Selection, Selector, Verdict};
 use super::{Kind, Origin, Source, SourceFrame};
-use crate::FootageError;
 use crate::limits::Crop;
+use crate::{FootageError, InputOptions};
 
 /// Frames as they come, of any size.
 pub(crate) trait Feed: Send {
@@ -56,6 +56,18 @@ pub(crate) struct Adjustment {
     pub(crate) crop: Option<Crop>,
     pub(crate) size: Option<(u32, u32)>,
     pub(crate) frames: Option<u32>,
+}
+
+impl Adjustment {
+    /// What the options ask for.
+    pub(crate) fn of(options: &InputOptions) -> Self {
+        Self {
+            selection: options.selection,
+            crop: options.crop,
+            size: options.resize,
+            frames: options.frames,
+        }
+    }
 }
 
 /// A feed whose frames are adjusted, all of one size.

@@ -4,6 +4,7 @@
 
 mod clips;
 mod fuzz;
+mod memory;
 mod pictures;
 mod seek;
 mod video;

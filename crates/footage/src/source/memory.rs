@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Frames that a program has in memory already, as a source like any other.
+
+use foveate_frame::Raster;
+
+use super::feed::{Adjustment, Feed, Input};
+use super::{FrameRate, Kind, Source, SourceFrame};
+use crate::{FootageError, ImagesAs, InputOptions};
+
+/// Frames in a given order.
+struct Memory {
+    name: String,
+    frames: std::vec::IntoIter<Raster>,
+    total: u64,
+    next: u64,
+    rate: FrameRate,
+    kind: Kind,
+}
+
+/// Frames that are in memory as one source, read with the same options as files. `name` is what they are called in
+/// results.
+///
+/// # Errors
+/// When there are none, or an option does not go with them.
+pub fn in_memory(
+    name: &str,
+    frames: Vec<Raster>,
+    options: &InputOptions,
+) -> Result<Box<dyn Source>, FootageError> {
+    let of_files = |option, what: &str| FootageError::Option {
+        option,
+        problem: format!("{what} are files, and `{name}` is none"),
+    };
+    let kind = match options.images {
+        ImagesAs::Clip => Kind::Clip,
+        ImagesAs::Set => Kind::Set,
+        ImagesAs::CifarSheet => return Err(of_files("--images", "CIFAR sheets")),
+    };
+    if options.labels.is_some() {
+        return Err(of_files("--labels", "labelled images"));
+    }
+    let feed = Memory {
+        name: name.to_owned(),
+        total: frames.len() as u64,
+        frames: frames.into_iter(),
+        next: 0,
+        rate: options.frame_rate,
+        kind,
+    };
+    Ok(Box::new(Input::new(vec![name.to_owned()], Box::new(feed), Adjustment::of(options))?))
+}
+
+impl Feed for Memory {
+    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+        let Some(frame) = self.frames.next() else { return Ok(None) };
+        let name = format!("{}[{}]", self.name, self.next);
+        let time_us = self.kind.time_us(self.rate, self.next);
+        self.next += 1;
+        Ok(Some(SourceFrame { name, time_us, label: None, frame }))
+    }
+
+    fn total(&self) -> Option<u64> {
+        Some(self.total)
+    }
+
+    fn kind(&self) -> Kind {
+        self.kind
+    }
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Options by name: which a function has, and which one was meant by one that it has not.
+
+use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, parse_time};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Options of everything that reads footage, by their names on the command line.
+const INPUT: [&str; 9] =
+    ["max_frames", "input_fps", "rate", "start", "end", "crop", "resize", "images", "labels"];
+/// How like two names are, 0 to 1, for one to be meant by the other.
+const ALIKE: f64 = 0.8;
+
+/// The options of inputs. `own` are what else `function` has, taken out already.
+pub(crate) fn input_options(
+    function: &str,
+    own: &[&str],
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<InputOptions> {
+    let mut found = InputOptions::default();
+    let Some(options) = options else { return Ok(found) };
+    for (name, value) in options.iter() {
+        let name: String = name.extract()?;
+        if !INPUT.contains(&name.as_str()) {
+            return Err(unknown(function, own, &name));
+        }
+        if !value.is_none() {
+            set(&mut found, &name, &value)?;
+        }
+    }
+    Ok(found)
+}
+
+/// An option that there is not, with what there is.
+fn unknown(function: &str, own: &[&str], name: &str) -> PyErr {
+    let all = || own.iter().chain(&INPUT);
+    let alike = all().map(|other| (strsim::jaro_winkler(other, name), other));
+    let meant =
+        alike.filter(|(alike, _)| *alike > ALIKE).max_by(|one, two| one.0.total_cmp(&two.0));
+    let meant = meant.map(|(_, other)| format!(", but {other}")).unwrap_or_default();
+    let names: Vec<&str> = all().copied().collect();
+    PyTypeError::new_err(format!(
+        "{function} has no option {name}{meant}; its options are {}",
+        names.join(", ")
+    ))
+}
+
+fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let text = || -> PyResult<String> { Ok(value.str()?.to_string()) };
+    let wrong = |problem: String| PyValueError::new_err(format!("{name} = {value}: {problem}"));
+    match name {
+        "max_frames" => {
+            let frames = value.extract().ok().filter(|&frames: &u32| frames > 0);
+            found.frames = Some(frames.ok_or_else(|| wrong("expected a number from 1 on".into()))?);
+        }
+        "rate" => found.frame_rate = FrameRate::parse(&text()?).map_err(wrong)?,
+        "input_fps" => {
+            found.selection.rate = Some(FrameRate::parse(&text()?).map_err(wrong)?);
+        }
+        "start" => found.selection.start_us = Some(parse_time(&text()?).map_err(wrong)?),
+        "end" => found.selection.end_us = Some(parse_time(&text()?).map_err(wrong)?),
+        "crop" => {
+            let (width, height, x, y) = value
+                .extract()
+                .map_err(|_| wrong("expected (width, height, x, y) in pixels".into()))?;
+            found.crop = Some(Crop { size: (width, height), at: (x, y) });
+        }
+        "resize" => {
+            let size = value.extract().ok().filter(|&(width, height): &(u32, u32)| {
+                let sides = 1..=foveate_footage::MAX_SIDE;
+                sides.contains(&width) && sides.contains(&height)
+            });
+            found.resize = Some(size.ok_or_else(|| {
+                wrong(format!("expected (width, height), each 1 to {}", foveate_footage::MAX_SIDE))
+            })?);
+        }
+        "images" => {
+            found.images = match text()?.as_str() {
+                "clip" => ImagesAs::Clip,
+                "set" => ImagesAs::Set,
+                "cifar-sheet" => ImagesAs::CifarSheet,
+                _ => return Err(wrong("expected \"clip\", \"set\" or \"cifar-sheet\"".into())),
+            };
+        }
+        "labels" => found.labels = Some(value.extract()?),
+        _ => unreachable!("every name of INPUT is above"),
+    }
+    Ok(())
+}
