@@ -20,7 +20,7 @@ pub(crate) const GRID: RGBColor = rgb(LIGHT.grid);
 /// With more points than this a line has no dots.
 const DOTS: usize = 40;
 /// The most labels of an axis across.
-const LABELS: usize = 11;
+const LABELS: u8 = 11;
 
 pub(crate) type Result<DB> =
     std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
@@ -143,10 +143,10 @@ fn draw_log_lines<DB: DrawingBackend>(
     draw_series(lines, &mut context)
 }
 
-/// Labels from 0 to this number, at most one for each number.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few, and not negative")]
-fn whole_labels(last: f64) -> usize {
-    last.min(LABELS as f64 - 1.0) as usize + 1
+/// Labels from 0 to this number, at most one for each whole number.
+fn whole_labels(last: f64) -> u8 {
+    let more = (1..LABELS).take_while(|&label| f64::from(label) <= last);
+    more.last().unwrap_or(0) + 1
 }
 
 /// A label with no more digits than it needs.
@@ -167,12 +167,12 @@ type Plot<'a, DB, X> = ChartContext<'a, DB, Cartesian2d<X, RangedCoordf64>>;
 fn draw_mesh<DB: DrawingBackend, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
     chart: &Chart,
     context: &mut Plot<'_, DB, X>,
-    labels: usize,
+    labels: u8,
     label: &dyn Fn(&f64) -> String,
 ) -> Result<DB> {
     context
         .configure_mesh()
-        .x_labels(labels)
+        .x_labels(labels.into())
         .x_label_formatter(&label)
         .y_label_formatter(&|&y| plain(y))
         .x_desc(&chart.x)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What can be seen on a chart: lines that lie on each other, what the chart is about, and axes that say no more than
 //! is known.
-
-#![allow(missing_docs, reason = "tests")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use foveate_chart::{Bars, Chart, Line, Look, Shape};
 use foveate_palette::{Colour, SERIES};
