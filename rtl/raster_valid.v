@@ -27,18 +27,21 @@ module raster_valid #(
     reg decided_bit_q, lost_bit_q;
     wire lost_bit;
 
+    // Any bit will do to begin with, if it stays the same; a simulator that knows of unknown ones must choose. It
+    // chooses behind the read: a choice before the register keeps the memory out of block RAM.
+    wire read_lost_bit = lost_bit_q === 1'b1;
+
     always @(posedge clk_i) begin
         decided_bit_q <= decided_bits_q[region_i];
-        // Any bit will do to begin with, if it stays the same; a simulator that knows of unknown ones must choose.
-        lost_bit_q    <= lost_bits_q[region_i] === 1'b1;
+        lost_bit_q    <= lost_bits_q[region_i];
         if (decided_i) decided_bits_q[decided_region_i] <= next_i ^ lost_bit;
         if (lost_i) lost_bits_q[lost_region_i] <= lost_mark_i;
         mark_o <= next_i ^ lost_bit;
     end
 
-    raster_delay #(.WIDTH(1), .DEPTH(DEEP)) u_lost_bit (.clk_i(clk_i), .data_i(lost_bit_q), .data_o(lost_bit));
+    raster_delay #(.WIDTH(1), .DEPTH(DEEP)) u_lost_bit (.clk_i(clk_i), .data_i(read_lost_bit), .data_o(lost_bit));
 
-    assign valid_o = (decided_bit_q ^ lost_bit_q) && !none_i;
+    assign valid_o = (decided_bit_q ^ read_lost_bit) && !none_i;
     wire unused_reset = rst_i;
 
 endmodule

@@ -106,7 +106,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Sent, "raster_start", "ROW_STEP = SEGMENT + (SIDE - 1) * ROW_WORDS", "ROW_STEP = SEGMENT + SIDE * ROW_WORDS"),
     fault("reset", Paper, "raster_start", "            start_o       <= {START_BITS{1'b0}};\n", ""),
 
-    fault("operator", Lost, "raster_valid", "(decided_bit_q ^ lost_bit_q)", "decided_bit_q"),
+    fault("operator", Lost, "raster_valid", "(decided_bit_q ^ read_lost_bit)", "decided_bit_q"),
     fault("reset", Sent, "raster_valid", " && !none_i;", ";"),
 
     fault("constant", Paper, "raster_walk", "JUMP = ROW_WORDS - SEGMENT + 1", "JUMP = ROW_WORDS - SEGMENT"),
