@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What is read is what was written last at that place, GROUPS + 5 clocks after its address. The word that is followed is
+// What is read is what was written last at that place, GROUPS + 6 clocks after its address. The word that is followed is
 // written at least as many clocks before it is read.
 module properties #(
     parameter WORDS = 13, parameter ADDRESS_BITS = $clog2(WORDS), parameter GROUPS = 4
@@ -7,7 +7,7 @@ module properties #(
     input wire clk_i, rst_i, write, input wire [ADDRESS_BITS-1:0] write_address, read_address, input wire data
 );
     `include "reset.vh"
-    localparam LATENCY = GROUPS + 5;
+    localparam LATENCY = GROUPS + 6;
     (* anyconst *) wire [ADDRESS_BITS-1:0] place;
     always @* begin
         assume(write_address < WORDS);

@@ -17,7 +17,7 @@ module raster_banks #(
     input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
     input  wire [       WIDTH-1:0] data_i,           // what
     input  wire [ADDRESS_BITS-1:0] read_address_i,   // where to read
-    output wire [       WIDTH-1:0] data_o            // what was there, GROUPS + 5 clocks after its address
+    output wire [       WIDTH-1:0] data_o            // what was there, GROUPS + 6 clocks after its address
 );
 
     localparam GROUP_WORD_BITS = BANK_BITS + GROUP_BITS;
@@ -90,9 +90,12 @@ module raster_banks #(
                     .clk_i(clk_i), .write_i(own_q), .write_address_i(own_write_q), .data_i(own_word_q),
                     .read_i(1'b1), .read_address_i(own_read_q), .data_o(bank_words[bank*WIDTH+:WIDTH])
                 );
-                raster_delay #(.WIDTH(1), .DEPTH(3)) u_comes (.clk_i(clk_i), .data_i(asked_q), .data_o(comes));
+                // A register halfway: the blocks of a bank stand far apart.
+                reg [WIDTH-1:0] bank_word_q;
+                raster_delay #(.WIDTH(1), .DEPTH(4)) u_comes (.clk_i(clk_i), .data_i(asked_q), .data_o(comes));
                 always @(posedge clk_i) begin
-                    if (comes) bank_words_q[bank*WIDTH+:WIDTH] <= bank_words[bank*WIDTH+:WIDTH];
+                    bank_word_q <= bank_words[bank*WIDTH+:WIDTH];
+                    if (comes) bank_words_q[bank*WIDTH+:WIDTH] <= bank_word_q;
                     else bank_words_q[bank*WIDTH+:WIDTH] <= {WIDTH{1'b0}};
                 end
             end

@@ -135,7 +135,7 @@ module raster_core #(
     localparam HIT_CLOCKS = 4 + DEEP;                                  // ... to the hits
 
     // A large store is made of groups of banks if it has to be fast. References come in order, so that they can be asked
-    // for as early as it takes them to pass the groups: at the earliest when their word reaches the tail.
+    // for as early as it takes them to pass the groups: at the earliest at the advance with which their word reaches the tail.
     localparam BANK_BITS = 14;
     localparam STORE_BANKS = (FRAME_WORDS + (1 << BANK_BITS) - 1) >> BANK_BITS;
     localparam IN_GROUPS = DEEP && STORE == 0 && !LAST_SENT && STORE_BANKS > 1 && CENTER_CLOCKS > 2;
@@ -329,7 +329,7 @@ module raster_core #(
 
     wire reference_read;
     raster_pulse #(.DEPTH(IN_GROUPS ? CENTER_CLOCKS - 2 - GROUPS : 1)) u_reference_read (
-        .clk_i(clk_i), .rst_i(rst_i), .bit_i(IN_GROUPS ? tail : center_step), .bit_o(reference_read)
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(IN_GROUPS ? in_tail : center_step), .bit_o(reference_read)
     );
     generate
         if (STORE == EXTERNAL) begin : g_external

@@ -12,7 +12,7 @@ module raster_store #(
     parameter DEEP = 0,           // 0: a reference one clock after it is asked for; 1: two
     parameter BANK_BITS = 14,     // log2 of the words of a bank (GROUPS)
     parameter GROUP_BITS = 2,     // log2 of the banks of a group (GROUPS)
-    parameter GROUPS = 0          // 0: one memory; more: groups of banks, and a reference GROUPS + 5 clocks after it is asked for
+    parameter GROUPS = 0          // 0: one memory; more: groups of banks, and a reference GROUPS + 6 clocks after it is asked for
 ) (
     input  wire                    clk_i,        // clock, rising edge
     input  wire                    rst_i,        // synchronous reset, active high
