@@ -236,6 +236,10 @@ pub(crate) struct EstimateArgs {
     /// What to place: one RPU (of `serial` and `raster`: the smallest array), or the whole array
     #[arg(long, value_enum, default_value_t = Level::Rpu, requires = "place_and_route")]
     pub(crate) level: Level,
+    /// Place the Verilog as it is for every device: for an ECP5, without the memories of that family
+    /// (`FOVEATE_ECP5`)
+    #[arg(long, requires = "place_and_route")]
+    pub(crate) portable: bool,
     /// The clock in MHz that the design runs at, for frame rates; without it they are those at the clock that is
     /// estimated from the netlist
     #[arg(long, value_name = "MHZ", value_parser = at_least_one(), conflicts_with = "place_and_route")]

@@ -6,7 +6,9 @@ use crate::banner;
 use crate::instance::instance;
 use crate::text::text_of;
 use askama::Template;
-use foveate_design::{Design, RasterMemory, RasterTiming, Reference, Store, Thresholds};
+use foveate_design::{
+    Design, Pipelining, RasterMemory, RasterTiming, Reference, Store, Thresholds,
+};
 
 #[derive(Template)]
 #[template(path = "raster_README.md")]
@@ -56,6 +58,8 @@ struct Readme {
     single_port: bool,
     /// Whether pixels leave.
     forwards: bool,
+    /// More registers, which those of block RAM can be.
+    deep: bool,
     last_sent: bool,
     store: &'static str,
     lone_width: u32,
@@ -113,6 +117,7 @@ fn view(design: &Design, timing: &RasterTiming) -> Readme {
         single_port: design.store() == Store::SinglePort,
         forwards: design.forwards(),
         memories,
+        deep: design.pipelining() == Pipelining::Deep,
         last_sent: design.temporal().reference == Reference::LastSent,
         store: design.store().name(),
         lone_width: lone.width(),

@@ -111,6 +111,14 @@ impl Family {
         }
     }
 
+    /// What is defined for the Verilog to have the family's own memories.
+    pub(crate) fn define(self) -> Option<&'static str> {
+        match self {
+            Self::Ecp5 => Some("FOVEATE_ECP5"),
+            Self::Ice40Up | Self::Ice40Hx => None,
+        }
+    }
+
     /// Whether look-up tables can be memory. Where they cannot, a memory that asks for it becomes what the
     /// family has.
     pub(crate) fn has_distributed_ram(self) -> bool {

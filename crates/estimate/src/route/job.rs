@@ -15,9 +15,9 @@ use super::critical::Names;
 use super::device::{Family, RouteDevice};
 use super::hierarchy::Hierarchy;
 use super::netlist::Netlist;
+use super::ports;
 use super::report::{Fmax, Placed, ROUTE_FORMAT_VERSION, RouteReport, Routed, Used};
 use super::result::{Outcome, over};
-use super::{outreg, ports};
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::levels::Library;
@@ -40,25 +40,32 @@ pub struct RouteJob {
     pub parameters: Vec<(String, u32)>,
     /// How many seeds, from 1 on.
     pub seeds: u32,
+    /// Whether the family's own memories are left out, which the Verilog has where the family is defined.
+    pub is_portable: bool,
 }
 
 impl RouteJob {
     /// The whole array of a design, or its smallest core.
     #[must_use]
-    pub fn of(design: &Design, top: Top, seeds: u32) -> Self {
+    pub fn of(design: &Design, top: Top, seeds: u32, is_portable: bool) -> Self {
         let parameters = top.parameters(design).into_iter();
         Self {
             sources: sources(foveate_emit::verilog(design, top)),
             top: top.module().to_owned(),
             parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
             seeds,
+            is_portable,
         }
     }
 
-    /// The whole design as one module: placement crosses all borders.
+    /// The whole design as one module: placement crosses all borders. Whether all modules are there is checked by the
+    /// family's synthesis, which knows its cells.
     fn synthesis(&self, family: Family) -> YosysJob {
         let Self { top, .. } = self;
-        let read = self.sources.iter().map(|(name, _)| format!("read_verilog -I. {name}\n"));
+        let define = family.define().filter(|_| !self.is_portable);
+        let define = define.map_or_else(String::new, |name| format!("-D{name} "));
+        let read = |(name, _): &Source| format!("read_verilog {define}-I. {name}\n");
+        let read = self.sources.iter().map(read);
         let set = self.parameters.iter().map(|(name, value)| format!(" -set {name} {value}"));
         let set = match set.collect::<String>() {
             none if none.is_empty() => none,
@@ -69,7 +76,7 @@ impl RouteJob {
             false => "setattr -unset ram_style */m:*\n",
         };
         let script = format!(
-            "{}{set}hierarchy -check -top {top}\n\
+            "{}{set}hierarchy -top {top}\n\
              proc\n\
              write_json {HIERARCHY}\n\
              {memories}setattr -mod -unset keep_hierarchy *\n\
@@ -90,7 +97,6 @@ struct Ready {
     hierarchy: Hierarchy,
     json: Vec<u8>,
     port_ff: u64,
-    output_registers: u64,
 }
 
 /// Places and routes a design on each of the devices, as often as it has seeds. A device that is too small
@@ -137,11 +143,8 @@ impl Ready {
         let file =
             |name: &str| run.files.get(name).expect("it is one of the wanted files").as_slice();
         let hierarchy = Hierarchy::parse(HIERARCHY, file(HIERARCHY))?;
-        let (mut netlist, creator) = Netlist::parse(file(NETLIST), &job.top)?;
-        let output_registers = outreg::absorb(&mut netlist);
-        let port_ff = ports::become_registers(&mut netlist, device.family)?;
-        let json = netlist.to_json(&job.top, creator)?;
-        Ok(Self { device, netlist, hierarchy, json, port_ff, output_registers })
+        let (netlist, json, port_ff) = to_place(file(NETLIST), &job.top, device.family)?;
+        Ok(Self { device, netlist, hierarchy, json, port_ff })
     }
 
     fn place(&self, toolchain: &Toolchain, cache: &Cache, seed: u32) -> Result<Vec<u8>, ToolError> {
@@ -217,7 +220,6 @@ impl Ready {
             spram,
             dsp,
             port_ff: self.port_ff,
-            output_registers: self.output_registers,
             estimate: match self.device.family {
                 Family::Ecp5 => ClockEstimate::of(NETLIST, &self.json, top, Library::Ecp5)?,
                 Family::Ice40Up | Family::Ice40Hx => None,
@@ -226,6 +228,19 @@ impl Ready {
             critical: report.longest().and_then(|path| names.path(path)),
         })
     }
+}
+
+/// What nextpnr gets of the netlist that Yosys wrote: all of it as it is, with flip-flops for ports. Returns it, its
+/// file, and the number of these flip-flops.
+pub(super) fn to_place(
+    json: &[u8],
+    top: &str,
+    family: Family,
+) -> Result<(Netlist, Vec<u8>, u64), EstimateError> {
+    let (mut netlist, creator) = Netlist::parse(json, top)?;
+    let port_ff = ports::become_registers(&mut netlist, family)?;
+    let json = netlist.to_json(top, creator)?;
+    Ok((netlist, json, port_ff))
 }
 
 /// The result for each item in its order, a few at a time.

@@ -11,7 +11,6 @@ mod device;
 mod hierarchy;
 mod job;
 mod netlist;
-mod outreg;
 mod ports;
 mod render;
 mod report;

@@ -2,7 +2,7 @@
 //! The synthesized netlist as it can be edited before it is placed: cells, ports and names of one module.
 //! What is not touched stays as Yosys wrote it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -81,19 +81,6 @@ impl Netlist {
         let module = serde_json::to_value(self).map_err(EstimateError::Json)?;
         let file = File { creator, modules: BTreeMap::from([(top.to_owned(), module)]) };
         serde_json::to_vec(&file).map_err(EstimateError::Json)
-    }
-
-    /// What reads each net: cells with the port. Ports of the module are not among them.
-    pub(super) fn loads(&self) -> HashMap<u32, Vec<(String, String)>> {
-        let mut loads: HashMap<u32, Vec<(String, String)>> = HashMap::new();
-        for (name, cell) in &self.cells {
-            for (port, bits) in cell.connections.iter().filter(|(port, _)| !cell.drives(port)) {
-                for net in bits.iter().filter_map(Bit::net) {
-                    loads.entry(net).or_default().push((name.clone(), port.clone()));
-                }
-            }
-        }
-        loads
     }
 
     /// How many cells are of a type that starts so.
@@ -181,10 +168,6 @@ impl Cell {
         }
     }
 
-    pub(super) fn drives(&self, port: &str) -> bool {
-        self.port_directions.get(port).is_some_and(|direction| direction != "input")
-    }
-
     /// The only bit of a port.
     pub(super) fn bit(&self, port: &str) -> Option<&Bit> {
         self.connections.get(port)?.first()
@@ -194,11 +177,6 @@ impl Cell {
     pub(super) fn net(&self, port: &str) -> Option<u32> {
         self.bit(port)?.net()
     }
-
-    /// A parameter that is text.
-    pub(super) fn text(&self, parameter: &str) -> Option<&str> {
-        self.parameters.get(parameter)?.as_str().map(str::trim_end)
-    }
 }
 
 impl Bit {
@@ -207,10 +185,5 @@ impl Bit {
             Self::Net(net) => Some(*net),
             Self::Constant(_) => None,
         }
-    }
-
-    /// Whether it is always 0.
-    pub(super) fn is_zero(&self) -> bool {
-        *self == Self::Constant("0".to_owned())
     }
 }

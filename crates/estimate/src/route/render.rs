@@ -59,15 +59,11 @@ fn sentence(routed: &Routed) -> Option<String> {
     let Routed { device, part, .. } = routed;
     let seeds = placed.fmax.seeds_mhz.len();
     let path = placed.critical.as_ref().map_or_else(String::new, critical);
-    let moved = match placed.output_registers {
-        0 => String::new(),
-        moved => format!(" {} flip-flops are output registers of block RAM.", grouped(moved)),
-    };
     let seeds = if seeds == 1 { "1 seed".to_owned() } else { format!("{seeds} seeds") };
     let estimate = placed.estimate.as_ref().map_or_else(String::new, |estimate| {
         format!(" Expected by the netlist alone: {:.1} MHz.", estimate.mhz)
     });
-    Some(format!("{device} is {part}; {seeds}.{path}{moved}{estimate}"))
+    Some(format!("{device} is {part}; {seeds}.{path}{estimate}"))
 }
 
 fn critical(path: &CriticalPath) -> String {

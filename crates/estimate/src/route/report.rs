@@ -8,7 +8,7 @@ use crate::clock::ClockEstimate;
 use crate::report::ToolRecord;
 
 /// The version of the JSON report. It grows when a field changes its meaning or goes away.
-pub const ROUTE_FORMAT_VERSION: u32 = 1;
+pub const ROUTE_FORMAT_VERSION: u32 = 2;
 
 /// A design, placed and routed on one device or several.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -67,8 +67,6 @@ pub struct Placed {
     pub dsp: Used,
     /// The flip-flops at the ports, which are not in the figures above.
     pub port_ff: u64,
-    /// Flip-flops that became output registers of block RAM.
-    pub output_registers: u64,
     /// The clock.
     pub fmax: Fmax,
     /// What the netlist alone lets expect, where cells of the family have delays; see [`ClockEstimate`].

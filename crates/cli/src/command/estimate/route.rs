@@ -16,7 +16,7 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
         Level::Rpu => Top::Rpu,
         Level::Rcm => Top::Rcm,
     };
-    let job = RouteJob::of(&design, top, args.seeds);
+    let job = RouteJob::of(&design, top, args.seeds, args.portable);
     let progress = Progress::new(args.quiet);
     progress.work("placing and routing with nextpnr");
     let report = place_and_route(&flow.toolchain, &flow.cache, &job, &args.place_and_route);

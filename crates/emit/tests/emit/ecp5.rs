@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `raster_memory` in its form for the ECP5 shows what it shows elsewhere, and has the register of the block behind it.
+
+use std::path::Path;
+use std::time::Duration;
+
+use foveate_emit::LEAVES;
+use foveate_toolchain::iverilog::{self, IverilogJob};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::yosys::{self, YosysJob};
+use foveate_toolchain::{Cache, Source, Tool, Toolchain};
+
+/// Bits of a word, and words: each width of a block, several blocks, words that fill them and do not.
+const SHAPES: &[(u32, u32)] =
+    &[(1, 2), (12, 240), (36, 480), (18, 1024), (16, 1920), (3, 4096), (5, 8192), (8, 16384)];
+
+fn memory() -> &'static str {
+    LEAVES.iter().find(|leaf| leaf.name == "raster_memory").unwrap().contents
+}
+
+/// What the bench prints that compares both forms, the one for the ECP5 with this change.
+fn compared((width, words): (u32, u32), from: &str, to: &str) -> String {
+    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let own = memory().replacen("module raster_memory", "module ecp5_memory", 1);
+    let own = own.replace("`ifdef FOVEATE_ECP5", "`ifndef PORTABLE");
+    assert!(own.contains(from), "{from}");
+    let bench = include_str!("ecp5/bench.v")
+        .replacen("WIDTH = 16", &format!("WIDTH = {width}"), 1)
+        .replacen("WORDS = 240", &format!("WORDS = {words}"), 1);
+    let sources = [
+        ("raster_memory.v", memory().to_owned()),
+        ("ecp5_memory.v", own.replacen(from, to, 1)),
+        ("dp16kd.v", include_str!("ecp5/dp16kd.v").to_owned()),
+        ("bench.v", bench),
+    ];
+    let job = IverilogJob {
+        sources: sources.map(|(name, text)| (name.to_owned(), text)).to_vec(),
+        top: "bench".to_owned(),
+        ..IverilogJob::default()
+    };
+    let program = iverilog::compile(&toolchain, &cache, &job).unwrap();
+    let limit = Duration::from_secs(300);
+    let shown = iverilog::run(&toolchain, &program, &[], Path::new("."), limit).unwrap();
+    String::from_utf8(shown.stdout).unwrap()
+}
+
+#[test]
+fn blocks_of_the_ecp5_show_what_the_memory_shows() {
+    if !require_tools(&[Tool::Iverilog]) {
+        return;
+    }
+    for &shape in SHAPES {
+        let shown = compared(shape, "", "");
+        assert!(shown.starts_with("PASS"), "{shape:?}: {shown}");
+    }
+    for (shape, from, to) in [
+        ((16, 1920), "<< SHIFT;", "<< SHIFT >> 1;"),
+        ((12, 240), "14'd3", "14'd1"),
+        ((16, 1920), ".CEB(read_i)", ".CEB(1'b1)"),
+        ((36, 480), "given_all[block*BITS+:BITS]", "given_all[0+:BITS]"),
+    ] {
+        let shown = compared(shape, from, to);
+        assert!(!shown.contains("PASS"), "not found: {to}: {shown}");
+    }
+}
+
+/// What Yosys makes of a memory of a deep design, with the family defined or not: blocks, and flip-flops behind them.
+fn synthesized(define: &str) -> (usize, usize, usize) {
+    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let script = format!(
+        "read_verilog {define} raster_memory.v\n\
+         chparam -set OUTPUT_STAGE 1 raster_memory\n\
+         synth_ecp5 -abc9 -top raster_memory\n\
+         write_verilog -noattr out.v\n"
+    );
+    let sources: Vec<Source> = vec![("raster_memory.v".to_owned(), memory().to_owned())];
+    let job = YosysJob { sources, script, outputs: vec!["out.v".to_owned()] };
+    let run = yosys::run(&toolchain, &cache, &job).unwrap();
+    let text = String::from_utf8(run.files["out.v"].clone()).unwrap();
+    let count = |what: &str| text.matches(what).count();
+    (count("DP16KD #("), count(".REGMODE_B(\"OUTREG\")"), count("TRELLIS_FF #("))
+}
+
+#[test]
+fn only_where_the_family_is_defined_the_register_is_that_of_the_block() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    assert_eq!(synthesized("-DFOVEATE_ECP5"), (1, 1, 0));
+    assert_eq!(synthesized(""), (1, 0, 16));
+}
