@@ -50,7 +50,7 @@ step_netlists() {
         --set "render.payload='raw'"
 }
 step_area() { foveate estimate --compare --markdown; }
-step_lint() { scripts/lint.sh; }
+step_lint() { scripts/lint.sh && scripts/area_growth.py; }
 step_formal() { scripts/formal.sh; }
 step_coverage() { scripts/coverage.sh; }
 step_sdist() { scripts/sdist.sh; }
