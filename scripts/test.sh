@@ -44,9 +44,9 @@ step "Python of the documents"
 scripts/snippets.sh
 step "workflow on this machine"
 scripts/workflow.sh
-step "samples of proofs, lint matrix and mutants (scripts/formal.sh, lint.sh and mutation.sh are the whole)"
+step "samples of proofs, lint matrix, growth of area and mutants (scripts/formal.sh, lint.sh, area_growth.py and mutation.sh are the whole)"
 # One of two processors for each.
-(JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick) >"$beside" 2>&1 &
+(JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick && JOBS=1 scripts/area_growth.py --quick) >"$beside" 2>&1 &
 JOBS=1 scripts/mutation.sh --sample 8
 wait $! || { cat "$beside" && exit 1; }
 cat "$beside"

@@ -80,7 +80,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Sent, "raster_counts", "hits_i[feature*LANES+lane]", "hits_i[feature*LANES]"),
     fault("width", Paper, "raster_counts", "$clog2((SIDE - 1) * SIDE + 1);", "$clog2((SIDE - 1) * SIDE + 1) - 1;"),
 
-    fault("constant", Banks, "raster_banks", ".DEPTH(3)", ".DEPTH(2)"),
+    fault("constant", Banks, "raster_banks", ".DEPTH(4)", ".DEPTH(3)"),
     fault("index", Banks, "raster_banks", "given_q <= write[group] && write_place[group][BANK_BITS+:SLOT_BITS] == OWN &&", "given_q <= write[group] &&"),
     fault("index", Banks, "raster_banks", "if (comes) bank_words_q", "if (asked_q) bank_words_q"),
     fault("constant", Banks, "raster_core", "CENTER_CLOCKS - 2 - GROUPS", "CENTER_CLOCKS - 1 - GROUPS"),
