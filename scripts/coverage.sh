@@ -49,11 +49,13 @@ fraction="{feature='mad',min_score=4,mean_fraction_bits=2}"
 serial="--level rcm --grid 3x2 --set hardware.organization='serial'"
 raster="--level rcm --set hardware.organization='raster'"
 deep="--set hardware.pipelining='deep'"
+sync="--set hardware.sync=true"
 names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large serial_sent serial_all serial_none serial_shared serial_raster serial_block
-        serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute)
+        serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute
+        array_sync serial_sync raster_sync)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
@@ -74,6 +76,9 @@ if [ "${1:-}" != --quick ]; then
         "paper $raster --grid 8x2 --set region.size=8 --set frame={width=218,height=222} --set hardware.pixels_per_clock=4 --set hardware.store='external'"
         "bare $raster --grid 5x3 $deep --set region.size=5 --set frame={width=222,height=222} --set hardware.store='single-port' --set spatial=[$corner]"
         "bare $raster --grid 4x3 $deep --set region.size=6 --set frame={width=224,height=222} --set hardware.forward=false --set spatial=[{feature='mad',min_score=4}]"
+        "bare --level rcm --grid 3x2 --set region.size=4 $sync"
+        "bare $serial --set region.size=4 --set hardware.feed='raster' $sync"
+        "bare $raster --grid 5x2 --set region.size=4 --set frame={width=222,height=221} $sync"
     )
 fi
 for index in "${!names[@]}"; do
@@ -87,7 +92,7 @@ for index in "${!names[@]}"; do
     (
         cd "$KEEP"
         top=rpu_replay
-        [[ $name != serial* && $name != raster* ]] || top=rcm_replay
+        [[ $name != serial* && $name != raster* && $name != array* ]] || top=rcm_replay
         mapfile -t files < <(find . -name '*.v' | sort)
         verilator --cc --exe --build --timing --top-module "$top" --prefix Vreplay --Mdir build --coverage-line --coverage-toggle \
             -MAKEFLAGS OPT_FAST=-O0 -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique "${files[@]}" "$work/main.cpp" >build.log 2>&1 ||

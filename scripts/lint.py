@@ -52,6 +52,7 @@ def matrix():
                 f"hardware.thresholds='{pick((index + 2) % 3, 'runtime', 'constant')}'",
                 # Every pair of the other choices occurs both plain and deep.
                 f"hardware.pipelining='{'deep' if (index + choice.bit_count()) % 2 else 'plain'}'",
+                f"hardware.sync={'true' if choice % 3 == 1 else 'false'}",
             ]
 
 
@@ -77,6 +78,7 @@ def serial_matrix():
                 f"hardware.feed='{pick(0, 'parallel', 'raster')}'",
                 f"hardware.pipelining='{'deep' if (index + number.bit_count()) % 2 else 'plain'}'",
                 f"hardware.thresholds='{pick(4, 'runtime', 'constant')}'",
+                f"hardware.sync={'true' if number % 3 == 1 else 'false'}",
                 f"spatial=[{features}]",
                 f"frame={{width={3 * size},height={2 * size},pixel_bits={depth}}}",
                 f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",
@@ -103,6 +105,7 @@ def raster_matrix():
                 f"hardware.pixels_per_clock={word}",
                 f"hardware.pipelining='{pick(0, 'plain', 'deep')}'",
                 f"hardware.thresholds='{pick(4, 'runtime', 'constant')}'",
+                f"hardware.sync={'true' if number % 3 == 1 else 'false'}",
                 f"spatial=[{features}]",
                 f"frame={{width={columns * size - lack},height={(1 + choice) * size - lack},pixel_bits={depth}}}",
                 f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",

@@ -23,6 +23,7 @@ module {= module =} #(
 {%- for port in unused %}
     wire {% if port.range.len() > 0 %}{= port.range =} {% endif %}unused_{= port.name =};
 {%- endfor %}
+{%- include "sync.v" %}
 
     raster_core #(
         .COLUMNS(COLUMNS), .ROWS(ROWS),
@@ -32,7 +33,7 @@ module {= module =} #(
         .{= parameter.0 =}({= parameter.1 =}){% if !loop.last %},{% endif %}
 {%- endfor %}
     ) u_core (
-        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .pixel_i(pixel_i), .ready_o(ready_o),
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i({= valid =}), .pixel_i(pixel_i), .ready_o({= ready =}),
 {%- for threshold in thresholds %}
         .{= threshold.0 =}({= threshold.1 =}),
 {%- endfor %}

@@ -19,6 +19,7 @@ module rcm #(
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
     endgenerate
+{%- include "sync.v" %}
 
     wire [COLUMNS*ROWS-1:0] decision_valid;
 

@@ -35,6 +35,7 @@ module {= module =} #(
 
     localparam LANES = {= lanes =};
     localparam SLOTS = {= slots =};  // empty ones, too
+{%- include "sync.v" %}
 
     wire [{= slot_range =}:0] region;
     wire [{= center_bits - 1 =}:0] position;
@@ -48,7 +49,7 @@ module {= module =} #(
         .{= parameter.0 =}({= parameter.1 =}){% if !loop.last %},{% endif %}
 {%- endfor %}
     ) u_array (
-        .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .ready_o(ready_o), .pixel_i(pixel_i),
+        .clk_i(clk_i), .rst_i(rst_i), .valid_i({= valid =}), .ready_o({= ready =}), .pixel_i(pixel_i),
         .temporal_level_i({= temporal_level =}),
         .edge_half_i({= edge_half =}),
         .corner_level_i({= corner_level =}),

@@ -6,7 +6,7 @@ use divan::counter::ItemsCount;
 use foveate_array::PipelinedArray;
 use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
 use foveate_lanes::Level;
-use foveate_model::{PipelinedRcm, Thresholds};
+use foveate_model::{PipelinedRcm, RcmInput, Thresholds};
 
 fn main() {
     divan::main();
@@ -70,7 +70,13 @@ fn model(bencher: Bencher, name: &str) {
     let mut rcm = PipelinedRcm::new(&design);
     bencher.counter(ItemsCount::new(CLOCKS)).bench_local(|| {
         for pixels in &pixels {
-            divan::black_box(rcm.step(false, true, pixels, &thresholds));
+            divan::black_box(rcm.step(&RcmInput {
+                reset: false,
+                valid: true,
+                sof: false,
+                pixels,
+                thresholds: &thresholds,
+            }));
         }
     });
 }

@@ -11,7 +11,7 @@ use crate::view::Outputs;
 use crate::wide::{Bytes, Narrow, Words};
 
 /// An RCM of pipelined RPUs, as after a reset when new: what [`foveate_model::PipelinedRcm`] shows
-/// after every edge, fast.
+/// after every edge, fast. It takes whole frames: [`foveate_model::FrameSync`] finds them, in front of it.
 #[derive(Clone, Debug)]
 pub struct PipelinedArray {
     core: Cores,

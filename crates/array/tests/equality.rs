@@ -8,7 +8,7 @@ use foveate_design::{
     Reference, SpatialConfig, Thresholds as Source,
 };
 use foveate_lanes::Level;
-use foveate_model::{PipelinedRcm, RpuOutput, Thresholds};
+use foveate_model::{PipelinedRcm, RcmInput, RpuOutput, Thresholds};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -74,7 +74,8 @@ fn compare(design: &Design, level: Level, seed: u64, fault: Option<u64>) -> Resu
         }
         let pixels = stimulus.pixels();
         let outputs = array.step(reset, valid, &pixels, &thresholds);
-        let expected = model.step(reset, valid, &pixels, &thresholds);
+        let (pixels, thresholds) = (&pixels[..], &thresholds);
+        let expected = model.step(&RcmInput { reset, valid, sof: false, pixels, thresholds });
         for (region, expected) in expected.iter().enumerate() {
             let mut got: RpuOutput = outputs.rpu(region);
             got.forward_valid ^= fault == Some(clock);

@@ -6,7 +6,7 @@ use std::hint::black_box;
 use foveate_array::PipelinedArray;
 use foveate_cosim::{Agreement, PipelinedCodec, Recording};
 use foveate_design::Design;
-use foveate_model::RpuOutput;
+use foveate_model::{FrameSync, RpuOutput};
 
 use crate::error::BenchError;
 use crate::memory::Before;
@@ -26,18 +26,18 @@ pub(crate) fn fast(
 ) -> Result<Row, BenchError> {
     let agreement = agreement(design, recording, vectors)?;
     let before = Before::now();
-    let mut array = PipelinedArray::new(design);
+    let (mut array, mut sync) = (PipelinedArray::new(design), FrameSync::new(design));
     let time = timer.time(|| {
         match vectors.bytes() {
             Some(clocks) => {
                 for (control, pixels) in clocks {
-                    let (reset, valid) = (control.reset, control.valid);
+                    let (reset, valid) = (control.reset, control.reaches(&mut sync));
                     black_box(array.step_u8(reset, valid, pixels, &control.thresholds));
                 }
             }
             None => {
                 for (control, pixels) in vectors.words() {
-                    let (reset, valid) = (control.reset, control.valid);
+                    let (reset, valid) = (control.reset, control.reaches(&mut sync));
                     black_box(array.step(reset, valid, pixels, &control.thresholds));
                 }
             }
@@ -56,21 +56,24 @@ fn agreement(
 ) -> Result<Agreement, BenchError> {
     let (mut array, codec) = (PipelinedArray::new(design), PipelinedCodec::new(design));
     let (mut words, mut bytes) = (vectors.words(), vectors.bytes());
+    let mut sync = FrameSync::new(design);
     let mut rpus: Vec<RpuOutput> = Vec::new();
     compare(recording, |record| {
         // The same calls as those that are timed.
         let shown = match &mut bytes {
             Some(bytes) => bytes.next().map(|(control, pixels)| {
-                array.step_u8(control.reset, control.valid, pixels, &control.thresholds)
+                let valid = control.reaches(&mut sync);
+                array.step_u8(control.reset, valid, pixels, &control.thresholds)
             }),
             None => words.next().map(|(control, pixels)| {
-                array.step(control.reset, control.valid, pixels, &control.thresholds)
+                let valid = control.reaches(&mut sync);
+                array.step(control.reset, valid, pixels, &control.thresholds)
             }),
         };
         if let Some(shown) = shown {
             rpus.clear();
             rpus.extend((0..design.regions() as usize).map(|region| shown.rpu(region)));
-            codec.outputs(recording.outputs(), &rpus, record);
+            codec.outputs(recording.outputs(), &rpus, sync.is_error(), record);
         }
     })
 }

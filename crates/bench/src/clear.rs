@@ -6,7 +6,7 @@ use std::hint::black_box;
 use foveate_cosim::{Agreement, PipelinedCodec, RasterCodec, Recording, SerialCodec};
 use foveate_design::{Design, Organization};
 use foveate_frame::Frame;
-use foveate_model::{PipelinedRcm, RasterInput, RasterRcm, SerialInput, SerialRcm};
+use foveate_model::{PipelinedRcm, RasterInput, RasterRcm, RcmInput, SerialInput, SerialRcm};
 
 use crate::error::BenchError;
 use crate::memory::Before;
@@ -33,8 +33,7 @@ pub(crate) fn clear(
             let mut rcm = PipelinedRcm::new(design);
             let time = timer.time(|| {
                 for (control, pixels) in vectors.words() {
-                    let Control { reset, valid, thresholds, .. } = control;
-                    black_box(rcm.step(*reset, *valid, pixels, thresholds));
+                    black_box(rcm.step(&array_input(control, pixels)));
                 }
                 Ok(())
             })?;
@@ -95,10 +94,16 @@ fn pipelined_agreement(
     let mut inputs = vectors.words();
     compare(recording, |record| {
         if let Some((control, pixels)) = inputs.next() {
-            let outputs = rcm.step(control.reset, control.valid, pixels, &control.thresholds);
-            codec.outputs(recording.outputs(), outputs, record);
+            rcm.step(&array_input(control, pixels));
+            let sync_error = rcm.sync_error();
+            codec.outputs(recording.outputs(), rcm.outputs(), sync_error, record);
         }
     })
+}
+
+fn array_input<'a>(control: &'a Control, pixels: &'a [u16]) -> RcmInput<'a> {
+    let &Control { reset, valid, sof, ref thresholds, .. } = control;
+    RcmInput { reset, valid, sof, pixels, thresholds }
 }
 
 fn serial_agreement(
@@ -116,8 +121,8 @@ fn serial_agreement(
 }
 
 fn input<'a>(control: &'a Control, pixels: &'a [u16]) -> SerialInput<'a> {
-    let Control { reset, valid, thresholds, .. } = control;
-    SerialInput { reset: *reset, valid: *valid, pixels, thresholds }
+    let &Control { reset, valid, sof, ref thresholds, .. } = control;
+    SerialInput { reset, valid, sof, pixels, thresholds }
 }
 
 fn raster_agreement(
@@ -139,10 +144,11 @@ fn core_input<'a>(
     (control, pixels): (&'a Control, &'a [u16]),
     reference_pixels: &'a [u16],
 ) -> RasterInput<'a> {
-    let &Control { reset, valid, reference_valid, forward_ready, ref thresholds } = control;
+    let &Control { reset, valid, sof, reference_valid, forward_ready, ref thresholds } = control;
     RasterInput {
         reset,
         valid,
+        sof,
         pixels,
         reference_valid,
         reference_pixels,

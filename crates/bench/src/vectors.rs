@@ -7,7 +7,7 @@ use std::path::Path;
 
 use foveate_cosim::{Agreement, Field, Layout, Recording};
 use foveate_design::{Design, PortRole};
-use foveate_model::Thresholds;
+use foveate_model::{FrameSync, Thresholds};
 
 use crate::error::BenchError;
 
@@ -31,6 +31,8 @@ pub(crate) struct Vectors {
 pub(crate) struct Control {
     pub(crate) reset: bool,
     pub(crate) valid: bool,
+    /// Whether it is the first of a frame, where that is a port.
+    pub(crate) sof: bool,
     /// Whether a reference is valid, where that is a port.
     pub(crate) reference_valid: bool,
     /// Whether the sink takes what leaves, where that is a port.
@@ -95,10 +97,20 @@ impl Vectors {
 }
 
 impl Control {
+    /// Whether regions that take a pixel at every clock take one, behind what finds their frames; what that shows is
+    /// in it.
+    pub(crate) fn reaches(&self, sync: &mut FrameSync) -> bool {
+        if self.reset {
+            sync.reset();
+            return false;
+        }
+        sync.step(self.valid, self.sof, true)
+    }
+
     fn of(design: &Design, layout: &Layout, input: &[u8]) -> Self {
         let mut thresholds = Thresholds::of(design);
         let (mut reset, mut valid, mut forward_ready) = (false, false, true);
-        let mut reference_valid = false;
+        let (mut sof, mut reference_valid) = (false, false);
         let place = |kind| design.features().iter().position(|feature| feature.kind() == kind);
         let word = |value: u64| u32::try_from(value).expect("a level has at most 32 bits");
         for field in layout.fields() {
@@ -106,6 +118,7 @@ impl Control {
             match field.port.role {
                 PortRole::Reset => reset = value() == 1,
                 PortRole::Valid => valid = value() == 1,
+                PortRole::StartOfFrame => sof = value() == 1,
                 PortRole::ReferenceValid => reference_valid = value() == 1,
                 PortRole::ForwardReady => forward_ready = value() == 1,
                 PortRole::Level(kind) => {
@@ -124,7 +137,7 @@ impl Control {
                 _ => {}
             }
         }
-        Self { reset, valid, reference_valid, forward_ready, thresholds }
+        Self { reset, valid, sof, reference_valid, forward_ready, thresholds }
     }
 }
 

@@ -9,6 +9,7 @@ use crate::field::Field;
 use crate::layout::Layout;
 use crate::recording::Recording;
 use foveate_design::{Design, Phase, PortRole, RasterTiming, SerialTiming};
+use foveate_model::FrameSync;
 use std::fmt;
 
 /// What the hardware is busy with after an edge. Frames count from 0 with the reset of the sequence.
@@ -21,6 +22,8 @@ pub(crate) enum Moment {
     Pixel { unit: &'static str, frame: u64, number: u64, of: u64, x: i64, y: i64 },
     /// Nothing was taken; so many pixels or words of this frame are in.
     Waiting { unit: &'static str, frame: u64, taken: u64, of: u64 },
+    /// The core completes this frame by itself; so many pixels or words of it are in.
+    Completing { unit: &'static str, frame: u64, taken: u64, of: u64 },
     /// The lanes work on a frame.
     Work { frame: u64, slot: u64, phase: Phase, step: u64, of: u64 },
 }
@@ -34,6 +37,9 @@ impl fmt::Display for Moment {
             }
             Self::Waiting { unit, frame, taken, of } => {
                 write!(f, "{taken} of {of} {unit}s of frame {frame} are in")
+            }
+            Self::Completing { unit, frame, taken, of } => {
+                write!(f, "the core completes frame {frame}, {taken} of {of} {unit}s are in")
             }
             Self::Work { frame, slot, phase, step, of } => {
                 write!(f, "frame {frame}, slot {slot}, phase \"{phase}\", step {step} of {of}")
@@ -71,10 +77,14 @@ pub(crate) struct Follower<'a> {
     since: Option<u64>,
     /// Whether a pixel is taken at the next edge.
     is_ready: bool,
+    /// What finds the frames, where that is simulated.
+    sync: Option<FrameSync>,
+    /// Clocks until a core that completes a frame takes the next pixel.
+    busy: u64,
 }
 
 impl<'a> Follower<'a> {
-    fn new(design: &'a Design) -> Self {
+    fn new(design: &'a Design, sync: Option<FrameSync>) -> Self {
         let ports = design.rcm_ports();
         let has = |role| ports.iter().any(|port| port.role == role);
         // An array that says one score after the other takes a frame and then works on it.
@@ -95,15 +105,31 @@ impl<'a> Follower<'a> {
             None => design.stream_pixels().into(),
         };
         let lag = if is_raster && words.is_none() { places - 1 } else { 0 };
-        let (taken, frames, since, is_ready) = (0, 0, None, true);
-        Self { design, serial, is_raster, words, pixels, lag, taken, frames, since, is_ready }
+        let (taken, frames, since, is_ready, busy) = (0, 0, None, true, 0);
+        Self {
+            design,
+            serial,
+            is_raster,
+            words,
+            pixels,
+            lag,
+            taken,
+            frames,
+            since,
+            is_ready,
+            sync,
+            busy,
+        }
     }
 
     /// One clock: what goes in, and whether the array is ready after it.
-    fn step(&mut self, reset: bool, valid: bool, ready_after: bool) -> Moment {
+    fn step(&mut self, reset: bool, (valid, sof): (bool, bool), ready_after: bool) -> Moment {
         let was_ready = std::mem::replace(&mut self.is_ready, ready_after);
         if reset {
-            (self.taken, self.frames, self.since) = (0, 0, None);
+            (self.taken, self.frames, self.since, self.busy) = (0, 0, None, 0);
+            if let Some(sync) = &mut self.sync {
+                sync.reset();
+            }
             return Moment::Reset;
         }
         if let (Some(timing), Some(since)) = (&self.serial, &mut self.since) {
@@ -117,7 +143,17 @@ impl<'a> Follower<'a> {
         }
         let (frame, of) = (self.frames, self.pixels);
         let unit = if self.words.is_some() { "word" } else { "pixel" };
-        if !(valid && was_ready) {
+        let completes = self.sync.as_ref().is_some_and(FrameSync::is_filling);
+        let is_open = if completes { self.busy == 0 } else { was_ready };
+        self.busy = self.busy.saturating_sub(1);
+        let is_taken = match &mut self.sync {
+            Some(sync) => sync.step(valid, sof, is_open),
+            None => valid && is_open,
+        };
+        if completes && !is_taken {
+            return Moment::Completing { unit, frame, taken: self.taken, of };
+        }
+        if !is_taken {
             return Moment::Waiting { unit, frame, taken: self.taken, of };
         }
         let number = self.taken;
@@ -127,7 +163,26 @@ impl<'a> Follower<'a> {
             self.since = self.serial.is_some().then_some(0);
         }
         let (x, y) = self.place(number);
+        if completes {
+            self.busy = self.pause_after(number, (x, y));
+            return Moment::Completing { unit, frame, taken: number + 1, of };
+        }
         Moment::Pixel { unit, frame, number, of, x, y }
+    }
+
+    /// Clocks after a pixel or word in which the core itself takes none, inside of a frame.
+    fn pause_after(&self, number: u64, (x, y): (i64, i64)) -> u64 {
+        match self.words {
+            Some((row, _)) if (number + 1).is_multiple_of(row) => {
+                u64::from(RasterTiming::of(self.design).row_words) - row
+            }
+            None if self.is_raster => {
+                let at = |place: i64| u32::try_from(place).expect("a place in a frame");
+                let places = self.design.column_places(at(x)) * self.design.row_places(at(y));
+                u64::from(places - 1)
+            }
+            Some(_) | None => 0,
+        }
     }
 
     /// Column and row of a pixel of the stream, of the frame for a raster, else of a region.
@@ -175,14 +230,15 @@ pub(crate) fn moments(
     let start = recording.sequence(first).start;
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let (reset, valid) = (of_role(inputs, PortRole::Reset), of_role(inputs, PortRole::Valid));
-    let ready = of_role(outputs, PortRole::Ready);
+    let (ready, sof) = (of_role(outputs, PortRole::Ready), of_role(inputs, PortRole::StartOfFrame));
     let says = |field: Option<&Field>, record: &[u8]| field.is_some_and(|f| f.get(record, 0) == 1);
-    let mut follower = Follower::new(design);
+    let mut follower = Follower::new(design, sof.map(|_| FrameSync::new(design)));
     let (mut moments, mut wanted) = (Vec::new(), clocks.iter().peekable());
     recording.walk(start..last + 1, |clock, input, expected| {
         // Without such a port every pixel is taken.
         let ready_after = ready.is_none() || says(ready, expected);
-        let moment = follower.step(says(reset, input), says(valid, input), ready_after);
+        let comes = (says(valid, input), says(sof, input));
+        let moment = follower.step(says(reset, input), comes, ready_after);
         while wanted.next_if(|&&wanted| wanted == clock).is_some() {
             moments.push(moment);
         }

@@ -242,6 +242,10 @@ pub struct HardwareConfig {
     /// they do not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub forward: Option<bool>,
+    /// Whether the core is told where frames start, and finds them again; left out it is not. A design has it only
+    /// where it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sync: Option<bool>,
     /// Whether thresholds are inputs of the core or constants in it.
     pub thresholds: Thresholds,
 }
@@ -257,6 +261,7 @@ impl Default for HardwareConfig {
             pipelining: None,
             store: None,
             forward: None,
+            sync: None,
             thresholds: Thresholds::Runtime,
         }
     }

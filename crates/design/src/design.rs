@@ -152,6 +152,12 @@ impl Design {
         self.config.hardware.forward.unwrap_or(true)
     }
 
+    /// Whether the array is told where frames start, and finds them again; see `docs/sync.md`.
+    #[must_use]
+    pub fn syncs(&self) -> bool {
+        self.config.hardware.sync.unwrap_or(false)
+    }
+
     /// Where the thresholds come from.
     #[must_use]
     pub fn thresholds(&self) -> Thresholds {

@@ -42,6 +42,7 @@ const KEYS: &[(&str, Takes)] = &[
     ("hardware.pipelining", Names(Pipelining::one_of)),
     ("hardware.store", Names(Store::one_of)),
     ("hardware.forward", Text("true or false")),
+    ("hardware.sync", Text("true or false")),
     ("hardware.thresholds", Names(Thresholds::one_of)),
 ];
 

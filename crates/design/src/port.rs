@@ -22,6 +22,8 @@ pub enum PortRole {
     Reset,
     /// A pixel is on the pixel port.
     Valid,
+    /// It is the first of a frame (designs with `hardware.sync`).
+    StartOfFrame,
     /// One pixel per lane; of a serial array with raster feed one; of a raster core a word of K pixels, the
     /// left one in the lowest bits.
     Pixel,
@@ -43,6 +45,8 @@ pub enum PortRole {
     ForwardReady,
     /// A pixel would be taken (`serial`, `raster`).
     Ready,
+    /// Something came that fits no frame (designs with `hardware.sync`).
+    SyncError,
     /// A reference is taken at the next edge (`raster`, store outside).
     ReferenceReady,
     /// A word is stored (`raster`, store outside).
@@ -142,6 +146,21 @@ impl Port {
     }
 }
 
+/// The input that says where frames start, behind that which says that something comes: the same for every
+/// organization; none where the design does not find its frames.
+pub(crate) fn sync_input(design: &Design) -> Option<Port> {
+    let doc = "what comes is the first of a frame; only with valid_i";
+    let port = || Port::single(Direction::Input, PortRole::StartOfFrame, 1, doc);
+    design.syncs().then(port)
+}
+
+/// The output that says that what came fits no frame, likewise.
+pub(crate) fn sync_output(design: &Design) -> Option<Port> {
+    let doc = "what came at this edge fits no frame";
+    let port = || Port::single(Direction::Output, PortRole::SyncError, 1, doc);
+    design.syncs().then(port)
+}
+
 /// The threshold inputs, the same for every organization: none where thresholds are constants.
 pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
     let mut list = Vec::new();
@@ -169,6 +188,7 @@ fn port_name(role: PortRole) -> String {
         PortRole::Clock => "clk_i".to_owned(),
         PortRole::Reset => "rst_i".to_owned(),
         PortRole::Valid => "valid_i".to_owned(),
+        PortRole::StartOfFrame => "sof_i".to_owned(),
         PortRole::Pixel => "pixel_i".to_owned(),
         PortRole::Border => "border_i".to_owned(),
         PortRole::Level(kind) => format!("{kind}_level_i"),
@@ -179,6 +199,7 @@ fn port_name(role: PortRole) -> String {
         PortRole::ReferencePixel => "reference_pixel_i".to_owned(),
         PortRole::ForwardReady => "forward_ready_i".to_owned(),
         PortRole::Ready => "ready_o".to_owned(),
+        PortRole::SyncError => "sync_error_o".to_owned(),
         PortRole::ReferenceReady => "reference_ready_o".to_owned(),
         PortRole::StoreValid => "store_valid_o".to_owned(),
         PortRole::StorePixel => "store_pixel_o".to_owned(),

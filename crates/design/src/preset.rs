@@ -54,7 +54,7 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "raster",
         summary: "the paper's scores in one core for ordinary video: 640x480 pixels row by row, one per clock",
-        toml: "[frame]\nwidth = 640\nheight = 480\n\n[hardware]\norganization = \"raster\"\n",
+        toml: "[frame]\nwidth = 640\nheight = 480\n\n[hardware]\norganization = \"raster\"\nsync = true\n",
     },
 ];
 

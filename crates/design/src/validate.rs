@@ -39,7 +39,9 @@ impl Config {
         let size = self.region.size;
         let reference = self.temporal.reference;
         let grid = Grid { width, size, columns: width.div_ceil(size), regions, reference };
-        let hardware = rules.hardware(&self.hardware, &grid)?;
+        let mut hardware = rules.hardware(&self.hardware, &grid)?;
+        // The default is left out, so that designs have the fingerprints from before there was this key.
+        hardware.sync = hardware.sync.filter(|&sync| sync);
         let n = self.region.size * self.region.size;
         let pixel_max = (1 << self.frame.pixel_bits) - 1;
         let level = self.temporal_level(pixel_max)?;

@@ -26,6 +26,7 @@ macro_rules! leaves {
 }
 
 leaves! {
+    "frame_sync" => [],
     "line_delay" => [],
     "window_isolated" => [],
     "window_shared" => [],

@@ -14,6 +14,7 @@ mod rcm;
 mod readme;
 mod rpu;
 mod serial;
+mod sync;
 mod text;
 mod thresholds;
 mod top;

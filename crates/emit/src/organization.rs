@@ -24,15 +24,21 @@ impl Emitter {
                 readme: readme::pipelined_readme,
             },
             Organization::Serial => Self {
-                leaves: |_| vec!["serial_array"],
+                leaves: |design| with_sync(design, "serial_array"),
                 modules: serial::modules,
                 readme: readme::serial_readme,
             },
             Organization::Raster => Self {
-                leaves: |_| vec!["raster_core"],
+                leaves: |design| with_sync(design, "raster_core"),
                 modules: raster::modules,
                 readme: readme::raster_readme,
             },
         }
     }
+}
+
+/// The leaves of a top that instantiates one, and what finds its frames.
+fn with_sync(design: &Design, leaf: &'static str) -> Vec<&'static str> {
+    let sync = design.syncs().then_some("frame_sync");
+    [leaf].into_iter().chain(sync).collect()
 }

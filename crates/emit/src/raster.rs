@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
+use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{SourceFile, Top, banner};
@@ -35,6 +36,9 @@ struct Raster {
     scores: Vec<(String, String)>,
     /// The ports of the core to a frame store outside and for pixels that leave, and what they are connected to.
     streams: Vec<(&'static str, String)>,
+    sync: Option<Sync>,
+    valid: &'static str,
+    ready: &'static str,
 }
 
 struct Unused {
@@ -99,6 +103,24 @@ fn view(design: &Design, named: &Design, top: Top) -> Raster {
         thresholds: thresholds(design),
         scores,
         streams,
+        sync: Sync::with_ready(design, beats(design)),
+        valid: sync::valid(design),
+        ready: sync::ready(design),
+    }
+}
+
+/// Beats of a frame in terms of the grid: words of a row that are taken, and rows.
+fn beats(design: &Design) -> String {
+    let (n, pixels) = (design.region_size(), design.pixels_per_clock());
+    let length = |regions: &str, beyond: u32| match beyond {
+        0 => format!("{regions} * {n}"),
+        _ => format!("({regions} * {n} - {beyond})"),
+    };
+    let width = length("COLUMNS", design.columns() * n - design.width());
+    let height = length("ROWS", design.rows() * n - design.height());
+    match pixels {
+        1 => format!("{width} * {height}"),
+        _ => format!("(({width} + {}) / {pixels}) * {height}", pixels - 1),
     }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The modules of a pipelined design; fills `rcm.v`.
 
+use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
-use crate::{SourceFile, Top, banner, rpu};
+use crate::{SourceFile, Top, banner, leaf, rpu};
 use askama::Template;
 use foveate_design::{Design, Port, PortRole};
 
@@ -14,6 +15,7 @@ struct Rcm {
     rows: u32,
     ports: Vec<PortLine>,
     pins: Vec<Pin>,
+    sync: Option<Sync>,
 }
 
 /// A port of the RPU and what the array connects it to.
@@ -27,7 +29,14 @@ pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
     let rpu = file(Top::Rpu.module(), rpu::render(design));
     match top {
         Top::Rpu => vec![rpu],
-        Top::Rcm => vec![rpu, file(top.module(), render(design))],
+        Top::Rcm => {
+            // A part of the array alone, so it is none of the leaves of the RPU.
+            let sync = design.syncs().then_some("frame_sync");
+            let leaves = leaf::with_parts(sync.into_iter().collect());
+            let leaves = leaves.map(|leaf| file(leaf.name, leaf.contents.to_owned()));
+            let array = file(top.module(), render(design));
+            leaves.chain([rpu, array]).collect()
+        }
     }
 }
 
@@ -42,21 +51,23 @@ fn range(port: &Port) -> Option<String> {
 
 fn render(design: &Design) -> String {
     let ports = design.rcm_ports();
-    let pins = design.rpu_ports().iter().map(|port| pin(port, &ports)).collect();
+    let pins = design.rpu_ports().iter().map(|port| pin(design, port, &ports)).collect();
     let view = Rcm {
         banner: banner(design),
         columns: design.columns(),
         rows: design.rows(),
         ports: PortLine::all(&ports, range),
         pins,
+        sync: Sync::always_open(design, design.stream_pixels().to_string()),
     };
     text_of(&view)
 }
 
-fn pin(port: &Port, rcm_ports: &[Port]) -> Pin {
+fn pin(design: &Design, port: &Port, rcm_ports: &[Port]) -> Pin {
     let name = port.name.clone();
     let per_lane = rcm_ports.iter().any(|outer| outer.name == name && outer.per_lane);
     let connection = match port.role {
+        PortRole::Valid => sync::valid(design).to_owned(),
         PortRole::DecisionValid => "decision_valid[REGION]".to_owned(),
         PortRole::Border => {
             "{row == ROWS - 1, row == 0, column == COLUMNS - 1, column == 0}".to_owned()

@@ -2,6 +2,7 @@
 //! The README of a core, one for each organization.
 
 mod raster;
+mod sync;
 
 pub(crate) use raster::raster_readme;
 
@@ -36,6 +37,7 @@ struct Readme {
     halo: u32,
     latency: String,
     forward: &'static str,
+    sync: String,
     border: bool,
     runtime: bool,
     rcm_ports: Vec<PortRow>,
@@ -80,6 +82,7 @@ struct SerialReadme {
     pauses: u64,
     longest_pause: u32,
     empty: u32,
+    sync: String,
     stream_pixels: u32,
     runtime: bool,
     rcm_ports: Vec<PortRow>,
@@ -150,12 +153,21 @@ fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
         pauses: timing.load_clocks() - timing.load_pixels(),
         longest_pause: longest_pause(design),
         empty: design.lanes() * design.fold() - design.regions(),
+        sync: sync::section(design, "pixel", fed(design)),
         stream_pixels: design.stream_pixels(),
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
         instance: instance(design),
         compared: " at which it is valid",
+    }
+}
+
+/// How often a pixel of the feed comes at an edge.
+fn fed(design: &Design) -> &'static str {
+    match design.feed() {
+        Feed::Parallel => " of every lane",
+        Feed::Raster => "",
     }
 }
 
@@ -199,6 +211,7 @@ fn pipelined_view(design: &Design, timing: PipelinedTiming) -> Readme {
         } else {
             "the next frame but one"
         },
+        sync: sync::section(design, "pixel", " of every region"),
         border: design.needs_border(),
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
 
+use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{SourceFile, Top, banner};
@@ -41,6 +42,9 @@ struct Serial {
     corner_level: String,
     /// The last feature first.
     minima: Vec<String>,
+    sync: Option<Sync>,
+    valid: &'static str,
+    ready: &'static str,
 }
 
 /// The highest bit of the number of a region, in terms of the grid.
@@ -70,6 +74,14 @@ fn lanes(design: &Design) -> String {
     match design.fold() {
         1 => "COLUMNS*ROWS".to_owned(),
         fold => format!("((COLUMNS*ROWS+{})/{fold})", fold - 1),
+    }
+}
+
+/// Beats of a frame in terms of the grid.
+fn beats(design: &Design) -> String {
+    match design.feed() {
+        Feed::Parallel => (design.fold() * design.stream_pixels()).to_string(),
+        Feed::Raster => format!("COLUMNS * ROWS * {}", design.region_pixels()),
     }
 }
 
@@ -109,6 +121,9 @@ fn view(design: &Design, named: &Design, top: Top) -> Serial {
             None => format!("{}'d0", design.pixel_bits()),
         },
         minima: minima(design),
+        sync: Sync::with_ready(design, beats(design)),
+        valid: sync::valid(design),
+        ready: sync::ready(design),
     }
 }
 

@@ -39,7 +39,13 @@ fn measure(feed: &str, skips: bool) {
         for place in 0..frame {
             let at = (frames as usize % 8 * frame + place) * ports;
             let pixels = &pixels[at..at + ports];
-            rcm.step(&SerialInput { reset: false, valid: true, pixels, thresholds: &thresholds });
+            rcm.step(&SerialInput {
+                reset: false,
+                valid: true,
+                sof: false,
+                pixels,
+                thresholds: &thresholds,
+            });
             clocks += 1;
         }
         let working = rcm.clocks_until_ready();
@@ -48,7 +54,13 @@ fn measure(feed: &str, skips: bool) {
             rcm.skip(working);
         } else {
             let pixels = &pixels[..ports];
-            let idle = SerialInput { reset: false, valid: false, pixels, thresholds: &thresholds };
+            let idle = SerialInput {
+                reset: false,
+                valid: false,
+                sof: false,
+                pixels,
+                thresholds: &thresholds,
+            };
             (0..working).for_each(|_| {
                 std::hint::black_box(rcm.step(&idle));
             });

@@ -3,8 +3,8 @@
 //!
 //! [`functional`] is the clear reference: whole frames in, scores, decisions and the rendered frame
 //! out. [`pipelined`], [`serial`] and [`raster`] say what every port of the hardware shows after every
-//! clock edge. All are written from `docs/contract.md`, `docs/timing.md`, `docs/serial.md` and
-//! `docs/raster.md` and from nothing else, so that agreement with the Verilog proves something. They share
+//! clock edge, and [`FrameSync`] which frames reach them. All are written from `docs/contract.md`, `docs/timing.md`,
+//! `docs/serial.md`, `docs/raster.md` and `docs/sync.md` and from nothing else, so that agreement with the Verilog proves something. They share
 //! only what has no state: the arithmetic on one 3x3 window in [`window`], [`denoise`] and [`feature`], and
 //! the scores and decision of one region. Integers throughout; no files, no Verilog.
 #![forbid(unsafe_code)]
@@ -23,6 +23,7 @@ mod scorer;
 pub mod serial;
 mod square;
 mod stream;
+mod sync;
 mod temporal;
 mod thresholds;
 mod verdict;
@@ -31,11 +32,12 @@ pub mod window;
 pub use decision::action;
 pub use error::ModelError;
 pub use functional::{Camera, Outcome};
-pub use pipelined::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput};
+pub use pipelined::{PipelinedRcm, PipelinedRpu, RcmInput, RpuInput, RpuOutput};
 pub use raster::{RasterInput, RasterOutput, RasterRcm};
 pub use region::{pad, region_pixels};
 pub use scorer::RegionScorer;
 pub use serial::{SerialInput, SerialOutput, SerialRcm};
 pub use stream::{region_border, region_stream};
+pub use sync::FrameSync;
 pub use temporal::temporal_differences;
 pub use thresholds::Thresholds;

@@ -54,14 +54,14 @@ impl Trace {
             let beats = take.model.beats(&part, &frame);
             take.wait()?;
             take.trace.frames.push(take.edge);
-            for pixels in &beats {
+            for (number, pixels) in beats.iter().enumerate() {
                 take.wait()?;
-                take.clock(false, Some(pixels))?;
+                take.clock(Some(pixels), number == 0)?;
             }
         }
         take.wait()?;
         let settling = take.model.settling_clocks();
-        (0..settling.max(2)).try_for_each(|_| take.clock(false, None))?;
+        (0..settling.max(2)).try_for_each(|_| take.clock(None, false))?;
         Ok(take.trace)
     }
 }
@@ -133,7 +133,7 @@ impl<'a> Take<'a> {
     fn wait(&mut self) -> Result<(), CosimError> {
         while !self.model.is_ready() {
             match self.model.quiet_clocks() {
-                0 | 1 => self.clock(false, None)?,
+                0 | 1 => self.clock(None, false)?,
                 quiet => {
                     let applied = Applied::idle(&self.garbage, &self.thresholds);
                     self.model.skip(&applied, &mut self.record);
@@ -144,12 +144,12 @@ impl<'a> Take<'a> {
         Ok(())
     }
 
-    fn clock(&mut self, reset: bool, pixels: Option<&[u16]>) -> Result<(), CosimError> {
+    fn clock(&mut self, pixels: Option<&[u16]>, sof: bool) -> Result<(), CosimError> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
         let idle = Applied::idle(pixels.unwrap_or(&self.garbage), &self.thresholds);
-        let applied = Applied { reset, valid: pixels.is_some(), ..idle };
+        let applied = Applied { valid: pixels.is_some(), sof, ..idle };
         self.model.clock(&applied, &mut self.record);
         self.keep(1);
         Ok(())
@@ -163,7 +163,7 @@ impl<'a> Take<'a> {
         };
         let input = inputs.fields().iter().filter(|field| is_shown(&field.port)).map(|field| {
             let says = match field.port.role {
-                PortRole::Pixel => is_high(PortRole::Valid),
+                PortRole::Pixel | PortRole::StartOfFrame => is_high(PortRole::Valid),
                 PortRole::ReferencePixel => is_high(PortRole::ReferenceValid),
                 _ => true,
             };
@@ -185,8 +185,9 @@ impl<'a> Take<'a> {
 
 /// Thresholds, resets and borders stand still.
 fn is_shown(port: &Port) -> bool {
-    use PortRole::{Pixel, ReferencePixel, ReferenceValid, Valid};
-    let is_stream = matches!(port.role, Valid | Pixel | ReferenceValid | ReferencePixel);
+    use PortRole::{Pixel, ReferencePixel, ReferenceValid, StartOfFrame, Valid};
+    let is_stream =
+        matches!(port.role, Valid | StartOfFrame | Pixel | ReferenceValid | ReferencePixel);
     port.direction == Direction::Output || is_stream
 }
 

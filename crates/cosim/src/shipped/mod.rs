@@ -6,6 +6,7 @@
 //! lead to active, held and blank regions under the thresholds of the design; the [`tally`] counts what
 //! the vectors then hold, so that a bench which does not show everything never says `PASS`.
 
+mod damage;
 mod grid;
 mod model;
 mod picture;

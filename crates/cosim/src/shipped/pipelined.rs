@@ -50,9 +50,9 @@ impl Model for Pipelined {
 
     fn clock(&mut self, applied: &Applied<'_>, record: &mut Record) {
         let applied = Applied { border: ALL_SIDES, ..*applied };
-        self.machine.step(&applied, &mut self.shown);
+        let sync_error = self.machine.step(&applied, &mut self.shown);
         self.codec.inputs(&record.inputs, &applied, &mut record.input);
-        self.codec.outputs(&record.outputs, &self.shown, &mut record.expected);
+        self.codec.outputs(&record.outputs, &self.shown, sync_error, &mut record.expected);
     }
 
     fn quiet_clocks(&self) -> u64 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Plays a script to the cycle-level model, clock by clock, and records it.
 
+use super::damage::Delivery;
 use super::model::Model;
 use super::script::{Script, Shot};
 use super::tape::Tape;
@@ -70,7 +71,24 @@ impl<'a> Player<'a> {
             self.reset(first)?;
             self.sequence(sequence)?;
         }
+        if self.tape.finds_frames() {
+            self.damaged(&script.damaged)?;
+        }
         Ok(())
+    }
+
+    /// Frames that come damaged, and the whole ones behind them.
+    fn damaged(&mut self, shots: &[Shot]) -> Result<(), CosimError> {
+        let (Some(first), Some(last)) = (shots.first(), shots.last()) else { return Ok(()) };
+        self.stalls = false;
+        self.reset(first)?;
+        for (shot, delivery) in shots.iter().zip(Delivery::ALL) {
+            let beats = self.model.beats(self.part, &shot.frame);
+            for (sof, pixels) in delivery.of(&beats, &self.garbage.clone()) {
+                self.beat(pixels, sof, &shot.thresholds)?;
+            }
+        }
+        self.drain(last)
     }
 
     fn reset(&mut self, shot: &Shot) -> Result<(), CosimError> {
@@ -107,10 +125,20 @@ impl<'a> Player<'a> {
             if number % every == every - 1 {
                 self.idle(1, thresholds)?;
             }
-            self.wait(thresholds)?;
-            self.clock(&Applied::valid(pixels, thresholds))?;
+            self.beat(pixels, number == 0, thresholds)?;
         }
         Ok(())
+    }
+
+    /// A pixel, as soon as it is taken; `sof` marks the first of a frame.
+    fn beat(
+        &mut self,
+        pixels: &[u16],
+        sof: bool,
+        thresholds: &Thresholds,
+    ) -> Result<(), CosimError> {
+        self.wait(thresholds)?;
+        self.clock(&Applied { sof, ..Applied::valid(pixels, thresholds) })
     }
 
     /// Between two frames: what must be done is done, pixels that are offered meanwhile are refused; with
@@ -155,7 +183,8 @@ impl<'a> Player<'a> {
     fn idle(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {
         let garbage = self.garbage.clone();
         for _ in 0..clocks {
-            self.clock(&Applied::idle(&garbage, thresholds))?;
+            // A mark without a pixel means nothing.
+            self.clock(&Applied { sof: true, ..Applied::idle(&garbage, thresholds) })?;
         }
         Ok(())
     }

@@ -2,6 +2,7 @@
 //! Which frames a bench shows: pictures that the design finds relevant, the same again, others, and
 //! nothing, so that regions become active, are held, and are blanked.
 
+use super::damage::DAMAGED;
 use super::has_sink;
 use super::picture::{Picture, TEXTURES};
 use super::studio::{Look, Studio};
@@ -37,6 +38,8 @@ const TRIALS: usize = 2;
 pub(super) struct Script {
     /// Sequences; each begins with a reset.
     pub(super) sequences: Vec<Vec<Shot>>,
+    /// What comes damaged to hardware that finds its frames again; see [`super::damage`].
+    pub(super) damaged: Vec<Shot>,
 }
 
 /// A frame with the thresholds that are applied meanwhile.
@@ -142,7 +145,9 @@ impl Script {
                 |turn| Shot { frame: stage.wide(turn), thresholds: plan.usual, stalls: false };
             sequences.push((0..WIDE_FRAMES).map(shot).collect());
         }
-        Self { sequences }
+        let damaged = (0..DAMAGED)
+            .map(|number| shot(plan.usual, &|_, actor| pictures[number % pictures.len()](actor)));
+        Self { damaged: damaged.collect(), sequences }
     }
 }
 

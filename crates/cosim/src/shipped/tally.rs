@@ -24,6 +24,10 @@ pub struct Tally {
     pub compared: u64,
     /// Regions lost to a sink that stalls, the most after one reset.
     pub lost: u64,
+    /// Beats that fit no frame, where the hardware finds its frames again.
+    pub sync_errors: u64,
+    /// Decisions after the first of them. More than a frame has are of frames behind the one that it cut short.
+    pub after_error: u64,
     /// Outputs that are never compared with anything but 0, though they can show something else.
     pub silent: Vec<String>,
 }
@@ -53,8 +57,12 @@ impl Counter {
     pub(super) fn see(&mut self, outputs: &Layout, expected: &[u8]) {
         let at = |role| outputs.fields().iter().find(|field| field.port.role == role);
         let is_high = |role| at(role).is_some_and(|field| field.get(expected, 0) == 1);
+        self.tally.sync_errors += u64::from(is_high(PortRole::SyncError));
         if is_high(PortRole::DecisionValid) {
             let lanes = at(PortRole::Srs).expect("where there are decisions").port.lanes;
+            if self.tally.sync_errors > 0 {
+                self.tally.after_error += u64::from(lanes);
+            }
             for lane in 0..lanes {
                 let bit = |role| at(role).is_some_and(|field| field.get(expected, lane) == 1);
                 match (bit(PortRole::Srs), bit(PortRole::Trs)) {
@@ -120,6 +128,8 @@ impl Tally {
         need(self.held > 0 || always_changed(part), "no region is held".to_owned());
         need(self.blank > 0 || always_relevant(part), "no region is blank".to_owned());
         need(self.compared > 0, "nothing is compared with an earlier frame".to_owned());
+        let goes_on = self.sync_errors == 0 || self.after_error > u64::from(part.regions());
+        need(goes_on, "no frame is decided behind a damaged one".to_owned());
         let silent = self.silent.join(" and ");
         need(self.silent.is_empty(), format!("{silent} never differs from 0"));
         (!missing.is_empty()).then(|| missing.join(", "))
@@ -143,6 +153,12 @@ impl Tally {
         ];
         if self.lost > 0 {
             lines.push(format!("The sink stalls until {} regions are lost.", self.lost));
+        }
+        if self.sync_errors > 0 {
+            lines.push(format!(
+                "Frames come damaged: {} sync errors, and {} decisions after the first.",
+                self.sync_errors, self.after_error
+            ));
         }
         lines
     }
@@ -178,4 +194,31 @@ fn always_relevant(design: &Design) -> bool {
         Combine::All => votes.all(|vote| vote),
     };
     design.thresholds() == Thresholds::Constant && always
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foveate_design::Config;
+
+    #[test]
+    fn a_bench_that_stays_out_of_step_never_passes() {
+        let design = Config::from_toml("hardware.sync = true").unwrap().validate().unwrap();
+        let (active, held, blank) = (800, 800, 800);
+        let whole = Tally {
+            frames: 3,
+            active,
+            held,
+            blank,
+            compared: 1,
+            sync_errors: 2,
+            ..Tally::default()
+        };
+        for (after_error, shortcoming) in
+            [(785, None), (784, Some("no frame is decided behind a damaged one".to_owned()))]
+        {
+            let tally = Tally { after_error, ..whole.clone() };
+            assert_eq!(tally.shortcoming(&design), shortcoming);
+        }
+    }
 }

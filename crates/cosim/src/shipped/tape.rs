@@ -5,7 +5,7 @@ use super::model::Record;
 use super::tally::{Counter, Tally};
 use crate::error::CosimError;
 use crate::packer::Packer;
-use foveate_design::{Design, Port};
+use foveate_design::{Design, Port, PortRole};
 use std::path::Path;
 
 /// Takes clocks; what it makes of them stays in memory.
@@ -26,6 +26,12 @@ impl Tape {
             record,
             clocks: 0,
         }
+    }
+
+    /// Whether the hardware is told where frames start, and finds them again.
+    pub(super) fn finds_frames(&self) -> bool {
+        let mut fields = self.record.outputs.fields().iter();
+        fields.any(|field| field.port.role == PortRole::SyncError)
     }
 
     /// So many clocks as the record has one.

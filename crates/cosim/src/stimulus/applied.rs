@@ -4,13 +4,15 @@
 use super::kinds::Kinds;
 use crate::layout::Layout;
 use foveate_design::PortRole;
-use foveate_model::{RasterInput, SerialInput, Thresholds};
+use foveate_model::{RasterInput, RcmInput, SerialInput, Thresholds};
 
 /// What is applied at one edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Applied<'a> {
     pub(crate) reset: bool,
     pub(crate) valid: bool,
+    /// Whether it is the first of a frame, where that is a port.
+    pub(crate) sof: bool,
     /// One pixel per lane, or those of a word.
     pub(crate) pixels: &'a [u16],
     /// The sides of the region at the frame's border, where that is a port.
@@ -35,6 +37,7 @@ impl<'a> Applied<'a> {
         Self {
             reset: false,
             valid: false,
+            sof: false,
             pixels,
             border: 0,
             reference_valid: false,
@@ -44,19 +47,26 @@ impl<'a> Applied<'a> {
         }
     }
 
+    /// To an array of RPUs.
+    pub(crate) fn of_rpus(&self) -> RcmInput<'_> {
+        let &Self { reset, valid, sof, pixels, ref thresholds, .. } = self;
+        RcmInput { reset, valid, sof, pixels, thresholds }
+    }
+
     /// To a serial array.
     pub(crate) fn of_array(&self) -> SerialInput<'_> {
-        let &Self { reset, valid, pixels, ref thresholds, .. } = self;
-        SerialInput { reset, valid, pixels, thresholds }
+        let &Self { reset, valid, sof, pixels, ref thresholds, .. } = self;
+        SerialInput { reset, valid, sof, pixels, thresholds }
     }
 
     /// To a raster core.
     pub(crate) fn of_core(&self) -> RasterInput<'_> {
-        let &Self { reset, valid, pixels, forward_ready, ref thresholds, .. } = self;
+        let &Self { reset, valid, sof, pixels, forward_ready, ref thresholds, .. } = self;
         let &Self { reference_valid, reference_pixels, .. } = self;
         RasterInput {
             reset,
             valid,
+            sof,
             pixels,
             reference_valid,
             reference_pixels,
@@ -70,6 +80,7 @@ impl<'a> Applied<'a> {
             let value = match field.port.role {
                 PortRole::Reset => self.reset.into(),
                 PortRole::Valid => self.valid.into(),
+                PortRole::StartOfFrame => self.sof.into(),
                 PortRole::Border => self.border.into(),
                 PortRole::ReferenceValid => self.reference_valid.into(),
                 PortRole::ForwardReady => self.forward_ready.into(),
@@ -96,6 +107,7 @@ impl<'a> Applied<'a> {
                 | PortRole::ForwardValid
                 | PortRole::ForwardPixel
                 | PortRole::Ready
+                | PortRole::SyncError
                 | PortRole::ReferenceReady
                 | PortRole::StoreValid
                 | PortRole::StorePixel

@@ -10,6 +10,7 @@ mod ahead;
 mod aim;
 mod applied;
 mod brush;
+mod damage;
 mod gallery;
 mod gauge;
 mod kinds;

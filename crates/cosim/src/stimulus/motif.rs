@@ -51,6 +51,10 @@ pub(crate) enum Motif {
     MovingPixel,
 }
 
+/// Motifs of which every frame differs from the one before in some regions and not in others.
+pub(super) const TELLING: &[Motif] =
+    &[Motif::Smooth, Motif::Bump, Motif::Noise, Motif::Same, Motif::Step, Motif::Ring];
+
 /// How many squares are tried to meet a minimum.
 const TRIALS: usize = 64;
 

@@ -21,4 +21,5 @@ mod serial_matrix;
 mod serial_stimulus;
 mod shipped;
 mod stimulus;
+mod sync;
 mod widths;

@@ -245,6 +245,33 @@ fn the_benches_of_raster_cores_lose_regions_where_regions_can_be_lost() {
     }
 }
 
+/// An error of each kind, and whole frames behind them; an RPU alone has nothing that finds its frames.
+#[test]
+fn the_benches_of_arrays_that_find_their_frames_lose_some_and_go_on() {
+    for more in [
+        "",
+        "spatial = [{ feature = 'mad' }]\nhardware.pipelining = 'deep'",
+        "hardware.organization = 'serial'\nhardware.fold = 2",
+        "hardware.organization = 'serial'\nhardware.feed = 'raster'",
+        "hardware.organization = 'raster'",
+        "hardware.organization = 'raster'\nhardware.store = 'external'",
+        "hardware.organization = 'raster'\nhardware.pixels_per_clock = 2\ntemporal.reference = 'last-sent'",
+    ] {
+        let design = design(&format!("{}hardware.sync = true\n{more}\n", frame((4, 3), 8)));
+        for top in TOPS {
+            let ShippedBench { grid, tally, shortcoming, files, .. } = bench(&design, top);
+            let is_found = top == Top::Rcm || !design.unit().rpu_in_rcm;
+            assert_eq!(shortcoming, None, "{top:?} {more}");
+            assert_eq!(tally.sync_errors, if is_found { 2 } else { 0 }, "{top:?} {more}");
+            // What is left of the frame that is cut short, and two whole ones.
+            let regions = u64::from(grid.0 * grid.1);
+            assert!(!is_found || tally.after_error > 2 * regions, "{tally:?} {top:?} {more}");
+            let says = files[0].contents.contains("Frames come damaged: 2 sync errors, and ");
+            assert_eq!(says, is_found, "{}", files[0].contents);
+        }
+    }
+}
+
 #[test]
 fn equal_designs_have_equal_benches() {
     let design = design("frame = { width = 24, height = 16 }");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of a pipelined RPU and of the RCM of such.
 
-use crate::port::threshold_ports;
+use crate::port::{sync_input, sync_output, threshold_ports};
 use crate::{Design, Direction, Port, PortRole};
 
 /// Whether a port of the RCM is one per region or one for all.
@@ -30,7 +30,19 @@ pub(crate) fn rcm(design: &Design) -> Vec<Port> {
             Some(port)
         }
     };
-    ports(design).into_iter().filter_map(in_rcm).collect()
+    let mut list: Vec<Port> = ports(design).into_iter().filter_map(in_rcm).collect();
+    // What finds the frames stands in front of all RPUs.
+    insert(&mut list, |port| port.role == PortRole::Pixel, sync_input(design));
+    insert(&mut list, |port| port.direction == Direction::Output, sync_output(design));
+    list
+}
+
+/// Puts a port, if there is one, in front of the first of these.
+fn insert(list: &mut Vec<Port>, before: impl Fn(&Port) -> bool, port: Option<Port>) {
+    let place = list.iter().position(before).unwrap_or(list.len());
+    if let Some(port) = port {
+        list.insert(place, port);
+    }
 }
 
 fn ports(design: &Design) -> Vec<(Spread, Port)> {

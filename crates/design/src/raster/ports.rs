@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of a raster core: which there are depends on where the frame store is, and on whether pixels leave.
 
-use crate::port::threshold_ports;
+use crate::port::{sync_input, sync_output, threshold_ports};
 use crate::{Design, Direction, Port, PortRole, Qualifier, Store};
 
 /// Bits of `lost_count_o`, which stays at its largest value.
@@ -18,8 +18,10 @@ pub(super) fn ports(design: &Design) -> Vec<Port> {
         single(Input, PortRole::Clock, 1, "clock, rising edge"),
         single(Input, PortRole::Reset, 1, "synchronous reset, active high"),
         single(Input, PortRole::Valid, 1, "a word is taken at this edge, if ready_o"),
-        single(Input, PortRole::Pixel, word, "word of pixels, the left one in the lowest bits"),
     ];
+    list.extend(sync_input(design));
+    let doc = "word of pixels, the left one in the lowest bits";
+    list.push(single(Input, PortRole::Pixel, word, doc));
     if is_outside {
         let doc = "a reference is on the port below";
         list.push(single(Input, PortRole::ReferenceValid, 1, doc));
@@ -32,6 +34,7 @@ pub(super) fn ports(design: &Design) -> Vec<Port> {
     }
     list.extend(threshold_ports(design));
     list.push(single(Output, PortRole::Ready, 1, "a word would be taken at the next edge"));
+    list.extend(sync_output(design));
     if is_outside {
         list.extend(store_outputs(word));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of a serial array.
 
-use crate::port::threshold_ports;
+use crate::port::{sync_input, sync_output, threshold_ports};
 use crate::{Design, Direction, Feed, Port, PortRole, Qualifier};
 
 /// The ports of the array, inputs first.
@@ -28,10 +28,12 @@ pub(crate) fn ports(design: &Design) -> Vec<Port> {
         single(Input, PortRole::Clock, 1, "clock, rising edge"),
         single(Input, PortRole::Reset, 1, "synchronous reset, active high"),
         single(Input, PortRole::Valid, 1, "a pixel is taken at this edge, if ready_o"),
-        fed(single(Input, PortRole::Pixel, pixel, "pixel, row by row")),
     ];
+    list.extend(sync_input(design));
+    list.push(fed(single(Input, PortRole::Pixel, pixel, "pixel, row by row")));
     list.extend(threshold_ports(design));
     list.push(single(Output, PortRole::Ready, 1, "a pixel would be taken at the next edge"));
+    list.extend(sync_output(design));
 
     let score = |role, width, doc| with(PortRole::ScoreValid, single(Output, role, width, doc));
     list.push(single(Output, PortRole::ScoreValid, 1, "a score of one region"));

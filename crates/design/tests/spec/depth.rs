@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds in grey levels and the depth of pixels.
 
-use foveate_design::{Config, Decimal, Design, FeatureKind, PRESETS, SpatialConfig};
+use foveate_design::{Config, Decimal, Design, FeatureKind, PRESETS, Preset, SpatialConfig};
 
 fn with(text: &str, overrides: &[&str]) -> Config {
     Config::from_toml_with(text, overrides).unwrap()
@@ -35,7 +35,8 @@ fn designs_of_8_bits_are_what_they_were() {
         ("steady", "ba7daa8b3b091ae1"),
         ("seamless", "dec984bdadd23ebc"),
         ("serial", "0d4380c4bb901499"),
-        ("raster", "4b4e10c6be056718"),
+        // With `hardware.sync` since; without it as before, below.
+        ("raster", "0da895f99b440f95"),
         ("feature edge", "255bc91bb78cefb8"),
         ("feature corner", "95e675a6e3999482"),
         ("feature mad", "a08d32530e3ba710"),
@@ -46,6 +47,10 @@ fn designs_of_8_bits_are_what_they_were() {
     let expected: Vec<(String, String)> =
         expected.map(|(name, print)| (name.to_owned(), print.to_owned())).into();
     assert_eq!(found, expected);
+    let raster = Preset::find("raster").unwrap().toml;
+    let without = design(raster, &["hardware.sync=false"]);
+    assert_eq!(without.fingerprint(), "4b4e10c6be056718");
+    assert!(!without.config().to_toml().contains("sync"));
 }
 
 #[test]

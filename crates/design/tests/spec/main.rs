@@ -5,3 +5,4 @@
 mod configuration;
 mod depth;
 mod fuzz;
+mod sync;

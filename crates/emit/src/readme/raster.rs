@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The README of a raster core: how long a source waits, and when a region is lost.
 
-use super::{PortRow, ThresholdRow, port_row, score_names, threshold};
+use super::{PortRow, ThresholdRow, port_row, score_names, sync, threshold};
 use crate::banner;
 use crate::instance::instance;
 use crate::text::text_of;
@@ -68,6 +68,7 @@ struct Readme {
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
+    sync: String,
     compared: &'static str,
 }
 
@@ -126,6 +127,7 @@ fn view(design: &Design, timing: &RasterTiming) -> Readme {
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rcm_ports().iter().filter_map(|port| threshold(design, port)).collect(),
         instance: instance(design),
+        sync: sync::section(design, "word", ""),
         compared: " at which it is valid",
     }
 }

@@ -258,3 +258,33 @@ fn file_lists_name_every_file_once_in_order() {
     let fusesoc = contents(&files, "foveate_rcm.core");
     assert!(expected.iter().all(|path| fusesoc.contains(&format!("- {path}\n"))));
 }
+
+/// Whoever feeds a core reads what a lost pixel does to it, and how to mark a frame where that is a port.
+#[test]
+fn the_readme_of_every_core_says_where_frames_start() {
+    for (organization, beats) in [
+        ("organization = 'pipelined'", "64 pixels of every region"),
+        ("organization = 'serial'\nfold = 2", "128 pixels of every lane"),
+        ("organization = 'serial'\nfeed = 'raster'", "50176 pixels."),
+        ("organization = 'raster'\npixels_per_clock = 2", "25088 words."),
+    ] {
+        let readme = |more: &str| {
+            let design = design(&format!("[hardware]\n{organization}\n{more}\n"));
+            core(&design).pop().unwrap().contents
+        };
+        let (with, without) = (readme("sync = true"), readme(""));
+        assert!(with.contains(beats) && without.contains(beats), "{beats}: {with}");
+        for part in [
+            "## Where a frame starts",
+            "| `sof_i` | in | 1 |",
+            ".sof_i(sof),",
+            "`sync_error_o` is 1",
+        ] {
+            assert!(with.contains(part), "{part}: {with}");
+        }
+        assert!(without.contains("out of step until reset") && !without.contains("sof_i"));
+        assert!(!with.contains("out of step until reset"));
+        let has_ready = with.contains("| `ready_o` |");
+        assert_eq!(with.contains("`ready_o` is 0 meanwhile"), has_ready, "{organization}");
+    }
+}

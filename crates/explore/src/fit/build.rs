@@ -267,6 +267,7 @@ fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
             feed,
             memory: memory.filter(|kind| organization.memories().contains(kind)),
             thresholds: task.hardware.thresholds,
+            sync: task.hardware.sync,
             pixels_per_clock,
             ..HardwareConfig::default()
         };

@@ -70,9 +70,9 @@ pub struct FitRequest<'a> {
 /// When an input cannot be read or is too short to be halved, Yosys is missing or fails, or `hooks`
 /// cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
-    // How the task would be built is no matter of what it is to see.
-    let HardwareConfig { thresholds, memory, .. } = request.task.hardware;
-    let hardware = HardwareConfig { thresholds, ..HardwareConfig::default() };
+    // How the task would be built is no matter of what it is to see; how its stream comes is.
+    let HardwareConfig { thresholds, sync, memory, .. } = request.task.hardware;
+    let hardware = HardwareConfig { thresholds, sync, ..HardwareConfig::default() };
     let task = Config { hardware, ..request.task.clone() };
     let input = InputOptions { numbered: !request.boxes.is_empty(), ..request.input.clone() };
     let request = &FitRequest { task: &task, input: &input, ..request.clone() };

@@ -15,6 +15,8 @@ pub struct RasterInput<'a> {
     pub reset: bool,
     /// `valid_i`.
     pub valid: bool,
+    /// `sof_i`; without meaning where the design does not find its frames.
+    pub sof: bool,
     /// `pixel_i`: a word of K pixels, the left one first.
     pub pixels: &'a [u16],
     /// `reference_valid_i`; without meaning where the frame store is inside, as the next.
@@ -33,6 +35,8 @@ pub struct RasterInput<'a> {
 pub struct RasterOutput {
     /// `ready_o`.
     pub ready: bool,
+    /// `sync_error_o`.
+    pub sync_error: bool,
     /// `reference_ready_o`.
     pub reference_ready: bool,
     /// `store_valid_o`.
@@ -76,6 +80,7 @@ impl RasterOutput {
     pub(super) fn fresh(word_pixels: usize) -> Self {
         Self {
             ready: true,
+            sync_error: false,
             reference_ready: false,
             store_valid: false,
             store_pixels: vec![0; word_pixels],

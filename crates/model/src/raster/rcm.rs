@@ -11,8 +11,8 @@ use super::ports::{RasterInput, RasterOutput};
 use super::readout::Readout;
 use super::regions::Regions;
 use super::staleness::Staleness;
-use crate::Thresholds;
 use crate::number::index;
+use crate::{FrameSync, Thresholds};
 
 /// The cycle-level model of a raster core, as after a reset when new.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,7 @@ pub struct RasterRcm {
     side: u32,
     /// The thresholds, where they are constants of the core.
     constants: Option<Thresholds>,
+    sync: FrameSync,
     advances: Advances,
     picture: Picture,
     staleness: Staleness,
@@ -38,6 +39,8 @@ pub struct RasterRcm {
     now: u64,
     /// Clocks until `ready_o` may be 1 again after T0.
     closed: u64,
+    /// Whether a word would be taken at the next edge, from outside or not.
+    is_open: bool,
     output: RasterOutput,
 }
 
@@ -51,6 +54,7 @@ impl RasterRcm {
             columns: design.columns(),
             side: design.region_size(),
             constants: Thresholds::constants(design),
+            sync: FrameSync::new(design),
             advances: Advances::new(timing),
             picture: Picture::new(design),
             staleness: Staleness::new(&timing),
@@ -61,6 +65,7 @@ impl RasterRcm {
             decided: None,
             now: 0,
             closed: 0,
+            is_open: true,
             output: RasterOutput::fresh(index(timing.word_pixels)),
         }
     }
@@ -122,6 +127,7 @@ impl RasterRcm {
     }
 
     fn reset(&mut self) {
+        self.sync.reset();
         self.advances.forget();
         self.staleness.forget();
         self.regions.forget();
@@ -131,12 +137,12 @@ impl RasterRcm {
         self.decisions.forget();
         self.readout = Readout::new(&self.timing);
         self.decided = None;
-        (self.now, self.closed) = (0, 0);
+        (self.now, self.closed, self.is_open) = (0, 0, true);
         self.output = RasterOutput::fresh(index(self.timing.word_pixels));
     }
 
     fn advance(&mut self, input: &RasterInput<'_>) {
-        let takes = input.valid && self.output.ready;
+        let takes = self.sync.step(input.valid, input.sof, self.is_open);
         let Some(advance) = self.advances.step(takes) else { return };
         if let Some(place) = advance.word {
             self.picture.write(place, input.pixels);
@@ -225,8 +231,10 @@ impl RasterRcm {
 
     fn show(&mut self) {
         let waits = self.timing.waits_for_pending && self.advances.is_between_frames();
-        self.output.ready =
+        self.is_open =
             self.closed == 0 && self.advances.takes_next() && !(waits && self.is_pending());
+        self.output.ready = self.is_open && !self.sync.is_filling();
+        self.output.sync_error = self.sync.is_error();
         self.output.show_decision(self.decided.as_ref());
         self.output.show_word(self.readout.shown());
         self.output.show_lost(self.readout.lost());

@@ -67,6 +67,14 @@ impl Intake {
         }
     }
 
+    /// Clocks in which the rest of the frame that is under way would be written, if it came at once.
+    pub(super) fn clocks_left(&self) -> u64 {
+        match &self.frame {
+            Frame::Streams(streams) => (streams.clocks() - self.taken) as u64,
+            Frame::Raster(raster) => raster.clocks_from(self.taken),
+        }
+    }
+
     /// What a region with its halo looks like, row by row.
     pub(super) fn stream(&self, region: usize, out: &mut Vec<u16>) {
         out.clear();

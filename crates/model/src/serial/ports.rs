@@ -10,6 +10,8 @@ pub struct SerialInput<'a> {
     pub reset: bool,
     /// `valid_i`.
     pub valid: bool,
+    /// `sof_i`; without meaning where the design does not find its frames.
+    pub sof: bool,
     /// `pixel_i`: one pixel per lane, or one with `feed = "raster"`.
     pub pixels: &'a [u16],
     /// The threshold inputs; without meaning where the design has constants.
@@ -21,6 +23,8 @@ pub struct SerialInput<'a> {
 pub struct SerialOutput {
     /// `ready_o`.
     pub ready: bool,
+    /// `sync_error_o`.
+    pub sync_error: bool,
     /// `score_valid_o`.
     pub score_valid: bool,
     /// `score_index_o`: 0 for the temporal count, 1.. for the features in the order of the design.

@@ -63,6 +63,16 @@ impl Raster {
     /// Takes pixel number `at` of the frame; says how many places want it.
     pub(super) fn write(&mut self, at: usize, pixel: u16) -> u64 {
         self.pixels[at] = pixel;
+        self.clocks(at)
+    }
+
+    /// For how many clocks the pixels of a frame are written, from number `at` on.
+    pub(super) fn clocks_from(&self, at: usize) -> u64 {
+        (at..self.pixels.len()).map(|at| self.clocks(at)).sum()
+    }
+
+    /// For how many clocks pixel number `at` of the frame is written.
+    fn clocks(&self, at: usize) -> u64 {
         let width = self.columns.size();
         u64::from(self.columns.shown[at % width]) * u64::from(self.rows.shown[at / width])
     }

@@ -8,7 +8,7 @@ use super::ports::{SerialInput, SerialOutput};
 use super::regions::Regions;
 use super::schedule::{Schedule, Seen};
 use crate::number::index;
-use crate::{Thresholds, region_border};
+use crate::{FrameSync, Thresholds, region_border};
 
 /// The cycle-level model of a serial array, as after a reset when new.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,7 @@ pub struct SerialRcm {
     constants: Option<Thresholds>,
     payload: Payload,
     borders: Vec<u8>,
+    sync: FrameSync,
     intake: Intake,
     regions: Regions,
     stage: Stage,
@@ -58,6 +59,7 @@ impl SerialRcm {
             regions: Regions::new(design),
             stage: Stage::EMPTY,
             is_forwarding: false,
+            sync: FrameSync::new(design),
             intake,
             output,
         }
@@ -75,7 +77,7 @@ impl SerialRcm {
         );
         if input.reset {
             self.reset();
-        } else if input.valid && self.output.ready {
+        } else if self.sync.step(input.valid, input.sof, self.is_open()) {
             self.take(input);
         } else {
             self.pass(1);
@@ -85,7 +87,15 @@ impl SerialRcm {
     }
 
     /// As many steps without reset and without a pixel, at once.
+    ///
+    /// # Panics
+    /// When the array completes a frame by itself, and so needs pixels. It has no [quiet clocks](Self::quiet_clocks)
+    /// then.
     pub fn skip(&mut self, clocks: u64) -> &SerialOutput {
+        assert!(!self.sync.is_filling(), "an array that completes a frame takes pixels");
+        if clocks > 0 {
+            self.sync.step(false, false, false);
+        }
         self.pass(clocks);
         self.show();
         &self.output
@@ -100,6 +110,16 @@ impl SerialRcm {
     /// How many clocks without a pixel it takes until `ready_o` is 1.
     #[must_use]
     pub fn clocks_until_ready(&self) -> u64 {
+        if self.sync.is_filling() {
+            return self.clocks_until_open()
+                + self.intake.clocks_left()
+                + self.schedule.clocks_until_ready(0);
+        }
+        self.clocks_until_open()
+    }
+
+    /// How many clocks without a pixel it takes until one would be taken, from outside or not.
+    fn clocks_until_open(&self) -> u64 {
         match self.stage {
             Stage::Taking { writing, .. } if self.intake.is_full() => {
                 writing + self.schedule.clocks_until_ready(0)
@@ -107,6 +127,10 @@ impl SerialRcm {
             Stage::Taking { writing, .. } => writing,
             Stage::Working { clock } => self.schedule.clocks_until_ready(clock),
         }
+    }
+
+    fn is_open(&self) -> bool {
+        self.clocks_until_open() == 0
     }
 
     /// For how many more clocks without reset and without a pixel the outputs stay as they are, since the
@@ -129,6 +153,7 @@ impl SerialRcm {
     }
 
     fn reset(&mut self) {
+        self.sync.reset();
         self.intake.forget();
         self.regions.forget();
         self.stage = Stage::EMPTY;
@@ -177,7 +202,8 @@ impl SerialRcm {
             self.output.stop_forwarding();
         }
         self.output.stop_saying();
-        self.output.ready = self.clocks_until_ready() == 0;
+        self.output.ready = self.is_open() && !self.sync.is_filling();
+        self.output.sync_error = self.sync.is_error();
         let seen = match self.stage {
             Stage::Taking { before, .. } => before.and_then(|clock| self.schedule.at(clock)),
             Stage::Working { clock } => self.schedule.at(clock),

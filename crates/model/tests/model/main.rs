@@ -20,6 +20,7 @@ mod recipe;
 mod schedule;
 mod screen;
 mod serial;
+mod sync;
 mod temporal_behavior;
 mod thresholds_in_time;
 mod waveforms;

@@ -4,7 +4,9 @@
 
 use foveate_design::PipelinedTiming;
 use foveate_frame::Frame;
-use foveate_model::{Camera, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream};
+use foveate_model::{
+    Camera, PipelinedRcm, RcmInput, RpuOutput, Thresholds, region_pixels, region_stream,
+};
 use proptest::prelude::*;
 
 use crate::frames::{Random, film, scripts};
@@ -89,7 +91,14 @@ fn run(
         let pixels = now.map_or(idle, |(_, frame, place)| {
             streams[frame].iter().map(|stream| stream[place]).collect()
         });
-        shown.push(rcm.step(false, now.is_some(), &pixels, &thresholds).to_vec());
+        let input = RcmInput {
+            reset: false,
+            valid: now.is_some(),
+            sof: false,
+            pixels: &pixels,
+            thresholds: &thresholds,
+        };
+        shown.push(rcm.step(&input).to_vec());
     }
     shown
 }
@@ -217,7 +226,10 @@ proptest! {
         let pixels = vec![1; design.regions() as usize];
         for edge in 0..held {
             // A pixel at an edge with reset is not taken.
-            let outputs = rcm.step(true, edge == 0, &pixels, &Thresholds::of(&design));
+            let thresholds = &Thresholds::of(&design);
+            let valid = edge == 0;
+            let input = RcmInput { reset: true, valid, sof: false, pixels: &pixels, thresholds };
+            let outputs = rcm.step(&input);
             prop_assert!(outputs.iter().all(|output| *output == RpuOutput::default()));
         }
         check(&recipe, &mut rcm, &film(&recipe, &after), gaps);

@@ -3,13 +3,14 @@
 
 use super::super::aim::Ranges;
 use super::super::applied::Applied;
+use super::super::damage::Delivery;
 use super::super::random::Random;
 use super::super::sequence::{Aim, Gaps};
 use super::machine::{Machine, PipelinedCodec};
 use crate::error::CosimError;
 use crate::recording::Recorder;
 use foveate_design::{Design, Thresholds as Mode};
-use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
+use foveate_model::{FrameSync, PipelinedRpu, RpuInput, RpuOutput, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -18,6 +19,8 @@ pub(crate) struct Driver<'a> {
     machine: Machine,
     /// An RPU of its own, which tells when a decision comes: it is the same clock in every lane.
     scout: PipelinedRpu,
+    /// What stands in front of the scout, where that is in front of the lanes.
+    sync: Option<FrameSync>,
     cancel: &'a AtomicBool,
     recorder: &'a mut Recorder,
     codec: PipelinedCodec,
@@ -48,7 +51,9 @@ impl<'a> Driver<'a> {
         cancel: &'a AtomicBool,
     ) -> Self {
         let configured = Thresholds::of(design);
+        let sync = design.syncs() && matches!(machine, Machine::Rcm(_));
         Self {
+            sync: sync.then(|| FrameSync::new(design)),
             machine,
             scout: PipelinedRpu::new(design),
             cancel,
@@ -79,7 +84,7 @@ impl<'a> Driver<'a> {
         for _ in 0..=self.random.up_to(1) {
             let valid = self.random.one_in(2);
             self.shuffle_garbage();
-            self.clock(true, valid, None)?;
+            self.clock(true, valid, None, None)?;
         }
         Ok(())
     }
@@ -122,16 +127,40 @@ impl<'a> Driver<'a> {
             for (pixel, stream) in pixels.iter_mut().zip(streams.chunks_exact(length)) {
                 *pixel = stream[at];
             }
-            self.clock(false, true, Some(&pixels))?;
+            self.clock(false, true, Some(at == 0), Some(&pixels))?;
         }
         Ok(())
+    }
+
+    /// What comes of a frame on its way; `streams` as for [`Self::stream`].
+    pub(crate) fn deliver(
+        &mut self,
+        streams: &[u16],
+        delivery: Delivery,
+        gaps: Gaps,
+    ) -> Result<(), CosimError> {
+        let length = streams.len() / self.garbage.len();
+        for (sof, place) in delivery.beats(length, &mut self.random) {
+            let pause = gaps.before_pixel(&mut self.random);
+            self.idle(pause)?;
+            self.shuffle_garbage();
+            let beat = place
+                .map(|at| streams.iter().skip(at).step_by(length).copied().collect::<Vec<_>>());
+            self.clock(false, true, Some(sof), beat.as_deref())?;
+        }
+        Ok(())
+    }
+
+    /// Whether the lanes are behind something that finds their frames.
+    pub(crate) fn finds_frames(&self) -> bool {
+        self.sync.is_some()
     }
 
     /// Clocks without a pixel; the pixel port shows anything.
     pub(crate) fn idle(&mut self, clocks: u64) -> Result<(), CosimError> {
         for _ in 0..clocks {
             self.shuffle_garbage();
-            self.clock(false, false, None)?;
+            self.clock(false, false, None, None)?;
         }
         Ok(())
     }
@@ -142,11 +171,12 @@ impl<'a> Driver<'a> {
         }
     }
 
-    /// One edge. Without pixels the garbage is applied.
+    /// One edge. Without pixels the garbage is applied, and without a mark any.
     fn clock(
         &mut self,
         reset: bool,
         valid: bool,
+        sof: Option<bool>,
         pixels: Option<&[u16]>,
     ) -> Result<(), CosimError> {
         if self.cancel.load(Ordering::Relaxed) {
@@ -155,16 +185,18 @@ impl<'a> Driver<'a> {
         if self.aim == Aim::Restless {
             self.ranges.shake(&mut self.thresholds, &mut self.random);
         }
+        let sof = sof.unwrap_or_else(|| self.sync.is_some() && self.random.one_in(2));
         let pixels = pixels.unwrap_or(&self.garbage);
         let mut inputs = Applied {
             reset,
             valid,
+            sof,
             border: self.border,
             ..Applied::idle(pixels, &self.thresholds)
         };
         if self.aim != Aim::Design {
             let lane = self.random.up_to(self.garbage.len().saturating_sub(1) as u64);
-            if decides(&mut self.scout, &inputs) {
+            if decides(&mut self.scout, self.sync.as_mut(), &inputs) {
                 // What is decided after this edge does not depend on the minima of this edge, so that
                 // a copy can look ahead; it is made here alone, because an array is large.
                 self.machine.clone().step(&inputs, &mut self.outputs);
@@ -176,9 +208,10 @@ impl<'a> Driver<'a> {
                 }
             }
         }
-        self.machine.step(&inputs, &mut self.outputs);
+        let sync_error = self.machine.step(&inputs, &mut self.outputs);
         self.codec.inputs(self.recorder.inputs(), &inputs, &mut self.input);
-        self.codec.outputs(self.recorder.outputs(), &self.outputs, &mut self.expected);
+        let layout = self.recorder.outputs();
+        self.codec.outputs(layout, &self.outputs, sync_error, &mut self.expected);
         self.recorder.push(&self.input, &self.expected)
     }
 }
@@ -186,7 +219,15 @@ impl<'a> Driver<'a> {
 /// Whether a decision is there after this edge. The scout must take every edge of a sequence; it takes
 /// none of those whose thresholds are not aimed, and the reset that begins a sequence brings it back
 /// into step. Neither pixels nor borders nor thresholds move a decision in time.
-fn decides(scout: &mut PipelinedRpu, inputs: &Applied<'_>) -> bool {
-    let &Applied { reset, valid, border, pixels, ref thresholds, .. } = inputs;
+fn decides(scout: &mut PipelinedRpu, sync: Option<&mut FrameSync>, inputs: &Applied<'_>) -> bool {
+    let &Applied { reset, valid, sof, border, pixels, ref thresholds, .. } = inputs;
+    let valid = match sync {
+        None => valid,
+        Some(sync) if reset => {
+            sync.reset();
+            false
+        }
+        Some(sync) => sync.step(valid, sof, true),
+    };
     scout.step(&RpuInput { reset, valid, pixel: pixels[0], border }, thresholds).decision_valid
 }

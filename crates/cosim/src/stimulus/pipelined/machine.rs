@@ -15,7 +15,8 @@ pub(crate) enum Machine {
 }
 
 impl Machine {
-    pub(crate) fn step(&mut self, inputs: &Applied<'_>, outputs: &mut Vec<RpuOutput>) {
+    /// One edge; says what `sync_error_o` shows after it, where that is a port.
+    pub(crate) fn step(&mut self, inputs: &Applied<'_>, outputs: &mut Vec<RpuOutput>) -> bool {
         outputs.clear();
         match self {
             Self::Rpu(rpu) => {
@@ -26,13 +27,12 @@ impl Machine {
                     border: inputs.border,
                 };
                 outputs.push(rpu.step(&input, &inputs.thresholds));
+                false
             }
-            Self::Rcm(rcm) => outputs.extend_from_slice(rcm.step(
-                inputs.reset,
-                inputs.valid,
-                inputs.pixels,
-                &inputs.thresholds,
-            )),
+            Self::Rcm(rcm) => {
+                outputs.extend_from_slice(rcm.step(&inputs.of_rpus()));
+                rcm.sync_error()
+            }
         }
     }
 }
@@ -54,11 +54,18 @@ impl PipelinedCodec {
         applied.write(&self.kinds, layout, record);
     }
 
-    /// The outputs of all RPUs after an edge.
-    pub fn outputs(&self, layout: &Layout, outputs: &[RpuOutput], record: &mut [u8]) {
+    /// The outputs of all RPUs after an edge, and what `sync_error_o` shows, where that is a port.
+    pub fn outputs(
+        &self,
+        layout: &Layout,
+        outputs: &[RpuOutput],
+        sync_error: bool,
+        record: &mut [u8],
+    ) {
         for field in layout.fields() {
             for (lane, output) in (0..field.port.lanes).zip(outputs) {
                 let value = match field.port.role {
+                    PortRole::SyncError => sync_error.into(),
                     PortRole::DecisionValid => output.decision_valid.into(),
                     PortRole::Srs => output.srs.into(),
                     PortRole::Trs => output.trs.into(),
@@ -70,6 +77,7 @@ impl PipelinedCodec {
                     PortRole::Clock
                     | PortRole::Reset
                     | PortRole::Valid
+                    | PortRole::StartOfFrame
                     | PortRole::Pixel
                     | PortRole::Border
                     | PortRole::Level(_)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A recording under way: draws the frames of each sequence and streams them.
 
-use super::super::motif::Artist;
+use super::super::damage::{Damaged, Delivery, Directed, Stop, directed};
+use super::super::motif::{Artist, TELLING};
 use super::super::random::Random;
 use super::super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
 use super::super::turns::{Extent, Turns};
@@ -54,8 +55,48 @@ impl<'a> Session<'a> {
         };
         let with_frames = if frames.is_empty() { 0 } else { regions };
         let given = |session: &mut Self, _, region| session.given(region, frames);
-        let turns = Turns { extent, directed: SEQUENCES, given: (0..with_frames).collect() };
-        turns.record(self, Self::directed, given, progress)
+        let directed = &directed(SEQUENCES, self.driver.finds_frames());
+        let turns = Turns { extent, directed, given: (0..with_frames).collect() };
+        let play = |session: &mut Self, sequence: &Directed<Sequence>, round, number| match sequence
+        {
+            Directed::Usual(sequence) => session.directed(sequence, round, number),
+            Directed::Damaged(sequence) => session.damaged(sequence, round, number),
+        };
+        turns.record(self, play, given, progress)
+    }
+
+    /// A damaged stream.
+    fn damaged(
+        &mut self,
+        sequence: &Damaged,
+        round: usize,
+        number: usize,
+    ) -> Result<(), CosimError> {
+        let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
+        self.driver.name(sequence.name, 0, None);
+        self.driver.begin(Aim::Design, 0)?;
+        for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
+            if frame > 0 {
+                self.driver.name(sequence.name, frame as u64, None);
+                let pause = gaps.between_frames(self.drain, &mut self.random);
+                self.driver.idle(pause)?;
+            }
+            for (region, artist) in self.artists.iter_mut().enumerate() {
+                artist.draw_near_minimum(TELLING[(frame + round + region) % TELLING.len()]);
+            }
+            let streams = self.drawn_streams()?;
+            self.driver.deliver(&streams, delivery, gaps)?;
+        }
+        let streams = self.drawn_streams()?;
+        match sequence.stop {
+            Stop::Drained => self.drain(&streams, gaps),
+            Stop::AtOnce => Ok(()),
+            Stop::Filling => {
+                self.driver.deliver(&streams, Delivery::FIRST, gaps)?;
+                let clocks = self.random.up_to(3);
+                self.driver.idle(clocks)
+            }
+        }
     }
 
     /// One directed sequence. Gaps differ from sequence to sequence and from round to round.

@@ -29,6 +29,7 @@ impl RasterCodec {
         for field in layout.fields() {
             let value = match field.port.role {
                 PortRole::Ready => output.ready.into(),
+                PortRole::SyncError => output.sync_error.into(),
                 PortRole::ReferenceReady => output.reference_ready.into(),
                 PortRole::StoreValid => output.store_valid.into(),
                 PortRole::StorePixel => {

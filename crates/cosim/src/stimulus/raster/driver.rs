@@ -4,6 +4,7 @@
 
 use super::super::ahead::{Aim, Aimer};
 use super::super::applied::Applied;
+use super::super::damage::Delivery;
 use super::super::manners::Manners;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
@@ -87,7 +88,7 @@ impl<'a> Driver<'a> {
         self.turn = 0;
         for _ in 0..=self.random.up_to(1) {
             let valid = self.random.one_in(2);
-            self.clock(true, valid, None)?;
+            self.clock(true, valid, None, None)?;
         }
         if let Some(memory) = &mut self.memory {
             memory.begin(lapse);
@@ -133,14 +134,36 @@ impl<'a> Driver<'a> {
         let words = words(&self.design, frame, || random.pixel(max));
         self.wait(words.first().map(Vec::as_slice))?;
         self.settle();
-        for word in words.iter().take(most.unwrap_or(words.len())) {
+        for (place, word) in words.iter().take(most.unwrap_or(words.len())).enumerate() {
             self.wait(Some(word))?;
             let pause = gaps.before_pixel(&mut self.random);
             self.idle(pause)?;
             if !self.is_under_way {
                 self.choose_thresholds(frame);
             }
-            self.clock(false, true, Some(word))?;
+            self.clock(false, true, Some(place == 0), Some(word))?;
+        }
+        Ok(())
+    }
+
+    /// What comes of a frame on its way, each word as soon as it is taken and its gap is over. Thresholds stay those
+    /// of the design: nobody says here when a frame begins.
+    pub(super) fn deliver(
+        &mut self,
+        frame: &Frame,
+        delivery: Delivery,
+        gaps: Gaps,
+    ) -> Result<(), CosimError> {
+        self.manners = Manners::any(&mut self.random);
+        let (max, random) = (self.max, &mut self.random);
+        let words = words(&self.design, frame, || random.pixel(max));
+        self.thresholds = self.configured;
+        for (sof, place) in delivery.beats(words.len(), &mut self.random) {
+            let word = place.map(|place| words[place].as_slice());
+            self.wait(word)?;
+            let pause = gaps.before_pixel(&mut self.random);
+            self.idle(pause)?;
+            self.clock(false, true, Some(sof), word)?;
         }
         Ok(())
     }
@@ -188,22 +211,28 @@ impl<'a> Driver<'a> {
     /// One clock at which nothing is taken.
     pub(super) fn busy(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
         if self.output().ready {
-            return self.clock(false, false, None);
+            return self.clock(false, false, None, None);
         }
         let (valid, offered) = self.manners.offer(next, &mut self.random);
-        self.clock(false, valid, offered)
+        self.clock(false, valid, None, offered)
     }
 
     /// Clocks without a word; the pixel port shows anything.
     pub(super) fn idle(&mut self, clocks: u64) -> Result<(), CosimError> {
         for _ in 0..clocks {
-            self.clock(false, false, None)?;
+            self.clock(false, false, None, None)?;
         }
         Ok(())
     }
 
-    /// One edge. Without a word garbage is applied.
-    fn clock(&mut self, reset: bool, valid: bool, word: Option<&[u16]>) -> Result<(), CosimError> {
+    /// One edge. Without a word garbage is applied, and without a mark any.
+    fn clock(
+        &mut self,
+        reset: bool,
+        valid: bool,
+        sof: Option<bool>,
+        word: Option<&[u16]>,
+    ) -> Result<(), CosimError> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
@@ -215,6 +244,7 @@ impl<'a> Driver<'a> {
         if !self.is_under_way && self.aim != Aim::Design {
             self.aimer.shake(&mut self.thresholds, &mut self.random);
         }
+        let sof = sof.unwrap_or_else(|| self.design.syncs() && self.random.one_in(2));
         let forward_ready = self.sink.next(&mut self.random);
         let pixels = word.unwrap_or(&self.garbage);
         let idle = Applied::idle(pixels, &self.thresholds);
@@ -225,7 +255,7 @@ impl<'a> Driver<'a> {
             None => (false, &[][..]),
         };
         let core = Applied { reference_valid, reference_pixels, forward_ready, ..idle };
-        let applied = Applied { reset, valid, ..core };
+        let applied = Applied { reset, valid, sof, ..core };
         let output = self.model.step(&applied.of_core());
         if let Some(memory) = &mut self.memory {
             memory.keep(output);

@@ -2,7 +2,9 @@
 //! A recording under way: draws the frames of each sequence and offers them to the core.
 
 use super::super::ahead::Aim;
+use super::super::damage::{Damaged, Delivery, Directed, Stop, directed};
 use super::super::gallery::Gallery;
+use super::super::motif::TELLING;
 use super::super::parts::{self, MAX_CLOCKS};
 use super::super::random::Random;
 use super::super::sequence::Gaps;
@@ -50,10 +52,44 @@ impl<'a> Session<'a> {
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
-        let directed = &sequences(self.design);
+        let directed = &directed(&sequences(self.design), self.design.syncs());
         let given = |session: &mut Self, number, corner| session.given(number, corner, frames);
         let turns = Turns { extent, directed, given: self.parts(frames) };
-        turns.record(self, Self::directed, given, progress)
+        let play = |session: &mut Self, sequence: &Directed<Sequence>, round, number| match sequence
+        {
+            Directed::Usual(sequence) => session.directed(sequence, round, number),
+            Directed::Damaged(sequence) => session.damaged(sequence, round, number),
+        };
+        turns.record(self, play, given, progress)
+    }
+
+    /// A damaged stream.
+    fn damaged(
+        &mut self,
+        sequence: &Damaged,
+        round: usize,
+        number: usize,
+    ) -> Result<(), CosimError> {
+        let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
+        let mood = self.mood(number.is_multiple_of(2), round + number);
+        self.driver.name(sequence.name, 0);
+        self.driver.begin(Aim::Design, mood, Lapse::None)?;
+        for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
+            if frame > 0 {
+                self.driver.name(sequence.name, frame as u64);
+            }
+            self.gallery.draw(TELLING, frame + round, true, true, &mut self.random);
+            self.driver.deliver(&self.gallery.frame()?, delivery, gaps)?;
+        }
+        match sequence.stop {
+            Stop::Drained => self.drain(),
+            Stop::AtOnce => self.busy(1),
+            Stop::Filling => {
+                self.driver.deliver(&self.gallery.frame()?, Delivery::FIRST, gaps)?;
+                let clocks = self.random.up_to(3);
+                self.busy(clocks)
+            }
+        }
     }
 
     /// One directed sequence. Gaps and sinks differ from sequence to sequence and from round to round.

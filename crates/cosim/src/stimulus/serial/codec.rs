@@ -29,6 +29,7 @@ impl SerialCodec {
         for field in layout.fields() {
             let value = match field.port.role {
                 PortRole::Ready => output.ready.into(),
+                PortRole::SyncError => output.sync_error.into(),
                 PortRole::ScoreValid => output.score_valid.into(),
                 PortRole::ScoreIndex => output.score_index.into(),
                 PortRole::Region => output.region.into(),

@@ -3,6 +3,7 @@
 
 use super::super::ahead::{Aim, Aimer};
 use super::super::applied::Applied;
+use super::super::damage::Delivery;
 use super::super::manners::Manners;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
@@ -29,6 +30,8 @@ pub(crate) struct Driver<'a> {
     /// Whether a frame is under way, so that thresholds must stay still.
     is_under_way: bool,
     constant: bool,
+    /// Whether the array finds its frames.
+    syncs: bool,
     aim: Aim,
     /// Frames since the sequence began.
     turn: u32,
@@ -58,6 +61,7 @@ impl<'a> Driver<'a> {
             configured,
             thresholds: configured,
             is_under_way: false,
+            syncs: design.syncs(),
             constant: design.thresholds() == Mode::Constant,
             aim: Aim::Design,
             turn: 0,
@@ -75,7 +79,7 @@ impl<'a> Driver<'a> {
         self.turn = 0;
         for _ in 0..=self.random.up_to(1) {
             let valid = self.random.one_in(2);
-            self.clock(true, valid, None)?;
+            self.clock(true, valid, None, None)?;
         }
         let pause = self.random.up_to(2);
         self.idle(pause)
@@ -106,7 +110,7 @@ impl<'a> Driver<'a> {
         self.manners = Manners::any(&mut self.random);
         self.wait(feed.beats().next())?;
         self.is_under_way = false;
-        for pixels in feed.beats().take(count) {
+        for (place, pixels) in feed.beats().take(count).enumerate() {
             self.wait(Some(pixels))?;
             let pause = gaps.before_pixel(&mut self.random);
             self.idle(pause)?;
@@ -125,7 +129,28 @@ impl<'a> Driver<'a> {
                 self.turn += 1;
                 self.is_under_way = true;
             }
-            self.clock(false, true, Some(pixels))?;
+            self.clock(false, true, Some(place == 0), Some(pixels))?;
+        }
+        Ok(())
+    }
+
+    /// What comes of a frame on its way, each beat as soon as it is taken and its gap is over. Thresholds stay those
+    /// of the design: nobody says here when a frame begins.
+    pub(super) fn deliver(
+        &mut self,
+        feed: &Feed,
+        delivery: Delivery,
+        gaps: Gaps,
+    ) -> Result<(), CosimError> {
+        self.manners = Manners::any(&mut self.random);
+        self.thresholds = self.configured;
+        let beats: Vec<&[u16]> = feed.beats().collect();
+        for (sof, place) in delivery.beats(beats.len(), &mut self.random) {
+            let pixels = place.map(|place| beats[place]);
+            self.wait(pixels)?;
+            let pause = gaps.before_pixel(&mut self.random);
+            self.idle(pause)?;
+            self.clock(false, true, Some(sof), pixels)?;
         }
         Ok(())
     }
@@ -158,22 +183,23 @@ impl<'a> Driver<'a> {
     /// One clock at which nothing is taken.
     fn busy(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
         let (valid, offered) = self.manners.offer(next, &mut self.random);
-        self.clock(false, valid, offered)
+        self.clock(false, valid, None, offered)
     }
 
     /// Clocks without a pixel; the pixel port shows anything.
     pub(super) fn idle(&mut self, clocks: u64) -> Result<(), CosimError> {
         for _ in 0..clocks {
-            self.clock(false, false, None)?;
+            self.clock(false, false, None, None)?;
         }
         Ok(())
     }
 
-    /// One edge. Without pixels garbage is applied.
+    /// One edge. Without pixels garbage is applied, and without a mark any.
     fn clock(
         &mut self,
         reset: bool,
         valid: bool,
+        sof: Option<bool>,
         pixels: Option<&[u16]>,
     ) -> Result<(), CosimError> {
         if self.cancel.load(Ordering::Relaxed) {
@@ -188,7 +214,8 @@ impl<'a> Driver<'a> {
             self.aimer.shake(&mut self.thresholds, &mut self.random);
         }
         let pixels = pixels.unwrap_or(&self.garbage);
-        let applied = Applied { reset, valid, ..Applied::idle(pixels, &self.thresholds) };
+        let sof = sof.unwrap_or_else(|| self.syncs && self.random.one_in(2));
+        let applied = Applied { reset, valid, sof, ..Applied::idle(pixels, &self.thresholds) };
         let output = self.model.step(&applied.of_array());
         self.codec.inputs(self.recorder.inputs(), &applied, &mut self.input);
         self.codec.outputs(self.recorder.outputs(), output, &mut self.expected);

@@ -2,7 +2,9 @@
 //! A recording under way: draws the frames of each sequence and offers them to the array.
 
 use super::super::ahead::Aim;
+use super::super::damage::{Damaged, Delivery, Directed, Stop, directed};
 use super::super::gallery::Gallery;
+use super::super::motif::TELLING;
 use super::super::parts;
 use super::super::random::Random;
 use super::super::sequence::Gaps;
@@ -67,8 +69,53 @@ impl<'a> Session<'a> {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
         let given = |session: &mut Self, number, first| session.given(number, first, frames);
-        let turns = Turns { extent, directed: SEQUENCES, given: self.parts(frames) };
-        turns.record(self, Self::directed, given, progress)
+        let directed = &directed(SEQUENCES, self.design.syncs());
+        let turns = Turns { extent, directed, given: self.parts(frames) };
+        let play = |session: &mut Self, sequence: &Directed<Sequence>, round, number| match sequence
+        {
+            Directed::Usual(sequence) => session.directed(sequence, round, number),
+            Directed::Damaged(sequence) => session.damaged(sequence, round, number),
+        };
+        turns.record(self, play, given, progress)
+    }
+
+    /// A damaged stream.
+    fn damaged(
+        &mut self,
+        sequence: &Damaged,
+        round: usize,
+        number: usize,
+    ) -> Result<(), CosimError> {
+        let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
+        self.driver.name(sequence.name, 0, None);
+        self.driver.begin(Aim::Design)?;
+        for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
+            if frame > 0 {
+                self.driver.name(sequence.name, frame as u64, None);
+            }
+            self.draw_damaged(frame + round, delivery, gaps)?;
+        }
+        match sequence.stop {
+            Stop::Drained => self.drain(),
+            Stop::AtOnce => self.driver.idle(1),
+            Stop::Filling => {
+                self.draw_damaged(round, Delivery::FIRST, gaps)?;
+                let clocks = self.random.up_to(3);
+                self.driver.idle(clocks)
+            }
+        }
+    }
+
+    fn draw_damaged(
+        &mut self,
+        turn: usize,
+        delivery: Delivery,
+        gaps: Gaps,
+    ) -> Result<(), CosimError> {
+        self.gallery.draw(TELLING, turn, true, true, &mut self.random);
+        let drawn = self.gallery.frame()?;
+        let feed = self.feed(&drawn);
+        self.driver.deliver(&feed, delivery, gaps)
     }
 
     /// One directed sequence. Gaps differ from sequence to sequence and from round to round.

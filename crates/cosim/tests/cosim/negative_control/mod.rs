@@ -7,6 +7,7 @@ mod faults;
 mod planted;
 mod raster_faults;
 mod serial_faults;
+mod sync_faults;
 
 use crate::common::{agrees, cosimulate, directed, in_parallel, simulators};
 use faults::Fault;
@@ -85,11 +86,21 @@ fn every_planted_fault_of_the_raster_organization_is_caught() {
     all_are_caught(raster_faults::FAULTS);
 }
 
+#[test]
+fn every_planted_fault_of_what_finds_frames_is_caught() {
+    all_are_caught(sync_faults::FAULTS);
+}
+
 /// The faults of every organization.
 fn all_faults() -> impl Iterator<Item = &'static Fault> {
-    [faults::FAULTS, deep_faults::FAULTS, serial_faults::FAULTS, raster_faults::FAULTS]
-        .into_iter()
-        .flatten()
+    let lists = [
+        faults::FAULTS,
+        deep_faults::FAULTS,
+        serial_faults::FAULTS,
+        raster_faults::FAULTS,
+        sync_faults::FAULTS,
+    ];
+    lists.into_iter().flatten()
 }
 
 /// Else a fault would be caught that is none.

@@ -73,6 +73,12 @@ pub(crate) enum Planted {
     RasterBanks,
     /// Raster: the store outside, and no pixels that leave.
     RasterOutside,
+    /// Frames found again: an array of RPUs, deep, with a second pass.
+    SyncPipelined,
+    /// Frames found again: a serial array that takes the frame row by row.
+    SyncSerial,
+    /// Frames found again: a raster core of a ragged frame.
+    SyncRaster,
 }
 
 impl Planted {
@@ -195,6 +201,18 @@ impl Planted {
                  [hardware]\norganization = \"raster\"\npixels_per_clock = 4\npipelining = \"deep\"\n\
                  store = \"external\"\nforward = false\n"
             }
+            Self::SyncPipelined => {
+                "[region]\nsize = 3\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                 [hardware]\npipelining = \"deep\"\nsync = true\n"
+            }
+            Self::SyncSerial => {
+                "[region]\nsize = 4\nneighborhood = \"shared\"\n[denoise]\nfilter = \"none\"\n\
+                 [hardware]\norganization = \"serial\"\nfeed = \"raster\"\nsync = true\n"
+            }
+            Self::SyncRaster => {
+                "[frame]\nwidth = 13\nheight = 11\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+                 [hardware]\norganization = \"raster\"\nsync = true\n"
+            }
             Self::RasterMoments => {
                 "[frame]\nwidth = 16\nheight = 15\npixel_bits = 16\n[region]\nsize = 4\n[denoise]\n\
                  filter = \"none\"\n[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 2\n\
@@ -213,6 +231,8 @@ impl Planted {
             Self::SerialBlock => (5, 1),
             Self::SerialMany => (13, 6),
             Self::SerialPaper
+            | Self::SyncPipelined
+            | Self::SyncSerial
             | Self::SerialEdge
             | Self::SerialCorner
             | Self::SerialMad
@@ -234,6 +254,7 @@ impl Planted {
                 | Self::RasterPairs
                 | Self::RasterBanks
                 | Self::RasterOutside
+                | Self::SyncRaster
         )
     }
 

@@ -39,7 +39,7 @@ pub(crate) fn matrix() -> Vec<String> {
                  [denoise]\nfilter = '{filter}'\n\
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
-                 [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\n",
+                 [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n",
                 width = 2 * size,
                 neighborhood = pick(0, "isolated", "shared"),
                 filter = pick(1, "median3x3", "none"),
@@ -47,6 +47,7 @@ pub(crate) fn matrix() -> Vec<String> {
                 payload = pick((index + 1) % 3, "denoised", "raw"),
                 irrelevant = pick(index % 3, "zero", "hold"),
                 thresholds = pick((index + 2) % 3, "runtime", "constant"),
+                sync = choice % 3 == 1,
                 // Every pair of the other choices occurs both plain and deep.
                 pipelining = PIPELINING[(index + choice.count_ones() as usize) % 2],
             ));
@@ -80,13 +81,14 @@ pub(crate) fn serial_matrix() -> Vec<String> {
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
                  [hardware]\norganization = 'serial'\nfold = {fold}\nfeed = '{feed}'\n\
-                 pipelining = '{pipelining}'\nthresholds = '{thresholds}'\n",
+                 pipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n",
                 width = columns * size,
                 height = rows * size,
                 neighborhood = pick(0, "isolated", "shared"),
                 filter = pick(1, "median3x3", "none"),
                 reference = pick(2, "previous", "last-sent"),
                 pipelining = PIPELINING[(index + choice.count_ones() as usize) % 2],
+                sync = choice % 3 == 1,
                 feed = pick(3, "parallel", "raster"),
                 payload = pick((index + 1) % 4, "denoised", "raw"),
                 irrelevant = pick(index % 4, "zero", "hold"),
@@ -123,7 +125,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
                  [hardware]\norganization = 'raster'\npixels_per_clock = {word}\n\
-                 pipelining = '{pipelining}'\nstore = '{store}'\nthresholds = '{thresholds}'\n",
+                 pipelining = '{pipelining}'\nstore = '{store}'\nthresholds = '{thresholds}'\nsync = {sync}\n",
                 width = columns * size - beside,
                 height = rows * size - below,
                 neighborhood = pick(0, "isolated", "shared"),
@@ -133,6 +135,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
                 payload = pick((index + 1) % 4, "denoised", "raw"),
                 irrelevant = pick(index % 4, "zero", "hold"),
                 thresholds = pick((index + 2) % 4, "runtime", "constant"),
+                sync = choice % 3 == 1,
                 store = pick((index + 3) % 4, "block", "ultra"),
             ));
         }

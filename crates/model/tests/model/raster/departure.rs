@@ -49,6 +49,7 @@ fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<Ras
         let input = RasterInput {
             reset: false,
             valid: word.is_some(),
+            sof: false,
             pixels: word.as_ref().unwrap_or(&nothing),
             reference_valid: false,
             reference_pixels: &[],

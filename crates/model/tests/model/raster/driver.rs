@@ -111,6 +111,7 @@ impl Driver {
             let input = RasterInput {
                 reset: true,
                 valid,
+                sof: false,
                 pixels: &word,
                 reference_valid: false,
                 reference_pixels: &word,
@@ -188,6 +189,7 @@ impl Driver {
         let input = RasterInput {
             reset: false,
             valid,
+            sof: false,
             pixels,
             reference_valid,
             reference_pixels: &reference,

@@ -32,6 +32,7 @@ fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<Raste
         let input = RasterInput {
             reset: false,
             valid,
+            sof: false,
             pixels: &ones,
             reference_valid: false,
             reference_pixels: &[],
@@ -180,6 +181,7 @@ fn after_a_reset_nothing_is_shown() {
     let input = RasterInput {
         reset: false,
         valid: true,
+        sof: false,
         pixels: &[1],
         reference_valid: false,
         reference_pixels: &[],

@@ -74,6 +74,7 @@ impl Play {
             let input = RasterInput {
                 reset: false,
                 valid,
+                sof: false,
                 pixels: &pixels,
                 reference_valid,
                 reference_pixels: &reference,
@@ -91,6 +92,7 @@ impl Play {
         let input = RasterInput {
             reset: true,
             valid: true,
+            sof: false,
             pixels: &word,
             reference_valid: true,
             reference_pixels: &word,

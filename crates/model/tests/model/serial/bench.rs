@@ -142,7 +142,7 @@ impl Bench {
 
     fn step(&mut self, reset: bool, valid: bool, pixels: &[u16], thresholds: &Thresholds) -> Check {
         self.edge += 1;
-        self.rcm.step(&SerialInput { reset, valid, pixels, thresholds });
+        self.rcm.step(&SerialInput { reset, valid, sof: false, pixels, thresholds });
         self.compare()
     }
 

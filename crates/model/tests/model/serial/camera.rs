@@ -42,6 +42,7 @@ fn play(
         let output = rcm.step(&SerialInput {
             reset: false,
             valid,
+            sof: false,
             pixels: &pixels,
             thresholds: &thresholds,
         });

@@ -23,8 +23,13 @@ fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
             taken.push(outputs.len());
         }
         // A pixel is there even when the array is not ready.
-        let input =
-            SerialInput { reset: false, valid: true, pixels: &ones, thresholds: &thresholds };
+        let input = SerialInput {
+            reset: false,
+            valid: true,
+            sof: false,
+            pixels: &ones,
+            thresholds: &thresholds,
+        };
         outputs.push(rcm.step(&input).clone());
     }
     (outputs, taken)
@@ -159,8 +164,13 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
     let mut leaves = Vec::new();
     for edge in 1..=2 * ready {
         let pixels = [if edge < ready { 100 } else { 7 }];
-        let input =
-            SerialInput { reset: false, valid: true, pixels: &pixels, thresholds: &thresholds };
+        let input = SerialInput {
+            reset: false,
+            valid: true,
+            sof: false,
+            pixels: &pixels,
+            thresholds: &thresholds,
+        };
         let output = rcm.step(&input);
         assert_eq!(
             output.ready,
@@ -182,7 +192,7 @@ fn a_reset_takes_no_pixel_and_makes_ready() {
     let thresholds = Thresholds::of(&design);
     let mut rcm = SerialRcm::new(&design);
     let mut step = |reset, valid| {
-        let input = SerialInput { reset, valid, pixels: &[9], thresholds: &thresholds };
+        let input = SerialInput { reset, valid, sof: false, pixels: &[9], thresholds: &thresholds };
         rcm.step(&input).ready
     };
     assert!((0..63).all(|_| step(false, true)));
@@ -222,6 +232,7 @@ fn quiet_clocks_are_quiet_and_can_be_skipped() {
             rcm.step(&SerialInput {
                 reset: false,
                 valid: true,
+                sof: false,
                 pixels: &pixels,
                 thresholds: &thresholds,
             });

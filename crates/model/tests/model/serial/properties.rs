@@ -118,7 +118,7 @@ proptest! {
         let (mut stepped, mut skipped) = (bench.rcm.clone(), bench.rcm);
         let (pixels, thresholds) = (vec![0; recipe.ports() as usize], jobs[0].thresholds);
         let idle =
-            SerialInput { reset: false, valid: false, pixels: &pixels, thresholds: &thresholds };
+            SerialInput { reset: false, valid: false, sof: false, pixels: &pixels, thresholds: &thresholds };
         let ready_in = stepped.clocks_until_ready();
         for clock in 0..clocks {
             prop_assert_eq!(stepped.output().ready, clock >= ready_in);

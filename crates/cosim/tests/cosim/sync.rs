@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Designs that find their frames again: what their vectors hold, and whether model and RTL agree.
+
+use crate::common::vectors::{clocks, value};
+use crate::common::{agrees, directed, in_parallel, simulators};
+use foveate_cosim::{Level, Recording, Simulator};
+use foveate_design::{Config, Design, PortRole};
+use std::collections::BTreeMap;
+
+/// Designs of every organization, in small frames.
+const DESIGNS: &[&[&str]] = &[
+    &["frame={width=12,height=8}", "region.size=4"],
+    &[
+        "frame={width=8,height=8}",
+        "region={size=4,neighborhood='shared'}",
+        "temporal.reference='last-sent'",
+    ],
+    &[
+        "frame={width=9,height=6}",
+        "region.size=3",
+        "spatial=[{feature='mad'}]",
+        "hardware.pipelining='deep'",
+    ],
+    &[
+        "frame={width=4,height=2}",
+        "region.size=2",
+        "denoise.filter='none'",
+        "temporal.min_count=2",
+        "spatial.0.min_score=2",
+    ],
+    &["frame={width=10,height=5}", "region.size=5", "hardware.thresholds='constant'"],
+    &[
+        "frame={width=12,height=4}",
+        "region.size=4",
+        "hardware.organization='serial'",
+        "hardware.fold=2",
+    ],
+    &[
+        "frame={width=8,height=8}",
+        "region={size=4,neighborhood='shared'}",
+        "hardware.organization='serial'",
+        "hardware.feed='raster'",
+    ],
+    &[
+        "frame={width=12,height=8}",
+        "region.size=4",
+        "hardware={organization='serial',fold=3,feed='raster',memory='block',pipelining='deep'}",
+        "denoise.filter='none'",
+        "temporal.reference='last-sent'",
+    ],
+    &["frame={width=16,height=12}", "region.size=4", "hardware.organization='raster'"],
+    &[
+        "frame={width=13,height=9}",
+        "region.size=4",
+        "hardware.organization='raster'",
+        "temporal.reference='last-sent'",
+        "denoise.filter='none'",
+    ],
+    &[
+        "frame={width=29,height=7}",
+        "region.size=4",
+        "hardware={organization='raster',pixels_per_clock=2,pipelining='deep'}",
+        "temporal.reference='last-sent'",
+    ],
+    &[
+        "frame={width=25,height=11}",
+        "region.size=5",
+        "hardware={organization='raster',store='single-port',forward=false}",
+    ],
+    &[
+        "frame={width=64,height=8}",
+        "region.size=4",
+        "hardware={organization='raster',pixels_per_clock=4,store='external'}",
+        "spatial=[{feature='mad'}]",
+    ],
+];
+
+fn design(keys: &[&str]) -> Design {
+    let config = Config::from_toml_with("", keys).unwrap();
+    Config::from_toml_with(&config.to_toml(), &["hardware.sync=true"]).unwrap().validate().unwrap()
+}
+
+#[test]
+fn the_rtl_of_arrays_that_find_their_frames_agrees() {
+    if !simulators() {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let failures = in_parallel(DESIGNS, |keys| {
+        let design = design(keys);
+        let folder = output.path().join(design.fingerprint());
+        let what = format!("{keys:?}");
+        agrees(&what, &design, Simulator::Iverilog, directed(Level::Full, 1), &folder)
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Where a stream is, as the ports tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum State {
+    Seek,
+    Start,
+    Inside,
+    Fill,
+}
+
+/// What vectors hold, by sequence.
+#[derive(Debug, Default)]
+struct Story {
+    errors: u64,
+    decisions: u64,
+    /// Marks without a beat, by state.
+    loose: BTreeMap<State, u64>,
+    /// Resets that find it in a state.
+    resets: BTreeMap<State, u64>,
+}
+
+fn story(design: &Design, recording: &Recording) -> Story {
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let beats = design.timing().pixels_per_frame();
+    let has_ready = outputs.fields().iter().any(|field| field.port.role == PortRole::Ready);
+    let (mut story, mut state, mut had, mut ready) = (Story::default(), State::Seek, 0, true);
+    let mut was_reset = true;
+    for (input, output) in clocks(recording) {
+        let given = |role| value(inputs, role, &input) == 1;
+        let shows = |role| value(outputs, role, &output) == 1;
+        if given(PortRole::Reset) {
+            if !was_reset {
+                *story.resets.entry(state).or_default() += 1;
+            }
+            (state, had, was_reset, ready) = (State::Seek, 0, true, true);
+            continue;
+        }
+        was_reset = false;
+        let (valid, sof) = (given(PortRole::Valid), given(PortRole::StartOfFrame));
+        if sof && !valid {
+            *story.loose.entry(state).or_default() += 1;
+        }
+        match state {
+            // An array with a ready takes nothing until it has completed its frame.
+            State::Fill if has_ready => {}
+            State::Fill => had += 1,
+            _ if !(valid && ready) => {}
+            State::Seek | State::Start => {
+                (state, had) = if sof { (State::Inside, 1) } else { (State::Seek, 0) };
+            }
+            State::Inside if sof => state = State::Fill,
+            State::Inside => had += 1,
+        }
+        ready = !has_ready || shows(PortRole::Ready);
+        state = match state {
+            State::Inside if had == beats => State::Start,
+            State::Fill if had == beats || (has_ready && ready) => State::Seek,
+            state => state,
+        };
+        story.errors += u64::from(shows(PortRole::SyncError));
+        story.decisions += u64::from(shows(PortRole::DecisionValid));
+    }
+    story
+}
+
+#[test]
+fn the_vectors_damage_streams_in_every_state() {
+    for keys in DESIGNS {
+        let design = design(keys);
+        let recording = directed(Level::Full, 3).record(&design, &mut |_, _| {}).unwrap();
+        let story = story(&design, &recording);
+        assert!(story.errors >= 45 && story.decisions > 100, "{keys:?} {story:?}");
+        for state in [State::Seek, State::Start, State::Inside, State::Fill] {
+            let count = |map: &BTreeMap<State, u64>| map.get(&state).copied().unwrap_or(0);
+            assert!(count(&story.resets) > 0, "no reset in {state:?}: {keys:?} {story:?}");
+            assert!(count(&story.loose) > 0, "no mark alone in {state:?}: {keys:?} {story:?}");
+        }
+    }
+}
+
+/// Whole frames with their marks are all that the sequences of other designs have.
+#[test]
+fn without_it_the_vectors_are_what_they_were() {
+    for keys in DESIGNS {
+        let with = design(keys);
+        let mut config = with.config().clone();
+        config.hardware.sync = None;
+        let without = config.validate().unwrap();
+        let record =
+            |design: &Design| directed(Level::Full, 1).record(design, &mut |_, _| {}).unwrap();
+        let (with, without) = (record(&with), record(&without));
+        assert_eq!(with.sequences(), without.sequences() + 12, "{keys:?}");
+        let names = without.inputs().fields().iter().chain(without.outputs().fields());
+        for name in names.map(|field| &field.port.name) {
+            assert!(!name.contains("sof") && !name.contains("sync"), "{name}");
+        }
+    }
+}

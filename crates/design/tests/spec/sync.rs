@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `hardware.sync`: where its ports are, and what a design without it looks like.
+
+use foveate_design::{Config, Design, Direction, PRESETS, Port, PortRole};
+
+const ORGANIZATIONS: [&str; 4] = [
+    "organization='pipelined'",
+    "organization='serial',fold=4",
+    "organization='serial',feed='raster'",
+    "organization='raster'",
+];
+
+fn design(hardware: &str) -> Design {
+    let hardware = format!("hardware={{{hardware}}}");
+    Config::from_toml_with("", &[hardware]).unwrap().validate().unwrap()
+}
+
+fn names(ports: &[Port]) -> Vec<&str> {
+    ports.iter().map(|port| port.name.as_str()).collect()
+}
+
+#[test]
+fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
+    for organization in ORGANIZATIONS {
+        let with = design(&format!("{organization},sync=true"));
+        let without = design(organization);
+        let (ports, plain) = (with.rcm_ports(), without.rcm_ports());
+        let place = |role| ports.iter().position(|port| port.role == role).unwrap();
+        assert_eq!(place(PortRole::StartOfFrame), place(PortRole::Valid) + 1, "{organization}");
+        let (sof, error) =
+            (&ports[place(PortRole::StartOfFrame)], &ports[place(PortRole::SyncError)]);
+        assert_eq!((sof.name.as_str(), sof.bits(), sof.direction), ("sof_i", 1, Direction::Input));
+        assert_eq!((error.name.as_str(), error.bits()), ("sync_error_o", 1));
+        assert_eq!(error.direction, Direction::Output);
+        let first_output = ports.iter().position(|port| port.direction == Direction::Output);
+        let inputs = ports.iter().filter(|port| port.direction == Direction::Input).count();
+        assert_eq!(first_output, Some(inputs), "inputs first: {organization}");
+        let others: Vec<&str> = names(&ports)
+            .into_iter()
+            .filter(|name| !["sof_i", "sync_error_o"].contains(name))
+            .collect();
+        assert_eq!(others, names(&plain), "{organization}");
+
+        // An RPU is a part of its array, a lane or core by itself an array.
+        let is_part = with.unit().rpu_in_rcm;
+        let unit = with.rpu_ports();
+        assert_eq!(names(&unit).contains(&"sof_i"), !is_part, "{organization}");
+        assert_eq!(names(&unit).contains(&"sync_error_o"), !is_part, "{organization}");
+
+        assert!(with.syncs() && !without.syncs());
+        assert_eq!(with.timing(), without.timing(), "no clock changes");
+        assert!(with.config().hardware.in_words().ends_with("frame sync"));
+        assert!(!without.config().hardware.in_words().contains("frame sync"));
+    }
+}
+
+#[test]
+fn a_design_without_it_is_what_it_was() {
+    for organization in ORGANIZATIONS {
+        let (plain, off) = (design(organization), design(&format!("{organization},sync=false")));
+        assert_eq!(plain, off);
+        assert!(!off.config().to_toml().contains("sync"), "{organization}");
+        let with = design(&format!("{organization},sync=true"));
+        assert_ne!(with.fingerprint(), plain.fingerprint());
+        assert!(with.config().to_toml().contains("sync = true\n"));
+    }
+}
+
+#[test]
+fn only_the_preset_for_video_has_it() {
+    for preset in PRESETS {
+        let design = preset.config().unwrap().validate().unwrap();
+        assert_eq!(design.syncs(), preset.name == "raster", "{}", preset.name);
+    }
+}
+
+#[test]
+fn what_is_no_truth_value_is_refused() {
+    let error = Config::from_toml("[hardware]\nsync = 1\n").unwrap_err().to_string();
+    assert_eq!(error, "`hardware.sync`: 1 is not valid; it takes true or false");
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An array of any organization at its ports: what it takes, and what it decides of which region.
+
+use foveate_design::{Design, Feed, Organization};
+use foveate_frame::Frame;
+use foveate_model::{
+    PipelinedRcm, RasterInput, RasterRcm, RcmInput, SerialInput, SerialRcm, Thresholds,
+};
+
+/// What an array decides of a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Decided {
+    pub(crate) region: u32,
+    pub(crate) srs: bool,
+    pub(crate) trs: bool,
+    pub(crate) active: bool,
+}
+
+/// The array.
+pub(crate) enum Machine {
+    Pipelined(PipelinedRcm),
+    Serial(SerialRcm),
+    Raster(RasterRcm),
+}
+
+/// What is seen of it after an edge.
+#[derive(Debug, Default)]
+pub(crate) struct Seen {
+    pub(crate) ready: bool,
+    pub(crate) sync_error: bool,
+    pub(crate) decided: Vec<Decided>,
+    /// Pixels that leave, where they leave within the frame.
+    pub(crate) left: usize,
+}
+
+impl Machine {
+    pub(crate) fn new(design: &Design) -> Self {
+        match design.organization() {
+            Organization::Pipelined => Self::Pipelined(PipelinedRcm::new(design)),
+            Organization::Serial => Self::Serial(SerialRcm::new(design)),
+            Organization::Raster => Self::Raster(RasterRcm::new(design)),
+        }
+    }
+
+    pub(crate) fn step(
+        &mut self,
+        (reset, valid, sof): (bool, bool, bool),
+        pixels: &[u16],
+        thresholds: &Thresholds,
+    ) -> Seen {
+        match self {
+            Self::Pipelined(rcm) => {
+                let input = RcmInput { reset, valid, sof, pixels, thresholds };
+                let outputs = rcm.step(&input).iter().zip(0..);
+                let outputs = outputs.filter(|(output, _)| output.decision_valid);
+                let decided = outputs.map(|(output, region)| Decided {
+                    region,
+                    srs: output.srs,
+                    trs: output.trs,
+                    active: output.active,
+                });
+                let decided = decided.collect();
+                Seen { ready: true, sync_error: rcm.sync_error(), decided, left: 0 }
+            }
+            Self::Serial(rcm) => {
+                let shown = rcm.step(&SerialInput { reset, valid, sof, pixels, thresholds });
+                let decided = shown.decision_valid.then_some(Decided {
+                    region: shown.region,
+                    srs: shown.srs,
+                    trs: shown.trs,
+                    active: shown.active,
+                });
+                Seen {
+                    ready: shown.ready,
+                    sync_error: shown.sync_error,
+                    decided: decided.into_iter().collect(),
+                    left: shown.forward_valid.iter().filter(|valid| **valid).count(),
+                }
+            }
+            Self::Raster(rcm) => {
+                let shown = rcm.step(&RasterInput {
+                    reset,
+                    valid,
+                    sof,
+                    pixels,
+                    reference_valid: false,
+                    reference_pixels: &vec![0; pixels.len()],
+                    forward_ready: true,
+                    thresholds,
+                });
+                let decided = shown.decision_valid.then_some(Decided {
+                    region: shown.region,
+                    srs: shown.srs,
+                    trs: shown.trs,
+                    active: shown.active,
+                });
+                Seen {
+                    ready: shown.ready,
+                    sync_error: shown.sync_error,
+                    decided: decided.into_iter().collect(),
+                    left: if shown.forward_valid { pixels.len() } else { 0 },
+                }
+            }
+        }
+    }
+
+    /// Whether it says when it takes a beat, and its pixels leave within the frame.
+    pub(crate) fn has_ready(&self) -> bool {
+        !matches!(self, Self::Pipelined(_))
+    }
+}
+
+/// Where pixel (x, y) of a frame stands in its beats: the number of the beat, and its place in it. Regions are isolated, or
+/// pixels come row by row.
+fn place(design: &Design, x: u32, y: u32) -> (u32, u32) {
+    let (n, columns) = (design.region_size(), design.columns());
+    let (region, position) = (y / n * columns + x / n, y % n * n + x % n);
+    match (design.organization(), design.feed()) {
+        (Organization::Pipelined, _) => (position, region),
+        (Organization::Serial, Feed::Raster) => (y * columns * n + x, 0),
+        (Organization::Serial, Feed::Parallel) => {
+            let (lane, slot) = (region / design.fold(), region % design.fold());
+            (slot * n * n + position, lane)
+        }
+        (Organization::Raster, _) => {
+            let word = design.pixels_per_clock();
+            (y * design.width().div_ceil(word) + x / word, x % word)
+        }
+    }
+}
+
+/// Beats of a frame, and pixels of a beat.
+pub(crate) fn shape(design: &Design) -> (usize, usize) {
+    let places = (0..design.height())
+        .flat_map(|y| (0..design.width()).map(move |x| (x, y)))
+        .map(|(x, y)| place(design, x, y));
+    let (beats, width) =
+        places.fold((0, 0), |(beats, width), (beat, at)| (beats.max(beat + 1), width.max(at + 1)));
+    (beats as usize, width as usize)
+}
+
+/// The frame that these beats are.
+pub(crate) fn frame_of(design: &Design, beats: &[Vec<u16>]) -> Frame {
+    let pixel = |x, y| {
+        let (beat, at) = place(design, x, y);
+        beats[beat as usize][at as usize]
+    };
+    Frame::from_fn(design.width(), design.height(), design.pixel_bits(), pixel).unwrap()
+}

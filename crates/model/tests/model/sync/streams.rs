@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Damaged streams through every organization: decisions are those of a camera that sees the frames which the page says
+//! there are, references and all, and errors come after the edges which it names.
+
+use super::machine::{Decided, Machine, frame_of, shape};
+use super::oracle::{Cut, Edge, cut};
+use crate::frames::Random;
+use foveate_design::{Config, Design};
+use foveate_model::{Camera, Thresholds};
+
+const BASE: &str = "frame.pixel_bits = 4\ntemporal = { level = 2, min_count = 3 }\nhardware.sync = true\n\
+                    region.size = 4\nspatial = [{ feature = 'edge', level = 12, min_score = 6 }]\n";
+
+/// Frames whose regions lie in it whole, where nothing says how the border repeats.
+const DESIGNS: &[&[&str]] = &[
+    &["frame.width=12", "frame.height=8"],
+    &[
+        "frame.width=12",
+        "frame.height=8",
+        "hardware.pipelining='deep'",
+        "temporal.reference='last-sent'",
+    ],
+    &[
+        "frame.width=8",
+        "frame.height=8",
+        "spatial=[{feature='mad',min_score=1}]",
+        "temporal.reference='last-sent'",
+    ],
+    &["frame.width=12", "frame.height=8", "hardware={organization='serial',fold=2,sync=true}"],
+    &[
+        "frame.width=12",
+        "frame.height=8",
+        "hardware={organization='serial',fold=3,feed='raster',sync=true}",
+    ],
+    &[
+        "frame.width=12",
+        "frame.height=8",
+        "region.neighborhood='shared'",
+        "temporal.reference='last-sent'",
+        "hardware={organization='serial',feed='raster',sync=true}",
+    ],
+    &["frame.width=16", "frame.height=12", "hardware={organization='raster',sync=true}"],
+    &[
+        "frame.width=29",
+        "frame.height=7",
+        "region.neighborhood='shared'",
+        "hardware={organization='raster',pixels_per_clock=2,pipelining='deep',sync=true}",
+    ],
+    &[
+        "frame.width=16",
+        "frame.height=8",
+        "temporal.reference='last-sent'",
+        "spatial=[{feature='mad',min_score=1}]",
+        "hardware={organization='raster',sync=true}",
+    ],
+    &[
+        "frame.width=16",
+        "frame.height=16",
+        "temporal.reference='last-sent'",
+        "hardware={organization='raster',sync=true}",
+    ],
+];
+
+fn design(more: &[&str]) -> Design {
+    Config::from_toml_with(BASE, more).unwrap().validate().unwrap()
+}
+
+/// Beats with marks: about as many frames, of which every other is damaged.
+fn stream(random: &mut Random, beats: usize, frames: usize) -> Vec<bool> {
+    let mut marks = vec![false; random.below(4) as usize];
+    for _ in 0..frames {
+        let any = |random: &mut Random| 1 + random.below(beats as i64 - 1) as usize;
+        let (length, sof) = match random.below(14) {
+            0 => (beats - 1, true),
+            1 => (any(random), true),
+            2 => (1, true),
+            3 => (beats + 1, true),
+            4 => (beats + any(random), true),
+            5 => (beats, false),
+            6 => (any(random), false),
+            _ => (beats, true),
+        };
+        marks.extend((0..length).map(|at| sof && at == 0));
+    }
+    // Whole ones at the end, so that there is something to see behind every damage.
+    for _ in 0..3 {
+        marks.extend((0..beats).map(|at| at == 0));
+    }
+    marks
+}
+
+struct Played {
+    edges: Vec<Edge>,
+    errors: Vec<usize>,
+    decided: Vec<Decided>,
+    left: usize,
+}
+
+/// Offers the beats to the array, with gaps, until all has left. Where the array has no ready, beats come whether it looks
+/// or not. While it is not ready `fill` stands on the port.
+fn play(design: &Design, marks: &[bool], random: &mut Random, fill: &[u16]) -> Played {
+    let (mut machine, thresholds) = (Machine::new(design), Thresholds::of(design));
+    let mut played = Played { edges: vec![], errors: vec![], decided: vec![], left: 0 };
+    let with_gaps = random.below(2) == 0;
+    let max = i64::from(design.pixel_max()) + 1;
+    let mut ready = machine.step((true, true, true), fill, &thresholds).ready;
+    assert!(ready);
+    let (mut next, mut silence, mut clock) = (0, 0, 0);
+    // Pixels change little, so that regions are held, too.
+    let mut picture: Vec<Vec<u16>> = vec![fill.to_vec(); shape(design).0];
+    while silence < design.timing().clocks_per_frame() + 200 {
+        let valid = next < marks.len() && !(with_gaps && random.below(4) == 0);
+        let sof = if valid { marks[next] } else { random.below(2) == 0 };
+        let pixels = if ready || !machine.has_ready() {
+            let places = picture.len();
+            let beat = &mut picture[next % places];
+            for pixel in beat.iter_mut() {
+                if random.below(6) == 0 {
+                    *pixel = random.below(max) as u16;
+                }
+            }
+            beat.clone()
+        } else {
+            fill.to_vec()
+        };
+        if ready {
+            played.edges.push(Edge { clock, valid, sof, pixels: pixels.clone() });
+            next += usize::from(valid);
+        }
+        let seen = machine.step((false, valid, sof), &pixels, &thresholds);
+        played.errors.extend(seen.sync_error.then_some(clock));
+        silence = if next < marks.len() || !seen.decided.is_empty() || seen.left > 0 {
+            0
+        } else {
+            silence + 1
+        };
+        played.decided.extend(seen.decided);
+        played.left += seen.left;
+        ready = seen.ready;
+        clock += 1;
+    }
+    played
+}
+
+#[test]
+fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
+    let (mut errors, mut completed, mut held) = (0, 0, 0);
+    for more in DESIGNS {
+        let design = design(more);
+        let (beats, width) = shape(&design);
+        for seed in 0..12 {
+            let random = &mut Random(seed * 7 + 1);
+            let marks = stream(random, beats, 9);
+            let fill = vec![random.below(i64::from(design.pixel_max()) + 1) as u16; width];
+            let played = play(&design, &marks, random, &fill);
+            let has_ready = Machine::new(&design).has_ready();
+            let found: Cut = cut(&played.edges, beats, has_ready.then_some(&fill[..]));
+            assert_eq!(played.errors, found.errors, "{more:?} {seed}");
+            (errors, completed) = (errors + found.errors.len(), completed + found.completed);
+
+            let mut camera = Camera::new(&design);
+            let regions = design.regions() as usize;
+            let late = design.timing().departure().decision_frames as usize;
+            let frames = found.frames.len();
+            assert_eq!(played.decided.len(), (frames - late) * regions, "{more:?} {seed}");
+            let mut left = 0;
+            for (number, frame) in found.frames.iter().enumerate() {
+                let outcome = camera.step(&frame_of(&design, frame)).unwrap();
+                left += outcome.active.iter().filter(|active| **active).count();
+                for decided in played.decided.iter().skip(number * regions).take(regions) {
+                    let at = decided.region as usize;
+                    let expected = (outcome.srs[at], outcome.trs[at], outcome.active[at]);
+                    let got = (decided.srs, decided.trs, decided.active);
+                    assert_eq!(got, expected, "{more:?} {seed}: frame {number}, region {at}");
+                    held += usize::from(outcome.srs[at] && !outcome.trs[at]);
+                }
+            }
+            if has_ready {
+                let pixels = left * design.region_pixels() as usize;
+                assert_eq!(played.left, pixels, "{more:?} {seed}");
+            }
+        }
+    }
+    assert!(errors > 300 && completed > 120 && held > 100, "{errors} {completed} {held}");
+}
+
+/// Without the marks a lost beat is never noticed, and all that follows is decided of other frames.
+#[test]
+fn without_it_a_lost_beat_leaves_the_array_out_of_step() {
+    for more in DESIGNS {
+        let with = design(more);
+        let mut config = with.config().clone();
+        config.hardware.sync = None;
+        let without = config.validate().unwrap();
+        let (beats, width) = shape(&with);
+        let mut marks: Vec<bool> = (0..4 * beats).map(|at| at % beats == 0).collect();
+        marks.remove(beats / 2);
+        let fill = vec![0; width];
+        let late = with.timing().departure().decision_frames as usize;
+        let frames = |design: &Design| {
+            let played = play(design, &marks, &mut Random(3), &fill);
+            (played.decided.len() / design.regions() as usize + late, played.errors.len())
+        };
+        // The first is completed, the second is dropped; the others are whole.
+        assert_eq!(frames(&with), (3, 1), "{more:?}");
+        assert_eq!(frames(&without), (3, 0), "{more:?}");
+    }
+}
