@@ -1,3 +1,4 @@
+rtl/frame_sync.v
 rtl/adder.v
 rtl/magnitude_above.v
 rtl/region_mean.v

@@ -3,9 +3,10 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 15 frames of 4 x 3 regions.
-// Decisions: 77 active, 35 held, 68 blank; 95 comparisons with an earlier frame.
+// The vectors show 19 frames of 4 x 3 regions.
+// Decisions: 113 active, 47 held, 68 blank; 131 comparisons with an earlier frame.
 // The sink stalls until 7 regions are lost.
+// Frames come damaged: 2 sync errors, and 28 decisions after the first.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has a bit for each value that differs from the line before: bit 0 for the first
@@ -29,6 +30,7 @@ module rpu_replay;
   reg clk_i = 1'b0;
   reg rst_i;
   reg valid_i;
+  reg sof_i;
   reg [7:0] pixel_i;
   reg forward_ready_i;
   reg [10:0] edge_level_i;
@@ -37,6 +39,7 @@ module rpu_replay;
   reg [6:0] temporal_min_i;
   reg rst_i_next;
   reg valid_i_next;
+  reg sof_i_next;
   reg [7:0] pixel_i_next;
   reg forward_ready_i_next;
   reg [10:0] edge_level_i_next;
@@ -46,6 +49,7 @@ module rpu_replay;
 
   // Outputs, what they should be, and whether they have been wrong.
   wire ready_o;
+  wire sync_error_o;
   wire decision_valid_o;
   wire [3:0] region_o;
   wire srs_o;
@@ -60,6 +64,7 @@ module rpu_replay;
   wire lost_o;
   wire [15:0] lost_count_o;
   reg ready_o_expected;
+  reg sync_error_o_expected;
   reg decision_valid_o_expected;
   reg [3:0] region_o_expected;
   reg srs_o_expected;
@@ -74,6 +79,7 @@ module rpu_replay;
   reg lost_o_expected;
   reg [15:0] lost_count_o_expected;
   reg ready_o_failed = 1'b0;
+  reg sync_error_o_failed = 1'b0;
   reg decision_valid_o_failed = 1'b0;
   reg region_o_failed = 1'b0;
   reg srs_o_failed = 1'b0;
@@ -92,6 +98,7 @@ module rpu_replay;
     .clk_i(clk_i),
     .rst_i(rst_i),
     .valid_i(valid_i),
+    .sof_i(sof_i),
     .pixel_i(pixel_i),
     .forward_ready_i(forward_ready_i),
     .edge_level_i(edge_level_i),
@@ -99,6 +106,7 @@ module rpu_replay;
     .temporal_level_i(temporal_level_i),
     .temporal_min_i(temporal_min_i),
     .ready_o(ready_o),
+    .sync_error_o(sync_error_o),
     .decision_valid_o(decision_valid_o),
     .region_o(region_o),
     .srs_o(srs_o),
@@ -119,39 +127,41 @@ module rpu_replay;
   integer failures;
   reg [63:0] clocks;
   reg [31:0] run;  // clocks for which the line is good
-  reg [22:0] changes;  // the first number of the line
+  reg [24:0] changes;  // the first number of the line
   reg is_whole;  // whether every value of the line was there
   reg has_passed = 1'b0;
 
   // The next line of the vectors.
   task read_line;
     begin
-      changes = 23'd0;
+      changes = 25'd0;
       run = 32'd1;
       is_whole = $fscanf(file, "%h", changes) == 1;
-      if (changes[22]) is_whole = $fscanf(file, "%h", run) == 1 && is_whole;
+      if (changes[24]) is_whole = $fscanf(file, "%h", run) == 1 && is_whole;
       if (changes[0]) is_whole = $fscanf(file, "%h", rst_i_next) == 1 && is_whole;
       if (changes[1]) is_whole = $fscanf(file, "%h", valid_i_next) == 1 && is_whole;
-      if (changes[2]) is_whole = $fscanf(file, "%h", pixel_i_next) == 1 && is_whole;
-      if (changes[3]) is_whole = $fscanf(file, "%h", forward_ready_i_next) == 1 && is_whole;
-      if (changes[4]) is_whole = $fscanf(file, "%h", edge_level_i_next) == 1 && is_whole;
-      if (changes[5]) is_whole = $fscanf(file, "%h", edge_min_i_next) == 1 && is_whole;
-      if (changes[6]) is_whole = $fscanf(file, "%h", temporal_level_i_next) == 1 && is_whole;
-      if (changes[7]) is_whole = $fscanf(file, "%h", temporal_min_i_next) == 1 && is_whole;
-      if (changes[8]) is_whole = $fscanf(file, "%h", ready_o_expected) == 1 && is_whole;
-      if (changes[9]) is_whole = $fscanf(file, "%h", decision_valid_o_expected) == 1 && is_whole;
-      if (changes[10]) is_whole = $fscanf(file, "%h", region_o_expected) == 1 && is_whole;
-      if (changes[11]) is_whole = $fscanf(file, "%h", srs_o_expected) == 1 && is_whole;
-      if (changes[12]) is_whole = $fscanf(file, "%h", trs_o_expected) == 1 && is_whole;
-      if (changes[13]) is_whole = $fscanf(file, "%h", active_o_expected) == 1 && is_whole;
-      if (changes[14]) is_whole = $fscanf(file, "%h", edge_score_o_expected) == 1 && is_whole;
-      if (changes[15]) is_whole = $fscanf(file, "%h", temporal_count_o_expected) == 1 && is_whole;
-      if (changes[16]) is_whole = $fscanf(file, "%h", forward_valid_o_expected) == 1 && is_whole;
-      if (changes[17]) is_whole = $fscanf(file, "%h", forward_region_o_expected) == 1 && is_whole;
-      if (changes[18]) is_whole = $fscanf(file, "%h", forward_position_o_expected) == 1 && is_whole;
-      if (changes[19]) is_whole = $fscanf(file, "%h", forward_pixel_o_expected) == 1 && is_whole;
-      if (changes[20]) is_whole = $fscanf(file, "%h", lost_o_expected) == 1 && is_whole;
-      if (changes[21]) is_whole = $fscanf(file, "%h", lost_count_o_expected) == 1 && is_whole;
+      if (changes[2]) is_whole = $fscanf(file, "%h", sof_i_next) == 1 && is_whole;
+      if (changes[3]) is_whole = $fscanf(file, "%h", pixel_i_next) == 1 && is_whole;
+      if (changes[4]) is_whole = $fscanf(file, "%h", forward_ready_i_next) == 1 && is_whole;
+      if (changes[5]) is_whole = $fscanf(file, "%h", edge_level_i_next) == 1 && is_whole;
+      if (changes[6]) is_whole = $fscanf(file, "%h", edge_min_i_next) == 1 && is_whole;
+      if (changes[7]) is_whole = $fscanf(file, "%h", temporal_level_i_next) == 1 && is_whole;
+      if (changes[8]) is_whole = $fscanf(file, "%h", temporal_min_i_next) == 1 && is_whole;
+      if (changes[9]) is_whole = $fscanf(file, "%h", ready_o_expected) == 1 && is_whole;
+      if (changes[10]) is_whole = $fscanf(file, "%h", sync_error_o_expected) == 1 && is_whole;
+      if (changes[11]) is_whole = $fscanf(file, "%h", decision_valid_o_expected) == 1 && is_whole;
+      if (changes[12]) is_whole = $fscanf(file, "%h", region_o_expected) == 1 && is_whole;
+      if (changes[13]) is_whole = $fscanf(file, "%h", srs_o_expected) == 1 && is_whole;
+      if (changes[14]) is_whole = $fscanf(file, "%h", trs_o_expected) == 1 && is_whole;
+      if (changes[15]) is_whole = $fscanf(file, "%h", active_o_expected) == 1 && is_whole;
+      if (changes[16]) is_whole = $fscanf(file, "%h", edge_score_o_expected) == 1 && is_whole;
+      if (changes[17]) is_whole = $fscanf(file, "%h", temporal_count_o_expected) == 1 && is_whole;
+      if (changes[18]) is_whole = $fscanf(file, "%h", forward_valid_o_expected) == 1 && is_whole;
+      if (changes[19]) is_whole = $fscanf(file, "%h", forward_region_o_expected) == 1 && is_whole;
+      if (changes[20]) is_whole = $fscanf(file, "%h", forward_position_o_expected) == 1 && is_whole;
+      if (changes[21]) is_whole = $fscanf(file, "%h", forward_pixel_o_expected) == 1 && is_whole;
+      if (changes[22]) is_whole = $fscanf(file, "%h", lost_o_expected) == 1 && is_whole;
+      if (changes[23]) is_whole = $fscanf(file, "%h", lost_count_o_expected) == 1 && is_whole;
     end
   endtask
 
@@ -159,6 +169,7 @@ module rpu_replay;
     begin
       rst_i = rst_i_next;
       valid_i = valid_i_next;
+      sof_i = sof_i_next;
       pixel_i = pixel_i_next;
       forward_ready_i = forward_ready_i_next;
       edge_level_i = edge_level_i_next;
@@ -175,6 +186,12 @@ module rpu_replay;
         failures = failures + 1;
         $display("MISMATCH clock %0d port ready_o expected %h got %h",
                  clocks, ready_o_expected, ready_o);
+      end
+      if (sync_error_o !== sync_error_o_expected && !sync_error_o_failed) begin
+        sync_error_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port sync_error_o expected %h got %h",
+                 clocks, sync_error_o_expected, sync_error_o);
       end
       if (decision_valid_o !== decision_valid_o_expected && !decision_valid_o_failed) begin
         decision_valid_o_failed = 1'b1;
@@ -267,7 +284,7 @@ module rpu_replay;
     clocks = 64'd0;
     failures = 0;
     is_whole = 1'b0;
-    changes = 23'd0;
+    changes = 25'd0;
     if (file != 0) read_line;
     while (is_whole && |changes && !(failures != 0 && $test$plusargs("stop"))) begin
       apply;
@@ -281,7 +298,7 @@ module rpu_replay;
       read_line;
     end
     if (file == 0) $display("FAIL cannot read the vectors from %0s", path);
-    else if (failures != 0) $display("FAIL %0d of 14 outputs in %0d clocks", failures, clocks);
+    else if (failures != 0) $display("FAIL %0d of 15 outputs in %0d clocks", failures, clocks);
     else if (!is_whole) $display("FAIL the vectors end after %0d clocks, in the middle", clocks);
     else if (clocks == 64'd0) $display("FAIL there are no vectors in %0s", path);
     else begin
