@@ -78,16 +78,22 @@ const fn drained(name: &'static str, deliveries: &'static [Delivery]) -> Damaged
 /// Every sequence, the most telling first.
 const DAMAGED: &[Damaged] = &[
     drained("a beat lost", &[Whole, Whole, Short(One), Whole, Whole, Whole]),
+    // Marks that come while the core completes a frame are none.
+    drained(
+        "marks while it completes",
+        &[Short(AllButOne), Short(AllButOne), Short(AllButOne), Whole, Whole, Whole],
+    ),
     Damaged {
         name: "reset while it completes",
         deliveries: &[Whole, Short(Many)],
         stop: Stop::Filling,
     },
+    drained("the first frame damaged", &[Short(Many), Whole, Whole, Whole]),
+    // What comes after this reset begins with a beat that would be an error without it.
+    Damaged { name: "reset before a start", deliveries: &[Whole, Whole], stop: Stop::AtOnce },
     drained("beats before the first frame", &[Strays, Whole, Whole, Short(Many), Whole, Whole]),
     Damaged { name: "reset in a frame", deliveries: &[Whole, Short(Many)], stop: Stop::AtOnce },
     drained("beats too many", &[Whole, Long(One), Whole, Long(Many), Whole]),
-    Damaged { name: "reset before a start", deliveries: &[Whole, Whole], stop: Stop::AtOnce },
-    drained("the first frame damaged", &[Short(Many), Whole, Whole, Whole]),
     Damaged { name: "reset while it seeks", deliveries: &[Whole, Strays], stop: Stop::AtOnce },
     drained("begun twice", &[Twice, Whole, Restarted, Whole, Whole]),
     drained("all but one lost", &[Whole, Short(AllButOne), Whole, Whole]),

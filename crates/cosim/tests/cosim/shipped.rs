@@ -426,12 +426,12 @@ fn every_tied_output_fails() {
         return;
     }
     for toml in [
-        of_organization(2, None),
+        format!("hardware.sync = true\n{}", of_organization(2, None)),
         of_organization(8, None),
         format!("denoise.filter = 'none'\n{}", of_organization(20, None)),
         of_organization(8, Some((3, "raster"))),
         of_organization(4, Some((7, "parallel"))),
-        of_raster(8, 1),
+        format!("hardware.sync = true\n{}", of_raster(8, 1)),
         of_raster(4, 2),
         format!("{}spatial = [{{ feature = 'mad', min_score = 5 }}]\n", of_raster(8, 4)),
     ] {

@@ -165,7 +165,7 @@ fn the_vectors_damage_streams_in_every_state() {
         let design = design(keys);
         let recording = directed(Level::Full, 3).record(&design, &mut |_, _| {}).unwrap();
         let story = story(&design, &recording);
-        assert!(story.errors >= 45 && story.decisions > 100, "{keys:?} {story:?}");
+        assert!(story.errors >= 36 && story.decisions > 100, "{keys:?} {story:?}");
         for state in [State::Seek, State::Start, State::Inside, State::Fill] {
             let count = |map: &BTreeMap<State, u64>| map.get(&state).copied().unwrap_or(0);
             assert!(count(&story.resets) > 0, "no reset in {state:?}: {keys:?} {story:?}");
@@ -185,7 +185,7 @@ fn without_it_the_vectors_are_what_they_were() {
         let record =
             |design: &Design| directed(Level::Full, 1).record(design, &mut |_, _| {}).unwrap();
         let (with, without) = (record(&with), record(&without));
-        assert_eq!(with.sequences(), without.sequences() + 12, "{keys:?}");
+        assert_eq!(with.sequences(), without.sequences() + 13, "{keys:?}");
         let names = without.inputs().fields().iter().chain(without.outputs().fields());
         for name in names.map(|field| &field.port.name) {
             assert!(!name.contains("sof") && !name.contains("sync"), "{name}");

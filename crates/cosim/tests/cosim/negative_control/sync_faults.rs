@@ -33,6 +33,6 @@ pub(crate) const FAULTS: &[Fault] = &[
 
     fault("constant", Pipelined, "rcm", "BEATS = 9;", "BEATS = 8;"),
     fault("index", Pipelined, "rcm", ".valid_i(beat)", ".valid_i(valid_i)"),
-    fault("constant", Serial, "rcm", "BEATS = COLUMNS * ROWS * 16;", "BEATS = COLUMNS * 16;"),
+    fault("constant", Serial, "rcm", "BEATS = COLUMNS * ROWS * 16;", "BEATS = ROWS * 16;"),
     fault("constant", Raster, "rcm", "(COLUMNS * 4 - 3) * (ROWS * 4 - 1)", "(COLUMNS * 4 - 3) * (ROWS * 4)"),
 ];
