@@ -85,7 +85,7 @@ const DAMAGED: &[Damaged] = &[
     ),
     Damaged {
         name: "reset while it completes",
-        deliveries: &[Whole, Short(Many)],
+        deliveries: &[Whole, Short(AllButOne)],
         stop: Stop::Filling,
     },
     drained("the first frame damaged", &[Short(Many), Whole, Whole, Whole]),
@@ -97,7 +97,8 @@ const DAMAGED: &[Damaged] = &[
     Damaged { name: "reset while it seeks", deliveries: &[Whole, Strays], stop: Stop::AtOnce },
     drained("begun twice", &[Twice, Whole, Restarted, Whole, Whole]),
     drained("all but one lost", &[Whole, Short(AllButOne), Whole, Whole]),
-    drained("no mark", &[Whole, Unmarked, Whole, Unmarked, Strays, Whole]),
+    Damaged { name: "reset after a frame", deliveries: &[Whole], stop: Stop::AtOnce },
+    drained("no mark", &[Unmarked, Whole, Unmarked, Whole, Unmarked, Strays, Whole]),
     drained("damaged again and again", &[Short(One), Short(Many), Short(Many), Whole, Whole]),
 ];
 

@@ -185,7 +185,7 @@ fn without_it_the_vectors_are_what_they_were() {
         let record =
             |design: &Design| directed(Level::Full, 1).record(design, &mut |_, _| {}).unwrap();
         let (with, without) = (record(&with), record(&without));
-        assert_eq!(with.sequences(), without.sequences() + 13, "{keys:?}");
+        assert_eq!(with.sequences(), without.sequences() + 14, "{keys:?}");
         let names = without.inputs().fields().iter().chain(without.outputs().fields());
         for name in names.map(|field| &field.port.name) {
             assert!(!name.contains("sof") && !name.contains("sync"), "{name}");

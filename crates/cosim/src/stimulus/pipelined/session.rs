@@ -93,7 +93,7 @@ impl<'a> Session<'a> {
             Stop::AtOnce => Ok(()),
             Stop::Filling => {
                 self.driver.deliver(&streams, Delivery::FIRST, gaps)?;
-                let clocks = self.random.up_to(3);
+                let clocks = self.random.up_to(2);
                 self.driver.idle(clocks)
             }
         }

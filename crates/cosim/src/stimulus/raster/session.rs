@@ -86,7 +86,7 @@ impl<'a> Session<'a> {
             Stop::AtOnce => self.busy(1),
             Stop::Filling => {
                 self.driver.deliver(&self.gallery.frame()?, Delivery::FIRST, gaps)?;
-                let clocks = self.random.up_to(3);
+                let clocks = self.random.up_to(2);
                 self.busy(clocks)
             }
         }

@@ -100,7 +100,7 @@ impl<'a> Session<'a> {
             Stop::AtOnce => self.driver.idle(1),
             Stop::Filling => {
                 self.draw_damaged(round, Delivery::FIRST, gaps)?;
-                let clocks = self.random.up_to(3);
+                let clocks = self.random.up_to(2);
                 self.driver.idle(clocks)
             }
         }
