@@ -93,6 +93,10 @@ module raster_core #(
         if (SIDE % LANES != 0) begin : g_side SIDE_must_be_a_multiple_of_LANES u_refused (); end
         if (COLUMNS < 4) begin : g_columns COLUMNS_must_be_4_or_more u_refused (); end
         if (COLUMNS * SIDE < 16 * LANES) begin : g_row a_row_must_have_16_words_or_more u_refused (); end
+        if (WIDTH < 1 || WIDTH > 16) begin : g_pixel WIDTH_must_be_1_to_16 u_refused (); end
+        if (SIDE < 2 || SIDE > 64) begin : g_region SIDE_must_be_2_to_64 u_refused (); end
+        if (FRAME_WIDTH > 8192) begin : g_widest FRAME_WIDTH_must_be_8192_or_less u_refused (); end
+        if (FRAME_HEIGHT > 16384) begin : g_highest FRAME_HEIGHT_must_be_16384_or_less u_refused (); end
         if (FRAME_WIDTH > COLUMNS * SIDE || FRAME_WIDTH + SIDE <= COLUMNS * SIDE) begin : g_width
             FRAME_WIDTH_must_need_COLUMNS u_refused ();
         end

@@ -72,7 +72,7 @@ def fidelity(inputs: Inputs, camera: Any = None, *, ideal: Any = None, **options
     return Fidelity(json.loads(values), problem)
 
 
-def generate(camera: Any, folder: PathLike, *, force: bool = False) -> list[Path]:
+def generate(camera: Any, folder: PathLike, *, force: bool = False, prefix: str | None = None) -> list[Path]:
     """Write the Verilog of a design, with file lists, constraints, benches and a README.
 
     Parameters
@@ -83,6 +83,9 @@ def generate(camera: Any, folder: PathLike, *, force: bool = False) -> list[Path
         The folder to write. It appears when it is complete.
     force : bool, default False
         Replace the folder if it holds a generated core.
+    prefix : str, optional
+        What the names of all modules begin with, before a ``_``, so that several cores fit into one chip. With
+        ``"auto"`` it is made from the fingerprint of the design.
 
     Returns
     -------
@@ -91,10 +94,12 @@ def generate(camera: Any, folder: PathLike, *, force: bool = False) -> list[Path
 
     Raises
     ------
+    ValueError
+        If names of modules cannot begin with the prefix.
     FileExistsError
         If the folder holds something.
     """
-    return [Path(folder) / name for name in _foveate.generate(camera, folder, force)]
+    return [Path(folder) / name for name in _foveate.generate(camera, folder, force, prefix)]
 
 
 def estimate(camera: Any) -> Estimate:

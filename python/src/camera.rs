@@ -262,13 +262,14 @@ impl Camera {
     }
 
     /// Writes the Verilog of the design to a folder; see `foveate.generate`.
-    #[pyo3(signature = (folder, *, force=false))]
+    #[pyo3(signature = (folder, *, force=false, prefix=None))]
     fn generate<'py>(
         slf: &Bound<'py, Self>,
         folder: &Bound<'py, PyAny>,
         force: bool,
+        prefix: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        tools::generate_of(slf, folder, force)
+        tools::generate_of(slf, folder, force, prefix)
     }
 
     /// Area and logic levels of the design; see `foveate.estimate`.

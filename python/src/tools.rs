@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use foveate_cosim::write_core;
-use foveate_emit::Top;
+use foveate_emit::{Prefix, Top};
 use foveate_estimate::{EstimateJob, render_text};
 use foveate_toolchain::{Cache, Toolchain};
 use pyo3::exceptions::PyUserWarning;
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::config;
-use crate::error::raise;
+use crate::error::{raise, value_error};
 use crate::study::json;
 use crate::work::{at_once_with, interruptible};
 
@@ -26,14 +26,17 @@ fn design(camera: &Bound<'_, PyAny>) -> PyResult<foveate_design::Design> {
 
 /// Writes the core of a design; returns its files.
 #[pyfunction]
+#[pyo3(signature = (camera, folder, force, prefix=None))]
 pub(crate) fn generate(
     py: Python<'_>,
     camera: &Bound<'_, PyAny>,
     folder: PathBuf,
     force: bool,
+    prefix: Option<&str>,
 ) -> PyResult<Vec<String>> {
     let design = design(camera)?;
-    let core = interruptible(py, |cancel| write_core(&design, &folder, force, &cancel))?;
+    let prefix = Prefix::asked(prefix, &design).map_err(value_error)?;
+    let core = interruptible(py, |cancel| write_core(&design, &prefix, &folder, force, &cancel))?;
     let core = core.map_err(raise)?;
     for warning in core.warnings() {
         let text = std::ffi::CString::new(warning).unwrap_or_default();
@@ -63,9 +66,11 @@ pub(crate) fn generate_of<'py>(
     camera: &Bound<'py, PyAny>,
     folder: &Bound<'py, PyAny>,
     force: bool,
+    prefix: Option<&str>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let options = PyDict::new(camera.py());
     options.set_item("force", force)?;
+    options.set_item("prefix", prefix)?;
     let work = camera.py().import("foveate._work")?;
     work.call_method("generate", (camera, folder), Some(&options))
 }

@@ -26,6 +26,8 @@ module {= module =} #(
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+        if (COLUMNS > {= widest =}) begin : g_widest COLUMNS_must_be_{= widest =}_or_less u_refused (); end
+        if (ROWS > {= highest =}) begin : g_highest ROWS_must_be_{= highest =}_or_less u_refused (); end
 {%- if fold > 1 %}
         if (COLUMNS * ROWS < {= fold =}) begin : g_fold
             COLUMNS_times_ROWS_must_be_{= fold =}_or_more u_refused ();

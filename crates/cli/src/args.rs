@@ -133,6 +133,10 @@ pub(crate) struct GenerateArgs {
     /// Replace the folder if it holds a generated core
     #[arg(long)]
     pub(crate) force: bool,
+    /// Put NAME_ before the names of all modules, so that several cores fit into one chip. Without a NAME, or with
+    /// `auto`, it is made from the fingerprint of the design
+    #[arg(long, value_name = "NAME", num_args = 0..=1, default_missing_value = "auto")]
+    pub(crate) prefix: Option<String>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -175,6 +179,9 @@ pub(crate) struct CosimArgs {
     /// Check the Verilog files of this folder instead of freshly generated ones
     #[arg(long, value_name = "DIR")]
     pub(crate) rtl: Option<PathBuf>,
+    /// Choose the core of this prefix, if the folder of --rtl has several; a single one is found without it
+    #[arg(long, value_name = "NAME", requires = "rtl")]
+    pub(crate) prefix: Option<String>,
     /// Seed of the random vectors
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use foveate_bench::BenchError;
 use foveate_cosim::CosimError;
 use foveate_design::DesignError;
+use foveate_emit::EmitError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
@@ -29,6 +30,8 @@ pub(crate) enum CliError {
     Tool(#[from] ToolError),
     #[error(transparent)]
     Cosim(#[from] CosimError),
+    #[error(transparent)]
+    Emit(#[from] EmitError),
     #[error(transparent)]
     Estimate(#[from] EstimateError),
     #[error(transparent)]

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use foveate_design::Design;
-use foveate_emit::Top;
+use foveate_emit::{Prefix, Top};
 use foveate_staging::{Kind, StagedFolder};
 
 use crate::{CosimError, ShippedBench, timing_diagram};
@@ -25,13 +25,16 @@ pub struct WrittenCore {
     pub files: Vec<String>,
     /// The bench of one RPU or lane, and that of the array.
     pub benches: Vec<ShippedBench>,
+    /// What the names of its modules begin with.
+    pub prefix: Prefix,
 }
 
 impl WrittenCore {
     /// Says which benches will not pass, and why.
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         self.benches.iter().filter_map(|bench| {
-            let (top, shortcoming) = (bench.top.module(), bench.shortcoming.as_ref()?);
+            let shortcoming = bench.shortcoming.as_ref()?;
+            let top = self.prefix.name(bench.top.module());
             Some(format!(
                 "tb/{top}_replay.v does not test all of `{top}`, so it never says PASS: {shortcoming}"
             ))
@@ -39,20 +42,21 @@ impl WrittenCore {
     }
 }
 
-/// Writes the core of a design to a folder, which appears when it is complete. `overwrite` replaces an
-/// earlier core.
+/// Writes the core of a design to a folder, which appears when it is complete. Names of its modules begin with
+/// `prefix`; `overwrite` replaces an earlier core.
 ///
 /// # Errors
 /// When the folder cannot be written or holds something else, and when `cancel` is set.
 pub fn write_core(
     design: &Design,
+    prefix: &Prefix,
     folder: &Path,
     overwrite: bool,
     cancel: &AtomicBool,
 ) -> Result<WrittenCore, CosimError> {
     let staged = StagedFolder::new(folder, CORE, overwrite)?;
-    let mut files = foveate_emit::core(design);
-    let bench = |top| ShippedBench::new(design, top, cancel);
+    let mut files = foveate_emit::core(design, prefix);
+    let bench = |top| ShippedBench::new(design, top, prefix, cancel);
     let benches = [Top::Rpu, Top::Rcm].into_iter().map(bench).collect::<Result<Vec<_>, _>>()?;
     files.extend(benches.iter().flat_map(|bench| bench.files.iter().cloned()));
     files.extend(timing_diagram(design, cancel)?);
@@ -60,5 +64,6 @@ pub fn write_core(
         staged.write(&file.path, file.contents.as_bytes())?;
     }
     staged.commit()?;
-    Ok(WrittenCore { files: files.into_iter().map(|file| file.path).collect(), benches })
+    let files = files.into_iter().map(|file| file.path).collect();
+    Ok(WrittenCore { files, benches, prefix: prefix.clone() })
 }

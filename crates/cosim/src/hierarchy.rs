@@ -5,7 +5,7 @@
 //! `generate`, whether the design takes that branch or not. So a leaf that a generated core brings
 //! along but does not need counts as reached; a file that nothing instantiates does not.
 
-use foveate_emit::SourceFile;
+use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
@@ -37,6 +37,18 @@ struct Module {
 /// Whether a file declares the module.
 pub(crate) fn declares(sources: &[SourceFile], module: &str) -> bool {
     sources.iter().flat_map(|file| modules(&file.contents)).any(|found| found.name == module)
+}
+
+/// The prefixes under which there is a core among the files: a module `rpu` or `rcm` with that prefix. Where one has
+/// none it is that core alone: what else ends like this is somebody's own.
+#[must_use]
+pub fn prefixes(sources: &[SourceFile]) -> BTreeSet<Prefix> {
+    let modules = sources.iter().flat_map(|file| modules(&file.contents));
+    let found: BTreeSet<Prefix> = modules
+        .flat_map(|module| [Top::Rpu, Top::Rcm].map(|top| Prefix::of_top(&module.name, top)))
+        .flatten()
+        .collect();
+    if found.contains(&Prefix::default()) { BTreeSet::from([Prefix::default()]) } else { found }
 }
 
 /// The modules, by file, that are neither among `tops` nor below them.
@@ -189,6 +201,22 @@ mod tests {
             not_simulated(&sources, &["a"]).iter().map(ToString::to_string).collect();
         assert_eq!(named, ["a.v (module spare)", "c.v (module c)"]);
         assert_eq!(not_simulated(&sources, &["a", "spare"]), []);
+    }
+
+    #[test]
+    fn cores_are_found_by_their_tops() {
+        let of = |modules: &[&str]| {
+            let sources: Vec<SourceFile> = modules
+                .iter()
+                .map(|name| file("a.v", &format!("module {name}; endmodule")))
+                .collect();
+            let found = prefixes(&sources);
+            found.iter().map(|prefix| prefix.text().to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(of(&["rpu", "rcm", "my_rcm"]), [""]);
+        assert_eq!(of(&["cam0_rpu", "cam0_rcm", "cam0_vote"]), ["cam0"]);
+        assert_eq!(of(&["b_rcm", "a_rpu"]), ["a", "b"]);
+        assert!(of(&["vote", "rcm_replay"]).is_empty());
     }
 
     #[test]

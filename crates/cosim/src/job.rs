@@ -11,7 +11,7 @@ use crate::report::{CosimReport, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
 use foveate_design::{Design, DesignError};
-use foveate_emit::{SourceFile, verilog};
+use foveate_emit::{Prefix, SourceFile, verilog};
 use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
 use std::path::{Path, PathBuf};
@@ -27,6 +27,8 @@ pub struct Job {
     pub design: Design,
     /// The Verilog: what the emitter makes of the design, or what a user made of that.
     pub sources: Vec<SourceFile>,
+    /// What the names of its modules begin with.
+    pub prefix: Prefix,
     /// What synthesis has made of the Verilog; it is simulated instead, in Icarus.
     pub netlist: Option<Netlist>,
     /// The vectors.
@@ -65,10 +67,17 @@ impl Job {
     /// # Errors
     /// When the level's grid makes a frame that no design can have.
     pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, DesignError> {
-        stimulus.level.design(design)?;
+        let part = stimulus.level.design(design)?;
+        // The array takes its grid from its parameters, so that its Verilog is that of the design.
+        let mut sources = verilog(design, stimulus.level.top());
+        // A larger grid than the design's may elaborate more.
+        let is_new = |file: &SourceFile| sources.iter().all(|other| other.path != file.path);
+        let more: Vec<_> =
+            verilog(&part, stimulus.level.top()).into_iter().filter(is_new).collect();
+        sources.splice(0..0, more);
         Ok(Self {
-            // The array takes its grid from its parameters, so that its Verilog is that of the design.
-            sources: verilog(design, stimulus.level.top()),
+            sources,
+            prefix: Prefix::default(),
             design: design.clone(),
             netlist: None,
             stimulus,
@@ -86,7 +95,7 @@ impl Job {
     pub fn synthesize(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Netlist, CosimError> {
         let design = self.stimulus.level.design(&self.design)?;
         let top = self.stimulus.level.top();
-        Netlist::of(&design, top, self.named_sources(), toolchain, cache)
+        Netlist::of(&design, top, &self.prefix, self.named_sources(), toolchain, cache)
     }
 
     /// Runs it to a report; a mismatch is a result and no error.
@@ -156,11 +165,15 @@ impl Job {
         let top = self.stimulus.level.top();
         let array = self.stimulus.level != Level::Rpu && design.regions() > INLINED_REGIONS;
         let dut = Dut {
-            top: top.module().to_owned(),
+            top: self.prefix.name(top.module()),
             ports: top.ports(design),
             parameters: top.parameters(design),
             sources: self.named_sources(),
-            no_inline: if array { vec![design.unit().module.to_owned()] } else { Vec::new() },
+            no_inline: if array {
+                vec![self.prefix.name(design.unit().module)]
+            } else {
+                Vec::new()
+            },
         };
         match &self.netlist {
             None => dut,

@@ -3,7 +3,7 @@
 
 use crate::hierarchy::declares;
 use foveate_design::{Design, DesignError};
-use foveate_emit::{SourceFile, Top};
+use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -62,16 +62,16 @@ impl Level {
     }
 
     /// The levels that between them simulate Verilog that somebody gives: one for each of the modules
-    /// `rpu` and `rcm` that is there, the array as [`Level::sample`] and, if it is more than that and
+    /// `rpu` and `rcm` that is there under this prefix, the array as [`Level::sample`] and, if it is more than that and
     /// [affordable](Self::is_whole_affordable), whole. Without either it is `rpu`, whose simulation says what
     /// is missing.
     #[must_use]
-    pub fn all_of(design: &Design, sources: &[SourceFile]) -> Vec<Self> {
+    pub fn all_of(design: &Design, sources: &[SourceFile], prefix: &Prefix) -> Vec<Self> {
         let mut levels = vec![Self::Rpu, Self::sample(design)];
         if Self::is_whole_affordable(design) && !levels[1].is_whole(design) {
             levels.push(Self::Full);
         }
-        let is_there = |level: &Self| declares(sources, level.top().module());
+        let is_there = |level: &Self| declares(sources, &prefix.name(level.top().module()));
         let found: Vec<Self> = levels.into_iter().filter(is_there).collect();
         if found.is_empty() { vec![Self::Rpu] } else { found }
     }

@@ -46,7 +46,7 @@ pub use error::CosimError;
 pub use field::Field;
 pub use gate::Gate;
 pub use harness::{bench_file, bench_name, cpp_harness, replay_bench};
-pub use hierarchy::{NotSimulated, not_simulated};
+pub use hierarchy::{NotSimulated, not_simulated, prefixes};
 pub use job::{Job, Progress};
 pub use junit::{junit_error, junit_xml};
 pub use layout::Layout;

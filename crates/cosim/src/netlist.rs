@@ -8,7 +8,7 @@
 use crate::cells::{cell_models, wired_wrongly};
 use crate::error::CosimError;
 use foveate_design::Design;
-use foveate_emit::Top;
+use foveate_emit::{Prefix, Top};
 use foveate_estimate::{EstimateJob, ToolRecord, sources};
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256, yosys};
 use serde::{Deserialize, Serialize};
@@ -38,22 +38,25 @@ pub struct NetlistRecord {
 
 impl Netlist {
     /// Synthesizes `top` of a design, that of the level, from Verilog for it. At the level of one RPU it is
-    /// that of the array of the design, as in the estimate.
+    /// that of the array of the design, as in the estimate. Names of its modules begin with `prefix`.
     pub(crate) fn of(
         design: &Design,
         top: Top,
+        prefix: &Prefix,
         mut verilog: Vec<Source>,
         toolchain: &Toolchain,
         cache: &Cache,
     ) -> Result<Self, CosimError> {
         if design.unit().rpu_in_rcm {
             // Verilog of one RPU lacks the array around it, which comes last.
-            let array = sources(foveate_emit::verilog(design, Top::Rcm)).pop();
+            let array = prefix.apply(foveate_emit::verilog(design, Top::Rcm));
+            let array = sources(array).pop();
             let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
             verilog.extend(array.filter(is_new));
         }
-        let synthesis =
-            EstimateJob::with_sources(design, top, verilog).synthesize(toolchain, cache)?;
+        let mut job = EstimateJob::with_sources(design, top, verilog);
+        (job.unit, job.array) = (prefix.name(&job.unit), prefix.name(&job.array));
+        let synthesis = job.synthesize(toolchain, cache)?;
         if wired_wrongly(&synthesis.verilog) {
             return Err(CosimError::WiredWrongly { yosys: synthesis.tool.version });
         }

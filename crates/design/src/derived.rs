@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The numbers of a design that follow from its configuration, for every organization.
 
+use crate::validate::MAX_SIDE;
 use crate::width::index_bits;
 use crate::{
     Design, FeatureKind, Filter, Neighborhood, Payload, SpatialFeature, bits_for, fingerprint,
@@ -59,6 +60,12 @@ impl Design {
     #[must_use]
     pub fn keeps_raw(&self) -> bool {
         self.payload() == Payload::Raw && self.filter() != Filter::None
+    }
+
+    /// Regions in a row or a column of the largest frame that a configuration may ask for.
+    #[must_use]
+    pub fn most_in_line(&self) -> u32 {
+        MAX_SIDE.div_ceil(self.region_size())
     }
 
     /// Pixels of halo r that a region's stream carries on each side: one per 3x3 window in a row,

@@ -158,6 +158,18 @@ impl Design {
         self.config.hardware.sync.unwrap_or(false)
     }
 
+    /// The configuration with every key that its organization takes, also those that it leaves out while they have
+    /// their default.
+    #[must_use]
+    pub fn spelled_out(&self) -> Config {
+        let mut config = self.config.clone();
+        let hardware = &mut config.hardware;
+        hardware.pipelining = Some(self.pipelining());
+        // What has a frame store may forward.
+        hardware.forward = hardware.store.map(|_| self.forwards());
+        config
+    }
+
     /// Where the thresholds come from.
     #[must_use]
     pub fn thresholds(&self) -> Thresholds {

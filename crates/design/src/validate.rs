@@ -12,7 +12,7 @@ use crate::{
 /// Frame size where the configuration leaves it out.
 const DEFAULT_SIDE: u32 = 224;
 /// Largest frame side; keeps every count of regions and pixels far inside 32 bits.
-const MAX_SIDE: u32 = 16_384;
+pub(crate) const MAX_SIDE: u32 = 16_384;
 /// Most regions of a frame: those of the largest frame at 8x8 pixels. What a model keeps per region
 /// then stays within memory.
 const MAX_REGIONS: u32 = 1 << 22;

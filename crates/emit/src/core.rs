@@ -4,7 +4,7 @@
 
 use crate::organization::Emitter;
 use crate::text::text_of;
-use crate::{SourceFile, Top, banner, verilog};
+use crate::{Prefix, SourceFile, Top, banner, synth, verilog};
 use askama::Template;
 use foveate_design::Design;
 
@@ -13,52 +13,73 @@ use foveate_design::Design;
 struct FuseSoc<'a> {
     banner: String,
     version: &'static str,
+    name: String,
+    before: String,
     columns: u32,
     rows: u32,
     n: u32,
     files: Vec<&'a str>,
+    /// What nextpnr is told for the first device of each family.
+    ecp5: String,
+    ice40: String,
 }
 
 #[derive(Template)]
 #[template(path = "replay.sh")]
 struct Replay {
     banner: String,
+    /// What file lists and benches begin with: the prefix and its `_`.
+    before: String,
     simulator: &'static str,
+}
+
+#[derive(Template)]
+#[template(path = "vivado_ooc.tcl")]
+struct Vivado {
+    banner: String,
+    before: String,
 }
 
 /// Clocks of a frame, of all lanes, from which a bench is slower in Icarus than Verilator takes to compile it.
 const ICARUS_CLOCKS: u64 = 40_000;
 
-/// Every file of the core of `design` but its benches and its timing diagram, which come from the model.
+/// Every file of the core of `design` but its benches and its timing diagram, which come from the model. Names of
+/// modules begin with `prefix`.
 #[must_use]
-pub fn core(design: &Design) -> Vec<SourceFile> {
-    let mut files = verilog(design, Top::Rcm);
+pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
+    let mut files = prefix.apply(verilog(design, Top::Rcm));
     let rcm_list = file_list(&files);
-    let unit = verilog(design, Top::Rpu);
+    let unit = prefix.apply(verilog(design, Top::Rpu));
     let unit_list = file_list(&unit);
     // A serial array has no RPU inside.
     files.extend(unit.into_iter().filter(|file| !rcm_list.contains(&file.path)));
     let paths: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
+    let vivado = Vivado { banner: banner(design), before: prefix.name("") };
     let beside = [
-        ("rpu.f", unit_list),
-        ("rcm.f", rcm_list),
-        ("foveate_rcm.core", text_of(&fusesoc(design, paths))),
-        ("constraints/ooc.xdc", include_str!("../../../constraints/ooc.xdc").to_owned()),
-        ("vivado_ooc.tcl", include_str!("../../../scripts/vivado_ooc.tcl").to_owned()),
-        ("design.toml", design_toml(design)),
-        ("tb/replay.sh", text_of(&replay(design))),
-        ("README.md", (Emitter::of(design).readme)(design)),
+        (prefix.name("rpu.f"), unit_list),
+        (prefix.name("rcm.f"), rcm_list),
+        ("foveate_rcm.core".to_owned(), text_of(&fusesoc(design, prefix, paths))),
+        ("constraints/ooc.xdc".to_owned(), include_str!("../../../constraints/ooc.xdc").to_owned()),
+        ("vivado_ooc.tcl".to_owned(), text_of(&vivado)),
+        ("design.toml".to_owned(), design_toml(design)),
+        ("tb/replay.sh".to_owned(), text_of(&replay(design, prefix))),
+        ("README.md".to_owned(), (Emitter::of(design).readme)(design, prefix)),
     ];
-    files.extend(beside.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }));
+    files.extend(synth::files(design, prefix));
+    files.extend(beside.map(|(path, contents)| SourceFile { path, contents }));
     files
 }
 
-fn replay(design: &Design) -> Replay {
+fn replay(design: &Design, prefix: &Prefix) -> Replay {
     let unit = design.unit();
     // Of an array of copies the bench simulates a few.
     let lanes = if unit.rpu_in_rcm { 1 } else { u64::from(unit.count) };
     let is_long = design.timing().clocks_per_frame().saturating_mul(lanes) > ICARUS_CLOCKS;
-    Replay { banner: banner(design), simulator: if is_long { "verilator" } else { "iverilog" } }
+    Replay {
+        banner: banner(design),
+        before: prefix.name(""),
+        simulator: if is_long { "verilator" } else { "iverilog" },
+    }
 }
 
 fn file_list(files: &[SourceFile]) -> String {
@@ -69,13 +90,18 @@ fn design_toml(design: &Design) -> String {
     format!("# {}\n\n{}", banner(design), design.config().to_toml())
 }
 
-fn fusesoc<'a>(design: &Design, files: Vec<&'a str>) -> FuseSoc<'a> {
+fn fusesoc<'a>(design: &Design, prefix: &Prefix, files: Vec<&'a str>) -> FuseSoc<'a> {
     FuseSoc {
         banner: banner(design),
         version: env!("CARGO_PKG_VERSION"),
+        // No two designs have the same, and neither have two prefixes of one.
+        name: prefix.name(&design.fingerprint()),
+        before: prefix.name(""),
         columns: design.columns(),
         rows: design.rows(),
         n: design.region_size(),
         files,
+        ecp5: synth::options(&synth::ECP5),
+        ice40: synth::options(&synth::ICE40),
     }
 }

@@ -2,11 +2,12 @@
 //! How `rcm` is put into somebody's own Verilog: every port with its width, thresholds with their values.
 
 use crate::thresholds::threshold_value;
+use crate::{Prefix, Top};
 use foveate_design::{Design, Direction, Port, PortRole};
 
 /// Declarations and an instance of `rcm`, as lines of Verilog-2005. Names are those of the ports without
 /// `_i` and `_o`; threshold inputs are the constants of the configuration.
-pub(crate) fn instance(design: &Design) -> Vec<String> {
+pub(crate) fn instance(design: &Design, prefix: &Prefix) -> Vec<String> {
     let ports = design.rcm_ports();
     let signals: Vec<&Port> =
         ports.iter().filter(|port| threshold_value(design, port).is_none()).collect();
@@ -21,7 +22,7 @@ pub(crate) fn instance(design: &Design) -> Vec<String> {
     };
     let mut lines: Vec<String> = signals.iter().map(declare).collect();
     lines.push(String::new());
-    lines.push("rcm u_rcm (".to_owned());
+    lines.push(format!("{} u_{0} (", prefix.name(Top::Rcm.module())));
     let last = ports.len() - 1;
     for (number, port) in ports.iter().enumerate() {
         let value = threshold_value(design, port)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
+use crate::branch::is_taken;
 use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining, Reference};
 
 /// A hand-written module of `rtl/`.
@@ -10,7 +11,7 @@ pub struct Leaf {
     pub name: &'static str,
     /// Its text.
     pub contents: &'static str,
-    /// The leaves that it instantiates.
+    /// The leaves that it instantiates, in any branch.
     pub uses: &'static [&'static str],
 }
 
@@ -106,12 +107,16 @@ leaves! {
     ],
 }
 
-/// The leaves of these names and those that they instantiate, in compile order.
-pub(crate) fn with_parts(mut names: Vec<&'static str>) -> impl Iterator<Item = &'static Leaf> {
+/// The leaves of these names and those that they elaborate in `design`, in compile order.
+pub(crate) fn with_parts(
+    design: &Design,
+    mut names: Vec<&'static str>,
+) -> impl Iterator<Item = &'static Leaf> {
     // Every leaf stands after those that it instantiates.
     for leaf in LEAVES.iter().rev() {
         if names.contains(&leaf.name) {
-            names.extend(leaf.uses);
+            let taken = leaf.uses.iter().filter(|part| is_taken(design, leaf.name, part));
+            names.extend(taken);
         }
     }
     LEAVES.iter().filter(move |leaf| names.contains(&leaf.name))

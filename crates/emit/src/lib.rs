@@ -5,23 +5,29 @@
 //! hold structure only. Emission is deterministic: the text has no dates and no paths, and only
 //! what the design needs.
 
+mod branch;
 mod core;
+mod error;
 mod instance;
 mod leaf;
 mod organization;
+mod prefix;
 mod raster;
 mod rcm;
 mod readme;
 mod rpu;
 mod serial;
 mod sync;
+mod synth;
 mod text;
 mod thresholds;
 mod top;
 mod verilog;
 
 pub use crate::core::core;
+pub use error::EmitError;
 pub use leaf::{LEAVES, Leaf};
+pub use prefix::Prefix;
 pub use top::{Parameter, Top};
 pub use verilog::verilog;
 

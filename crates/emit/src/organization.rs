@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the Verilog of an organization is made of; the only place that lists them here.
 
-use crate::{SourceFile, Top, leaf, raster, rcm, readme, serial};
+use crate::branch::Values;
+use crate::{Prefix, SourceFile, Top, leaf, raster, rcm, readme, serial};
 use foveate_design::{Design, Organization};
 
 /// What an organization brings.
 pub(crate) struct Emitter {
     /// The leaves that its generated modules instantiate themselves.
     pub(crate) leaves: fn(&Design) -> Vec<&'static str>,
+    /// The parameters of a leaf on which it depends what it elaborates, with their values in the design.
+    pub(crate) values: fn(&Design, &str) -> Values,
     /// The generated modules that `Top` is made of, each after those it instantiates.
     pub(crate) modules: fn(&Design, Top) -> Vec<SourceFile>,
     /// The README of the core.
-    pub(crate) readme: fn(&Design) -> String,
+    pub(crate) readme: fn(&Design, &Prefix) -> String,
 }
 
 impl Emitter {
@@ -20,16 +23,19 @@ impl Emitter {
         match design.organization() {
             Organization::Pipelined => Self {
                 leaves: leaf::pipelined,
+                values: |_, _| Vec::new(),
                 modules: rcm::modules,
                 readme: readme::pipelined_readme,
             },
             Organization::Serial => Self {
                 leaves: |design| with_sync(design, "serial_array"),
+                values: serial::values,
                 modules: serial::modules,
                 readme: readme::serial_readme,
             },
             Organization::Raster => Self {
                 leaves: |design| with_sync(design, "raster_core"),
+                values: raster::values,
                 modules: raster::modules,
                 readme: readme::raster_readme,
             },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
+use crate::branch::Values;
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
@@ -8,7 +9,7 @@ use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Pipelining, Port, PortRole,
-    RasterTiming, Reference, SpatialFeature, Store, bits_for,
+    RasterTiming, Reference, SpatialFeature, Store, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -54,6 +55,25 @@ pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
         Top::Rcm => view(design, design, top),
     };
     vec![file(top.module(), text_of(&view))]
+}
+
+/// Parameters of a leaf that decide on its parts.
+pub(crate) fn values(design: &Design, leaf: &str) -> Values {
+    match leaf {
+        "raster_core" => {
+            let grid = [
+                ("COLUMNS", design.columns()),
+                ("ROWS", design.rows()),
+                ("FRAME_WIDTH", design.width()),
+                ("FRAME_HEIGHT", design.height()),
+                ("REGION_BITS", index_bits(design.regions().into())),
+            ];
+            let grid = grid.into_iter().map(|(name, value)| (name, value.to_string()));
+            grid.chain(parameters(design, &RasterTiming::of(design))).collect()
+        }
+        "raster_store" => vec![("KIND", store(design).to_string())],
+        _ => Vec::new(),
+    }
 }
 
 /// The range of a port whose width depends on the grid.

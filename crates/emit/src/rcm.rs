@@ -13,6 +13,9 @@ struct Rcm {
     banner: String,
     columns: u32,
     rows: u32,
+    /// The most regions side by side, and one below the other.
+    widest: u32,
+    highest: u32,
     ports: Vec<PortLine>,
     pins: Vec<Pin>,
     sync: Option<Sync>,
@@ -32,7 +35,7 @@ pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
         Top::Rcm => {
             // A part of the array alone, so it is none of the leaves of the RPU.
             let sync = design.syncs().then_some("frame_sync");
-            let leaves = leaf::with_parts(sync.into_iter().collect());
+            let leaves = leaf::with_parts(design, sync.into_iter().collect());
             let leaves = leaves.map(|leaf| file(leaf.name, leaf.contents.to_owned()));
             let array = file(top.module(), render(design));
             leaves.chain([rpu, array]).collect()
@@ -56,6 +59,8 @@ fn render(design: &Design) -> String {
         banner: banner(design),
         columns: design.columns(),
         rows: design.rows(),
+        widest: design.most_in_line(),
+        highest: design.most_in_line(),
         ports: PortLine::all(&ports, range),
         pins,
         sync: Sync::always_open(design, design.stream_pixels().to_string()),

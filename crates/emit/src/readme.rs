@@ -9,7 +9,7 @@ pub(crate) use raster::raster_readme;
 use crate::instance::instance;
 use crate::text::text_of;
 use crate::thresholds::threshold_value;
-use crate::{banner, latency};
+use crate::{Prefix, banner, latency};
 use askama::Template;
 use foveate_design::{
     Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, SerialTiming, Thresholds,
@@ -19,6 +19,8 @@ use foveate_design::{
 #[template(path = "README.md")]
 struct Readme {
     banner: String,
+    /// What the names of modules begin with: the prefix and its `_`.
+    before: String,
     width: u32,
     height: u32,
     p: u32,
@@ -43,6 +45,8 @@ struct Readme {
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
+    /// The module whose clock is of interest.
+    synthesized: &'static str,
     /// When the bench for `rpu` compares an output, beside "at every clock".
     compared: &'static str,
 }
@@ -51,6 +55,8 @@ struct Readme {
 #[template(path = "serial_README.md")]
 struct SerialReadme {
     banner: String,
+    /// What the names of modules begin with: the prefix and its `_`.
+    before: String,
     width: u32,
     height: u32,
     p: u32,
@@ -88,6 +94,8 @@ struct SerialReadme {
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
+    /// The module whose clock is of interest.
+    synthesized: &'static str,
     /// When the bench for `rpu` compares an output, beside "at every clock".
     compared: &'static str,
 }
@@ -104,12 +112,12 @@ struct ThresholdRow {
     value: u64,
 }
 
-pub(crate) fn pipelined_readme(design: &Design) -> String {
-    text_of(&pipelined_view(design, PipelinedTiming::of(design)))
+pub(crate) fn pipelined_readme(design: &Design, prefix: &Prefix) -> String {
+    text_of(&pipelined_view(design, prefix, PipelinedTiming::of(design)))
 }
 
-pub(crate) fn serial_readme(design: &Design) -> String {
-    text_of(&serial_view(design, &SerialTiming::of(design)))
+pub(crate) fn serial_readme(design: &Design, prefix: &Prefix) -> String {
+    text_of(&serial_view(design, prefix, &SerialTiming::of(design)))
 }
 
 fn score_names(design: &Design) -> String {
@@ -117,10 +125,11 @@ fn score_names(design: &Design) -> String {
     names.join(", ")
 }
 
-fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
+fn serial_view(design: &Design, prefix: &Prefix, timing: &SerialTiming) -> SerialReadme {
     let memory = design.lane_memory();
     SerialReadme {
         banner: banner(design),
+        before: prefix.name(""),
         width: design.width(),
         height: design.height(),
         p: design.pixel_bits(),
@@ -158,7 +167,8 @@ fn serial_view(design: &Design, timing: &SerialTiming) -> SerialReadme {
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
-        instance: instance(design),
+        instance: instance(design, prefix),
+        synthesized: crate::synth::top(design).module(),
         compared: " at which it is valid",
     }
 }
@@ -186,9 +196,10 @@ fn longest_pause(design: &Design) -> u32 {
     }
 }
 
-fn pipelined_view(design: &Design, timing: PipelinedTiming) -> Readme {
+fn pipelined_view(design: &Design, prefix: &Prefix, timing: PipelinedTiming) -> Readme {
     Readme {
         banner: banner(design),
+        before: prefix.name(""),
         width: design.width(),
         height: design.height(),
         p: design.pixel_bits(),
@@ -216,7 +227,8 @@ fn pipelined_view(design: &Design, timing: PipelinedTiming) -> Readme {
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
-        instance: instance(design),
+        instance: instance(design, prefix),
+        synthesized: crate::synth::top(design).module(),
         compared: "",
     }
 }

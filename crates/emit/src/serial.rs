@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
 
+use crate::branch::Values;
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
@@ -8,7 +9,7 @@ use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     AreaKind, Combine, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
-    Pipelining, Port, PortRole, Reference, SerialTiming, SpatialFeature, Thresholds,
+    Pipelining, Port, PortRole, Reference, SerialTiming, SpatialFeature, Thresholds, index_bits,
 };
 
 #[derive(Template)]
@@ -22,6 +23,9 @@ struct Serial {
     module: &'static str,
     columns: u32,
     rows: u32,
+    /// The most regions side by side, and one below the other.
+    widest: u32,
+    highest: u32,
     ports: Vec<PortLine>,
     constants: Vec<Constant>,
     parameters: Vec<(&'static str, String)>,
@@ -57,6 +61,30 @@ pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
         Top::Rcm => view(design, design, top),
     };
     vec![file(top.module(), text_of(&view))]
+}
+
+/// Parameters of a leaf that decide on its parts.
+pub(crate) fn values(design: &Design, leaf: &str) -> Values {
+    match leaf {
+        "serial_array" => {
+            let slots = design.lanes() * design.fold();
+            let grid = [
+                ("COLUMNS", design.columns()),
+                ("ROWS", design.rows()),
+                ("FOLD", design.fold()),
+                ("LANES", design.lanes()),
+                ("LANE_BITS", index_bits(design.lanes().into()).max(1)),
+                ("REGION_BITS", index_bits(slots.into()).max(1)),
+            ];
+            let grid = grid.into_iter().map(|(name, value)| (name, value.to_string()));
+            grid.chain(parameters(design)).collect()
+        }
+        "serial_lane" | "serial_memory" => {
+            let block = design.lane_memory().kind == MemoryKind::Block;
+            vec![("BLOCK", u32::from(block).to_string())]
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// The range of a port whose width depends on the grid.
@@ -101,6 +129,9 @@ fn view(design: &Design, named: &Design, top: Top) -> Serial {
         module: top.module(),
         columns: design.columns(),
         rows: design.rows(),
+        // A lone lane may have more.
+        widest: design.most_in_line().max(design.columns()),
+        highest: design.most_in_line(),
         ports: PortLine::all(&top.ports(named), |port| range(port, named)),
         constants: constants(design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
         parameters: parameters(design),

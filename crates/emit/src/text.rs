@@ -2,12 +2,13 @@
 //! What all generated Verilog is made of: files, filled templates, the ports of a header.
 
 use crate::SourceFile;
+use crate::prefix::path_of;
 use askama::Template;
 use foveate_design::{Direction, Port};
 
 /// The file of a module.
 pub(crate) fn file(module: &str, contents: String) -> SourceFile {
-    SourceFile { path: format!("rtl/{module}.v"), contents }
+    SourceFile { path: path_of(module), contents }
 }
 
 /// A filled template, ending in the newline that askama drops.

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # {= banner =}
 #
-# Replays the recorded vectors through `rpu` and `rcm` and compares every output at every clock.
+# Replays the recorded vectors through `{= before =}rpu` and `{= before =}rcm` and compares every output at every clock.
 #
 #   sh tb/replay.sh [all|rpu|rcm] [iverilog|verilator] [waves]
 #
-# `waves` writes RPU.vcd or RCM.vcd where the command is run. Exit code 0: every bench says PASS; 1: one
+# `waves` writes {= before =}rpu.vcd or {= before =}rcm.vcd where the command is run. Exit code 0: every bench says PASS; 1: one
 # says FAIL, or INCOMPLETE because its vectors do not show everything; 2: a bench cannot be built or run.
 
 which=${1:-all}
@@ -18,7 +18,7 @@ build=$(mktemp -d) || exit 2
 trap 'rm -rf "$build"' EXIT
 
 replay() {
-    top=$1
+    top={= before =}$1
     dump=${waves:++waves=$here/$top.vcd}
     mkdir -p "$build/$top" || return 2
     case $simulator in
@@ -40,7 +40,7 @@ replay() {
         return 2
         ;;
     esac
-    grep '^\(MISMATCH\|PASS\|FAIL\|INCOMPLETE\)' "$build/$top/log" | sed "s/^/$top: /"
+    grep '^\(MISMATCH\|PASS\|FAIL\|INCOMPLETE\)' "$build/$top/log" | sed "s/^/$1: /"
     grep -q '^PASS' "$build/$top/log" && return 0
     grep -q '^\(FAIL\|INCOMPLETE\)' "$build/$top/log" && return 1
     cat "$build/$top/log"

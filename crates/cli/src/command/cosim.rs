@@ -91,11 +91,13 @@ fn left_out(args: &CosimArgs, jobs: &[Job], toolchain: &Toolchain) -> Result<Lef
         return Ok(Left::default());
     };
     let levels: Vec<Level> = jobs.iter().map(|job| job.stimulus.level).collect();
-    let tops: Vec<&str> = levels.iter().map(|level| level.top().module()).collect();
+    let tops: Vec<String> =
+        levels.iter().map(|level| first.prefix.name(level.top().module())).collect();
+    let tops: Vec<&str> = tops.iter().map(String::as_str).collect();
     let modules = not_simulated(&first.sources, &tops);
     // Who asks for a part knows that the rest is left out.
     let variants = if plan::is_whole(args) {
-        not_elaborated(&first.design, &first.sources, &levels, toolchain)?
+        not_elaborated(&first.design, &first.sources, &first.prefix, &levels, toolchain)?
     } else {
         Vec::new()
     };

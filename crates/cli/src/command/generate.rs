@@ -2,6 +2,7 @@
 //! `foveate generate`: the core of a design as a folder.
 
 use foveate_cosim::{ShippedBench, write_core};
+use foveate_emit::Prefix;
 use serde::Serialize;
 
 use crate::args::GenerateArgs;
@@ -13,6 +14,9 @@ struct Listing<'a> {
     format_version: u32,
     fingerprint: String,
     folder: &'a str,
+    /// What the names of modules begin with.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    prefix: &'a str,
     files: Vec<&'a str>,
     benches: Vec<BenchListing<'a>>,
 }
@@ -33,8 +37,9 @@ struct BenchListing<'a> {
 
 pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     let design = args.design.design()?;
+    let prefix = Prefix::asked(args.prefix.as_deref(), &design)?;
     let cancel = interrupt::flag()?;
-    let core = write_core(&design, &args.output, args.force, &cancel)?;
+    let core = write_core(&design, &prefix, &args.output, args.force, &cancel)?;
     core.warnings().for_each(|warning| output::warn(&warning));
     let shown = args.output.display().to_string();
     if args.json {
@@ -42,6 +47,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
             format_version: 1,
             fingerprint: design.fingerprint(),
             folder: &shown,
+            prefix: prefix.text(),
             files: core.files.iter().map(String::as_str).collect(),
             benches: core.benches.iter().map(listing).collect(),
         });
@@ -49,8 +55,12 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     if args.quiet {
         return Ok(());
     }
+    let named = match prefix.text() {
+        "" => String::new(),
+        text => format!(", prefix {text}"),
+    };
     output::text(&format!(
-        "{shown}: {} files for {} regions of {size}x{size} pixels, design {}; start with README.md\n",
+        "{shown}: {} files for {} regions of {size}x{size} pixels, design {}{named}; start with README.md\n",
         core.files.len(),
         design.regions(),
         design.fingerprint(),

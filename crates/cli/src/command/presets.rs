@@ -26,7 +26,7 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
     if let Some(name) = &args.name {
         // Every key but the frame's size, unless the preset is for one: simulations take it from their input.
         let own = Preset::find(name)?.config()?;
-        let mut config = own.validate()?.config().clone();
+        let mut config = own.validate()?.spelled_out();
         (config.frame.width, config.frame.height) = (own.frame.width, own.frame.height);
         return if args.json { output::json(&config) } else { output::text(&file(name, &config)) };
     }
@@ -43,11 +43,24 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
 }
 
 fn file(name: &str, config: &Config) -> String {
-    format!(
-        "# Preset `{name}`. frame.width and frame.height are 224 unless they are set; `foveate simulate`\n\
-         # and `foveate cosim` take them from their input.\n\n{}",
-        config.to_toml()
-    )
+    let size = match (config.frame.width, config.frame.height) {
+        (None, None) => {
+            "Without frame.width and frame.height, which are 224 then, `foveate simulate` and\n\
+                         # `foveate cosim` take them from their input."
+                .to_owned()
+        }
+        (width, height) => {
+            let length =
+                |side: Option<u32>| side.map_or_else(|| "any".to_owned(), |side| side.to_string());
+            format!(
+                "It is for frames of {} x {} pixels; without frame.width and frame.height,\n\
+                 # `foveate simulate` and `foveate cosim` take them from their input.",
+                length(width),
+                length(height)
+            )
+        }
+    };
+    format!("# Preset `{name}`. {size}\n\n{}", config.to_toml())
 }
 
 fn list(entries: &[Entry]) -> String {

@@ -188,6 +188,49 @@ fn every_preset_is_a_file_that_check_takes() {
     assert!(succeed_in(dir.path(), &["presets", "--scenes"]).contains("street"));
 }
 
+/// A preset as a file has every key that somebody could change, and says which frames it is for.
+#[test]
+fn every_preset_has_every_key_and_the_right_size() {
+    let dir = tempfile::tempdir().unwrap();
+    let values = [
+        ("hardware.pipelining", "'deep'"),
+        ("hardware.store", "'ultra'"),
+        ("hardware.forward", "false"),
+        ("hardware.pixels_per_clock", "2"),
+        ("hardware.feed", "'raster'"),
+        ("hardware.fold", "1"),
+        ("hardware.thresholds", "'constant'"),
+        ("hardware.organization", "'pipelined'"),
+    ];
+    for preset in foveate_design::PRESETS {
+        let name = preset.name;
+        let text = succeed_in(dir.path(), &["presets", name]);
+        for (key, value) in values {
+            let set = format!("{key}={value}");
+            let is_taken = run_in(dir.path(), &["check", "-p", name, "--set", &set]).code == 0;
+            let line = format!("\n{} = ", key.split_once('.').unwrap().1);
+            assert!(text.contains(&line) || !is_taken, "{name} lacks {key}: {text}");
+        }
+        let (heading, keys) = text.split_once("\n\n").unwrap();
+        let sized = keys.contains("\nwidth = 640\nheight = 480\n");
+        assert_eq!(heading.contains("frames of 640 x 480 pixels"), sized, "{text}");
+        assert_eq!(heading.contains("224"), !keys.contains("\nwidth = "), "{text}");
+    }
+}
+
+#[test]
+fn check_names_the_organization() {
+    let dir = tempfile::tempdir().unwrap();
+    for (preset, words) in [
+        ("paper", "organization      pipelined\n"),
+        ("serial", "organization      serial, parallel feed, fold 1\n"),
+        ("raster", "organization      raster, 1 pixel per clock, plain pipelining, block store\n"),
+    ] {
+        let text = succeed_in(dir.path(), &["check", "--preset", preset]);
+        assert!(text.contains(words), "{text}");
+    }
+}
+
 #[test]
 fn completions_name_the_commands() {
     let dir = tempfile::tempdir().unwrap();

@@ -12,7 +12,7 @@ mod xml;
 use crate::error::CosimError;
 use crate::level::Level;
 use foveate_design::{Design, DesignError};
-use foveate_emit::{Parameter, SourceFile, Top};
+use foveate_emit::{Parameter, Prefix, SourceFile, Top};
 use foveate_toolchain::{Source, Toolchain, verilator};
 use std::collections::BTreeSet;
 use std::io::BufReader;
@@ -32,17 +32,17 @@ pub(crate) struct Elaboration {
 impl Elaboration {
     fn of(
         sources: &[Source],
-        top: Top,
+        top: &str,
         parameters: &[Parameter],
         toolchain: &Toolchain,
     ) -> Result<Self, CosimError> {
-        let text = verilator::elaborate(toolchain, sources, top.module(), parameters)?;
-        xml::read(BufReader::new(text.as_slice()), top.module())
+        let text = verilator::elaborate(toolchain, sources, top, parameters)?;
+        xml::read(BufReader::new(text.as_slice()), top)
     }
 }
 
 /// The modules, with their parameter values, that the design has and no run at one of these levels
-/// elaborates. An array of copies of `rpu` may be larger than what is simulated of it if each copy is connected
+/// elaborates. Names of modules begin with `prefix`. An array of copies of `rpu` may be larger than what is simulated of it if each copy is connected
 /// to its own lanes.
 ///
 /// # Errors
@@ -50,6 +50,7 @@ impl Elaboration {
 pub fn not_elaborated(
     design: &Design,
     sources: &[SourceFile],
+    prefix: &Prefix,
     levels: &[Level],
     toolchain: &Toolchain,
 ) -> Result<Vec<NotElaborated>, CosimError> {
@@ -61,7 +62,9 @@ pub fn not_elaborated(
     };
     let open: Vec<Top> = [Top::Rpu, Top::Rcm]
         .into_iter()
-        .filter(|top| crate::hierarchy::declares(sources, top.module()) && !is_simulated(*top))
+        .filter(|top| {
+            crate::hierarchy::declares(sources, &prefix.name(top.module())) && !is_simulated(*top)
+        })
         .collect();
     if open.is_empty() {
         return Ok(Vec::new());
@@ -69,7 +72,7 @@ pub fn not_elaborated(
     let named: Vec<Source> =
         sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
     let elaborate = |top: Top, part: &Design| {
-        Elaboration::of(&named, top, &top.parameters(part), toolchain)
+        Elaboration::of(&named, &prefix.name(top.module()), &top.parameters(part), toolchain)
     };
     let mut seen = BTreeSet::new();
     for (top, part) in &simulated {
@@ -78,8 +81,9 @@ pub fn not_elaborated(
     let mut left = Vec::new();
     for top in open {
         let whole = elaborate(top, design)?;
-        let is_wired = Level::is_copies(design) && wiring::is_right(design, &whole.tiles);
-        let is_own = |variant: &Variant| variant.module == top.module();
+        let is_wired = Level::is_copies(design)
+            && wiring::is_right(design, &whole.tiles, &prefix.name(Top::Rpu.module()));
+        let is_own = |variant: &Variant| variant.module == prefix.name(top.module());
         let unseen = whole.variants.into_iter().filter(|variant| !seen.contains(variant));
         let unseen = unseen.filter(|variant| !(is_wired && is_own(variant)));
         left.extend(unseen.map(|variant| variant.beside(&seen)));

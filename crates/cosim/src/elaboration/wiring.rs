@@ -10,6 +10,9 @@ use foveate_emit::Top;
 use foveate_model::region_border;
 use std::collections::BTreeMap;
 
+/// The valid bit behind `frame_sync`.
+const BEAT: &str = "beat";
+
 /// An instance in the top.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Tile {
@@ -47,17 +50,19 @@ impl Connection {
     }
 }
 
-/// Whether there is one copy of `rpu` per region, in their order, and each has the lanes of its own region: of
+/// Whether there is one copy of `unit_name` per region, in their order, and each has the lanes of its own region: of
 /// every port that the array has for all of them the whole, of every port that it has per region its part.
-pub(super) fn is_right(design: &Design, tiles: &[Tile]) -> bool {
+pub(super) fn is_right(design: &Design, tiles: &[Tile], unit_name: &str) -> bool {
     let (array, unit) = (Top::Rcm.ports(design), Top::Rpu.ports(design));
-    let array: BTreeMap<&str, &Port> = array.iter().map(|port| (port.name.as_str(), port)).collect();
+    let array: BTreeMap<&str, &Port> =
+        array.iter().map(|port| (port.name.as_str(), port)).collect();
     let regions = 0..design.regions();
-    tiles.len() == regions.len()
-        && regions.zip(tiles).all(|(region, tile)| {
+    // What else the array has is in a small one, too.
+    let copies: Vec<&Tile> = tiles.iter().filter(|tile| tile.module == unit_name).collect();
+    copies.len() == regions.len()
+        && regions.zip(copies).all(|(region, tile)| {
             let names: Vec<&str> = tile.ports.iter().map(|(name, _)| name.as_str()).collect();
-            tile.module == "rpu"
-                && unit.iter().all(|port| names.contains(&port.name.as_str()))
+            unit.iter().all(|port| names.contains(&port.name.as_str()))
                 && names.len() == unit.len()
                 && tile.ports.iter().all(|(name, connection)| {
                     let port = unit.iter().find(|port| port.name == *name);
@@ -79,13 +84,15 @@ fn fits(
             port.role == PortRole::Border && *value == u64::from(region_border(design, region))
         }
         Connection::All(signal) => {
-            signal == &port.name
-                && array.get(signal.as_str()).is_some_and(|whole| whole.lanes == 1)
+            let is_passed_on = design.syncs() && port.role == PortRole::Valid && signal == BEAT;
+            let is_shared = array.get(signal.as_str()).is_some_and(|whole| whole.lanes == 1);
+            is_passed_on || (signal == &port.name && is_shared)
         }
         Connection::Part { signal, from, width } => {
             let is_lane = *width == u64::from(port.bits()) && *from == own(*width);
             // What all say at once the array collects in a signal of its own.
-            let is_collected = port.direction == Direction::Output && !array.contains_key(signal.as_str());
+            let is_collected =
+                port.direction == Direction::Output && !array.contains_key(signal.as_str());
             let is_same = signal == &port.name
                 && array.get(signal.as_str()).is_some_and(|whole| whole.width == port.width);
             is_lane && (is_same || is_collected)

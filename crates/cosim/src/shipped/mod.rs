@@ -23,7 +23,7 @@ use crate::error::CosimError;
 use crate::level::Level;
 use crate::harness::{bench_file, told_bench};
 use foveate_design::{Design, Port, PortRole};
-use foveate_emit::{SourceFile, Top};
+use foveate_emit::{Prefix, SourceFile, Top};
 pub(crate) use model::{Model, Record};
 pub(crate) use picture::Picture;
 use player::Player;
@@ -70,12 +70,18 @@ impl ShippedBench {
         Ok(vec![Level::Rpu, if array.is_whole(design) { Level::Full } else { array }])
     }
 
-    /// Plays the frames that show everything to the model of `top`, and makes a bench of it. Equal designs
-    /// give equal files.
+    /// Plays the frames that show everything to the model of `top`, and makes a bench of it for a core whose
+    /// names begin with `prefix`. Equal designs give equal files.
     ///
     /// # Errors
     /// When the model refuses the design's grid, or `cancel` is set; [`CosimError::is_interrupted`] tells.
-    pub fn new(design: &Design, top: Top, cancel: &AtomicBool) -> Result<Self, CosimError> {
+    pub fn new(
+        design: &Design,
+        top: Top,
+        prefix: &Prefix,
+        cancel: &AtomicBool,
+    ) -> Result<Self, CosimError> {
+        let module = prefix.name(top.module());
         let part = grid::part(design, top)?;
         let ports = top.ports(&part);
         let mut take = Take::of(&part, top, &ports, false, cancel)?;
@@ -96,7 +102,7 @@ impl ShippedBench {
         let mut about = tally.about(design, &part, top);
         about.extend(remarks.iter().cloned());
         let parameters = grid::parameters(&part, top);
-        let bench = told_bench(top.module(), &ports, &parameters, &about, shortcoming.as_deref());
+        let bench = told_bench(&module, &ports, &parameters, &about, shortcoming.as_deref());
         let file = |name: String, contents| SourceFile { path: format!("tb/{name}"), contents };
         Ok(Self {
             top,
@@ -106,8 +112,8 @@ impl ShippedBench {
             shortcoming,
             remarks,
             files: [
-                file(bench_file(top.module()), bench),
-                file(format!("{}_vectors.hex", top.module()), vectors),
+                file(bench_file(&module), bench),
+                file(format!("{module}_vectors.hex"), vectors),
             ],
         })
     }

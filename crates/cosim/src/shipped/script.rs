@@ -112,7 +112,8 @@ impl Script {
         // First, so that a reset follows.
         let pictures = [|actor: &Actor| actor.first.clone(), |actor: &Actor| actor.other.clone()];
         let stalled = (0..stalled_frames(part)).map(|number| {
-            let usual = || shot(0, plan.usual, &|_, actor| pictures[number % pictures.len()](actor));
+            let usual =
+                || shot(0, plan.usual, &|_, actor| pictures[number % pictures.len()](actor));
             // More regions are lost than have something of their own to show: counters are to get far.
             let wide = || Shot { frame: stage.wide(0), thresholds: plan.usual, stalls: false };
             Shot { stalls: true, ..if stage.has_ground() { wide() } else { usual() } }
@@ -145,8 +146,9 @@ impl Script {
                 |turn| Shot { frame: stage.wide(turn), thresholds: plan.usual, stalls: false };
             sequences.push((0..WIDE_FRAMES).map(shot).collect());
         }
-        let damaged = (0..DAMAGED)
-            .map(|number| shot(plan.usual, &|_, actor| pictures[number % pictures.len()](actor)));
+        let damaged = (0..DAMAGED).map(|number| {
+            shot(0, plan.usual, &|_, actor| pictures[number % pictures.len()](actor))
+        });
         Self { damaged: damaged.collect(), sequences }
     }
 }

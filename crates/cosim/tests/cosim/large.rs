@@ -5,7 +5,7 @@
 use crate::common::{cosimulate, in_parallel};
 use foveate_cosim::{Job, Level, ShippedBench, Simulator, Stimulus, not_elaborated};
 use foveate_design::{Config, Design, PRESETS};
-use foveate_emit::{SourceFile, Top, verilog};
+use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use std::collections::BTreeSet;
@@ -127,9 +127,10 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
         return;
     }
     let design = design(LARGE);
-    let levels = Level::all_of(&design, &sources(&design));
+    let levels = Level::all_of(&design, &sources(&design), &Prefix::default());
     assert_eq!(levels.last(), Some(&Level::Full), "{levels:?}");
-    let bench = ShippedBench::new(&design, Top::Rcm, &AtomicBool::new(false)).unwrap();
+    let bench =
+        ShippedBench::new(&design, Top::Rcm, &Prefix::default(), &AtomicBool::new(false)).unwrap();
     assert_eq!(bench.grid, (20, 16));
     assert_eq!(bench.shortcoming, None);
     assert!(bench.tally.lost > 255, "{:?}", bench.tally);
@@ -168,13 +169,15 @@ fn what_a_small_grid_leaves_out_is_named() {
     }
     let (design, toolchain) = (design(LARGE), Toolchain::system());
     let sources = sources(&design);
-    let left = |levels: &[Level]| not_elaborated(&design, &sources, levels, &toolchain).unwrap();
+    let left = |levels: &[Level]| {
+        not_elaborated(&design, &sources, &Prefix::default(), levels, &toolchain).unwrap()
+    };
     let small = left(&[Level::Rpu, Level::sample(&design)]);
     let said: Vec<String> = small.iter().map(ToString::to_string).collect();
     for wanted in ["module raster_banks", "raster_ring with ", "rcm with COLUMNS = 14, ROWS = 10"] {
         assert!(said.iter().any(|text| text.starts_with(wanted)), "{wanted}: {said:?}");
     }
-    assert_eq!(left(&Level::all_of(&design, &sources)), []);
+    assert_eq!(left(&Level::all_of(&design, &sources, &Prefix::default())), []);
 }
 
 /// An array of copies is not simulated whole: that each copy has its own lanes is read from the elaborated array.
@@ -184,19 +187,26 @@ fn each_copy_of_an_array_is_connected_to_its_own_lanes() {
         return;
     }
     let toolchain = Toolchain::system();
-    for more in ["", "region.neighborhood = 'shared'\ndenoise.filter = 'median3x3'\n"] {
+    for more in [
+        "",
+        "region.neighborhood = 'shared'\ndenoise.filter = 'median3x3'\n",
+        "hardware.sync = true\n",
+    ] {
         let design = design(&format!("frame = {{ width = 160, height = 104 }}\n{more}"));
         let sources = sources(&design);
-        let levels = Level::all_of(&design, &sources);
+        let levels = Level::all_of(&design, &sources, &Prefix::default());
         assert!(!levels.contains(&Level::Full), "{levels:?}");
         let left = |files: &[SourceFile]| {
-            not_elaborated(&design, files, &levels, &toolchain).unwrap()
+            not_elaborated(&design, files, &Prefix::default(), &levels, &toolchain).unwrap()
         };
         assert_eq!(left(&sources), [], "{more}");
         for (from, to) in [
             ("pixel_i[REGION*8+:8]", "pixel_i[(REGION == 200 ? 199 : REGION)*8+:8]"),
             (".srs_o(srs_o[REGION])", ".srs_o(srs_o[REGION ^ (REGION >= 64)])"),
-            (".valid_i(valid_i)", ".valid_i(valid_i && REGION != 200)"),
+            (
+                ".temporal_level_i(temporal_level_i)",
+                ".temporal_level_i(temporal_level_i + (REGION == 200))",
+            ),
         ] {
             let mut files = sources.clone();
             let array = files.iter_mut().find(|file| file.path == "rtl/rcm.v").unwrap();
@@ -247,8 +257,10 @@ fn nothing_of_a_generated_core_is_left_out() {
     let failures = in_parallel(&listed(), |(name, design)| {
         let sources = sources(design);
         let bench = ShippedBench::levels(design).map_err(|error| error.to_string())?;
-        for (what, levels) in [("cosim", Level::all_of(design, &sources)), ("bench", bench)] {
-            let left = not_elaborated(design, &sources, &levels, &toolchain)
+        for (what, levels) in
+            [("cosim", Level::all_of(design, &sources, &Prefix::default())), ("bench", bench)]
+        {
+            let left = not_elaborated(design, &sources, &Prefix::default(), &levels, &toolchain)
                 .map_err(|error| format!("{name}: {error}"))?;
             if !left.is_empty() {
                 let left: Vec<String> = left.iter().map(ToString::to_string).collect();

@@ -3,7 +3,7 @@
 
 use foveate_cosim::ShippedBench;
 use foveate_design::{Config, Design, FeatureKind, Organization};
-use foveate_emit::{SourceFile, Top, verilog};
+use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use std::num::NonZero;
@@ -19,7 +19,7 @@ fn design(toml: &str) -> Design {
 }
 
 fn bench(design: &Design, top: Top) -> ShippedBench {
-    ShippedBench::new(design, top, &AtomicBool::new(false)).unwrap()
+    ShippedBench::new(design, top, &Prefix::default(), &AtomicBool::new(false)).unwrap()
 }
 
 /// A frame of that many regions.

@@ -2,9 +2,9 @@
 //! The README of a raster core: how long a source waits, and when a region is lost.
 
 use super::{PortRow, ThresholdRow, port_row, score_names, sync, threshold};
-use crate::banner;
 use crate::instance::instance;
 use crate::text::text_of;
+use crate::{Prefix, banner};
 use askama::Template;
 use foveate_design::{
     Design, Pipelining, RasterMemory, RasterTiming, Reference, Store, Thresholds,
@@ -14,6 +14,8 @@ use foveate_design::{
 #[template(path = "raster_README.md")]
 struct Readme {
     banner: String,
+    /// What the names of modules begin with: the prefix and its `_`.
+    before: String,
     width: u32,
     height: u32,
     p: u32,
@@ -69,19 +71,22 @@ struct Readme {
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
     sync: String,
+    /// The module whose clock is of interest.
+    synthesized: &'static str,
     compared: &'static str,
 }
 
-pub(crate) fn raster_readme(design: &Design) -> String {
-    text_of(&view(design, &RasterTiming::of(design)))
+pub(crate) fn raster_readme(design: &Design, prefix: &Prefix) -> String {
+    text_of(&view(design, prefix, &RasterTiming::of(design)))
 }
 
-fn view(design: &Design, timing: &RasterTiming) -> Readme {
+fn view(design: &Design, prefix: &Prefix, timing: &RasterTiming) -> Readme {
     let n = design.region_size();
     let lone = design.lone_unit();
     let memories = RasterMemory::all_of(design);
     Readme {
         banner: banner(design),
+        before: prefix.name(""),
         width: design.width(),
         height: design.height(),
         p: design.pixel_bits(),
@@ -126,7 +131,8 @@ fn view(design: &Design, timing: &RasterTiming) -> Readme {
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rcm_ports().iter().filter_map(|port| threshold(design, port)).collect(),
-        instance: instance(design),
+        instance: instance(design, prefix),
+        synthesized: crate::synth::top(design).module(),
         sync: sync::section(design, "word", ""),
         compared: " at which it is valid",
     }

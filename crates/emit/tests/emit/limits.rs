@@ -134,8 +134,8 @@ fn parameters_out_of_range_are_refused() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// The tops of both organizations: grids that are none, or that have fewer regions than a lane. In a serial
-/// one other limits are hurt, too, and messages are cut: it is enough that one of them is named.
+/// The tops of all organizations: grids that are none, or that have fewer regions than a lane, or more than a frame
+/// has. In a serial one other limits are hurt, too, and messages are cut: it is enough that one of them is named.
 #[test]
 fn grids_out_of_range_are_refused() {
     if !require_tools(TOOLS) {
@@ -144,6 +144,10 @@ fn grids_out_of_range_are_refused() {
     let pipelined = "[frame]\nwidth = 16\nheight = 8\n";
     let serial = format!("{pipelined}[hardware]\norganization = 'serial'\nfold = 2\n");
     let any = Some("_must_be_");
+    // Frames of contract and raster core are limited; regions of 64 pixels make few of a wide one.
+    let large = "denoise.filter = 'none'\nregion.size = 64\nframe = { width = 256, height = 64 }\n";
+    let lanes = format!("{large}hardware.organization = 'serial'\n");
+    let raster = format!("{large}hardware.organization = 'raster'\n");
     for (toml, top, columns, rows, refused) in [
         (pipelined, Top::Rcm, "3", "2", None),
         (pipelined, Top::Rcm, "0", "1", Some("COLUMNS_must_be_1_or_more")),
@@ -152,6 +156,15 @@ fn grids_out_of_range_are_refused() {
         (&serial, Top::Rcm, "0", "1", any),
         (&serial, Top::Rcm, "1", "0", any),
         (&serial, Top::Rcm, "1", "1", any),
+        (large, Top::Rcm, "257", "1", Some("COLUMNS_must_be_256_or_less")),
+        (large, Top::Rcm, "1", "257", Some("ROWS_must_be_256_or_less")),
+        (&lanes, Top::Rcm, "257", "1", Some("COLUMNS_must_be_256_or_less")),
+        (&lanes, Top::Rcm, "1", "257", Some("ROWS_must_be_256_or_less")),
+        (&raster, Top::Rcm, "128", "256", None),
+        (&raster, Top::Rcm, "129", "1", Some("FRAME_WIDTH_must_be_8192_or_less")),
+        (&raster, Top::Rcm, "4", "257", Some("FRAME_HEIGHT_must_be_16384_or_less")),
+        (&raster, Top::Rcm, "3", "1", Some("COLUMNS_must_be_4_or_more")),
+        (&raster, Top::Rcm, "4", "0", any),
         (&serial, Top::Rpu, "2", "1", None),
         (&serial, Top::Rpu, "1", "1", any),
     ] {

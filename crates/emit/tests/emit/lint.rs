@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Emitted Verilog has no warning in Verilator, Icarus and Yosys, over the matrix of designs.
 
-use crate::common::{design, matrix, raster_matrix, serial_matrix};
+use crate::common::{MORE, design, every_design, matrix, raster_matrix, serial_matrix};
 use foveate_design::RasterMemory;
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
@@ -9,11 +9,6 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
-
-/// Every design of all matrices.
-fn every_design() -> Vec<String> {
-    [matrix(), serial_matrix(), raster_matrix()].concat()
-}
 
 /// Runs `check` on the Verilog of every design and reports every failure.
 fn each_design(designs: &[String], check: impl Fn(&[Source]) -> Result<(), ToolError> + Sync) {
@@ -63,7 +58,8 @@ fn yosys_has_nothing_to_say() {
     // The other organizations take seconds, with all their memories: every fifth of them, which still meets
     // every leaf; `scripts/lint.sh` has more.
     let others = [serial_matrix(), raster_matrix()].concat();
-    let designs = [matrix(), others.into_iter().step_by(5).collect()].concat();
+    let more: Vec<String> = MORE.iter().map(|toml| (*toml).to_owned()).collect();
+    let designs = [matrix(), others.into_iter().step_by(5).collect(), more].concat();
     each_design(&designs, |sources| {
         let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
         let script = format!(

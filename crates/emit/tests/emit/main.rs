@@ -4,6 +4,8 @@
 
 mod common;
 mod ecp5;
+mod elaborated;
 mod emission;
 mod limits;
 mod lint;
+mod one_chip;

@@ -181,3 +181,25 @@ fn devices_have_names_of_their_own() {
     }
     assert_eq!(RouteDevice::named("vcu118"), None);
 }
+
+/// A generated core places itself as we do: its scripts tell Yosys and nextpnr the same of every device.
+#[test]
+fn the_scripts_of_a_core_have_the_same_devices() {
+    let design = foveate_design::Config::default().validate().unwrap();
+    let files = foveate_emit::core(&design, &foveate_emit::Prefix::default());
+    let script = |name: &str| &files.iter().find(|file| file.path == name).unwrap().contents;
+    for device in ROUTE_DEVICES {
+        let (script, ram) = match device.family {
+            Family::Ecp5 => (script("synth/ecp5.sh"), false),
+            Family::Ice40Up | Family::Ice40Hx => (script("synth/ice40.sh"), true),
+        };
+        let start = format!("{}) ", device.name);
+        let line = script.lines().find(|line| line.starts_with(&start)).unwrap();
+        let options = device.arguments().join(" ").replace(" --timing-allow-fail", "");
+        let expected = format!("synthesis='{}' part='{options}' ;;", device.family.synthesis());
+        assert_eq!(line.strip_prefix(&start), Some(expected.as_str()));
+        assert!(script.contains("$part --timing-allow-fail"));
+        assert_eq!(script.contains("setattr -unset ram_style */m:*"), ram);
+        assert_eq!(ram, !device.family.has_distributed_ram());
+    }
+}

@@ -40,9 +40,7 @@ pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
     let hardware = &design.config().hardware;
-    if hardware.pipelining.is_some() {
-        lines.push(("organization", hardware.in_words()));
-    }
+    lines.push(("organization", hardware.in_words()));
     match hardware.pixels_per_clock {
         Some(pixels) => {
             lines.push(("stream", word_line(pixels)));

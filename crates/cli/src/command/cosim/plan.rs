@@ -4,9 +4,9 @@
 use std::fs;
 use std::path::Path;
 
-use foveate_cosim::{Job, Level, Simulator, Stimulus};
+use foveate_cosim::{Job, Level, Simulator, Stimulus, prefixes};
 use foveate_design::Design;
-use foveate_emit::SourceFile;
+use foveate_emit::{Prefix, SourceFile, Top};
 
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
@@ -18,6 +18,10 @@ const ENOUGH: u64 = 40_000_000;
 pub(super) fn jobs(args: &CosimArgs) -> Result<Vec<Job>, CliError> {
     let (design, frames) = args.design.with_frames(&args.inputs, args.frames)?;
     let rtl = args.rtl.as_deref().map(read_rtl).transpose()?;
+    let prefix = match rtl.as_deref() {
+        Some(sources) => prefix_of(args, &design, sources)?,
+        None => Prefix::default(),
+    };
     let job = |level| {
         let rounds = args.rounds.unwrap_or(match level {
             Level::Rpu => 3,
@@ -33,9 +37,10 @@ pub(super) fn jobs(args: &CosimArgs) -> Result<Vec<Job>, CliError> {
         };
         job.trace = args.trace;
         job.sources = rtl.clone().unwrap_or(job.sources);
+        job.prefix = prefix.clone();
         Ok(job)
     };
-    levels(args, &design, rtl.as_deref())?.into_iter().map(job).collect()
+    levels(args, &design, rtl.as_deref(), &prefix)?.into_iter().map(job).collect()
 }
 
 /// Whether all of the Verilog is to be simulated: it is given, and no part of it was asked for.
@@ -47,6 +52,7 @@ fn levels(
     args: &CosimArgs,
     design: &Design,
     rtl: Option<&[SourceFile]>,
+    prefix: &Prefix,
 ) -> Result<Vec<Level>, CliError> {
     let one = match (args.full, args.level, args.grid) {
         (true, ..) => Level::Full,
@@ -58,11 +64,33 @@ fn levels(
         }
         (false, Some(args::Level::Rpu), None) => Level::Rpu,
         (false, None, None) => match rtl {
-            Some(sources) => return Ok(Level::all_of(design, sources)),
+            Some(sources) => return Ok(Level::all_of(design, sources, prefix)),
             None => Level::Rpu,
         },
     };
     Ok(vec![one])
+}
+
+/// The prefix of the core in these files: the one that is asked for, or the only one that is there.
+fn prefix_of(
+    args: &CosimArgs,
+    design: &Design,
+    sources: &[SourceFile],
+) -> Result<Prefix, CliError> {
+    if args.prefix.is_some() {
+        return Ok(Prefix::asked(args.prefix.as_deref(), design)?);
+    }
+    let found = prefixes(sources);
+    if found.len() <= 1 {
+        return Ok(found.into_iter().next().unwrap_or_default());
+    }
+    let tops = found.iter().map(|prefix| format!("`{}`", prefix.name(Top::Rcm.module())));
+    let message = format!(
+        "the folder of --rtl holds several cores, {}; choose one with --prefix, such as --prefix {}",
+        tops.collect::<Vec<_>>().join(", "),
+        found.first().map_or("", Prefix::text)
+    );
+    Err(CliError::Usage(message))
 }
 
 /// The Verilog files of a folder, in the order of their names.

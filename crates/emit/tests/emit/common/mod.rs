@@ -142,3 +142,30 @@ pub(crate) fn raster_matrix() -> Vec<String> {
     }
     list
 }
+
+/// Raster designs with a large frame, or with choices that the matrix has not: each branch of a store, of rows
+/// that repeat, of a core that forwards nothing.
+pub(crate) const MORE: [&str; 14] = [
+    "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep'}",
+    "frame={width=320,height=240}\nhardware={organization='raster',pipelining='plain'}",
+    "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep',store='ultra'}",
+    "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep',store='single-port'}",
+    "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep',store='external'}",
+    "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep'}\ntemporal.reference='last-sent'",
+    "frame={width=320,height=240}\nspatial=[{feature='mad'}]\ndenoise.filter='none'\n\
+     hardware={organization='raster',pipelining='deep'}",
+    "frame={width=320,height=240}\nspatial=[{feature='mad'}]\nhardware={organization='raster',pipelining='deep'}",
+    "frame={width=128,height=128}\nhardware={organization='raster',pipelining='deep'}",
+    "frame={width=136,height=128}\nhardware={organization='raster',pipelining='deep'}",
+    "frame={width=64,height=21}\nhardware={organization='raster',forward=false}",
+    "frame={width=64,height=21}\nspatial=[{feature='variance'}]\ndenoise.filter='none'\n\
+     hardware={organization='raster',forward=false}",
+    "frame={width=64,height=21}\nspatial=[{feature='mad'}]\nhardware={organization='raster',store='external',forward=false}",
+    "frame={width=64,height=21}\nrender.payload='raw'\nhardware={organization='raster',store='single-port'}",
+];
+
+/// The matrices of all organizations, and more.
+pub(crate) fn every_design() -> Vec<String> {
+    let more = MORE.iter().map(|toml| (*toml).to_owned());
+    [matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
+}

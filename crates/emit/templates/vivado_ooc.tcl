@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
+# {= banner =}
+#
 # Out-of-context synthesis of a generated core in Vivado; run it in the folder of the core:
 #
 #     vivado -mode batch -source vivado_ooc.tcl                  ;# the RCM
 #     vivado -mode batch -source vivado_ooc.tcl -tclargs rpu     ;# one RPU
 #
 # It writes reports to vivado/. The part is the VCU118's. The project's own tests do not run Vivado.
-set top [expr {$argc > 0 ? [lindex $argv 0] : "rcm"}]
-if {$top ni {rpu rcm}} {
-    error "the top is rpu or rcm, not '$top'"
+set which [expr {$argc > 0 ? [lindex $argv 0] : "rcm"}]
+if {$which ni {rpu rcm}} {
+    error "the top is rpu or rcm, not '$which'"
 }
+set top {= before =}$which
 
 set list [open $top.f]
 foreach file [split [string trim [read $list]] "\n"] {

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which parts of a leaf a design elaborates.
+//!
+//! A leaf instantiates some of its parts in a branch of a `generate` that not every design takes. What no branch
+//! needs is not shipped. A part that is not listed here is in no such branch.
+//!
+//! Two tools look at more than what is elaborated, so the text of a leaf that lacks parts is made to fit. Yosys
+//! follows the defaults of parameters when it reads a file: they become those of the design. Verilator takes a
+//! parameter for unused whose only use is an instance of what is not there: it is told so.
+
+use crate::Leaf;
+use foveate_design::{
+    Design, Feed, Filter, MemoryKind, Pipelining, RasterTiming, Reference, Store,
+};
+
+/// Whether `leaf` has `part` inside, with the parameters that it has in `design`.
+pub(crate) fn is_taken(design: &Design, leaf: &str, part: &str) -> bool {
+    let mean = || design.features().iter().any(|feature| feature.mean().is_some());
+    let variance = || design.features().iter().any(|feature| feature.variance().is_some());
+    // A detector has the name of its feature.
+    let detects = |name| design.features().iter().any(|feature| feature.kind().name() == name);
+    let last_sent = || design.temporal().reference == Reference::LastSent;
+    let median = || design.filter() == Filter::Median3x3;
+    let window = || design.has_feature_window();
+    let raw = || design.keeps_raw();
+    match (leaf, part) {
+        ("serial_array", "serial_raster_feed") => design.feed() == Feed::Raster,
+        ("serial_array", "serial_parallel_feed") => design.feed() == Feed::Parallel,
+        ("serial_array", "serial_sides") => design.needs_border() && design.fold() > 1,
+        ("serial_raster_feed", _) => design.halo() > 0,
+        ("serial_memory", "frame_store") => design.lane_memory().kind == MemoryKind::Distributed,
+        ("serial_decision", "frame_store") => last_sent(),
+        ("raster_core", "raster_window") => median() || window(),
+        ("raster_core", "raster_median") => median(),
+        ("raster_core", "raster_repeat") => !median() && !window() && is_padded_below(design),
+        ("raster_core", "raster_edge") => detects("edge"),
+        ("raster_core", "raster_corner") => detects("corner"),
+        ("raster_core", "raster_external") => design.store() == Store::External,
+        ("raster_core", "raster_store") => design.store() != Store::External,
+        ("raster_core", "raster_moments") => mean() || variance(),
+        ("raster_moments", "raster_variance") => variance(),
+        ("raster_core", "raster_deviation") => mean(),
+        ("raster_core", "raster_ring") => design.forwards() || mean(),
+        ("raster_core", "raster_forward") => design.forwards(),
+        ("raster_core", "raster_line") => design.forwards() && raw() && window(),
+        ("raster_decision", "raster_valid") => last_sent(),
+        ("raster_store", "raster_pairs") => design.store() == Store::SinglePort,
+        ("raster_store", "raster_ring") => design.store() != Store::SinglePort,
+        ("raster_store", "raster_banks") => is_in_banks(design),
+        ("raster_store", "raster_memory") => {
+            design.store() != Store::SinglePort && !is_in_banks(design)
+        }
+        _ => true,
+    }
+}
+
+/// Whether the frame ends inside of a row of regions, so that its last row is repeated.
+fn is_padded_below(design: &Design) -> bool {
+    !design.height().is_multiple_of(design.region_size())
+}
+
+/// Words of a bank of the store, as in `raster_core`.
+const BANK_WORDS: u64 = 1 << 14;
+
+/// Whether the frame store is made of groups of banks: a large one that has to be fast, whose references come in
+/// order and can be asked for early enough.
+fn is_in_banks(design: &Design) -> bool {
+    design.pipelining() == Pipelining::Deep
+        && design.store() == Store::Block
+        && design.temporal().reference == Reference::Previous
+        && RasterTiming::of(design).words() > BANK_WORDS
+        && (design.filter() != Filter::None || design.has_feature_window())
+}
+
+/// Parameters of a leaf and their values.
+pub(crate) type Values = Vec<(&'static str, String)>;
+
+/// The text of a leaf as `design` ships it; its parameters have these `values` in the design.
+pub(crate) fn text(design: &Design, leaf: &Leaf, values: &[(&str, String)]) -> String {
+    let plain = leaf.contents.to_owned();
+    let text = values.iter().fold(plain, |text, (name, value)| with_default(&text, name, value));
+    if leaf.uses.iter().all(|part| is_taken(design, leaf.name, part)) {
+        return text;
+    }
+    let parts = "// Parts that the design does not elaborate are left out, so some parameters have no use.\n\
+                 // verilator lint_off UNUSEDPARAM\n";
+    let end = "// verilator lint_on UNUSEDPARAM\n";
+    text.replacen("`default_nettype none\n", &format!("`default_nettype none\n\n{parts}"), 1)
+        .replacen("`default_nettype wire", &format!("{end}\n`default_nettype wire"), 1)
+}
+
+/// The text of a module with another default of a parameter; what stands behind it keeps its column if it can.
+fn with_default(text: &str, name: &str, value: &str) -> String {
+    let start = format!(" {name} = ");
+    let is_declared =
+        |line: &&str| line.trim_start().starts_with("parameter ") && line.contains(&start);
+    let Some(line) = text.lines().find(is_declared) else { return text.to_owned() };
+    let (before, after) = line.split_once(&start).unwrap_or((line, ""));
+    let end = after.find([',', ' ']).unwrap_or(after.len());
+    let comment = after.find("//").unwrap_or(after.len());
+    let declared = format!("{before}{start}{value}{}", after[end..comment].trim_end());
+    let column = line.len() - (after.len() - comment);
+    let width = column.max(declared.len() + 2);
+    text.replacen(line, &format!("{declared:width$}{}", &after[comment..]), 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_default;
+
+    #[test]
+    fn a_default_is_replaced_and_its_comment_stays_where_it_is() {
+        let text = "module m #(\n    parameter A = 12,           // an A\n    \
+                    parameter [A-1:0] LONG_A = 1,  // more\n    parameter B = 3             // a B\n) (\n";
+        let changed = with_default(text, "A", "4096");
+        assert_eq!(changed, text.replace("A = 12,           //", "A = 4096,         //"));
+        let changed = with_default(text, "LONG_A", "12'd375000000");
+        assert_eq!(changed, text.replace("= 1,  //", "= 12'd375000000,  //"));
+        assert_eq!(with_default(text, "B", "1"), text.replace("B = 3 ", "B = 1 "));
+        assert_eq!(with_default(text, "C", "1"), text);
+    }
+}

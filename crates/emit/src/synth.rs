@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scripts that place and route a core with open tools, so that users get the clocks that we print.
+//!
+//! They do what `foveate estimate --place-and-route` does. A core has more ports than a device has pins, so a
+//! module around it has a register of the device for each bit.
+
+use crate::text::text_of;
+use crate::{Prefix, SourceFile, Top, banner};
+use askama::Template;
+use foveate_design::{Design, Direction, Port, PortRole};
+
+/// What scripts of a family of devices differ in.
+pub(crate) struct Family {
+    name: &'static str,
+    script: &'static str,
+    nextpnr: &'static str,
+    /// Commands of Yosys before the synthesis, each with its newline.
+    before_synthesis: &'static str,
+    /// An instance of a register with bit `i` of `d_i` and `q_o`.
+    cell: &'static str,
+    devices: &'static [Device],
+}
+
+/// A device, as Yosys and nextpnr are told. Names are those of `foveate estimate --place-and-route`.
+struct Device {
+    name: &'static str,
+    synthesis: &'static str,
+    part: &'static str,
+}
+
+const fn device(name: &'static str, synthesis: &'static str, part: &'static str) -> Device {
+    Device { name, synthesis, part }
+}
+
+pub(crate) const ECP5: Family = Family {
+    name: "ECP5",
+    script: "ecp5",
+    nextpnr: "nextpnr-ecp5",
+    before_synthesis: "",
+    cell: "TRELLIS_FF #(\n                .CEMUX(\"1\"), .CLKMUX(\"CLK\"), .GSR(\"DISABLED\"), .LSRMUX(\"LSR\"), \
+           .REGSET(\"RESET\")\n            ) u_bit (.CLK(clk_i), .DI(d_i[i]), .Q(q_o[i]));",
+    devices: &[
+        device(
+            "ecp5-85k",
+            "synth_ecp5 -abc9",
+            "--85k --package CABGA381 --speed 6 --lpf-allow-unconstrained --freq 400",
+        ),
+        device(
+            "ecp5-45k",
+            "synth_ecp5 -abc9",
+            "--45k --package CABGA381 --speed 6 --lpf-allow-unconstrained --freq 400",
+        ),
+        device(
+            "ecp5-25k",
+            "synth_ecp5 -abc9",
+            "--25k --package CABGA381 --speed 6 --lpf-allow-unconstrained --freq 400",
+        ),
+        device(
+            "ecp5-85k-8",
+            "synth_ecp5 -abc9",
+            "--85k --package CABGA381 --speed 8 --lpf-allow-unconstrained --freq 400",
+        ),
+    ],
+};
+
+pub(crate) const ICE40: Family = Family {
+    name: "iCE40",
+    script: "ice40",
+    nextpnr: "nextpnr-ice40",
+    // Tables cannot be memory there.
+    before_synthesis: "setattr -unset ram_style */m:*\n",
+    cell: "SB_DFF u_bit (.C(clk_i), .D(d_i[i]), .Q(q_o[i]));",
+    devices: &[
+        device(
+            "up5k",
+            "synth_ice40 -device u -spram -dsp",
+            "--up5k --package sg48 --pcf-allow-unconstrained --freq 100",
+        ),
+        device(
+            "hx8k",
+            "synth_ice40 -device hx",
+            "--hx8k --package ct256 --pcf-allow-unconstrained --freq 200",
+        ),
+        device(
+            "hx4k",
+            "synth_ice40 -device hx",
+            "--hx4k --package tq144 --pcf-allow-unconstrained --freq 200",
+        ),
+        device(
+            "hx1k",
+            "synth_ice40 -device hx",
+            "--hx1k --package tq144 --pcf-allow-unconstrained --freq 200",
+        ),
+    ],
+};
+
+#[derive(Template)]
+#[template(path = "synth.sh")]
+struct Script {
+    banner: String,
+    before: String,
+    family: &'static str,
+    script: &'static str,
+    nextpnr: &'static str,
+    before_synthesis: &'static str,
+    devices: &'static [Device],
+    names: String,
+    /// What is placed unless something else is asked for.
+    top: &'static str,
+}
+
+#[derive(Template)]
+#[template(path = "synth.tcl")]
+struct Tcl {
+    banner: String,
+    before: String,
+    script: &'static str,
+    before_synthesis: &'static str,
+    devices: &'static [Device],
+}
+
+#[derive(Template)]
+#[template(path = "registers.v")]
+struct Registers {
+    banner: String,
+    before: String,
+    family: &'static str,
+    cell: &'static str,
+}
+
+#[derive(Template)]
+#[template(path = "ports.v")]
+struct Around {
+    banner: String,
+    before: String,
+    module: String,
+    ports: Vec<Row>,
+}
+
+/// A port but the clock.
+struct Row {
+    name: String,
+    bits: u32,
+    /// Its range and a space; nothing for one bit.
+    range: String,
+    input: bool,
+}
+
+impl Row {
+    fn of(port: &Port) -> Self {
+        let bits = port.bits();
+        Self {
+            name: port.name.clone(),
+            bits,
+            range: if bits == 1 { String::new() } else { format!("[{}:0] ", bits - 1) },
+            input: port.direction == Direction::Input,
+        }
+    }
+}
+
+/// What is placed unless something else is asked for: arrays of hundreds of RPUs fit no such device.
+pub(crate) fn top(design: &Design) -> Top {
+    if design.unit().rpu_in_rcm { Top::Rpu } else { Top::Rcm }
+}
+
+/// What nextpnr is told for the first device of a family, as a list of FuseSoC.
+pub(crate) fn options(family: &Family) -> String {
+    let words = family.devices[0].part.split(' ').chain(["--timing-allow-fail"]);
+    words.map(|word| format!("'{word}'")).collect::<Vec<_>>().join(", ")
+}
+
+/// The scripts of a core and what they read, in its folder `synth`.
+pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
+    let before = || prefix.name("");
+    let file = |name: String, contents| SourceFile { path: format!("synth/{name}"), contents };
+    let mut files = Vec::new();
+    for family in [ECP5, ICE40] {
+        let names: Vec<&str> = family.devices.iter().map(|device| device.name).collect();
+        let script = Script {
+            banner: banner(design),
+            before: before(),
+            family: family.name,
+            script: family.script,
+            nextpnr: family.nextpnr,
+            before_synthesis: family.before_synthesis,
+            devices: family.devices,
+            names: names.join(", "),
+            top: top(design).module(),
+        };
+        let tcl = Tcl {
+            banner: banner(design),
+            before: before(),
+            script: family.script,
+            before_synthesis: family.before_synthesis,
+            devices: family.devices,
+        };
+        let registers = Registers {
+            banner: banner(design),
+            before: before(),
+            family: family.name,
+            cell: family.cell,
+        };
+        files.push(file(format!("{}.sh", family.script), text_of(&script)));
+        files.push(file(format!("{}.tcl", family.script), text_of(&tcl)));
+        files.push(file(format!("{}_registers.v", family.script), text_of(&registers)));
+    }
+    for top in [Top::Rpu, Top::Rcm] {
+        let ports = top.ports(design);
+        let around = Around {
+            banner: banner(design),
+            before: before(),
+            module: prefix.name(top.module()),
+            ports: ports.iter().filter(|port| port.role != PortRole::Clock).map(Row::of).collect(),
+        };
+        files.push(file(format!("{}_ports.v", prefix.name(top.module())), text_of(&around)));
+    }
+    files
+}
