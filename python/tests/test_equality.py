@@ -147,7 +147,7 @@ def test_a_network_takes_arrays_as_it_takes_footage(frames, tmp_path):
 
 
 @pytest.mark.parametrize(("inputs", "error", "message"), [
-    (np.zeros((8, 8), np.uint8), TypeError, r"infer takes footage, .* or frames, .*\(frames, height, width\).*; not a ndarray of arrays of shape \(8,\)"),
+    (np.zeros((8, 8), np.uint8), TypeError, r"infer takes footage.* or frames.*\(frames, height, width\).*; not a ndarray of arrays of shape \(8,\)"),
     (np.zeros((2, 8, 8, 3), np.uint8), TypeError, r"arrays of shape \(8, 8, 3\)"),
     (np.zeros((2, 8, 8)), TypeError, "a frame has dtype uint8, or uint16 above 8 bits per pixel, not float64"),
     (np.zeros((2, 8, 8), np.uint16), TypeError, "dtype uint16, but the design has 8 bits"),
