@@ -19,8 +19,8 @@ pub(crate) struct Decided {
 /// The array.
 pub(crate) enum Machine {
     Pipelined(PipelinedRcm),
-    Serial(SerialRcm),
-    Raster(RasterRcm),
+    Serial(Box<SerialRcm>),
+    Raster(Box<RasterRcm>),
 }
 
 /// What is seen of it after an edge.
@@ -37,8 +37,8 @@ impl Machine {
     pub(crate) fn new(design: &Design) -> Self {
         match design.organization() {
             Organization::Pipelined => Self::Pipelined(PipelinedRcm::new(design)),
-            Organization::Serial => Self::Serial(SerialRcm::new(design)),
-            Organization::Raster => Self::Raster(RasterRcm::new(design)),
+            Organization::Serial => Self::Serial(Box::new(SerialRcm::new(design))),
+            Organization::Raster => Self::Raster(Box::new(RasterRcm::new(design))),
         }
     }
 
