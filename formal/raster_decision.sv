@@ -10,7 +10,7 @@ module properties #(
     `include "reset.vh"
     localparam REGIONS = 8, PIXELS = 4;
     localparam WIDTH = 12 + 3;  // of what is on the ports with a decision
-    wire decided, will_be_active, mark, decision_valid, srs, trs, active;
+    wire decided, will_be_active, mark, decision_valid, last_region, srs, trs, active;
     wire [2:0] region, edges, corners, changes;
     wire unused_mad, unused_variance;
     raster_decision #(
@@ -21,7 +21,7 @@ module properties #(
         .edge_min_i(edge_min), .corner_min_i(corner_min), .mad_min_i(1'b1), .variance_min_i(1'b0),
         .temporal_min_i(temporal_min), .lost_i(lost), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
         .will_be_active_o(will_be_active), .mark_o(mark), .decision_valid_o(decision_valid), .region_o(region),
-        .srs_o(srs), .trs_o(trs), .active_o(active), .edge_score_o(edges), .corner_score_o(corners),
+        .last_region_o(last_region), .srs_o(srs), .trs_o(trs), .active_o(active), .edge_score_o(edges), .corner_score_o(corners),
         .mad_score_o(unused_mad), .variance_score_o(unused_variance), .temporal_count_o(changes)
     );
 
@@ -59,6 +59,7 @@ module properties #(
         assert(decision_valid == due[DEEP]);
         if (decision_valid)
             assert({srs, trs, active, region, corners, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
+        if (decision_valid) assert(last_region == (region == REGIONS - 1));
         else assert(!srs && !trs && !active);
     end
 endmodule

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // What docs/raster.md says under "Holding", "Steps" and "Lost regions", edge by edge, for every stall of the sink. Of all
 // regions the order of events is followed; one of them, any, is watched from the queue to the port: it is held in its
-// turn, its words leave once and in order, and it is lost exactly if it is stale.
+// turn, its words leave once and in order, and it is lost exactly if it is stale. Of all regions, each word is the first
+// exactly if the word before was the last of its own.
 module properties #(
     parameter LANES = 1, parameter SIDE = 2, parameter BANKS = 2, parameter DEEP = 0
 ) (
     input wire clk_i, rst_i, enter, pick, next_row, ready,
-    input wire [2:0] some_row, input wire [1:0] some_region, input wire [3:0] some_start, input wire some_extra
+    input wire [2:0] some_row, input wire [1:0] some_region, input wire [3:0] some_start, input wire some_extra,
+    input wire frame
 );
     `include "reset.vh"
     localparam SEGMENT = SIDE / LANES, ROW_WORDS = 5, QUEUE_WORDS = 4, POSITION_BITS = $clog2(SIDE * SIDE);
@@ -28,18 +30,20 @@ module properties #(
 
     wire fetch, step, valid, lost, lost_extra, held_extra, first, segment_end, idle;
     wire [3:0] place;
-    wire [1:0] region_o, lost_region;
+    wire begin_o, end_o, abort_o, frame_o;
+    wire [1:0] region_o, lost_region, held_region;
     wire [POSITION_BITS-1:0] position_o;
     raster_readout #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(2),
-        .ROW_WORDS(ROW_WORDS), .START_BITS(4), .BANKS(BANKS), .EXTRA_BITS(1), .QUEUE_WORDS(QUEUE_WORDS),
+        .ROW_WORDS(ROW_WORDS), .START_BITS(4), .BANKS(BANKS), .FRAME_BITS(1), .EXTRA_BITS(1), .QUEUE_WORDS(QUEUE_WORDS),
         .QUEUE_BITS(2), .DEEP(DEEP)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter), .row_i(watched ? row : some_row),
         .region_i(watched ? region : some_region), .start_i(watched ? start : some_start),
-        .extra_i(watched ? extra : some_extra), .stored_row_i(stored_row), .ready_i(ready), .fetch_o(fetch),
+        .extra_i(watched ? extra : some_extra), .stored_row_i(stored_row), .frame_i(frame), .ready_i(ready), .fetch_o(fetch),
         .place_o(place), .step_o(step), .valid_o(valid), .region_o(region_o), .position_o(position_o),
-        .lost_o(lost), .lost_region_o(lost_region), .lost_extra_o(lost_extra), .held_extra_o(held_extra),
+        .begin_o(begin_o), .end_o(end_o), .abort_o(abort_o), .frame_o(frame_o), .lost_o(lost),
+        .lost_region_o(lost_region), .lost_extra_o(lost_extra), .held_region_o(held_region), .held_extra_o(held_extra),
         .first_o(first), .segment_end_o(segment_end), .idle_o(idle)
     );
 
@@ -57,6 +61,11 @@ module properties #(
     // A word that was fetched at the step before, and the one on the port: whether it is of the watched region, its number.
     reg fetched = 1'b0, fetched_ours, port = 1'b0, port_ours;
     reg [4:0] fetched_word, port_word;
+    reg fetched_frame, port_frame;
+    // The watched region was lost at the edge before; it was lost in the middle, and of its words this was fetched last.
+    reg lost_ours = 1'b0, ended = 1'b0;
+    reg [4:0] end_word;
+    reg open = 1'b0;               // the word that was taken last is not the last of its region
     always @(posedge clk_i) begin
         if (next_row) stored_row <= stored_row + 3'd1;
         distance <= (watched ? {1'b0, at_first} : distance) + next_row;
@@ -78,11 +87,22 @@ module properties #(
             fetched <= fetch;
             fetched_ours <= state == HELD;
             fetched_word <= word;
+            fetched_frame <= frame;
+            port_frame <= fetched_frame;
             port <= fetched;
             port_ours <= fetched_ours;
             port_word <= fetched_word;
         end
+        lost_ours <= lost && (state == HELD ? held_lost : state == WAITS && begins && ahead == 3'd0);
+        if (state == HELD && held_lost && word != 5'd0) begin
+            ended <= 1'b1;
+            end_word <= word - 5'd1;
+        end
+        if (valid && ready) open <= !end_o;
         if (rst_i) begin
+            lost_ours <= 1'b0;
+            ended   <= 1'b0;
+            open    <= 1'b0;
             waiting <= 3'd0;
             entered <= 2'd0;
             since   <= 2'd2;
@@ -123,6 +143,14 @@ module properties #(
         if (valid && port_ours) begin
             assert(region_o == region);
             assert(position_o == port_word * LANES);
+            assert(abort_o == (ended && port_word == end_word));
+            assert(end_o == (abort_o || port_word == LAST));
+            assert(frame_o == port_frame);
+        end
+        if (valid) assert(begin_o == !open);
+        if (lost_ours) begin
+            assert(held_region == region);
+            assert(held_extra == extra);
         end
     end
 endmodule

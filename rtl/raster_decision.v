@@ -38,6 +38,7 @@ module raster_decision #(
     output wire                                  mark_o,            // with the decision: what comes back if the region is lost
     output reg                                   decision_valid_o,  // the decision for region_o
     output reg  [               REGION_BITS-1:0] region_o,          // the region that is decided
+    output reg                                   last_region_o,     // with the decision: the last region of the frame
     output reg                                   srs_o,             // spatial relevance
     output reg                                   trs_o,             // temporal relevance
     output reg                                   active_o,          // both
@@ -80,12 +81,13 @@ module raster_decision #(
     wire [VARIANCE_BITS-1:0] decided_variance;
     wire [REGION_BITS-1:0] decided_region;
     wire decided_valid;  // its reference was valid
+    wire decided_last;   // it is the last of the frame
     raster_pulse #(.DEPTH(DEEP)) u_decided (.clk_i(clk_i), .rst_i(rst_i), .bit_i(judged_i), .bit_o(decided_o));
-    raster_delay #(.WIDTH(6 + REGION_BITS + 3 * COUNT_BITS + MAD_BITS + VARIANCE_BITS), .DEPTH(DEEP)) u_judged (
+    raster_delay #(.WIDTH(7 + REGION_BITS + 3 * COUNT_BITS + MAD_BITS + VARIANCE_BITS), .DEPTH(DEEP)) u_judged (
         .clk_i(clk_i),
-        .data_i({votes, trs, reference_valid, region_q, temporal_count, edge_count, corner_count, mad_i, variance_i}),
-        .data_o({decided_votes, decided_trs, decided_valid, decided_region, decided_temporal, decided_edges,
-                 decided_corners, decided_mad, decided_variance})
+        .data_i({votes, trs, reference_valid, last_region_q, region_q, temporal_count, edge_count, corner_count, mad_i, variance_i}),
+        .data_o({decided_votes, decided_trs, decided_valid, decided_last, decided_region, decided_temporal,
+                 decided_edges, decided_corners, decided_mad, decided_variance})
     );
     wire srs = ALL ? &(decided_votes | ~PRESENT) : |(decided_votes & PRESENT);
     assign will_be_active_o = decided_o && srs && decided_trs;
@@ -96,6 +98,7 @@ module raster_decision #(
         trs_o            <= decided_o && decided_trs;
         active_o         <= will_be_active_o;
         region_o         <= decided_region;
+        last_region_o    <= decided_last;
         temporal_count_o <= decided_temporal;
         edge_score_o     <= decided_edges;
         corner_score_o   <= decided_corners;

@@ -17,41 +17,58 @@ module raster_forward #(
     parameter DEEP = 0,            // 1: one more register behind the queue of regions
     parameter POSITION_BITS = 6,   // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 15,    // ceil(log2(COLUMNS * ROWS))
+    parameter FRAME_BITS = 8,      // bits of the number of a frame, 2 or more
     parameter START_BITS = 15,     // ceil(log2(BANKS * SIDE * ROW_WORDS))
     parameter PLACE_BITS = 21      // ceil(log2(ROW_WORDS * ROWS * SIDE))
 ) (
-    input  wire                     clk_i,              // clock, rising edge
-    input  wire                     rst_i,              // synchronous reset, active high
-    input  wire                     store_i,            // a word is stored at this edge
-    input  wire [   START_BITS-1:0] store_place_i,      // where in the buffer
-    input  wire [    WORD_BITS-1:0] scored_i,           // the word, as it was scored
-    input  wire [    WORD_BITS-1:0] raw_i,              // and raw (RAW)
-    input  wire                     arriving_i,         // a word is stored at the next edge
-    input  wire                     rows_end_i,         // it is the last of a row of regions
-    input  wire                     decision_i,         // a region is decided, in the order of the regions
-    input  wire                     active_i,           // it is active: its pixels leave
-    input  wire [  REGION_BITS-1:0] region_i,           // which
-    input  wire                     mark_i,             // travels with it
-    input  wire                     ready_i,            // the word on the port is taken
-    output wire                     valid_o,            // a word of an active region leaves
-    output wire [  REGION_BITS-1:0] region_o,           // its region
-    output wire [POSITION_BITS-1:0] position_o,         // number in its region of its first pixel
-    output reg  [    WORD_BITS-1:0] pixel_o,            // that word
-    output reg                      lost_o,             // a region was lost since reset
-    output reg  [             15:0] lost_count_o,       // how many, up to the largest number
-    output wire                     idle_o,             // after this edge nothing waits, is held, fetched or on the port
-    output wire                     reference_write_o,  // a word becomes a reference (LAST_SENT)
-    output wire [   PLACE_BITS-1:0] reference_place_o,  // its number in the frame
-    output wire [    WORD_BITS-1:0] reference_word_o,   // it
-    output wire                     lost_reference_o,   // a region is lost at this edge (LAST_SENT)
-    output wire [  REGION_BITS-1:0] lost_region_o,      // which
-    output wire                     lost_mark_o         // what travelled with it
+    input  wire                     clk_i,                    // clock, rising edge
+    input  wire                     rst_i,                    // synchronous reset, active high
+    input  wire                     store_i,                  // a word is stored at this edge
+    input  wire [   START_BITS-1:0] store_place_i,            // where in the buffer
+    input  wire [    WORD_BITS-1:0] scored_i,                 // the word, as it was scored
+    input  wire [    WORD_BITS-1:0] raw_i,                    // and raw (RAW)
+    input  wire                     arriving_i,               // a word is stored at the next edge
+    input  wire                     rows_end_i,               // it is the last of a row of regions
+    input  wire                     decision_i,               // a region is decided, in the order of the regions
+    input  wire                     active_i,                 // it is active: its pixels leave
+    input  wire [  REGION_BITS-1:0] region_i,                 // which
+    input  wire                     last_region_i,            // the last of its frame
+    input  wire                     mark_i,                   // travels with it
+    input  wire                     ready_i,                  // the word on the port is taken
+    output wire                     valid_o,                  // a word of an active region leaves
+    output wire [  REGION_BITS-1:0] region_o,                 // its region
+    output wire [POSITION_BITS-1:0] position_o,               // number in its region of its first pixel
+    output reg  [    WORD_BITS-1:0] pixel_o,                  // that word
+    output wire                     first_o,                  // the first of its region
+    output wire                     last_o,                   // the last that comes of its region
+    output wire                     abort_o,                  // the last, because its region was lost in the middle
+    output wire [   FRAME_BITS-1:0] frame_o,                  // number of the frame of its region since reset
+    output reg                      lost_o,                   // a region was lost since reset
+    output reg  [             15:0] lost_count_o,             // how many, up to the largest number
+    output reg                      lost_valid_o,             // a region was lost at the edge before
+    output wire [  REGION_BITS-1:0] lost_region_o,            // which
+    output wire [   FRAME_BITS-1:0] lost_frame_o,             // number of its frame
+    output wire                     idle_o,                   // after this edge nothing waits, is held, fetched or on the port
+    output wire                     reference_write_o,        // a word becomes a reference (LAST_SENT)
+    output wire [   PLACE_BITS-1:0] reference_place_o,        // its number in the frame
+    output wire [    WORD_BITS-1:0] reference_word_o,         // it
+    output wire                     lost_reference_o,         // a region is lost at this edge (LAST_SENT)
+    output wire [  REGION_BITS-1:0] lost_reference_region_o,  // which
+    output wire                     lost_mark_o               // what travelled with it
 );
 
     localparam WORDS = BANKS * SIDE * ROW_WORDS;
     localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // all regions in the buffer may wait
-    localparam FRAME_BITS = LAST_SENT ? PLACE_BITS : 1;
-    localparam EXTRA_BITS = LAST_SENT ? PLACE_BITS + 1 : 1;
+    localparam FRAME_PLACE_BITS = LAST_SENT ? PLACE_BITS : 1;
+    // The low bits of the number of its frame wait with a region. The row of regions that is decided is at most BANKS behind
+    // it until the region is held or lost, so that the others are known.
+    localparam LOW_BITS = ROWS < BANKS ? 2 : 1;
+    localparam EXTRA_BITS = LOW_BITS + (LAST_SENT ? PLACE_BITS + 1 : 0);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (FRAME_BITS < 2) begin : g_frame_bits FRAME_BITS_must_be_2_or_more u_refused (); end
+    endgenerate
 
     // In which row of regions the word is that is stored, modulo 8.
     reg fresh_row_q;  // the next word is the first of a row of regions
@@ -70,16 +87,25 @@ module raster_forward #(
     // Where in the buffer and in the frame the region starts that is decided.
     wire [2:0] decided_row;
     wire [START_BITS-1:0] decided_start;
-    wire [FRAME_BITS-1:0] decided_place;
+    wire [FRAME_PLACE_BITS-1:0] decided_place;
     wire [EXTRA_BITS-1:0] entered_extra, lost_extra, held_extra;
 
     raster_start #(
         .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
-        .FRAME(LAST_SENT), .PLACE_BITS(FRAME_BITS)
+        .FRAME(LAST_SENT), .PLACE_BITS(FRAME_PLACE_BITS)
     ) u_start (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(decision_i), .row_o(decided_row), .start_o(decided_start),
         .place_o(decided_place)
     );
+
+    // Of which frame the region is that is decided, and the one that is held or was lost.
+    reg [FRAME_BITS-1:0] frame_q;
+    wire [LOW_BITS-1:0] frames_ago = frame_q[LOW_BITS-1:0] - held_extra[LOW_BITS-1:0];
+    wire [FRAME_BITS-1:0] held_frame = frame_q - {{(FRAME_BITS - LOW_BITS) {1'b0}}, frames_ago};
+    always @(posedge clk_i) begin
+        if (rst_i) frame_q <= {FRAME_BITS{1'b0}};
+        else if (decision_i && last_region_i) frame_q <= frame_q + 1'b1;
+    end
 
     wire fetch, step, lost, fetch_first, fetch_segment_end;
     wire [START_BITS-1:0] fetch_place;
@@ -87,14 +113,16 @@ module raster_forward #(
 
     raster_readout #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
-        .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .EXTRA_BITS(EXTRA_BITS),
-        .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
+        .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .FRAME_BITS(FRAME_BITS),
+        .EXTRA_BITS(EXTRA_BITS), .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
     ) u_readout (
         .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i), .row_i(decided_row), .region_i(region_i),
-        .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .ready_i(ready_i),
-        .fetch_o(fetch), .place_o(fetch_place), .step_o(step), .valid_o(valid_o), .region_o(region_o),
-        .position_o(position_o), .lost_o(lost), .lost_region_o(lost_region_o), .lost_extra_o(lost_extra),
-        .held_extra_o(held_extra), .first_o(fetch_first), .segment_end_o(fetch_segment_end), .idle_o(idle_o)
+        .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .frame_i(held_frame),
+        .ready_i(ready_i), .fetch_o(fetch), .place_o(fetch_place), .step_o(step), .valid_o(valid_o), .region_o(region_o),
+        .position_o(position_o), .begin_o(first_o), .end_o(last_o), .abort_o(abort_o), .frame_o(frame_o),
+        .lost_o(lost), .lost_region_o(lost_reference_region_o), .lost_extra_o(lost_extra),
+        .held_region_o(lost_region_o), .held_extra_o(held_extra), .first_o(fetch_first),
+        .segment_end_o(fetch_segment_end), .idle_o(idle_o)
     );
 
     raster_memory #(.WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS)) u_buffer (
@@ -102,8 +130,10 @@ module raster_forward #(
         .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
     );
 
+    assign lost_frame_o = held_frame;
     always @(posedge clk_i) begin
         if (step) pixel_o <= fetched;
+        lost_valid_o <= lost;
         if (lost) begin
             lost_o <= 1'b1;
             if (lost_count_o != 16'hFFFF) lost_count_o <= lost_count_o + 1'b1;
@@ -111,6 +141,7 @@ module raster_forward #(
         if (rst_i) begin
             lost_o       <= 1'b0;
             lost_count_o <= 16'd0;
+            lost_valid_o <= 1'b0;
         end
     end
 
@@ -121,7 +152,7 @@ module raster_forward #(
         if (LAST_SENT) begin : g_sent
             reg fetched_q;
             reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
-            wire [PLACE_BITS-1:0] place = fetch_first ? held_extra[PLACE_BITS-1:0] : next_place_q;
+            wire [PLACE_BITS-1:0] place = fetch_first ? held_extra[LOW_BITS+:PLACE_BITS] : next_place_q;
             localparam JUMP = ROW_WORDS - SEGMENT + 1;
             always @(posedge clk_i) begin
                 fetched_q <= fetch && !rst_i;
@@ -140,13 +171,13 @@ module raster_forward #(
             end else begin : g_same
                 assign reference_word_o = fetched;
             end
-            wire unused_mark = held_extra[PLACE_BITS] || |lost_extra;
-            assign entered_extra = {mark_i, decided_place};
+            wire unused_mark = held_extra[EXTRA_BITS-1] || |lost_extra;
+            assign entered_extra = {mark_i, decided_place, frame_q[LOW_BITS-1:0]};
             assign lost_reference_o = lost;
-            assign lost_mark_o = lost_extra[PLACE_BITS];
+            assign lost_mark_o = lost_extra[EXTRA_BITS-1];
         end else begin : g_previous
-            wire unused_places = |decided_place || |lost_extra || |held_extra || fetch_first || fetch_segment_end || mark_i;
-            assign entered_extra = 1'b0;
+            wire unused_places = |decided_place || |lost_extra || fetch_first || fetch_segment_end || mark_i;
+            assign entered_extra = frame_q[LOW_BITS-1:0];
             assign reference_write_o = 1'b0;
             assign reference_word_o = {WORD_BITS{1'b0}};
             assign reference_place_o = {PLACE_BITS{1'b0}};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // One active region, any of any frame, is followed from its decision to the port: its words leave once, in order, and are
-// those that were stored of this frame; or it is lost, because the first word of a later row of regions took the place of
-// one of the buffer. Words come at every clock from one reset on, and a decision as many clocks after the last word of its
-// region as the core needs; the sink takes and refuses as it likes.
+// those that were stored of this frame, from a first to a last, with the number of its frame; or it is lost, because the
+// first word of a later row of regions took the place of one of the buffer, and then its number comes and what left of it
+// ends with abort. Words come at every clock from one reset on, and a decision as many clocks after the last word of its
+// region as the core needs (frames of one row of regions have a gap between them); the sink takes and refuses as it likes.
 `include "reset.vh"
 localparam F_N = SIDE * SEGMENT;                 // words of a region
 localparam F_ROW = SIDE * ROW_WORDS;             // words of a row of regions
@@ -12,6 +13,7 @@ localparam F_DECIDED = (DEEP ? 6 : 4) + 1;       // clocks from a region's last 
 reg [5:0] f_arriving = 6'd0;                     // number in its row of regions of the word that arrives next
 reg [5:0] f_stored = 6'd0;                       // ... of the one that is stored next
 reg f_store = 1'b0;
+reg [3:0] f_pause = 4'd0;                        // clocks of the gap that are left
 reg [START_BITS-1:0] f_place = 0;
 reg [F_DECIDED:0] f_done = 0;
 reg [REGION_BITS-1:0] f_region = 0;              // the region that is decided next
@@ -20,16 +22,19 @@ wire [5:0] f_column = f_stored % ROW_WORDS;
 wire f_last_word = store_i && f_stored >= (SIDE - 1) * ROW_WORDS && f_column % SEGMENT == SEGMENT - 1;
 always @* begin
     if (started) assume(!rst_i);
-    assume(arriving_i == started);
+    assume(arriving_i == (started && f_pause == 4'd0));
     assume(rows_end_i == (f_arriving == F_ROW - 1));
     assume(store_i == f_store);
     assume(store_place_i == f_place);
     assume(decision_i == f_done[F_DECIDED-1]);
     assume(decision_i || !active_i);
     assume(region_i == f_region);
+    assume(last_region_i == (f_region == COLUMNS * ROWS - 1));
 end
 always @(posedge clk_i) begin
     f_store <= arriving_i;
+    if (f_pause != 4'd0) f_pause <= f_pause - 4'd1;
+    else if (ROWS == 1 && arriving_i && f_arriving == F_ROW - 1) f_pause <= 4'd9;
     if (arriving_i) f_arriving <= f_arriving == F_ROW - 1 ? 6'd0 : f_arriving + 6'd1;
     if (store_i) begin
         f_stored <= f_stored == F_ROW - 1 ? 6'd0 : f_stored + 6'd1;
@@ -63,13 +68,17 @@ wire f_watched = active_i && f_pick && f_state == F_NONE && region_i == f_ours;
 reg [2:0] f_rows;      // rows of regions of which words are stored, from that of the region on
 wire f_next_row = store_i && f_stored == 6'd0;
 wire f_stale = f_rows + f_next_row > BANKS;
-reg [REGION_BITS-1:0] f_before = 0;  // the first region of the row of regions before that which is stored
-always @(posedge clk_i) begin
-    if (store_i && f_stored == F_ROW - 1) f_before <= f_first;
-    if (rst_i) f_before <= 0;
-end
 // Of the region that is decided they are one or two: words of the next row may have come.
-wire [2:0] f_count = f_region - f_region % COLUMNS == (f_stored == 6'd0 ? f_before : f_first) ? 3'd1 : 3'd2;
+reg [2:0] f_stored_rows = 3'd0, f_decided_rows = 3'd0;  // rows of regions that have begun, and that are decided
+wire [2:0] f_count = f_stored_rows - f_decided_rows;
+always @(posedge clk_i) begin
+    f_stored_rows <= f_stored_rows + f_next_row;
+    if (decision_i && f_region % COLUMNS == COLUMNS - 1) f_decided_rows <= f_decided_rows + 3'd1;
+    if (rst_i) begin
+        f_stored_rows  <= 3'd0;
+        f_decided_rows <= 3'd0;
+    end
+end
 always @(posedge clk_i) begin
     if (store_i && f_ours >= f_first && f_ours < f_first + COLUMNS && f_stored == f_at) f_latest <= scored_i[0];
 end
@@ -85,13 +94,23 @@ wire f_held_lost = f_held && lost && !fetch;
 wire f_begins = (!f_held || f_last) && f_waiting > f_recent && f_since == 2'd2;
 reg f_fetched = 1'b0, f_fetched_ours, f_port = 1'b0, f_port_ours;
 reg [3:0] f_fetched_word, f_port_word;
+reg [FRAME_BITS-1:0] f_frame = 0, f_our_frame;  // number of the frame that is decided, and of ours
+reg f_lost_ours = 1'b0, f_ended = 1'b0;         // lost at the edge before; lost in the middle, after this word
+reg [3:0] f_end_word;
 always @(posedge clk_i) begin
     f_waiting <= f_waiting + active_i - f_begins;
     f_entered <= {f_entered[0], active_i};
     f_since <= f_begins ? 2'd1 : 2'd2;
     f_held <= f_begins ? !lost : f_held && !f_held_lost && !f_last;
     f_next <= f_begins ? 4'd0 : f_next + fetch;
+    if (decision_i && f_region == COLUMNS * ROWS - 1) f_frame <= f_frame + 1'b1;
+    f_lost_ours <= lost && (f_state == F_HELD ? f_held_lost : f_state == F_WAITS && f_begins && f_ahead == 4'd0);
+    if (f_state == F_HELD && f_held_lost && f_next != 4'd0) begin
+        f_ended <= 1'b1;
+        f_end_word <= f_next - 4'd1;
+    end
     if (f_watched) begin
+        f_our_frame <= f_frame;
         f_state <= F_WAITS;
         f_ahead <= f_waiting - f_begins;
         f_kept <= f_latest;
@@ -118,6 +137,9 @@ always @(posedge clk_i) begin
         f_state   <= F_NONE;
         f_fetched <= 1'b0;
         f_port    <= 1'b0;
+        f_frame   <= 0;
+        f_ended   <= 1'b0;
+        f_lost_ours <= 1'b0;
     end
 end
 always @* if (started && !rst_i) begin
@@ -130,6 +152,12 @@ always @* if (started && !rst_i) begin
     if (valid_o && f_port_ours) begin
         assert(region_o == f_ours);
         assert(position_o == f_port_word * LANES);
-        if (f_port_word == f_word) assert(pixel_o[0] == f_kept);
+        // In frames of one row the word of the next frame may be stored before the decision, and f_latest is that.
+        if (ROWS > 1 && f_port_word == f_word) assert(pixel_o[0] == f_kept);
+        assert(first_o == (f_port_word == 4'd0));
+        assert(abort_o == (f_ended && f_port_word == f_end_word));
+        assert(last_o == (abort_o || f_port_word == F_N - 1));
+        assert(frame_o == f_our_frame);
     end
+    if (f_lost_ours) assert(lost_valid_o && lost_region_o == f_ours && lost_frame_o == f_our_frame);
 end

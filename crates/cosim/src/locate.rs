@@ -49,8 +49,15 @@ fn in_array(
         | PortRole::StorePixel
         | PortRole::StoreLast
         | PortRole::Underrun => None,
-        PortRole::ForwardPosition | PortRole::ForwardSlot | PortRole::ForwardRegion => {
-            says(PortRole::ForwardRegion)
+        PortRole::ForwardPosition
+        | PortRole::ForwardSlot
+        | PortRole::ForwardRegion
+        | PortRole::ForwardFirst
+        | PortRole::ForwardLast
+        | PortRole::ForwardAbort
+        | PortRole::ForwardFrame => says(PortRole::ForwardRegion),
+        PortRole::LostValid | PortRole::LostRegion | PortRole::LostFrame => {
+            says(PortRole::LostRegion)
         }
         PortRole::ForwardValid | PortRole::ForwardPixel if has(PortRole::ForwardRegion) => {
             says(PortRole::ForwardRegion)

@@ -48,7 +48,9 @@ pub use kind::Measure;
 pub use pipelined::PipelinedTiming;
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
-pub use raster::{RasterMemory, RasterStream, RasterTiming, RowDeparture, SecondPass};
+pub use raster::{
+    FRAME_NUMBERS, RasterMemory, RasterStream, RasterTiming, RowDeparture, SecondPass,
+};
 pub use reciprocal::Reciprocal;
 pub use rules::Unit;
 pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, SerialTiming};

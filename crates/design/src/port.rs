@@ -87,10 +87,24 @@ pub enum PortRole {
     ForwardSlot,
     /// Number of that region (`serial`, raster feed; `raster`).
     ForwardRegion,
+    /// That word is the first of its region (`raster`).
+    ForwardFirst,
+    /// It is the last that comes of its region (`raster`).
+    ForwardLast,
+    /// It is, because its region was lost in the middle (`raster`).
+    ForwardAbort,
+    /// Number of the frame of its region, modulo [`crate::FRAME_NUMBERS`] (`raster`).
+    ForwardFrame,
     /// A region was lost since reset (`raster`).
     Lost,
     /// How many (`raster`).
     LostCount,
+    /// A region was lost at the last edge (`raster`).
+    LostValid,
+    /// Number of that region (`raster`).
+    LostRegion,
+    /// Number of its frame, modulo [`crate::FRAME_NUMBERS`] (`raster`).
+    LostFrame,
 }
 
 /// When the value of an output means something. Otherwise it may be anything, and is not compared.
@@ -220,7 +234,14 @@ fn port_name(role: PortRole) -> String {
         PortRole::ForwardPosition => "forward_position_o".to_owned(),
         PortRole::ForwardSlot => "forward_slot_o".to_owned(),
         PortRole::ForwardRegion => "forward_region_o".to_owned(),
+        PortRole::ForwardFirst => "forward_first_o".to_owned(),
+        PortRole::ForwardLast => "forward_last_o".to_owned(),
+        PortRole::ForwardAbort => "forward_abort_o".to_owned(),
+        PortRole::ForwardFrame => "forward_frame_o".to_owned(),
         PortRole::Lost => "lost_o".to_owned(),
         PortRole::LostCount => "lost_count_o".to_owned(),
+        PortRole::LostValid => "lost_valid_o".to_owned(),
+        PortRole::LostRegion => "lost_region_o".to_owned(),
+        PortRole::LostFrame => "lost_frame_o".to_owned(),
     }
 }

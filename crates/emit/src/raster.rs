@@ -8,8 +8,8 @@ use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Pipelining, Port, PortRole,
-    RasterTiming, Reference, SpatialFeature, Store, bits_for, index_bits,
+    Combine, Design, FRAME_NUMBERS, FeatureKind, Filter, Irrelevant, Neighborhood, Pipelining,
+    Port, PortRole, RasterTiming, Reference, SpatialFeature, Store, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -78,7 +78,8 @@ pub(crate) fn values(design: &Design, leaf: &str) -> Values {
 
 /// The range of a port whose width depends on the grid.
 fn range(port: &Port) -> Option<String> {
-    let of_region = matches!(port.role, PortRole::Region | PortRole::ForwardRegion);
+    use PortRole::{ForwardRegion, LostRegion, Region};
+    let of_region = matches!(port.role, Region | ForwardRegion | LostRegion);
     of_region.then(|| "[$clog2(COLUMNS*ROWS)-1:0]".to_owned())
 }
 
@@ -160,7 +161,7 @@ fn streams(design: &Design, unused: &mut Vec<Unused>) -> Vec<(&'static str, Stri
         let given = has.iter().any(|name| name == port);
         list.push((port, if given { port.to_owned() } else { format!("{width}'d0") }));
     }
-    let region = "[$clog2(COLUMNS*ROWS)-1:0]".to_owned();
+    let (region, frame) = ("[$clog2(COLUMNS*ROWS)-1:0]".to_owned(), FRAME_NUMBERS.ilog2());
     for (name, range) in [
         ("reference_ready_o", String::new()),
         ("store_valid_o", String::new()),
@@ -168,11 +169,18 @@ fn streams(design: &Design, unused: &mut Vec<Unused>) -> Vec<(&'static str, Stri
         ("store_last_o", String::new()),
         ("underrun_o", String::new()),
         ("forward_valid_o", String::new()),
-        ("forward_region_o", region),
+        ("forward_region_o", region.clone()),
         ("forward_position_o", bits(design.position_bits())),
         ("forward_pixel_o", bits(word)),
+        ("forward_first_o", String::new()),
+        ("forward_last_o", String::new()),
+        ("forward_abort_o", String::new()),
+        ("forward_frame_o", bits(frame)),
         ("lost_o", String::new()),
         ("lost_count_o", bits(16)),
+        ("lost_valid_o", String::new()),
+        ("lost_region_o", region),
+        ("lost_frame_o", bits(frame)),
     ] {
         let given = has.iter().any(|port| port == name);
         let signal = if given {
@@ -218,6 +226,7 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, Stri
         ("COUNT_BITS", design.count_bits()),
         ("EDGE_LEVEL_BITS", edge_level.map_or(design.pixel_bits() + 3, |edge| edge.level_bits())),
         ("POSITION_BITS", design.position_bits()),
+        ("FRAME_BITS", FRAME_NUMBERS.ilog2()),
         ("MAD_BITS", score_bits(design, FeatureKind::Mad)),
         ("VARIANCE_BITS", score_bits(design, FeatureKind::Variance)),
     ];

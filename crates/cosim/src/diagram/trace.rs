@@ -211,7 +211,10 @@ fn signal(port: &Port) -> Signal {
             | PortRole::ForwardPosition
             | PortRole::ForwardSlot
             | PortRole::ForwardRegion
+            | PortRole::ForwardFrame
             | PortRole::LostCount
+            | PortRole::LostRegion
+            | PortRole::LostFrame
     );
     Signal { name: format!("{}{lane}", port.name), is_bit: !is_number }
 }

@@ -32,7 +32,7 @@ use script::{FRAMES, Script};
 use std::sync::atomic::AtomicBool;
 use tape::Tape;
 
-pub use tally::Tally;
+pub use tally::{Losses, Tally};
 
 /// Clocks of the longest vectors. Verilator needs a quarter of an hour for them.
 const MAX_CLOCKS: u64 = 1 << 31;

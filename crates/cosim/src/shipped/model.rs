@@ -26,6 +26,10 @@ pub(crate) trait Model {
     /// Clocks after the last pixel of a frame until everything has been decided that does not wait for
     /// another frame; more where the model is ready again before.
     fn settling_clocks(&self) -> u64;
+    /// Whether a sink that stalls is ready at the next edge: at some, where that tells more of what is lost.
+    fn takes_while_stalling(&mut self) -> bool {
+        false
+    }
     /// Frames that must follow before the pixels of a frame have left.
     fn frames_behind(&self) -> u32;
 }

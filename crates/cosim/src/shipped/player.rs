@@ -193,7 +193,8 @@ impl<'a> Player<'a> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        let applied = Applied { forward_ready: !self.stalls, ..*applied };
+        let forward_ready = !self.stalls || self.model.takes_while_stalling();
+        let applied = Applied { forward_ready, ..*applied };
         self.model.clock(&applied, &mut self.tape.record);
         self.tape.push(1)
     }

@@ -17,6 +17,7 @@ pub(super) fn model(part: &Design, _: Top) -> Box<dyn Model> {
         codec: RasterCodec::new(part),
         outside: (part.store() == Store::External).then(|| Outside::new(part)),
         word_pixels: part.pixels_per_clock() as usize,
+        sink: Stalling { is_ready: true, has_stalled: false, losses: 0 },
         settling: departure.decision_clocks.max(departure.forward_clocks),
     })
 }
@@ -28,6 +29,33 @@ struct Raster {
     word_pixels: usize,
     /// Clocks from the last word of a frame until all has left.
     settling: u64,
+    sink: Stalling,
+}
+
+/// A sink that stalls: from the last word of a region on, when the first word of the next has been fetched, until a region
+/// is lost. Every other time it takes a word at the edge of the loss.
+struct Stalling {
+    is_ready: bool,
+    /// The last word of a region that is on the ports made it stall before.
+    has_stalled: bool,
+    losses: u64,
+}
+
+impl Stalling {
+    fn next(&mut self, core: &RasterRcm) -> bool {
+        let shown = core.output();
+        let ends = shown.forward_valid && shown.forward_last && !shown.forward_abort;
+        if core.aborts_next() {
+            self.losses += 1;
+            let takes = self.losses.is_multiple_of(2);
+            (self.is_ready, self.has_stalled) = (true, ends && !takes);
+            return takes;
+        }
+        if self.is_ready && ends {
+            self.is_ready = std::mem::take(&mut self.has_stalled);
+        }
+        self.is_ready
+    }
 }
 
 impl Model for Raster {
@@ -68,6 +96,10 @@ impl Model for Raster {
 
     fn settling_clocks(&self) -> u64 {
         self.settling
+    }
+
+    fn takes_while_stalling(&mut self) -> bool {
+        self.sink.next(&self.core)
     }
 
     fn frames_behind(&self) -> u32 {

@@ -153,14 +153,14 @@ impl Script {
     }
 }
 
-/// Frames during which a sink must stall for a region to be lost; one where none is ever lost; none without
-/// a sink.
+/// Frames during which a sink must stall for regions of more than one frame to be lost; one where none is ever lost; none
+/// without a sink.
 fn stalled_frames(part: &Design) -> usize {
     let kept = part.timing().departure().kept_rows;
     match (has_sink(part), kept) {
         (false, _) => 0,
         (true, None) => 1,
-        (true, Some(kept)) => (kept + 1).div_ceil(part.rows()) as usize,
+        (true, Some(kept)) => 1 + (kept + 2).div_ceil(part.rows()) as usize,
     }
 }
 

@@ -28,8 +28,23 @@ pub struct Tally {
     pub sync_errors: u64,
     /// Decisions after the first of them. More than a frame has are of frames behind the one that it cut short.
     pub after_error: u64,
+    /// How they were lost, and what of them left.
+    pub losses: Losses,
     /// Outputs that are never compared with anything but 0, though they can show something else.
     pub silent: Vec<String>,
+}
+
+/// How regions are lost to a sink that stalls, in all sequences.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Losses {
+    /// Without a word that leaves.
+    pub whole: u64,
+    /// After words of it have been fetched, while the last of them waits for the sink.
+    pub waiting: u64,
+    /// The same at an edge at which that word comes to the ports.
+    pub stepping: u64,
+    /// Of those, with a single word, first and last.
+    pub single: u64,
 }
 
 /// Counts while vectors are made.
@@ -38,6 +53,9 @@ pub(super) struct Counter {
     region_pixels: u64,
     never_lost: bool,
     tally: Tally,
+    /// Regions that were lost, and the region and frame of the last word that came with abort.
+    lost: u64,
+    aborted: Option<(u64, u64)>,
     /// Every bit that is expected to be 1 where it is compared.
     seen: Vec<u8>,
 }
@@ -49,6 +67,8 @@ impl Counter {
             region_pixels: part.region_pixels().into(),
             never_lost: never_lost(part),
             tally: Tally::default(),
+            lost: 0,
+            aborted: None,
             seen: outputs.record(),
         }
     }
@@ -82,6 +102,7 @@ impl Counter {
         }
         let lost = at(PortRole::LostCount).map_or(0, |field| field.get(expected, 0));
         self.tally.lost = self.tally.lost.max(lost);
+        self.see_losses(outputs, expected);
         for field in outputs.fields() {
             for lane in outputs.compared_lanes(field, expected) {
                 let value = field.get(expected, lane);
@@ -93,14 +114,36 @@ impl Counter {
         }
     }
 
+    /// A word with abort is seen once: another region, or another frame, is another word.
+    fn see_losses(&mut self, outputs: &Layout, expected: &[u8]) {
+        let at = |role| outputs.fields().iter().find(|field| field.port.role == role);
+        let value = |role| at(role).map_or(0, |field| field.get(expected, 0));
+        let is_lost = value(PortRole::LostValid) == 1;
+        self.lost += u64::from(is_lost);
+        let is_aborted = value(PortRole::ForwardValid) == 1 && value(PortRole::ForwardAbort) == 1;
+        let of = (value(PortRole::ForwardRegion), value(PortRole::ForwardFrame));
+        let aborted = is_aborted.then_some(of);
+        if aborted.is_some() && aborted != self.aborted {
+            let losses = &mut self.tally.losses;
+            // The loss of the word that comes is at the same edge, or was before.
+            let is_now = is_lost && (value(PortRole::LostRegion), value(PortRole::LostFrame)) == of;
+            losses.stepping += u64::from(is_now);
+            losses.waiting += u64::from(!is_now);
+            losses.single += value(PortRole::ForwardFirst);
+        }
+        self.aborted = aborted;
+    }
+
     pub(super) fn finish(self, outputs: &Layout) -> Tally {
-        let Self { regions, never_lost, mut tally, seen, .. } = self;
+        let Self { regions, never_lost, mut tally, seen, lost, .. } = self;
+        let Losses { waiting, stepping, .. } = tally.losses;
+        tally.losses.whole = lost.saturating_sub(waiting + stepping);
         tally.frames = (tally.active + tally.held + tally.blank) / regions.max(1);
         for field in outputs.fields() {
             let port = &field.port;
             // The number of the only region is 0.
             let is_numbered = matches!(port.role, PortRole::Region | PortRole::ForwardRegion);
-            let is_loss = matches!(port.role, PortRole::Lost | PortRole::LostCount);
+            let is_loss = is_loss(port.role);
             if (is_numbered && regions == 1) || (is_loss && never_lost) {
                 continue;
             }
@@ -130,6 +173,11 @@ impl Tally {
         need(self.compared > 0, "nothing is compared with an earlier frame".to_owned());
         let goes_on = self.sync_errors == 0 || self.after_error > u64::from(part.regions());
         need(goes_on, "no frame is decided behind a damaged one".to_owned());
+        if has_sink(part) && !never_lost(part) {
+            let Losses { whole, waiting, stepping, .. } = self.losses;
+            need(whole > 0, "no region is lost as a whole".to_owned());
+            need(waiting + stepping > 0, "no region is lost in the middle".to_owned());
+        }
         let silent = self.silent.join(" and ");
         need(self.silent.is_empty(), format!("{silent} never differs from 0"));
         (!missing.is_empty()).then(|| missing.join(", "))
@@ -153,6 +201,15 @@ impl Tally {
         ];
         if self.lost > 0 {
             lines.push(format!("The sink stalls until {} regions are lost.", self.lost));
+            let Losses { whole, waiting, stepping, single } = self.losses;
+            lines.push(format!(
+                "In all sequences {whole} are lost as a whole, {} in the middle:",
+                waiting + stepping
+            ));
+            lines.push(format!(
+                "{waiting} while the word that ends them waits, {stepping} as it comes to the \
+                 ports; {single} after one word."
+            ));
         }
         if self.sync_errors > 0 {
             lines.push(format!(
@@ -177,6 +234,12 @@ pub(super) fn impossible(design: &Design) -> Vec<String> {
         list.push("No region is ever lost: a frame waits for the sink.".to_owned());
     }
     list
+}
+
+/// Whether a port shows something only where a region is lost.
+fn is_loss(role: PortRole) -> bool {
+    use PortRole::{ForwardAbort, Lost, LostCount, LostFrame, LostRegion, LostValid};
+    matches!(role, ForwardAbort | Lost | LostCount | LostValid | LostRegion | LostFrame)
 }
 
 fn never_lost(design: &Design) -> bool {

@@ -120,8 +120,15 @@ impl<'a> Applied<'a> {
                 | PortRole::ForwardPosition
                 | PortRole::ForwardSlot
                 | PortRole::ForwardRegion
+                | PortRole::ForwardFirst
+                | PortRole::ForwardLast
+                | PortRole::ForwardAbort
+                | PortRole::ForwardFrame
                 | PortRole::Lost
-                | PortRole::LostCount => continue,
+                | PortRole::LostCount
+                | PortRole::LostValid
+                | PortRole::LostRegion
+                | PortRole::LostFrame => continue,
             };
             field.set(record, 0, value);
         }

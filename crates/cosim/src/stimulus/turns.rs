@@ -12,6 +12,13 @@ pub(super) struct Extent {
     pub(super) most: usize,
 }
 
+impl Extent {
+    /// Whether some sequences may be left out.
+    pub(super) fn is_brief(self) -> bool {
+        self.most != usize::MAX
+    }
+}
+
 /// What is recorded, in this order.
 pub(super) struct Turns<'a, Sequence, Part> {
     pub(super) extent: Extent,

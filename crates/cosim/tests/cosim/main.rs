@@ -13,6 +13,7 @@ mod machinery;
 mod matrix;
 mod negative_control;
 mod netlist;
+mod raster_ends;
 mod raster_stimulus;
 mod raster_stores;
 mod report;

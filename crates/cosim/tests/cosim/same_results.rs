@@ -160,7 +160,12 @@ fn raster(design: &Design, recording: &Recording) -> Results {
             let pixels = &mut results[decided[region] - 1][region].pixels;
             assert_eq!(pixels.len(), number(PortRole::ForwardPosition));
             let field = common::vectors::field(outputs, PortRole::ForwardPixel);
+            let is_first = pixels.is_empty();
             pixels.extend(field.words(&output, word));
+            let is_last = pixels.len() == design.region_pixels() as usize;
+            let ends = [PortRole::ForwardFirst, PortRole::ForwardLast, PortRole::ForwardAbort];
+            assert_eq!(ends.map(|role| says(role) == 1), [is_first, is_last, false]);
+            assert_eq!(number(PortRole::ForwardFrame), decided[region] - 1);
         }
         assert_eq!(says(PortRole::Lost), 0);
     }

@@ -127,17 +127,23 @@ impl Sizes {
         list
     }
 
+    /// Bits of the number of a frame that wait with its region. The row of regions that is decided is up to B behind it,
+    /// and the frame of that is known.
+    fn frame_bits(&self, design: &Design) -> u32 {
+        if design.rows() < self.timing.buffer_rows { 2 } else { 1 }
+    }
+
     /// Regions that wait, and which regions have a reference.
     fn queues(&self, design: &Design) -> Vec<RasterMemory> {
         let waiting = 1 << index_bits(u64::from(self.timing.buffer_rows) * self.columns);
         let queue = |holds, bits| RasterMemory { holds, words: waiting, bits };
         let start = index_bits(self.buffer);
-        let extra = if self.last_sent { index_bits(self.timing.words()) + 1 } else { 1 };
+        let reference = if self.last_sent { index_bits(self.timing.words()) + 1 } else { 0 };
         let mut list = Vec::new();
         if design.forwards() {
             list.push(queue(
                 "active regions that wait for the sink",
-                ROW_BITS + design.region_bits() + start + extra,
+                ROW_BITS + design.region_bits() + start + self.frame_bits(design) + reference,
             ));
         }
         if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {

@@ -7,6 +7,10 @@ use crate::{Design, Direction, Port, PortRole, Qualifier, Store};
 /// Bits of `lost_count_o`, which stays at its largest value.
 const LOST_COUNT_BITS: u32 = 16;
 
+/// Frames since reset are counted modulo this, a power of two: a receiver tells frames apart by their numbers if it stalls,
+/// or if nothing changes, for fewer of them.
+pub const FRAME_NUMBERS: u32 = 256;
+
 /// The ports of the core, inputs first.
 pub(super) fn ports(design: &Design) -> Vec<Port> {
     use Direction::{Input, Output};
@@ -84,19 +88,33 @@ fn decision_outputs(design: &Design) -> Vec<Port> {
     list
 }
 
-fn forward_outputs(design: &Design, word: u32) -> [Port; 6] {
+fn forward_outputs(design: &Design, word: u32) -> [Port; 13] {
     let single = |role, width, doc| Port::single(Direction::Output, role, width, doc);
     let leaving = |role, width, doc| with(PortRole::ForwardValid, role, width, doc);
+    let losing = |role, width, doc| with(PortRole::LostValid, role, width, doc);
+    let (regions, frames) = (design.region_bits(), FRAME_NUMBERS.ilog2());
     let region = "its region; only with forward_valid_o";
     let position = "number in its region of its first pixel; only with forward_valid_o";
     let pixels = "that word, the left pixel in the lowest bits; only with forward_valid_o";
+    let first = "the first word of its region; only with forward_valid_o";
+    let last = "the last that comes of its region; only with forward_valid_o";
+    let abort = "its region was lost in the middle: no more comes; only with forward_valid_o";
+    let frame = "number of its frame since reset, modulo 256; only with forward_valid_o";
     let count = "regions lost since reset, at most 65,535";
+    let lost_frame = "number of its frame since reset, modulo 256; only with lost_valid_o";
     [
         single(PortRole::ForwardValid, 1, "a word of an active region leaves"),
-        leaving(PortRole::ForwardRegion, design.region_bits(), region),
+        leaving(PortRole::ForwardRegion, regions, region),
         leaving(PortRole::ForwardPosition, design.position_bits(), position),
         leaving(PortRole::ForwardPixel, word, pixels),
+        leaving(PortRole::ForwardFirst, 1, first),
+        leaving(PortRole::ForwardLast, 1, last),
+        leaving(PortRole::ForwardAbort, 1, abort),
+        leaving(PortRole::ForwardFrame, frames, frame),
         single(PortRole::Lost, 1, "a region was lost since reset"),
         single(PortRole::LostCount, LOST_COUNT_BITS, count),
+        single(PortRole::LostValid, 1, "a region was lost at the edge before"),
+        losing(PortRole::LostRegion, regions, "that region; only with lost_valid_o"),
+        losing(PortRole::LostFrame, frames, lost_frame),
     ]
 }

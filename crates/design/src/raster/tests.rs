@@ -117,13 +117,19 @@ fn memories_of_the_paper_on_a_small_frame() {
         let memories = RasterMemory::all_of(&design(&[&frame, more].concat()));
         memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
     };
-    // A queue entry: 3 bits of the row, 6 of the region, 10 of the place in the buffer, 1 more.
+    // A queue entry: 3 bits of the row, 6 of the region, 10 of the place in the buffer, 1 of the frame.
     let plain = [(4096, 8), (1024, 8), (64, 16), (64, 16), (8, 12), (16, 20)];
     assert_eq!(of(&[]), plain);
     let sent = of(&["temporal.reference=last-sent", "render.payload=raw"]);
     let raw = [(4096, 8), (1024, 8), (1024, 8), (64, 16), (64, 16), (64, 8), (8, 12)];
     // 13 bits of the place in the frame and its mark.
-    assert_eq!(sent, [&raw[..], &[(16, 32), (64, 1), (64, 1)]].concat());
+    assert_eq!(sent, [&raw[..], &[(16, 33), (64, 1), (64, 1)]].concat());
+    // Frames of few rows of regions have more bits of the frame.
+    for (height, bits) in [(24, 18 + 1), (16, 17 + 1), (8, 16 + 2)] {
+        let low =
+            RasterMemory::all_of(&design(&["frame.width=64", &format!("frame.height={height}")]));
+        assert_eq!(low.last().map(|memory| memory.bits), Some(bits), "{height}");
+    }
     let total: u64 = RasterMemory::all_of(&design(&["frame.width=64", "frame.height=64"]))
         .iter()
         .map(RasterMemory::total_bits)
@@ -306,8 +312,15 @@ fn ports_stand_in_the_order_of_the_page() {
         ("forward_region_o", 6),
         ("forward_position_o", 6),
         ("forward_pixel_o", 32),
+        ("forward_first_o", 1),
+        ("forward_last_o", 1),
+        ("forward_abort_o", 1),
+        ("forward_frame_o", 8),
         ("lost_o", 1),
         ("lost_count_o", 16),
+        ("lost_valid_o", 1),
+        ("lost_region_o", 6),
+        ("lost_frame_o", 8),
     ];
     assert_eq!(named(Direction::Output), outputs);
     for port in &ports {
@@ -315,9 +328,9 @@ fn ports_stand_in_the_order_of_the_page() {
             "region_o" | "corner_score_o" | "edge_score_o" | "temporal_count_o" => {
                 Qualifier::With(PortRole::DecisionValid)
             }
-            "forward_region_o" | "forward_position_o" | "forward_pixel_o" => {
-                Qualifier::With(PortRole::ForwardValid)
-            }
+            "forward_ready_i" | "forward_valid_o" => Qualifier::Always,
+            name if name.starts_with("forward_") => Qualifier::With(PortRole::ForwardValid),
+            "lost_region_o" | "lost_frame_o" => Qualifier::With(PortRole::LostValid),
             _ => Qualifier::Always,
         };
         assert_eq!((port.qualifier, port.lanes), (qualifier, 1), "{}", port.name);

@@ -7,7 +7,7 @@ use crate::text::text_of;
 use crate::{Prefix, banner};
 use askama::Template;
 use foveate_design::{
-    Design, Pipelining, RasterMemory, RasterTiming, Reference, Store, Thresholds,
+    Design, FRAME_NUMBERS, Pipelining, RasterMemory, RasterTiming, Reference, Store, Thresholds,
 };
 
 #[derive(Template)]
@@ -46,6 +46,7 @@ struct Readme {
     region_words: u32,
     first_word: u64,
     last_position: u32,
+    frame_numbers: u32,
     /// Whether regions have pixels beyond the frame.
     padded: bool,
     buffer_rows: u32,
@@ -113,6 +114,7 @@ fn view(design: &Design, prefix: &Prefix, timing: &RasterTiming) -> Readme {
         region_words: timing.region_words,
         first_word: timing.to_first_word(),
         last_position: design.region_pixels() - timing.word_pixels,
+        frame_numbers: FRAME_NUMBERS,
         padded: design.columns() * n > design.width() || design.rows() * n > design.height(),
         buffer_rows: timing.buffer_rows,
         sink_stall: timing.stall_clocks(),

@@ -25,6 +25,8 @@ pub(super) struct Judged {
     pub(super) region: u32,
     /// The number of its row of regions, as of [`Complete`].
     pub(super) row: u64,
+    /// The number of its frame since reset.
+    pub(super) frame: u64,
     pub(super) verdict: Verdict,
     /// Its pixels as they were scored, row by row.
     pub(super) scored: Vec<u16>,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of the core.
 
-use foveate_design::FeatureKind;
+use foveate_design::{FRAME_NUMBERS, FeatureKind};
 
 use super::decisions::Judged;
 use super::outside::Stored;
-use super::readout::Word;
+use super::readout::{Loss, Word};
 use crate::Thresholds;
 
 /// What is applied to the inputs of the core at one edge.
@@ -69,10 +69,24 @@ pub struct RasterOutput {
     pub forward_position: u32,
     /// `forward_pixel_o`: a word of K pixels, the left one first.
     pub forward_pixels: Vec<u16>,
+    /// `forward_first_o`.
+    pub forward_first: bool,
+    /// `forward_last_o`.
+    pub forward_last: bool,
+    /// `forward_abort_o`.
+    pub forward_abort: bool,
+    /// `forward_frame_o`.
+    pub forward_frame: u32,
     /// `lost_o`.
     pub lost: bool,
     /// `lost_count_o`.
     pub lost_count: u16,
+    /// `lost_valid_o`.
+    pub lost_valid: bool,
+    /// `lost_region_o`.
+    pub lost_region: u32,
+    /// `lost_frame_o`.
+    pub lost_frame: u32,
 }
 
 impl RasterOutput {
@@ -97,8 +111,15 @@ impl RasterOutput {
             forward_region: 0,
             forward_position: 0,
             forward_pixels: vec![0; word_pixels],
+            forward_first: false,
+            forward_last: false,
+            forward_abort: false,
+            forward_frame: 0,
             lost: false,
             lost_count: 0,
+            lost_valid: false,
+            lost_region: 0,
+            lost_frame: 0,
         }
     }
 
@@ -126,6 +147,10 @@ impl RasterOutput {
         self.forward_valid = word.is_some();
         self.forward_region = word.map_or(0, |word| word.region);
         self.forward_position = word.map_or(0, |word| word.position);
+        self.forward_first = word.is_some_and(|word| word.position == 0);
+        self.forward_last = word.is_some_and(|word| word.is_last);
+        self.forward_abort = word.is_some_and(|word| word.is_aborted);
+        self.forward_frame = word.map_or(0, |word| number(word.frame));
         match word {
             Some(word) => self.forward_pixels.copy_from_slice(&word.pixels),
             None => self.forward_pixels.fill(0),
@@ -137,6 +162,18 @@ impl RasterOutput {
         self.lost = lost > 0;
         self.lost_count = u16::try_from(lost).unwrap_or(u16::MAX);
     }
+
+    /// Shows the region that was lost at this edge, or none.
+    pub(super) fn show_loss(&mut self, loss: Option<Loss>) {
+        self.lost_valid = loss.is_some();
+        self.lost_region = loss.map_or(0, |loss| loss.region);
+        self.lost_frame = loss.map_or(0, |loss| number(loss.frame));
+    }
+}
+
+/// The number of a frame as it is shown.
+fn number(frame: u64) -> u32 {
+    u32::try_from(frame % u64::from(FRAME_NUMBERS)).expect("a remainder of 32 bits")
 }
 
 #[cfg(test)]

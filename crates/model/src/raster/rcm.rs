@@ -120,6 +120,13 @@ impl RasterRcm {
         is_active && self.timing.forwards || self.is_deciding() || !self.readout.is_empty()
     }
 
+    /// Whether a region is lost in the middle at the next edge, unless that is a reset: for a sink that is to be ready
+    /// just then, or not.
+    #[must_use]
+    pub fn aborts_next(&self) -> bool {
+        self.readout.has_begun_below(self.staleness.fresh_at(self.now + 1))
+    }
+
     /// Whether a region is not yet decided though its last word has come to the tail.
     #[must_use]
     pub fn is_deciding(&self) -> bool {
@@ -224,9 +231,10 @@ impl RasterRcm {
         {
             self.regions.send(word);
         }
-        if let Some(region) = read.lost {
-            self.regions.lose(region);
+        if let Some(loss) = read.lost {
+            self.regions.lose(loss.region);
         }
+        self.output.show_loss(read.lost);
     }
 
     fn show(&mut self) {

@@ -22,6 +22,26 @@ pub(super) struct Word {
     pub(super) pixels: Vec<u16>,
     /// As it was scored.
     pub(super) scored: Vec<u16>,
+    /// The number of the frame of its region since reset.
+    pub(super) frame: u64,
+    /// The last that comes of its region.
+    pub(super) is_last: bool,
+    /// It is, because its region was lost.
+    pub(super) is_aborted: bool,
+}
+
+/// A region that was lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Loss {
+    pub(super) region: u32,
+    /// The number of its frame since reset.
+    pub(super) frame: u64,
+}
+
+impl Loss {
+    fn of(judged: &Judged) -> Self {
+        Self { region: judged.region, frame: judged.frame }
+    }
 }
 
 /// What an edge does to references.
@@ -30,7 +50,7 @@ pub(super) struct Read {
     /// Whether a word was fetched.
     pub(super) has_fetched: bool,
     /// The region that was lost.
-    pub(super) lost: Option<u32>,
+    pub(super) lost: Option<Loss>,
 }
 
 /// The readout.
@@ -66,7 +86,10 @@ impl Held {
             region: self.judged.region,
             position: self.next,
             pixels: self.judged.payload[own.clone()].to_vec(),
-            scored: self.judged.scored[own].to_vec(),
+            scored: self.judged.scored[own.clone()].to_vec(),
+            frame: self.judged.frame,
+            is_last: own.end == self.judged.payload.len(),
+            is_aborted: false,
         };
         self.next += word_pixels;
         word
@@ -111,6 +134,11 @@ impl Readout {
         self.lost
     }
 
+    /// Whether it holds a region that is of a row below `fresh`, and has fetched a word of it.
+    pub(super) fn has_begun_below(&self, fresh: u64) -> bool {
+        self.held.as_ref().is_some_and(|held| held.judged.row < fresh && held.next > 0)
+    }
+
     /// Whether there is nothing that has to leave.
     pub(super) fn is_empty(&self) -> bool {
         let on_the_way = self.fetched.is_some() || self.shown.is_some();
@@ -121,7 +149,11 @@ impl Readout {
     pub(super) fn step(&mut self, now: u64, sink_takes: bool, fresh: u64) -> Read {
         let mut may_start = self.held.is_none();
         let stale = self.held.take_if(|held| held.judged.row < fresh);
-        let mut read = Read { has_fetched: false, lost: stale.map(|held| held.judged.region) };
+        let lost = stale.as_ref().map(|held| Loss::of(&held.judged));
+        let mut read = Read { has_fetched: false, lost };
+        if stale.is_some_and(|held| held.next > 0) {
+            self.abort();
+        }
         if self.shown.is_none() || sink_takes {
             self.shown = self.fetched.take();
             self.fetched = self.held.as_mut().map(|held| held.fetch(self.word_pixels));
@@ -131,13 +163,20 @@ impl Readout {
         if may_start && let Some(judged) = self.next(now) {
             self.started = Some(now);
             if judged.row < fresh {
-                read.lost = Some(judged.region);
+                read.lost = Some(Loss::of(&judged));
             } else {
                 self.held = Some(Held { judged, next: 0 });
             }
         }
         self.lost += u64::from(read.lost.is_some());
         read
+    }
+
+    /// A region is lost in the middle: the word that was fetched last is of it, and no other comes.
+    fn abort(&mut self) {
+        if let Some(word) = &mut self.fetched {
+            (word.is_last, word.is_aborted) = (true, true);
+        }
     }
 
     /// Takes the oldest region from the queue, if it may be held now.

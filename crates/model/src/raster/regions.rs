@@ -70,7 +70,8 @@ impl Regions {
             Payload::Denoised => scored.clone(),
             Payload::Raw => self.pixels_of(padded, region),
         };
-        Judged { region, row, verdict, scored, payload }
+        let frame = row / u64::from(self.design.rows());
+        Judged { region, row, frame, verdict, scored, payload }
     }
 
     /// A region is decided: whether it has a reference from now on.

@@ -49,6 +49,12 @@ impl Staleness {
         self.begun - 1
     }
 
+    /// Rows below this number will be stale from edge `edge` on, which is not over.
+    pub(super) fn fresh_at(&self, edge: u64) -> u64 {
+        let due = self.due.iter().take_while(|&&due| due <= edge).count();
+        (self.stored + due as u64).saturating_sub(self.buffer_rows)
+    }
+
     /// Edge `now` comes; rows below the number that is returned are stale from it on.
     pub(super) fn step(&mut self, now: u64) -> u64 {
         while self.due.front().is_some_and(|&due| due <= now) {

@@ -36,6 +36,7 @@ module raster_core #(
     parameter EDGE_LEVEL_BITS = 11,  // bits of the level of edges
     parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
+    parameter FRAME_BITS = 8,        // bits of the number of a frame, 2 or more (FORWARD)
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
     parameter FRACTION = 0,          // fraction bits of the mean (MAD)
     parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum + half of the pixels
@@ -83,8 +84,15 @@ module raster_core #(
     output wire [    REGION_BITS-1:0] forward_region_o,    // its region
     output wire [  POSITION_BITS-1:0] forward_position_o,  // number in its region of its first pixel
     output wire [    LANES*WIDTH-1:0] forward_pixel_o,     // that word
+    output wire                       forward_first_o,     // the first of its region
+    output wire                       forward_last_o,      // the last that comes of its region
+    output wire                       forward_abort_o,     // the last, because its region was lost in the middle
+    output wire [     FRAME_BITS-1:0] forward_frame_o,     // number of the frame of its region since reset
     output wire                       lost_o,              // a region was lost since reset
-    output wire [               15:0] lost_count_o         // how many, up to the largest number
+    output wire [               15:0] lost_count_o,        // how many, up to the largest number
+    output wire                       lost_valid_o,        // a region was lost at the edge before
+    output wire [    REGION_BITS-1:0] lost_region_o,       // which
+    output wire [     FRAME_BITS-1:0] lost_frame_o         // number of its frame since reset
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.
@@ -463,8 +471,9 @@ module raster_core #(
     wire decided;       // a region is decided
     wire will_be_active;
     wire mark;          // travels with it (LAST_SENT)
+    wire last_region;   // with the decision: the last of the frame
     wire lost_reference;  // a region is lost, and its reference with it
-    wire [REGION_BITS-1:0] lost_region;
+    wire [REGION_BITS-1:0] lost_reference_region;
     wire lost_mark;
 
     raster_decision #(
@@ -475,10 +484,10 @@ module raster_core #(
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .counts_i(judged_counts), .mad_i(judged_mad),
         .variance_i(judged_variance), .edge_min_i(edge_min_i), .corner_min_i(corner_min_i), .mad_min_i(mad_min_i),
         .variance_min_i(variance_min_i), .temporal_min_i(temporal_min_i),
-        .lost_i(lost_reference), .lost_region_i(lost_region), .lost_mark_i(lost_mark),
+        .lost_i(lost_reference), .lost_region_i(lost_reference_region), .lost_mark_i(lost_mark),
         .decided_o(decided), .will_be_active_o(will_be_active), .mark_o(mark),
-        .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
-        .edge_score_o(edge_score_o), .corner_score_o(corner_score_o), .mad_score_o(mad_score_o),
+        .decision_valid_o(decision_valid_o), .region_o(region_o), .last_region_o(last_region), .srs_o(srs_o),
+        .trs_o(trs_o), .active_o(active_o), .edge_score_o(edge_score_o), .corner_score_o(corner_score_o), .mad_score_o(mad_score_o),
         .variance_score_o(variance_score_o), .temporal_count_o(temporal_count_o)
     );
 
@@ -511,27 +520,32 @@ module raster_core #(
             raster_forward #(
                 .WORD_BITS(WORD), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .RAW(RAW), .LAST_SENT(LAST_SENT), .DEEP(DEEP),
-                .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS), .START_BITS(START_BITS),
-                .PLACE_BITS(PLACE_BITS)
+                .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS), .FRAME_BITS(FRAME_BITS),
+                .START_BITS(START_BITS), .PLACE_BITS(PLACE_BITS)
             ) u_forward (
                 .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .scored_i(center),
                 .raw_i(stored_raw), .arriving_i(arriving_step), .rows_end_i(store_row_end && store_region_bottom),
-                .decision_i(decision_valid_o), .active_i(active_o), .region_i(region_o), .mark_i(mark),
-                .ready_i(forward_ready_i), .valid_o(forward_valid_o), .region_o(forward_region_o),
-                .position_o(forward_position_o), .pixel_o(forward_pixel_o), .lost_o(lost_o),
-                .lost_count_o(lost_count_o), .idle_o(idle), .reference_write_o(reference_write),
+                .decision_i(decision_valid_o), .active_i(active_o), .region_i(region_o), .last_region_i(last_region),
+                .mark_i(mark), .ready_i(forward_ready_i), .valid_o(forward_valid_o), .region_o(forward_region_o),
+                .position_o(forward_position_o), .pixel_o(forward_pixel_o), .first_o(forward_first_o),
+                .last_o(forward_last_o), .abort_o(forward_abort_o), .frame_o(forward_frame_o), .lost_o(lost_o),
+                .lost_count_o(lost_count_o), .lost_valid_o(lost_valid_o), .lost_region_o(lost_region_o),
+                .lost_frame_o(lost_frame_o), .idle_o(idle), .reference_write_o(reference_write),
                 .reference_place_o(reference_place), .reference_word_o(reference_word),
-                .lost_reference_o(lost_reference), .lost_region_o(lost_region), .lost_mark_o(lost_mark)
+                .lost_reference_o(lost_reference), .lost_reference_region_o(lost_reference_region),
+                .lost_mark_o(lost_mark)
             );
         end else begin : g_no_forward
-            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark;
+            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark || last_region;
             assign {forward_valid_o, forward_region_o, forward_position_o, forward_pixel_o} =
                 {(1 + REGION_BITS + POSITION_BITS + WORD) {1'b0}};
-            assign {lost_o, lost_count_o, idle, reference_write} = {19{1'b0}};
+            assign {forward_first_o, forward_last_o, forward_abort_o} = 3'd0;
+            assign {lost_o, lost_count_o, lost_valid_o, idle, reference_write} = {20{1'b0}};
+            assign {lost_region_o, forward_frame_o, lost_frame_o} = {(REGION_BITS + 2 * FRAME_BITS) {1'b0}};
             assign reference_place = {PLACE_BITS{1'b0}};
             assign reference_word = {WORD{1'b0}};
             assign lost_reference = 1'b0;
-            assign lost_region = {REGION_BITS{1'b0}};
+            assign lost_reference_region = {REGION_BITS{1'b0}};
             assign lost_mark = 1'b0;
         end
     endgenerate

@@ -15,6 +15,7 @@ module raster_readout #(
     parameter ROW_WORDS = 1920,   // words of a row of the frame
     parameter START_BITS = 15,    // bits of a place in the buffer
     parameter BANKS = 2,          // rows of regions in the buffer, 2 or 3
+    parameter FRAME_BITS = 8,     // bits of the number of a frame
     parameter EXTRA_BITS = 1,     // bits that travel with a region
     parameter QUEUE_WORDS = 512,  // regions that can wait, a power of two
     parameter QUEUE_BITS = 9,     // log2 of them
@@ -28,6 +29,7 @@ module raster_readout #(
     input  wire [   START_BITS-1:0] start_i,         // where in the buffer its first word is
     input  wire [   EXTRA_BITS-1:0] extra_i,         // what travels with it
     input  wire [              2:0] stored_row_i,    // row of regions of the word that is stored at this edge, modulo 8
+    input  wire [   FRAME_BITS-1:0] frame_i,         // number of the frame of the region that is held
     input  wire                     ready_i,         // what is on the port is taken
     output wire                     fetch_o,         // a word is fetched at this edge
     output wire [   START_BITS-1:0] place_o,         // where in the buffer it is
@@ -35,10 +37,15 @@ module raster_readout #(
     output reg                      valid_o,         // a word is on the port
     output reg  [  REGION_BITS-1:0] region_o,        // its region
     output reg  [POSITION_BITS-1:0] position_o,      // number in its region of its first pixel
+    output reg                      begin_o,         // the first of its region
+    output reg                      end_o,           // the last that comes of its region
+    output reg                      abort_o,         // the last, because its region was lost
+    output reg  [   FRAME_BITS-1:0] frame_o,         // number of the frame of its region
     output wire                     lost_o,          // a region is lost at this edge
     output wire [  REGION_BITS-1:0] lost_region_o,   // which
     output wire [   EXTRA_BITS-1:0] lost_extra_o,    // what travelled with it
-    output wire [   EXTRA_BITS-1:0] held_extra_o,    // what travels with the one that is held
+    output wire [  REGION_BITS-1:0] held_region_o,   // the region that is held, or that was held or lost last
+    output wire [   EXTRA_BITS-1:0] held_extra_o,    // what travels with that one
     output wire                     first_o,         // the word that is fetched is the first of its region
     output wire                     segment_end_o,   // ... the last of a row of its region
     output wire                     idle_o           // after this edge nothing waits, is held, fetched or on the port
@@ -148,8 +155,12 @@ module raster_readout #(
         if (rst_i) held_q <= 1'b0;
     end
 
-    // What was fetched, and what is on the port.
-    reg fetched_q;
+    // What was fetched, and what is on the port. While a region is held of which a word was fetched, the word that was
+    // fetched last is one of that region: so this word ends the region if the region is lost.
+    wire abort = held_stale && !first_o;
+    reg fetched_q, fetched_first_q, fetched_last_q;
+    reg aborted_q;  // the region of the word that was fetched is lost
+    reg [FRAME_BITS-1:0] fetched_frame_q;
     reg [REGION_BITS-1:0] fetched_region_q;
     reg [POSITION_BITS-1:0] fetched_at_q;
 
@@ -158,10 +169,18 @@ module raster_readout #(
             fetched_q        <= fetch;
             fetched_region_q <= held_region_q;
             fetched_at_q     <= position;
+            fetched_first_q  <= first_o;
+            fetched_last_q   <= last;
+            fetched_frame_q  <= frame_i;
             valid_o          <= fetched_q;
             region_o         <= fetched_region_q;
             position_o       <= fetched_at_q;
+            begin_o          <= fetched_first_q;
+            end_o            <= fetched_last_q || aborted_q || abort;
+            abort_o          <= aborted_q || abort;
+            frame_o          <= fetched_frame_q;
         end
+        aborted_q <= !step_o && (aborted_q || abort);
         if (rst_i) begin
             fetched_q <= 1'b0;
             valid_o   <= 1'b0;
@@ -173,6 +192,7 @@ module raster_readout #(
     assign lost_o = held_stale || (take && oldest_stale);
     assign lost_region_o = held_stale ? held_region_q : oldest_region;
     assign lost_extra_o = held_stale ? extra_q : oldest_extra;
+    assign held_region_o = held_region_q;
     assign held_extra_o = extra_q;
     assign idle_o = !queued && !held_q && !fetched_q && step_o;
 

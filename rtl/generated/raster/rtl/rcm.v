@@ -36,8 +36,15 @@ module rcm #(
     output wire [$clog2(COLUMNS*ROWS)-1:0] forward_region_o,    // its region; only with forward_valid_o
     output wire [5:0]                      forward_position_o,  // number in its region of its first pixel; only with forward_valid_o
     output wire [7:0]                      forward_pixel_o,     // that word, the left pixel in the lowest bits; only with forward_valid_o
+    output wire                            forward_first_o,     // the first word of its region; only with forward_valid_o
+    output wire                            forward_last_o,      // the last that comes of its region; only with forward_valid_o
+    output wire                            forward_abort_o,     // its region was lost in the middle: no more comes; only with forward_valid_o
+    output wire [7:0]                      forward_frame_o,     // number of its frame since reset, modulo 256; only with forward_valid_o
     output wire                            lost_o,              // a region was lost since reset
-    output wire [15:0]                     lost_count_o         // regions lost since reset, at most 65,535
+    output wire [15:0]                     lost_count_o,        // regions lost since reset, at most 65,535
+    output wire                            lost_valid_o,        // a region was lost at the edge before
+    output wire [$clog2(COLUMNS*ROWS)-1:0] lost_region_o,       // that region; only with lost_valid_o
+    output wire [7:0]                      lost_frame_o         // number of its frame since reset, modulo 256; only with lost_valid_o
 );
     wire [6:0] unused_corner;
     wire [6:0] unused_mad;
@@ -82,6 +89,7 @@ module rcm #(
         .COUNT_BITS(7),
         .EDGE_LEVEL_BITS(11),
         .POSITION_BITS(6),
+        .FRAME_BITS(8),
         .MAD_BITS(7),
         .VARIANCE_BITS(7)
     ) u_core (
@@ -112,8 +120,15 @@ module rcm #(
         .forward_region_o(forward_region_o),
         .forward_position_o(forward_position_o),
         .forward_pixel_o(forward_pixel_o),
+        .forward_first_o(forward_first_o),
+        .forward_last_o(forward_last_o),
+        .forward_abort_o(forward_abort_o),
+        .forward_frame_o(forward_frame_o),
         .lost_o(lost_o),
-        .lost_count_o(lost_count_o)
+        .lost_count_o(lost_count_o),
+        .lost_valid_o(lost_valid_o),
+        .lost_region_o(lost_region_o),
+        .lost_frame_o(lost_frame_o)
     );
 
 endmodule

@@ -100,8 +100,15 @@ impl PipelinedCodec {
                     | PortRole::ForwardSlot
                     | PortRole::ForwardRegion
                     | PortRole::ForwardReady
+                    | PortRole::ForwardFirst
+                    | PortRole::ForwardLast
+                    | PortRole::ForwardAbort
+                    | PortRole::ForwardFrame
                     | PortRole::Lost
-                    | PortRole::LostCount => continue,
+                    | PortRole::LostCount
+                    | PortRole::LostValid
+                    | PortRole::LostRegion
+                    | PortRole::LostFrame => continue,
                 };
                 field.set(record, lane, value);
             }

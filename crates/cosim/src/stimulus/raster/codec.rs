@@ -52,8 +52,15 @@ impl RasterCodec {
                     field.set_words(record, &output.forward_pixels);
                     continue;
                 }
+                PortRole::ForwardFirst => output.forward_first.into(),
+                PortRole::ForwardLast => output.forward_last.into(),
+                PortRole::ForwardAbort => output.forward_abort.into(),
+                PortRole::ForwardFrame => output.forward_frame.into(),
                 PortRole::Lost => output.lost.into(),
                 PortRole::LostCount => output.lost_count.into(),
+                PortRole::LostValid => output.lost_valid.into(),
+                PortRole::LostRegion => output.lost_region.into(),
+                PortRole::LostFrame => output.lost_frame.into(),
                 // Inputs, and what a core does not have.
                 _ => continue,
             };

@@ -20,6 +20,17 @@ use foveate_model::{RasterOutput, RasterRcm, Thresholds, region_stream};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// How much of a frame is taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Until {
+    /// All of it.
+    End,
+    /// So many words.
+    Word(usize),
+    /// As much as comes before the edge at which a region is lost in the middle.
+    Loss,
+}
+
 /// Offers frames to the model.
 pub(crate) struct Driver<'a> {
     design: Design,
@@ -122,11 +133,11 @@ impl<'a> Driver<'a> {
         self.model.is_pending()
     }
 
-    /// The words of a frame, or only the first `most`, each as soon as it is taken and its gap is over.
+    /// The words of a frame, each as soon as it is taken and its gap is over.
     pub(super) fn take(
         &mut self,
         frame: &Frame,
-        most: Option<usize>,
+        until: Until,
         gaps: Gaps,
     ) -> Result<(), CosimError> {
         self.manners = Manners::any(&mut self.random);
@@ -134,8 +145,16 @@ impl<'a> Driver<'a> {
         let words = words(&self.design, frame, || random.pixel(max));
         self.wait(words.first().map(Vec::as_slice))?;
         self.settle();
-        for (place, word) in words.iter().take(most.unwrap_or(words.len())).enumerate() {
+        for (place, word) in words.iter().enumerate() {
             self.wait(Some(word))?;
+            let ends = match until {
+                Until::End => false,
+                Until::Word(most) => place == most,
+                Until::Loss => self.model.aborts_next(),
+            };
+            if ends {
+                break;
+            }
             let pause = gaps.before_pixel(&mut self.random);
             self.idle(pause)?;
             if !self.is_under_way {
@@ -245,7 +264,7 @@ impl<'a> Driver<'a> {
             self.aimer.shake(&mut self.thresholds, &mut self.random);
         }
         let sof = sof.unwrap_or_else(|| self.design.syncs() && self.random.one_in(2));
-        let forward_ready = self.sink.next(&mut self.random);
+        let forward_ready = self.sink.next(&self.model, &mut self.random);
         let pixels = word.unwrap_or(&self.garbage);
         let idle = Applied::idle(pixels, &self.thresholds);
         let before = self.model.output();

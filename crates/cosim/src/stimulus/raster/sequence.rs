@@ -37,6 +37,8 @@ pub(super) enum End {
     Flushing,
     /// While pixels leave.
     Leaving,
+    /// At the edge at which a region would be lost in the middle, if one would.
+    Losing,
 }
 
 const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Sequence {
@@ -74,6 +76,7 @@ const SEQUENCES: &[Sequence] = &[
     cut("reset in the flush", &[Noise, Binary], End::Flushing),
     mixed("steps", &[Step, Ring, HotCorner, Ramp]),
     Sequence { stalls: true, ..cut("reset after losses", &[Noise, Max, Binary], End::Leaving) },
+    Sequence { stalls: true, ..cut("reset at a loss", &[Noise, Binary, Max], End::Losing) },
     mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
     cut("reset while pixels leave", &[Noise], End::Leaving),
     Sequence { aim: Aim::Design, ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same]) },

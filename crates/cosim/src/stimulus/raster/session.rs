@@ -9,7 +9,7 @@ use super::super::parts::{self, MAX_CLOCKS};
 use super::super::random::Random;
 use super::super::sequence::Gaps;
 use super::super::turns::{Extent, Turns};
-use super::driver::Driver;
+use super::driver::{Driver, Until};
 use super::memory::Lapse;
 use super::sequence::{End, Sequence, sequences};
 use super::sink::Mood;
@@ -18,6 +18,8 @@ use crate::level::Level;
 use foveate_design::{Design, RasterTiming};
 use foveate_frame::Frame;
 
+/// The sink that loses most of those that stall: the one of a recording that has few sequences.
+const MOST_LOSSES: usize = 3;
 /// Clocks that are simulated after the last pixel of a sequence has left.
 const SILENCE: u64 = 8;
 
@@ -32,6 +34,8 @@ pub(crate) struct Session<'a> {
     random: Random,
     gallery: Gallery,
     timing: RasterTiming,
+    /// Which sink comes first.
+    first_mood: usize,
 }
 
 impl<'a> Session<'a> {
@@ -43,7 +47,16 @@ impl<'a> Session<'a> {
         mut random: Random,
     ) -> Self {
         let gallery = Gallery::new(design, &mut random);
-        Self { whole, design, level, driver, random, gallery, timing: RasterTiming::of(design) }
+        Self {
+            whole,
+            design,
+            level,
+            driver,
+            random,
+            gallery,
+            timing: RasterTiming::of(design),
+            first_mood: 0,
+        }
     }
 
     pub(crate) fn run(
@@ -53,6 +66,9 @@ impl<'a> Session<'a> {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
         let directed = &directed(&sequences(self.design), self.design.syncs());
+        if extent.is_brief() {
+            self.first_mood = MOST_LOSSES;
+        }
         let given = |session: &mut Self, number, corner| session.given(number, corner, frames);
         let turns = Turns { extent, directed, given: self.parts(frames) };
         let play = |session: &mut Self, sequence: &Directed<Sequence>, round, number| match sequence
@@ -99,7 +115,11 @@ impl<'a> Session<'a> {
         round: usize,
         number: usize,
     ) -> Result<(), CosimError> {
-        let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
+        let gaps = match sequence.end {
+            // The edge of the loss is not to be missed.
+            End::Losing => Gaps::None,
+            _ => Gaps::ALL[(round + number) % Gaps::ALL.len()],
+        };
         let mood = self.mood(sequence.stalls, round + number / Gaps::ALL.len());
         self.driver.name(sequence.name, 0);
         self.driver.begin(sequence.aim, mood, sequence.lapse)?;
@@ -112,10 +132,13 @@ impl<'a> Session<'a> {
                 self.driver.name(sequence.name, frame as u64);
             }
             let drawn = self.gallery.frame()?;
-            let is_cut = sequence.end == End::Loading && frame == last;
             let taken = usize::try_from(self.timing.taken()).expect("a frame is in memory");
-            let most = is_cut.then(|| self.random.index(taken - 1));
-            self.driver.take(&drawn, most, gaps)?;
+            let until = match sequence.end {
+                End::Loading if frame == last => Until::Word(self.random.index(taken - 1)),
+                End::Losing if frame == last => Until::Loss,
+                _ => Until::End,
+            };
+            self.driver.take(&drawn, until, gaps)?;
             if frame < last && gaps == Gaps::Bursts && self.random.one_in(2) {
                 self.drain()?;
             }
@@ -127,8 +150,9 @@ impl<'a> Session<'a> {
     fn mood(&mut self, stalls: bool, turn: usize) -> Mood {
         let row = self.timing.words() / u64::from(self.design.rows());
         let rows = u64::from(self.timing.buffer_rows) + 2;
-        match (stalls, turn % 4) {
+        match (stalls, (turn + self.first_mood) % 4) {
             (true, 0) => Mood::Slow,
+            (true, 1 | 2) => Mood::Unlucky(rows * row),
             (true, _) => Mood::Turns(rows * row),
             (false, 0) => Mood::Willing,
             (false, 1) => Mood::Hesitant,
@@ -149,6 +173,7 @@ impl<'a> Session<'a> {
                 let clocks = self.random.up_to(self.timing.edges_to_ready());
                 self.busy(clocks)
             }
+            End::Losing => Ok(()),
             End::Leaving => {
                 while !self.driver.output().forward_valid && self.driver.is_pending() {
                     self.driver.busy(None)?;
@@ -219,7 +244,7 @@ impl<'a> Session<'a> {
                 self.driver.name(&name, number);
             }
             let part = parts::cut(self.design, frame, size, |x, y| (left + x, top + y))?;
-            self.driver.take(&part, None, gaps)?;
+            self.driver.take(&part, Until::End, gaps)?;
         }
         self.driver.drain()?;
         self.driver.idle(SILENCE)

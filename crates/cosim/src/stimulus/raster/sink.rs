@@ -2,6 +2,10 @@
 //! Who takes the pixels that leave: when a sink is ready.
 
 use super::super::random::Random;
+use foveate_model::RasterRcm;
+
+/// A sink stalls where no region ends at one of so many clocks.
+const UNLUCKY: u64 = 24;
 
 /// How a sink behaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +18,9 @@ pub(super) enum Mood {
     Slow,
     /// Ready and not in turns of up to so many clocks.
     Turns(u64),
+    /// Ready until a region ends, when a word of the next may have been fetched, or until anywhere in it; then not for up to
+    /// so many clocks. At an edge at which a region is lost in the middle it may be ready, and go on or not.
+    Unlucky(u64),
 }
 
 /// A sink under way.
@@ -30,8 +37,8 @@ impl Sink {
         Self { mood, is_ready: false, left: 0 }
     }
 
-    /// Whether it is ready at the next edge.
-    pub(super) fn next(&mut self, random: &mut Random) -> bool {
+    /// Whether it is ready at the next edge, in front of this core.
+    pub(super) fn next(&mut self, core: &RasterRcm, random: &mut Random) -> bool {
         match self.mood {
             Mood::Willing => true,
             Mood::Hesitant => random.one_in(2),
@@ -43,6 +50,20 @@ impl Sink {
                 }
                 self.left -= 1;
                 self.is_ready
+            }
+            Mood::Unlucky(longest) => {
+                let shown = core.output();
+                let ends = shown.forward_valid && shown.forward_last && !shown.forward_abort;
+                if self.left == 0 && random.one_in(if ends { 2 } else { UNLUCKY }) {
+                    self.left = 1 + random.up_to(longest);
+                }
+                if self.left > 0 && core.aborts_next() {
+                    self.left *= random.up_to(1);
+                    return random.one_in(2);
+                }
+                let stalls = self.left > 0;
+                self.left = self.left.saturating_sub(1);
+                !stalls
             }
         }
     }

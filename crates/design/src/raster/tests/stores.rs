@@ -130,8 +130,15 @@ fn a_store_outside_has_two_streams() {
         ("forward_region_o", 6),
         ("forward_position_o", 6),
         ("forward_pixel_o", 32),
+        ("forward_first_o", 1),
+        ("forward_last_o", 1),
+        ("forward_abort_o", 1),
+        ("forward_frame_o", 8),
         ("lost_o", 1),
         ("lost_count_o", 16),
+        ("lost_valid_o", 1),
+        ("lost_region_o", 6),
+        ("lost_frame_o", 8),
     ];
     assert_eq!(ports_of(&more, Direction::Output), own(&outputs));
     for port in design(&more).rcm_ports() {

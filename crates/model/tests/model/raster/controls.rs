@@ -68,13 +68,15 @@ fn expect(built: &RasterRecipe, change: impl Fn(&mut RasterRecipe)) -> Check {
 
 type Fault = (&'static str, fn(&mut RasterRecipe));
 
-const FAULTS: [Fault; 20] = [
+const FAULTS: [Fault; 22] = [
     ("S", |recipe| recipe.misread.stored = 1),
     ("D", |recipe| recipe.misread.decided = 1),
     ("resting", |recipe| recipe.misread.rest = 1),
     ("not resting", |recipe| recipe.misread.rest = -1),
     ("buffer", |recipe| recipe.misread.rows = 1),
     ("references of lost regions", |recipe| recipe.misread.keeps_reference = true),
+    ("ends of lost regions", |recipe| recipe.misread.endless = true),
+    ("numbers of frames", |recipe| recipe.misread.frame = 1),
     ("pipelining", |recipe| recipe.deep = true),
     ("width", |recipe| recipe.base.width -= 1),
     ("height", |recipe| recipe.base.height -= 1),

@@ -132,6 +132,47 @@ fn a_sink_that_stalls_loses_two_rows_of_regions() {
     assert!((81..400).all(|edge| word(edge) == (0, 0)));
     assert_eq!([400, 401, 402, 416, 417].map(word), [(0, 1), (8, 0), (8, 1), (8, 15), (9, 0)]);
     assert_eq!(word(528), (15, 15));
+    // First, last, abort: of region 0 two words leave, of the others that do all. The word that was fetched is the last.
+    let ends = |edge: usize| {
+        let output = &outputs[edge];
+        (output.forward_first, output.forward_last, output.forward_abort)
+    };
+    assert!((81..400).all(|edge| ends(edge) == (true, false, false)));
+    assert_eq!(ends(400), (false, true, true));
+    for edge in 401..=528 {
+        assert_eq!(ends(edge), ((edge - 401) % 16 == 0, (edge - 401) % 16 == 15, false), "{edge}");
+    }
+    let lost = due.map(|edge| (outputs[edge].lost_valid, outputs[edge].lost_region));
+    assert_eq!(lost, [0, 1, 2, 3, 4, 5, 6, 7].map(|region| (true, region)));
+    assert_eq!(edges(&outputs, |output| output.lost_valid), due);
+}
+
+/// The sink takes a word at edge 149, at which region 0 is lost, and stops: word 1 comes to the ports as the last. Or it
+/// takes one word before that: the word that was fetched is the first, and the last.
+#[test]
+fn a_region_that_is_lost_in_the_middle_ends_with_the_word_that_was_fetched_last() {
+    let design = design("edge", (16, 16), &[]);
+    let beat = |output: &RasterOutput| {
+        let ends = (output.forward_first, output.forward_last, output.forward_abort);
+        (output.forward_region, output.forward_position, ends)
+    };
+    let outputs = play(&design, 540, |edge| edge == 149 || edge >= 400);
+    assert_eq!(
+        [148, 149].map(|edge| beat(&outputs[edge])),
+        [(0, 0, (true, false, false)), (0, 1, (false, true, true))]
+    );
+    assert!((149..400).all(|edge| beat(&outputs[edge]) == (0, 1, (false, true, true))));
+    // No word was fetched at that edge, so that the next comes two edges after the step at 400.
+    assert_eq!(
+        (outputs[400].forward_valid, beat(&outputs[401])),
+        (false, (8, 0, (true, false, false)))
+    );
+
+    // After edge 96 the last word of region 0 is on the ports, and the first of region 1 has been fetched.
+    let outputs = play(&design, 540, |edge| edge <= 96 || edge >= 400);
+    assert_eq!(beat(&outputs[96]), (0, 15, (false, true, false)));
+    assert_eq!(beat(&outputs[400]), (1, 0, (true, true, true)));
+    assert_eq!(beat(&outputs[401]), (8, 0, (true, false, false)));
 }
 
 /// No window: word i comes to the tail at edge i + 1, S is 2, D is 6. The first pass begins at edge 52 + 2 + 8.
@@ -169,6 +210,45 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
             let outputs = play(&design, 1300, |edge| edge <= first || edge > first + clocks);
             assert_eq!(outputs[1300].lost, lost, "{feature}, {clocks} clocks");
         }
+    }
+}
+
+/// Frames are counted from a reset on, modulo 256, whether regions leave or are lost. A frame of one row of regions: the
+/// sink takes nothing during every fifth group of three frames.
+#[test]
+fn frames_have_numbers() {
+    let design = design("edge", (16, 4), &[]);
+    let mut rcm = RasterRcm::new(&design);
+    let thresholds = Thresholds::of(&design);
+    let (mut whole, mut lost, mut taken, mut decided) = (Vec::new(), Vec::new(), 0, 0);
+    while taken < 600 * 64 {
+        let before = rcm.output().clone();
+        let forward_ready = taken / 192 % 5 > 0;
+        if before.forward_valid && before.forward_last && !before.forward_abort && forward_ready {
+            whole.push((before.forward_frame, before.forward_region));
+        }
+        taken += u32::from(before.ready);
+        let input = RasterInput {
+            reset: false,
+            valid: true,
+            pixels: &[1],
+            reference_valid: false,
+            reference_pixels: &[],
+            forward_ready,
+            thresholds: &thresholds,
+        };
+        let output = rcm.step(&input);
+        decided += usize::from(output.decision_valid);
+        lost.extend(output.lost_valid.then_some((output.lost_frame, output.lost_region)));
+    }
+    assert!(whole.len() > 1_000 && lost.len() > 300, "{} {}", whole.len(), lost.len());
+    assert!(whole.len() + lost.len() + 12 >= decided && decided > 4 * 590);
+    // Every region of every frame is in one of both lists, in its turn.
+    let (mut whole, mut lost) = (whole.iter().peekable(), lost.iter().peekable());
+    for region in 0..4 * 590 {
+        let due = (region / 4 % 256, region % 4);
+        let found = whole.next_if_eq(&&due).or_else(|| lost.next_if_eq(&&due));
+        assert_eq!(found, Some(&due), "frame {}", region / 4);
     }
 }
 

@@ -205,7 +205,21 @@ impl<'a> Oracle<'a> {
         if (got.lost, i64::from(got.lost_count)) != (lost > 0, lost.min(65_535)) {
             return Err(format!("{} lost after edge {edge}, due are {lost}", got.lost_count));
         }
-        Ok(())
+        self.compare_loss(edge, got)
+    }
+
+    fn compare_loss(&self, edge: i64, got: &RasterOutput) -> Check {
+        let due = self.readings.lost_at(edge);
+        let due: Vec<_> = due.iter().map(|lost| (lost.region, self.number(lost.frame))).collect();
+        let shown = (i64::from(got.lost_region), i64::from(got.lost_frame));
+        let shown = if got.lost_valid { vec![shown] } else { Vec::new() };
+        let agrees = shown == due;
+        agrees.then_some(()).ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {due:?}"))
+    }
+
+    /// The number of a frame as the ports show it.
+    fn number(&self, frame: usize) -> i64 {
+        (frame as i64 + self.recipe.misread.frame) % 256
     }
 
     fn compare_decision(&self, edge: i64, got: &RasterOutput) -> Check {
@@ -241,7 +255,13 @@ impl<'a> Oracle<'a> {
         let position = word * self.recipe.pixels;
         let seen = &self.history[reading.frame].regions[reading.region as usize];
         let pixels = &seen.payload[position as usize..][..self.recipe.pixels as usize];
+        let ends = !self.recipe.misread.endless;
+        let whole = word + 1 == self.recipe.region_words();
+        let flags =
+            (word == 0, whole || ends && reading.is_abort(word), reading.is_abort(word) && ends);
         let agrees = got.forward_valid
+            && (got.forward_first, got.forward_last, got.forward_abort) == flags
+            && i64::from(got.forward_frame) == self.number(reading.frame)
             && i64::from(got.forward_region) == reading.region
             && i64::from(got.forward_position) == position
             && pixels.iter().eq(got

@@ -15,6 +15,13 @@ pub(crate) struct Reading {
     pub(crate) lost: Option<i64>,
 }
 
+impl Reading {
+    /// Whether that word ends the region because it was lost: it is the last that was fetched.
+    pub(crate) fn is_abort(&self, word: i64) -> bool {
+        self.lost.is_some() && word + 1 == self.fetched.len() as i64
+    }
+}
+
 /// A word: the number of its reading, and its number in its region.
 pub(crate) type Word = (usize, i64);
 
@@ -95,6 +102,11 @@ impl Readings {
         if reading.stale <= edge {
             reading.lost = Some(edge);
         }
+    }
+
+    /// The regions that are lost at that edge.
+    pub(crate) fn lost_at(&self, edge: i64) -> Vec<&Reading> {
+        self.all.iter().filter(|reading| reading.lost == Some(edge)).collect()
     }
 
     /// Whether a region is pending after that edge, the last that was looked at.

@@ -43,6 +43,10 @@ pub(crate) struct Misread {
     pub(crate) trusts: bool,
     /// A frame does not wait for pending regions.
     pub(crate) never_waits: bool,
+    /// A region that is lost in the middle has no end.
+    pub(crate) endless: bool,
+    /// The number of a frame.
+    pub(crate) frame: i64,
 }
 
 impl RasterRecipe {

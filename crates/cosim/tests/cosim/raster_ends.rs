@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a receiver that sees only the ports knows of every region: whole, ended early, or lost; and whether the vectors of
+//! raster cores show every way in which a region is lost.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use crate::common::vectors::{clocks, value};
+use crate::common::{agrees, design, directed, feature, simulators};
+use foveate_cosim::{Level, Recording, Simulator, Stimulus};
+use foveate_design::{
+    Config, Decimal, Design, FeatureKind, Filter, Organization, Payload, Pipelining, PortRole,
+    Reference,
+};
+use foveate_frame::Frame;
+
+/// Regions of frames of which some are lost: plain and deep, with a second pass and without, references of both kinds, the
+/// fewest words that a region has, and fewer rows of regions than the buffer keeps.
+fn designs() -> Vec<Design> {
+    let of = |kind, (size, pixels), grid, more: &dyn Fn(&mut Config)| {
+        let mut config = Config { spatial: vec![feature(kind, 0)], ..Config::default() };
+        config.hardware.organization = Organization::Raster;
+        config.hardware.pixels_per_clock = Some(pixels);
+        config.region.size = size;
+        config.denoise.filter = Filter::None;
+        config.spatial[0].min_score = Some(Decimal::whole(1));
+        config.temporal.min_count = 1;
+        more(&mut config);
+        design(&config, grid)
+    };
+    vec![
+        of(FeatureKind::Edge, (4, 1), (4, 4), &|_| {}),
+        of(FeatureKind::Mad, (4, 1), (5, 5), &|config| {
+            config.temporal.reference = Reference::LastSent;
+        }),
+        of(FeatureKind::Variance, (8, 4), (8, 4), &|config| {
+            config.hardware.pipelining = Some(Pipelining::Deep);
+            config.temporal.reference = Reference::LastSent;
+            config.render.payload = Payload::Raw;
+        }),
+        of(FeatureKind::Edge, (2, 2), (16, 1), &|config| {
+            config.hardware.pipelining = Some(Pipelining::Deep);
+        }),
+        of(FeatureKind::Mad, (4, 4), (16, 2), &|_| {}),
+    ]
+}
+
+fn record(design: &Design) -> Recording {
+    directed(Level::Full, 6).record(design, &mut |_, _| {}).unwrap()
+}
+
+/// Region and number of its frame, as the ports say.
+type Name = (u64, u64);
+
+/// What became of an active region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+enum Fate {
+    Whole,
+    /// A word with abort ended it, and it was named as lost.
+    Aborted,
+    /// It was named as lost; no word of it left.
+    Lost,
+    /// A reset came before.
+    Open,
+}
+
+/// A receiver: it sees ports, and believes nothing that it did not see.
+struct Receiver<'a> {
+    design: &'a Design,
+    /// Frames decided since reset.
+    frames: u64,
+    /// Active regions in the order of their decisions, until it is known what became of them.
+    waiting: VecDeque<Name>,
+    /// Regions that were named as lost, and of which no word with abort has come.
+    lost: Vec<Name>,
+    /// The region of which words come, and the position of the next.
+    open: Option<(Name, u64)>,
+    fates: BTreeMap<Fate, u64>,
+    /// How regions are lost in the middle: waiting for the sink, as a word is taken, with a single word, and one after the
+    /// other.
+    ways: [u64; 4],
+    /// Words with abort that were taken at once, and later.
+    taken: [u64; 2],
+    after_abort: bool,
+}
+
+impl<'a> Receiver<'a> {
+    fn new(design: &'a Design) -> Self {
+        Self {
+            design,
+            frames: 0,
+            waiting: VecDeque::new(),
+            lost: Vec::new(),
+            open: None,
+            fates: BTreeMap::new(),
+            ways: [0; 4],
+            taken: [0; 2],
+            after_abort: false,
+        }
+    }
+
+    fn settle(&mut self, fate: Fate) {
+        *self.fates.entry(fate).or_default() += 1;
+    }
+
+    fn reset(&mut self) {
+        for _ in 0..self.waiting.len() {
+            self.settle(Fate::Open);
+        }
+        self.waiting.clear();
+        self.lost.clear();
+        (self.open, self.frames, self.after_abort) = (None, 0, false);
+    }
+
+    /// A region is decided.
+    fn decide(&mut self, region: u64, active: bool) {
+        if active {
+            self.waiting.push_back((region, self.frames % 256));
+        }
+        self.frames += u64::from(region + 1 == u64::from(self.design.regions()));
+    }
+
+    /// A word is taken.
+    fn take(&mut self, name: Name, position: u64, [first, last, abort]: [bool; 3]) {
+        let (pixels, word) = (self.design.region_pixels(), self.design.pixels_per_clock());
+        assert_eq!(first, self.open.is_none(), "{name:?}");
+        if first {
+            // Those before it were lost as a whole.
+            while self.waiting.front() != Some(&name) {
+                let before = self.waiting.pop_front().expect("it was decided, and not settled");
+                let at = self.lost.iter().position(|&lost| lost == before);
+                self.lost
+                    .remove(at.unwrap_or_else(|| panic!("{before:?} neither came nor was lost")));
+                self.settle(Fate::Lost);
+            }
+        }
+        let (open, next) = self.open.take().unwrap_or((name, 0));
+        assert_eq!((open, next), (name, position));
+        let is_complete = position + u64::from(word) == u64::from(pixels);
+        assert_eq!(last, is_complete || abort, "{name:?}");
+        assert!(!(is_complete && abort), "{name:?}");
+        if !last {
+            self.open = Some((name, position + u64::from(word)));
+            return;
+        }
+        self.waiting.pop_front();
+        let at = self.lost.iter().position(|&lost| lost == name);
+        assert_eq!(at.is_some(), abort, "{name:?} is named as lost exactly if it ends early");
+        if let Some(at) = at {
+            self.lost.remove(at);
+        }
+        self.ways[3] += u64::from(abort && self.after_abort);
+        self.after_abort = abort;
+        self.settle(if abort { Fate::Aborted } else { Fate::Whole });
+    }
+
+    /// Everything has left: those that wait were lost as a whole, and it was said of each.
+    fn end(&mut self) {
+        assert_eq!(self.open, None);
+        assert_eq!(self.lost, self.waiting.drain(..).collect::<Vec<_>>());
+        for _ in 0..std::mem::take(&mut self.lost).len() {
+            self.settle(Fate::Lost);
+        }
+    }
+
+    fn watch(&mut self, recording: &Recording) {
+        let (inputs, outputs) = (recording.inputs(), recording.outputs());
+        let mut before = outputs.record();
+        let mut waits = 0;
+        let all = clocks(recording);
+        for (clock, (input, output)) in (0_u64..).zip(&all) {
+            let shown = |role, record: &[u8]| value(outputs, role, record);
+            let says = |role| shown(role, output);
+            let ends = |record: &[u8]| {
+                use PortRole::{ForwardAbort, ForwardFirst, ForwardLast};
+                [ForwardFirst, ForwardLast, ForwardAbort].map(|role| shown(role, record) == 1)
+            };
+            let word = |record: &[u8]| {
+                let name =
+                    (shown(PortRole::ForwardRegion, record), shown(PortRole::ForwardFrame, record));
+                (name, shown(PortRole::ForwardPosition, record), ends(record))
+            };
+            let had = shown(PortRole::ForwardValid, &before) == 1;
+            if value(inputs, PortRole::Reset, input) == 1 {
+                let last = clock.checked_sub(1).and_then(|clock| recording.span(clock));
+                let is_cut = last.is_none_or(|span| span.sequence.contains("reset"));
+                if !is_cut {
+                    self.end();
+                }
+                self.reset();
+                assert_eq!(says(PortRole::LostValid), 0);
+            } else {
+                let takes = value(inputs, PortRole::ForwardReady, input) == 1;
+                if had && takes {
+                    let (name, position, ends) = word(&before);
+                    self.taken[usize::from(waits > 0)] += u64::from(ends[2]);
+                    self.take(name, position, ends);
+                }
+                waits = if had && !takes { waits + 1 } else { 0 };
+                assert!(!had || takes || word(&before) == word(output), "a word that waits stays");
+                if says(PortRole::LostValid) == 1 {
+                    self.lost.push((says(PortRole::LostRegion), says(PortRole::LostFrame)));
+                }
+                if says(PortRole::ForwardValid) == 1 && ends(output)[2] && (takes || !had) {
+                    let lost = (says(PortRole::LostRegion), says(PortRole::LostFrame));
+                    let is_now = says(PortRole::LostValid) == 1 && lost == word(output).0;
+                    self.ways[usize::from(is_now)] += 1;
+                    self.ways[2] += u64::from(ends(output)[0]);
+                }
+                if says(PortRole::DecisionValid) == 1 {
+                    self.decide(says(PortRole::Region), says(PortRole::Active) == 1);
+                }
+            }
+            before.clone_from(output);
+        }
+    }
+}
+
+#[test]
+fn every_region_is_whole_or_ends_early_or_is_named_as_lost() {
+    let mut together = 0;
+    for design in designs() {
+        let mut receiver = Receiver::new(&design);
+        receiver.watch(&record(&design));
+        let Receiver { fates, ways, taken, .. } = &receiver;
+        let fate = |fate| fates.get(&fate).copied().unwrap_or_default();
+        let told = format!("{fates:?} {ways:?} {taken:?}, {:?}", design.config());
+        assert!(fate(Fate::Whole) > 200 && fate(Fate::Aborted) > 20, "{told}");
+        assert!(fate(Fate::Lost) > 50 && fate(Fate::Open) > 5, "{told}");
+        assert!(ways[..3].iter().chain(taken).all(|&seen| seen > 5), "{told}");
+        together += ways[3];
+    }
+    assert!(together > 200, "{together} ended early after another that did");
+}
+
+/// A frame of one row of regions, 260 times.
+#[test]
+fn numbers_of_frames_begin_again_after_256() {
+    if !simulators() {
+        return;
+    }
+    let design = designs().swap_remove(3);
+    let (width, height) = (design.width(), design.height());
+    let frame = |number: u32| {
+        let pixel = |x: u32, y: u32| if (x / 2 + y + number).is_multiple_of(2) { 255 } else { 0 };
+        Frame::from_fn(width, height, design.pixel_bits(), pixel).unwrap()
+    };
+    let frames = (0..260).map(frame).collect();
+    let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames };
+    let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+    let seen: Vec<u64> = clocks(&recording)
+        .iter()
+        .filter(|(_, output)| value(recording.outputs(), PortRole::ForwardFirst, output) == 1)
+        .map(|(_, output)| value(recording.outputs(), PortRole::ForwardFrame, output))
+        .collect();
+    assert_eq!((seen.first(), seen.iter().max(), seen.last()), (Some(&0), Some(&255), Some(&3)));
+    let output = tempfile::tempdir().unwrap();
+    let folder = output.path().join("replay");
+    agrees("frames", &design, Simulator::Iverilog, stimulus, &folder).unwrap();
+}
