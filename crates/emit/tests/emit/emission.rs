@@ -14,19 +14,24 @@ fn core(design: &Design) -> Vec<SourceFile> {
     foveate_emit::core(design, &Prefix::default())
 }
 
+/// The block RAM of the ECP5, which `raster_memory` asks for by name.
+const CELL: &str = "DP16KD";
+
 fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
     &files.iter().find(|file| file.path == path).unwrap().contents
 }
 
 /// Names of the modules that a file instantiates: `name #(` or `name u_...`. What refuses a parameter is
-/// a module that does not exist.
+/// a module that does not exist; a cell of a family is none of ours.
 fn instantiated(text: &str) -> BTreeSet<&str> {
     let first_words = text.lines().map(str::trim_start).filter_map(|line| {
         let (name, rest) = line.split_once(' ')?;
         (rest.starts_with("#(") || rest.starts_with("u_")).then_some(name)
     });
     first_words
-        .filter(|name| *name != "module" && *name != ")" && !name.contains("_must_"))
+        .filter(|name| {
+            *name != "module" && *name != ")" && *name != CELL && !name.contains("_must_")
+        })
         .collect()
 }
 
