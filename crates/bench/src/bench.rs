@@ -77,7 +77,8 @@ impl Bench {
     /// The vectors that every level with clocks sees: the frames back to back, a pixel at every clock.
     fn record(&self, timer: Timer<'_>) -> Result<Recording, BenchError> {
         let frames = self.frames.clone();
-        let stimulus = Stimulus { level: Simulated::Full, seed: self.seed, rounds: 0, frames, enough: None };
+        let stimulus =
+            Stimulus { level: Simulated::Full, seed: self.seed, rounds: 0, frames, enough: None };
         Ok(stimulus.record_until(&self.design, timer.cancel, &mut |_, _| {})?)
     }
 

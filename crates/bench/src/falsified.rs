@@ -34,8 +34,13 @@ impl Case {
         let text = Preset::find(preset).unwrap().toml;
         let design = Config::from_toml_with(text, overrides).unwrap().validate().unwrap();
         let frames = random_frames(&design, 1, 3).unwrap();
-        let stimulus =
-            Stimulus { level: Simulated::Full, seed: 1, rounds: 0, frames: frames.clone(), enough: None };
+        let stimulus = Stimulus {
+            level: Simulated::Full,
+            seed: 1,
+            rounds: 0,
+            frames: frames.clone(),
+            enough: None,
+        };
         let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
         let vectors = Vectors::read(&design, &recording).unwrap();
         Self { design, frames, recording, vectors }

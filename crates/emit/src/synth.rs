@@ -14,6 +14,8 @@ pub(crate) struct Family {
     name: &'static str,
     script: &'static str,
     nextpnr: &'static str,
+    /// Commands of Yosys before the Verilog is read, each with its newline.
+    before_reading: &'static str,
     /// Commands of Yosys before the synthesis, each with its newline.
     before_synthesis: &'static str,
     /// An instance of a register with bit `i` of `d_i` and `q_o`.
@@ -36,6 +38,8 @@ pub(crate) const ECP5: Family = Family {
     name: "ECP5",
     script: "ecp5",
     nextpnr: "nextpnr-ecp5",
+    // The block RAM's own output register, which synthesis does not use by itself.
+    before_reading: "verilog_defines -DFOVEATE_ECP5\n",
     before_synthesis: "",
     cell: "TRELLIS_FF #(\n                .CEMUX(\"1\"), .CLKMUX(\"CLK\"), .GSR(\"DISABLED\"), .LSRMUX(\"LSR\"), \
            .REGSET(\"RESET\")\n            ) u_bit (.CLK(clk_i), .DI(d_i[i]), .Q(q_o[i]));",
@@ -67,6 +71,7 @@ pub(crate) const ICE40: Family = Family {
     name: "iCE40",
     script: "ice40",
     nextpnr: "nextpnr-ice40",
+    before_reading: "",
     // Tables cannot be memory there.
     before_synthesis: "setattr -unset ram_style */m:*\n",
     cell: "SB_DFF u_bit (.C(clk_i), .D(d_i[i]), .Q(q_o[i]));",
@@ -102,6 +107,7 @@ struct Script {
     family: &'static str,
     script: &'static str,
     nextpnr: &'static str,
+    before_reading: &'static str,
     before_synthesis: &'static str,
     devices: &'static [Device],
     names: String,
@@ -115,6 +121,7 @@ struct Tcl {
     banner: String,
     before: String,
     script: &'static str,
+    before_reading: &'static str,
     before_synthesis: &'static str,
     devices: &'static [Device],
 }
@@ -182,6 +189,7 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
             family: family.name,
             script: family.script,
             nextpnr: family.nextpnr,
+            before_reading: family.before_reading,
             before_synthesis: family.before_synthesis,
             devices: family.devices,
             names: names.join(", "),
@@ -191,6 +199,7 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
             banner: banner(design),
             before: before(),
             script: family.script,
+            before_reading: family.before_reading,
             before_synthesis: family.before_synthesis,
             devices: family.devices,
         };

@@ -48,8 +48,8 @@ done
 cp "synth/${top}_ports.v" synth/{= script =}_registers.v "$build" || exit 2
 cd "$build" || exit 2
 cat >synthesis.ys <<END
-read_verilog$sources
-hierarchy -check -top $top
+{= before_reading =}read_verilog$sources
+hierarchy -top $top
 proc
 {= before_synthesis =}setattr -mod -unset keep_hierarchy *
 $synthesis -top $top

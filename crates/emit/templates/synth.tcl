@@ -4,8 +4,8 @@
 # The synthesis of synth/{= script =}.sh for Edalize, which FuseSoC calls: the core first, then the registers at its ports.
 yosys -import
 source edalize_yosys_procs.tcl
-read_files
-hierarchy -check -top {= before =}rcm
+{= before_reading =}read_files
+hierarchy -top {= before =}rcm
 procs
 {= before_synthesis =}setattr -mod -unset keep_hierarchy *
 {= devices[0].synthesis =} -top {= before =}rcm

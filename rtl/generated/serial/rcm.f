@@ -6,11 +6,7 @@ rtl/serial_control.v
 rtl/serial_group.v
 rtl/serial_sequencer.v
 rtl/serial_parallel_feed.v
-rtl/serial_places.v
-rtl/serial_neighbor.v
-rtl/serial_raster_feed.v
 rtl/serial_shown.v
-rtl/serial_sides.v
 rtl/serial_decision.v
 rtl/serial_array.v
 rtl/rcm.v

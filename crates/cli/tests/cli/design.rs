@@ -246,11 +246,12 @@ fn the_committed_cores_are_not_stale() {
         files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>()
     };
     let contributing = fs::read_to_string(repository().join("CONTRIBUTING.md")).unwrap();
-    for (folder, options) in [
-        ("paper", &["--preset", "paper"][..]),
-        ("serial", &["--preset", "serial", "--set", "hardware.fold=4"]),
-        ("raster", &["--preset", "raster"]),
-    ] {
+    let frame = ["--set", "frame.width=64", "--set", "frame.height=48"];
+    let serial = [&["--preset", "serial", "--set", "hardware.fold=4"][..], &frame].concat();
+    let raster = [&["--preset", "raster"][..], &frame].concat();
+    for (folder, options) in
+        [("paper", &["--preset", "paper"][..]), ("serial", &serial), ("raster", &raster)]
+    {
         let command = format!("generate {} -o rtl/generated/{folder} --force", options.join(" "));
         assert!(contributing.contains(&command), "{command}");
         let dir = tempfile::tempdir().unwrap();

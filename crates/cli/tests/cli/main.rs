@@ -27,6 +27,6 @@ mod signals;
 mod simulation;
 mod stress;
 mod studies;
-mod threads;
 mod synth;
+mod threads;
 mod units;

@@ -20,8 +20,8 @@ mod tally;
 mod tape;
 
 use crate::error::CosimError;
-use crate::level::Level;
 use crate::harness::{bench_file, told_bench};
+use crate::level::Level;
 use foveate_design::{Design, Port, PortRole};
 use foveate_emit::{Prefix, SourceFile, Top};
 pub(crate) use model::{Model, Record};

@@ -32,6 +32,10 @@ struct Raster {
     sink: Stalling,
 }
 
+/// Regions lost in the middle after which the sink takes nothing any more, so that counters get far and the vectors of a
+/// large frame stay small.
+const ENOUGH_LOSSES: u64 = 64;
+
 /// A sink that stalls: from the last word of a region on, when the first word of the next has been fetched, until a region
 /// is lost. Every other time it takes a word at the edge of the loss.
 struct Stalling {
@@ -43,6 +47,9 @@ struct Stalling {
 
 impl Stalling {
     fn next(&mut self, core: &RasterRcm) -> bool {
+        if self.losses == ENOUGH_LOSSES {
+            return false;
+        }
         let shown = core.output();
         let ends = shown.forward_valid && shown.forward_last && !shown.forward_abort;
         if core.aborts_next() {

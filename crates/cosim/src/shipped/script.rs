@@ -115,7 +115,8 @@ impl Script {
             let usual =
                 || shot(0, plan.usual, &|_, actor| pictures[number % pictures.len()](actor));
             // More regions are lost than have something of their own to show: counters are to get far.
-            let wide = || Shot { frame: stage.wide(0), thresholds: plan.usual, stalls: false };
+            let turn = u32::try_from(number).unwrap_or_default();
+            let wide = || Shot { frame: stage.wide(turn), thresholds: plan.usual, stalls: false };
             Shot { stalls: true, ..if stage.has_ground() { wide() } else { usual() } }
         });
         let stalled: Vec<Shot> = stalled.collect();

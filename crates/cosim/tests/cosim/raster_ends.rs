@@ -245,7 +245,7 @@ fn numbers_of_frames_begin_again_after_256() {
         Frame::from_fn(width, height, design.pixel_bits(), pixel).unwrap()
     };
     let frames = (0..260).map(frame).collect();
-    let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames };
+    let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames, enough: None };
     let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
     let seen: Vec<u64> = clocks(&recording)
         .iter()

@@ -2,8 +2,8 @@
 //! Reports as text, JSON and JUnit XML.
 
 use foveate_cosim::{
-    CosimReport, Level, Mismatch, Left, NotElaborated, NotSimulated, PortMismatch, Seconds, Simulator, Summary, Verdict,
-    junit_xml,
+    CosimReport, Left, Level, Mismatch, NotElaborated, NotSimulated, PortMismatch, Seconds,
+    Simulator, Summary, Verdict, junit_xml,
 };
 
 fn report(mismatch: Option<Mismatch>) -> CosimReport {

@@ -283,7 +283,13 @@ fn the_vectors_of_a_raster_core_give_the_same() {
         config.hardware.organization = Organization::Raster;
         config.hardware.pixels_per_clock = Some(wide);
         let design = config.validate().unwrap();
-        let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone(), enough: None };
+        let stimulus = Stimulus {
+            level: Level::Full,
+            seed: 1,
+            rounds: 0,
+            frames: frames.clone(),
+            enough: None,
+        };
         let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
         assert!(raster(&design, &recording) == functional(&design, &frames), "{config:?}");
     }
@@ -305,8 +311,13 @@ fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
             config.hardware.store = Some(store);
             config.hardware.forward = Some(forward);
             let design = config.validate().unwrap();
-            let stimulus =
-                Stimulus { level: Level::Full, seed: 1, rounds: 0, frames: frames.clone(), enough: None };
+            let stimulus = Stimulus {
+                level: Level::Full,
+                seed: 1,
+                rounds: 0,
+                frames: frames.clone(),
+                enough: None,
+            };
             let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
             let mut expected = functional(&design, &frames);
             if !forward {

@@ -31,6 +31,8 @@ module rcm #(
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
+        if (COLUMNS > 2048) begin : g_widest COLUMNS_must_be_2048_or_less u_refused (); end
+        if (ROWS > 2048) begin : g_highest ROWS_must_be_2048_or_less u_refused (); end
     endgenerate
 
     wire [COLUMNS*ROWS-1:0] decision_valid;

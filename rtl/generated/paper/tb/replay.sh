@@ -6,7 +6,7 @@
 #
 #   sh tb/replay.sh [all|rpu|rcm] [iverilog|verilator] [waves]
 #
-# `waves` writes RPU.vcd or RCM.vcd where the command is run. Exit code 0: every bench says PASS; 1: one
+# `waves` writes rpu.vcd or rcm.vcd where the command is run. Exit code 0: every bench says PASS; 1: one
 # says FAIL, or INCOMPLETE because its vectors do not show everything; 2: a bench cannot be built or run.
 
 which=${1:-all}
@@ -40,7 +40,7 @@ replay() {
         return 2
         ;;
     esac
-    grep '^\(MISMATCH\|PASS\|FAIL\|INCOMPLETE\)' "$build/$top/log" | sed "s/^/$top: /"
+    grep '^\(MISMATCH\|PASS\|FAIL\|INCOMPLETE\)' "$build/$top/log" | sed "s/^/$1: /"
     grep -q '^PASS' "$build/$top/log" && return 0
     grep -q '^\(FAIL\|INCOMPLETE\)' "$build/$top/log" && return 1
     cat "$build/$top/log"

@@ -9,16 +9,19 @@
 // docs/raster.md says what happens when.
 `default_nettype none
 
+// Parts that the design does not elaborate are left out, so some parameters have no use.
+// verilator lint_off UNUSEDPARAM
+
 (* keep_hierarchy = "yes" *)
 module raster_core #(
     parameter WIDTH = 8,             // bits of a pixel
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
-    parameter COLUMNS = 240,         // regions side by side
-    parameter ROWS = 135,            // regions one below the other
-    parameter FRAME_WIDTH = 1920,    // pixels of a row of the frame
-    parameter FRAME_HEIGHT = 1080,   // rows of the frame
-    parameter ISOLATED = 0,          // 1: windows end at the borders of regions, not of the frame
+    parameter COLUMNS = 4,           // regions side by side
+    parameter ROWS = 3,              // regions one below the other
+    parameter FRAME_WIDTH = 32,      // pixels of a row of the frame
+    parameter FRAME_HEIGHT = 24,     // rows of the frame
+    parameter ISOLATED = 1,          // 1: windows end at the borders of regions, not of the frame
     parameter MEDIAN = 1,            // 1: pixels are denoised
     parameter EDGE = 1,              // 1: edges are counted
     parameter CORNER = 0,            // 1: corners are counted
@@ -26,7 +29,7 @@ module raster_core #(
     parameter VARIANCE = 0,          // 1: the variance is a score
     parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
-    parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
+    parameter BLANKS = 1,            // 1: a region without SRS loses its reference (LAST_SENT)
     parameter RAW = 0,               // 1: raw pixels leave; 0: denoised ones
     parameter FORWARD = 1,           // 1: pixels of active regions leave; 0: only decisions do
     parameter STORE = 0,             // references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside
@@ -35,7 +38,7 @@ module raster_core #(
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
     parameter EDGE_LEVEL_BITS = 11,  // bits of the level of edges
     parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
-    parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
+    parameter REGION_BITS = 4,       // ceil(log2(COLUMNS * ROWS))
     parameter FRAME_BITS = 8,        // bits of the number of a frame, 2 or more (FORWARD)
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
     parameter FRACTION = 0,          // fraction bits of the mean (MAD)
@@ -44,10 +47,10 @@ module raster_core #(
     parameter FACTOR_BITS = 1,       // bits of FACTOR
     parameter [FACTOR_BITS-1:0] FACTOR = 1,  // dividend * FACTOR >> SHIFT is dividend / pixels
     parameter SHIFT = 6,             // bits that are dropped of the product
-    parameter MAD_BITS = 14,         // bits of the score of MAD
+    parameter MAD_BITS = 7,          // bits of the score of MAD
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (VARIANCE)
     parameter PRODUCT_BITS = 28,     // bits of its products
-    parameter VARIANCE_BITS = 26     // bits of its score
+    parameter VARIANCE_BITS = 7      // bits of its score
 ) (
     input  wire                       clk_i,               // clock, rising edge
     input  wire                       rst_i,               // synchronous reset, active high
@@ -101,6 +104,10 @@ module raster_core #(
         if (SIDE % LANES != 0) begin : g_side SIDE_must_be_a_multiple_of_LANES u_refused (); end
         if (COLUMNS < 4) begin : g_columns COLUMNS_must_be_4_or_more u_refused (); end
         if (COLUMNS * SIDE < 16 * LANES) begin : g_row a_row_must_have_16_words_or_more u_refused (); end
+        if (WIDTH < 1 || WIDTH > 16) begin : g_pixel WIDTH_must_be_1_to_16 u_refused (); end
+        if (SIDE < 2 || SIDE > 64) begin : g_region SIDE_must_be_2_to_64 u_refused (); end
+        if (FRAME_WIDTH > 8192) begin : g_widest FRAME_WIDTH_must_be_8192_or_less u_refused (); end
+        if (FRAME_HEIGHT > 16384) begin : g_highest FRAME_HEIGHT_must_be_16384_or_less u_refused (); end
         if (FRAME_WIDTH > COLUMNS * SIDE || FRAME_WIDTH + SIDE <= COLUMNS * SIDE) begin : g_width
             FRAME_WIDTH_must_need_COLUMNS u_refused ();
         end
@@ -143,7 +150,7 @@ module raster_core #(
     localparam HIT_CLOCKS = 4 + DEEP;                                  // ... to the hits
 
     // A large store is made of groups of banks if it has to be fast. References come in order, so that they can be asked
-    // for as early as it takes them to pass the groups: at the earliest when their word reaches the tail.
+    // for as early as it takes them to pass the groups: at the earliest at the advance with which their word reaches the tail.
     localparam BANK_BITS = 14;
     localparam STORE_BANKS = (FRAME_WORDS + (1 << BANK_BITS) - 1) >> BANK_BITS;
     localparam IN_GROUPS = DEEP && STORE == 0 && !LAST_SENT && STORE_BANKS > 1 && CENTER_CLOCKS > 2;
@@ -337,7 +344,7 @@ module raster_core #(
 
     wire reference_read;
     raster_pulse #(.DEPTH(IN_GROUPS ? CENTER_CLOCKS - 2 - GROUPS : 1)) u_reference_read (
-        .clk_i(clk_i), .rst_i(rst_i), .bit_i(IN_GROUPS ? tail : center_step), .bit_o(reference_read)
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(IN_GROUPS ? in_tail : center_step), .bit_o(reference_read)
     );
     generate
         if (STORE == EXTERNAL) begin : g_external
@@ -575,5 +582,7 @@ module raster_core #(
     endgenerate
 
 endmodule
+
+// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

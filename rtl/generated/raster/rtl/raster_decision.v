@@ -3,6 +3,9 @@
 // Regions come in their order. A clock later (deep: two) their decision is on the ports.
 `default_nettype none
 
+// Parts that the design does not elaborate are left out, so some parameters have no use.
+// verilator lint_off UNUSEDPARAM
+
 module raster_decision #(
     parameter EDGE = 1,           // 1: edges are counted
     parameter CORNER = 0,         // 1: corners are counted
@@ -137,5 +140,7 @@ module raster_decision #(
     endgenerate
 
 endmodule
+
+// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

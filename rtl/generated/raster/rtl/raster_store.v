@@ -3,6 +3,9 @@
 // places of its own.
 `default_nettype none
 
+// Parts that the design does not elaborate are left out, so some parameters have no use.
+// verilator lint_off UNUSEDPARAM
+
 module raster_store #(
     parameter WORD_BITS = 8,      // bits of a word
     parameter WORDS = 2073600,    // words of a frame
@@ -12,7 +15,7 @@ module raster_store #(
     parameter DEEP = 0,           // 0: a reference one clock after it is asked for; 1: two
     parameter BANK_BITS = 14,     // log2 of the words of a bank (GROUPS)
     parameter GROUP_BITS = 2,     // log2 of the banks of a group (GROUPS)
-    parameter GROUPS = 0          // 0: one memory; more: groups of banks, and a reference GROUPS + 5 clocks after it is asked for
+    parameter GROUPS = 0          // 0: one memory; more: groups of banks, and a reference GROUPS + 6 clocks after it is asked for
 ) (
     input  wire                    clk_i,        // clock, rising edge
     input  wire                    rst_i,        // synchronous reset, active high
@@ -73,5 +76,7 @@ module raster_store #(
     endgenerate
 
 endmodule
+
+// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

@@ -3,9 +3,11 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 19 frames of 4 x 3 regions.
-// Decisions: 113 active, 47 held, 68 blank; 131 comparisons with an earlier frame.
-// The sink stalls until 7 regions are lost.
+// The vectors show 21 frames of 4 x 3 regions.
+// Decisions: 137 active, 47 held, 68 blank; 155 comparisons with an earlier frame.
+// The sink stalls until 23 regions are lost.
+// In all sequences 15 are lost as a whole, 8 in the middle:
+// 4 while the word that ends them waits, 4 as it comes to the ports; 7 after one word.
 // Frames come damaged: 2 sync errors, and 28 decisions after the first.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
@@ -61,8 +63,15 @@ module rpu_replay;
   wire [3:0] forward_region_o;
   wire [5:0] forward_position_o;
   wire [7:0] forward_pixel_o;
+  wire forward_first_o;
+  wire forward_last_o;
+  wire forward_abort_o;
+  wire [7:0] forward_frame_o;
   wire lost_o;
   wire [15:0] lost_count_o;
+  wire lost_valid_o;
+  wire [3:0] lost_region_o;
+  wire [7:0] lost_frame_o;
   reg ready_o_expected;
   reg sync_error_o_expected;
   reg decision_valid_o_expected;
@@ -76,8 +85,15 @@ module rpu_replay;
   reg [3:0] forward_region_o_expected;
   reg [5:0] forward_position_o_expected;
   reg [7:0] forward_pixel_o_expected;
+  reg forward_first_o_expected;
+  reg forward_last_o_expected;
+  reg forward_abort_o_expected;
+  reg [7:0] forward_frame_o_expected;
   reg lost_o_expected;
   reg [15:0] lost_count_o_expected;
+  reg lost_valid_o_expected;
+  reg [3:0] lost_region_o_expected;
+  reg [7:0] lost_frame_o_expected;
   reg ready_o_failed = 1'b0;
   reg sync_error_o_failed = 1'b0;
   reg decision_valid_o_failed = 1'b0;
@@ -91,8 +107,15 @@ module rpu_replay;
   reg forward_region_o_failed = 1'b0;
   reg forward_position_o_failed = 1'b0;
   reg forward_pixel_o_failed = 1'b0;
+  reg forward_first_o_failed = 1'b0;
+  reg forward_last_o_failed = 1'b0;
+  reg forward_abort_o_failed = 1'b0;
+  reg forward_frame_o_failed = 1'b0;
   reg lost_o_failed = 1'b0;
   reg lost_count_o_failed = 1'b0;
+  reg lost_valid_o_failed = 1'b0;
+  reg lost_region_o_failed = 1'b0;
+  reg lost_frame_o_failed = 1'b0;
 
   rpu dut (
     .clk_i(clk_i),
@@ -118,8 +141,15 @@ module rpu_replay;
     .forward_region_o(forward_region_o),
     .forward_position_o(forward_position_o),
     .forward_pixel_o(forward_pixel_o),
+    .forward_first_o(forward_first_o),
+    .forward_last_o(forward_last_o),
+    .forward_abort_o(forward_abort_o),
+    .forward_frame_o(forward_frame_o),
     .lost_o(lost_o),
-    .lost_count_o(lost_count_o)
+    .lost_count_o(lost_count_o),
+    .lost_valid_o(lost_valid_o),
+    .lost_region_o(lost_region_o),
+    .lost_frame_o(lost_frame_o)
   );
 
   reg [8*1024-1:0] path;
@@ -127,17 +157,17 @@ module rpu_replay;
   integer failures;
   reg [63:0] clocks;
   reg [31:0] run;  // clocks for which the line is good
-  reg [24:0] changes;  // the first number of the line
+  reg [31:0] changes;  // the first number of the line
   reg is_whole;  // whether every value of the line was there
   reg has_passed = 1'b0;
 
   // The next line of the vectors.
   task read_line;
     begin
-      changes = 25'd0;
+      changes = 32'd0;
       run = 32'd1;
       is_whole = $fscanf(file, "%h", changes) == 1;
-      if (changes[24]) is_whole = $fscanf(file, "%h", run) == 1 && is_whole;
+      if (changes[31]) is_whole = $fscanf(file, "%h", run) == 1 && is_whole;
       if (changes[0]) is_whole = $fscanf(file, "%h", rst_i_next) == 1 && is_whole;
       if (changes[1]) is_whole = $fscanf(file, "%h", valid_i_next) == 1 && is_whole;
       if (changes[2]) is_whole = $fscanf(file, "%h", sof_i_next) == 1 && is_whole;
@@ -160,8 +190,15 @@ module rpu_replay;
       if (changes[19]) is_whole = $fscanf(file, "%h", forward_region_o_expected) == 1 && is_whole;
       if (changes[20]) is_whole = $fscanf(file, "%h", forward_position_o_expected) == 1 && is_whole;
       if (changes[21]) is_whole = $fscanf(file, "%h", forward_pixel_o_expected) == 1 && is_whole;
-      if (changes[22]) is_whole = $fscanf(file, "%h", lost_o_expected) == 1 && is_whole;
-      if (changes[23]) is_whole = $fscanf(file, "%h", lost_count_o_expected) == 1 && is_whole;
+      if (changes[22]) is_whole = $fscanf(file, "%h", forward_first_o_expected) == 1 && is_whole;
+      if (changes[23]) is_whole = $fscanf(file, "%h", forward_last_o_expected) == 1 && is_whole;
+      if (changes[24]) is_whole = $fscanf(file, "%h", forward_abort_o_expected) == 1 && is_whole;
+      if (changes[25]) is_whole = $fscanf(file, "%h", forward_frame_o_expected) == 1 && is_whole;
+      if (changes[26]) is_whole = $fscanf(file, "%h", lost_o_expected) == 1 && is_whole;
+      if (changes[27]) is_whole = $fscanf(file, "%h", lost_count_o_expected) == 1 && is_whole;
+      if (changes[28]) is_whole = $fscanf(file, "%h", lost_valid_o_expected) == 1 && is_whole;
+      if (changes[29]) is_whole = $fscanf(file, "%h", lost_region_o_expected) == 1 && is_whole;
+      if (changes[30]) is_whole = $fscanf(file, "%h", lost_frame_o_expected) == 1 && is_whole;
     end
   endtask
 
@@ -259,6 +296,30 @@ module rpu_replay;
         $display("MISMATCH clock %0d port forward_pixel_o expected %h got %h",
                  clocks, forward_pixel_o_expected, forward_pixel_o);
       end
+      if (forward_valid_o_expected && forward_first_o !== forward_first_o_expected && !forward_first_o_failed) begin
+        forward_first_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_first_o expected %h got %h",
+                 clocks, forward_first_o_expected, forward_first_o);
+      end
+      if (forward_valid_o_expected && forward_last_o !== forward_last_o_expected && !forward_last_o_failed) begin
+        forward_last_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_last_o expected %h got %h",
+                 clocks, forward_last_o_expected, forward_last_o);
+      end
+      if (forward_valid_o_expected && forward_abort_o !== forward_abort_o_expected && !forward_abort_o_failed) begin
+        forward_abort_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_abort_o expected %h got %h",
+                 clocks, forward_abort_o_expected, forward_abort_o);
+      end
+      if (forward_valid_o_expected && forward_frame_o !== forward_frame_o_expected && !forward_frame_o_failed) begin
+        forward_frame_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port forward_frame_o expected %h got %h",
+                 clocks, forward_frame_o_expected, forward_frame_o);
+      end
       if (lost_o !== lost_o_expected && !lost_o_failed) begin
         lost_o_failed = 1'b1;
         failures = failures + 1;
@@ -270,6 +331,24 @@ module rpu_replay;
         failures = failures + 1;
         $display("MISMATCH clock %0d port lost_count_o expected %h got %h",
                  clocks, lost_count_o_expected, lost_count_o);
+      end
+      if (lost_valid_o !== lost_valid_o_expected && !lost_valid_o_failed) begin
+        lost_valid_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port lost_valid_o expected %h got %h",
+                 clocks, lost_valid_o_expected, lost_valid_o);
+      end
+      if (lost_valid_o_expected && lost_region_o !== lost_region_o_expected && !lost_region_o_failed) begin
+        lost_region_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port lost_region_o expected %h got %h",
+                 clocks, lost_region_o_expected, lost_region_o);
+      end
+      if (lost_valid_o_expected && lost_frame_o !== lost_frame_o_expected && !lost_frame_o_failed) begin
+        lost_frame_o_failed = 1'b1;
+        failures = failures + 1;
+        $display("MISMATCH clock %0d port lost_frame_o expected %h got %h",
+                 clocks, lost_frame_o_expected, lost_frame_o);
       end
     end
   endtask
@@ -284,7 +363,7 @@ module rpu_replay;
     clocks = 64'd0;
     failures = 0;
     is_whole = 1'b0;
-    changes = 25'd0;
+    changes = 32'd0;
     if (file != 0) read_line;
     while (is_whole && |changes && !(failures != 0 && $test$plusargs("stop"))) begin
       apply;
@@ -298,7 +377,7 @@ module rpu_replay;
       read_line;
     end
     if (file == 0) $display("FAIL cannot read the vectors from %0s", path);
-    else if (failures != 0) $display("FAIL %0d of 15 outputs in %0d clocks", failures, clocks);
+    else if (failures != 0) $display("FAIL %0d of 22 outputs in %0d clocks", failures, clocks);
     else if (!is_whole) $display("FAIL the vectors end after %0d clocks, in the middle", clocks);
     else if (clocks == 64'd0) $display("FAIL there are no vectors in %0s", path);
     else begin

@@ -7,11 +7,14 @@
 // score was.
 `default_nettype none
 
+// Parts that the design does not elaborate are left out, so some parameters have no use.
+// verilator lint_off UNUSEDPARAM
+
 module serial_array #(
-    parameter COLUMNS = 28,         // regions side by side
-    parameter ROWS = 28,            // regions one below the other
-    parameter FOLD = 1,             // regions of a lane: slots
-    parameter LANES = 784,          // lanes, as many as COLUMNS * ROWS regions need
+    parameter COLUMNS = 4,          // regions side by side
+    parameter ROWS = 1,             // regions one below the other
+    parameter FOLD = 4,             // regions of a lane: slots
+    parameter LANES = 1,            // lanes, as many as COLUMNS * ROWS regions need
     parameter WIDTH = 8,            // bits of a pixel, 1 to 16
     parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
     parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE and twice the halo
@@ -29,12 +32,12 @@ module serial_array #(
     parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
     parameter FRACTION = 0,         // fraction bits of the mean of `mad`, 0 to 12
     parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
-    parameter REFERENCE_BASE = 64,  // where the reference starts in a slot
+    parameter REFERENCE_BASE = 0,   // where the reference starts in a slot
     parameter WORD_BITS = 7,        // of an address inside a slot
-    parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
-    parameter ADDRESS_BITS = 7,     // of an address in the memory of a lane: slot and word
-    parameter LANE_BITS = 10,       // of the number of a lane, at least 1
-    parameter REGION_BITS = 10,     // of the number of a region, empty slots included
+    parameter SLOT_BITS = 2,        // of the number of a slot, at least 1
+    parameter ADDRESS_BITS = 9,     // of an address in the memory of a lane: slot and word
+    parameter LANE_BITS = 1,        // of the number of a lane, at least 1
+    parameter REGION_BITS = 2,      // of the number of a region, empty slots included
     parameter POSITION_BITS = 6,    // of the number of a pixel in the largest square of centers
     parameter INDEX_BITS = 1,       // of the number of a score
     parameter COUNT_BITS = 7,       // of a count of pixels, 0..SIDE * SIDE
@@ -42,7 +45,7 @@ module serial_array #(
     parameter SUM_BITS = 14,        // of the sum of a region
     parameter SCALE_BITS = 8,       // of the constant that is shifted from step to step
     parameter ACC_BITS = 11,        // of the accumulator, which is signed
-    parameter AUX_BITS = 1,         // of the second word of `mad` and `variance`, at least 2
+    parameter AUX_BITS = 2,         // of the second word of `mad` and `variance`, at least 2
     parameter CHAIN_BITS = 7        // of the word that goes around the ring of lanes
 ) (
     input  wire                                       clk_i,              // clock, rising edge
@@ -377,5 +380,7 @@ module serial_array #(
     endgenerate
 
 endmodule
+
+// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

@@ -3,6 +3,9 @@
 // leaves TRS as a flag, then each feature, and with the last one the decision.
 `default_nettype none
 
+// Parts that the design does not elaborate are left out, so some parameters have no use.
+// verilator lint_off UNUSEDPARAM
+
 module serial_decision #(
     parameter CHAIN_BITS = 7,    // bits of the words that pass
     parameter SCORE_BITS = 7,    // bits of the widest score
@@ -125,5 +128,7 @@ module serial_decision #(
     endgenerate
 
 endmodule
+
+// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

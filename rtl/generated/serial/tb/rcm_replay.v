@@ -3,8 +3,8 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 5 frames of 4 x 3 regions, by parameters a part of the core's 28 x 28.
-// Decisions: 28 active, 16 held, 16 blank; 27 comparisons with an earlier frame.
+// The vectors show 5 frames of 8 x 6 regions.
+// Decisions: 112 active, 64 held, 64 blank; 113 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has a bit for each value that differs from the line before: bit 0 for the first
@@ -28,14 +28,14 @@ module rcm_replay;
   reg clk_i = 1'b0;
   reg rst_i;
   reg valid_i;
-  reg [23:0] pixel_i;
+  reg [95:0] pixel_i;
   reg [10:0] edge_level_i;
   reg [6:0] edge_min_i;
   reg [7:0] temporal_level_i;
   reg [6:0] temporal_min_i;
   reg rst_i_next;
   reg valid_i_next;
-  reg [23:0] pixel_i_next;
+  reg [95:0] pixel_i_next;
   reg [10:0] edge_level_i_next;
   reg [6:0] edge_min_i_next;
   reg [7:0] temporal_level_i_next;
@@ -45,27 +45,27 @@ module rcm_replay;
   wire ready_o;
   wire score_valid_o;
   wire score_index_o;
-  wire [3:0] region_o;
+  wire [5:0] region_o;
   wire [6:0] score_o;
   wire decision_valid_o;
   wire srs_o;
   wire trs_o;
   wire active_o;
-  wire [2:0] forward_valid_o;
-  wire [23:0] forward_pixel_o;
+  wire [11:0] forward_valid_o;
+  wire [95:0] forward_pixel_o;
   wire [5:0] forward_position_o;
   wire [1:0] forward_slot_o;
   reg ready_o_expected;
   reg score_valid_o_expected;
   reg score_index_o_expected;
-  reg [3:0] region_o_expected;
+  reg [5:0] region_o_expected;
   reg [6:0] score_o_expected;
   reg decision_valid_o_expected;
   reg srs_o_expected;
   reg trs_o_expected;
   reg active_o_expected;
-  reg [2:0] forward_valid_o_expected;
-  reg [23:0] forward_pixel_o_expected;
+  reg [11:0] forward_valid_o_expected;
+  reg [95:0] forward_pixel_o_expected;
   reg [5:0] forward_position_o_expected;
   reg [1:0] forward_slot_o_expected;
   reg ready_o_failed = 1'b0;
@@ -82,7 +82,7 @@ module rcm_replay;
   reg forward_position_o_failed = 1'b0;
   reg forward_slot_o_failed = 1'b0;
 
-  rcm #(.COLUMNS(4), .ROWS(3)) dut (
+  rcm #(.COLUMNS(8), .ROWS(6)) dut (
     .clk_i(clk_i),
     .rst_i(rst_i),
     .valid_i(valid_i),
@@ -214,7 +214,7 @@ module rcm_replay;
         $display("MISMATCH clock %0d port active_o expected %h got %h",
                  clocks, active_o_expected, active_o);
       end
-      for (lane = 0; lane < 3; lane = lane + 1) begin
+      for (lane = 0; lane < 12; lane = lane + 1) begin
         if (forward_valid_o[lane] !== forward_valid_o_expected[lane]
             && !forward_valid_o_failed) begin
           forward_valid_o_failed = 1'b1;
@@ -224,7 +224,7 @@ module rcm_replay;
                    forward_valid_o[lane]);
         end
       end
-      for (lane = 0; lane < 3; lane = lane + 1) begin
+      for (lane = 0; lane < 12; lane = lane + 1) begin
         if (forward_valid_o_expected[lane] && forward_pixel_o[lane*8 +: 8] !== forward_pixel_o_expected[lane*8 +: 8]
             && !forward_pixel_o_failed) begin
           forward_pixel_o_failed = 1'b1;

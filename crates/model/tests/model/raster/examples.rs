@@ -231,6 +231,7 @@ fn frames_have_numbers() {
         let input = RasterInput {
             reset: false,
             valid: true,
+            sof: false,
             pixels: &[1],
             reference_valid: false,
             reference_pixels: &[],
