@@ -61,17 +61,12 @@ fn all(
     toolchain: &Toolchain,
     cache: &Cache,
 ) -> Result<Summary, CliError> {
-    let first = jobs.first().expect("there is at least one");
-    let design = first.design.fingerprint();
-    let left_out = left_out(args, &jobs, toolchain)?;
+    let first = jobs.first().expect("there is at least one").clone();
+    let levels: Vec<Level> = jobs.iter().map(|job| job.stimulus.level).collect();
     let (mut reports, mut left) = (Vec::new(), jobs.into_iter());
     for mut job in left.by_ref() {
-        let report = one(args, &mut job, toolchain, cache).inspect_err(|error| {
-            // A CI server is to hear of it, also if there is no result because a tool failed.
-            if let Err(second) = write_junit(args, &junit_error(&job.name(), &error.to_string())) {
-                eprintln!("foveate: {second}");
-            }
-        })?;
+        let report = one(args, &mut job, toolchain, cache);
+        let report = told_to_ci(args, &job.name(), report)?;
         let passed = report.passed();
         reports.push(report);
         if !passed {
@@ -82,22 +77,44 @@ fn all(
     let earlier = reports.len().saturating_sub(1);
     reports.iter_mut().take(earlier).for_each(|report| report.waves = None);
     let names = left.map(|job| job.name()).collect();
-    Ok(Summary::new(design, reports, names, left_out, plan::is_whole(args)))
+    let agree = reports.iter().all(CosimReport::passed);
+    let left_out = left_out(args, &first, &levels, agree, toolchain);
+    let left_out = told_to_ci(args, "what is left out", left_out)?;
+    Ok(Summary::new(first.design.fingerprint(), reports, names, left_out, plan::is_whole(args)))
 }
 
-/// What the jobs leave out of the Verilog that is given.
-fn left_out(args: &CosimArgs, jobs: &[Job], toolchain: &Toolchain) -> Result<Left, CosimError> {
-    let Some(first) = jobs.first().filter(|_| args.rtl.is_some()) else {
+/// A result; a CI server is to hear of an error, too: a tool failed, so there is none.
+fn told_to_ci<T>(
+    args: &CosimArgs,
+    name: &str,
+    result: Result<T, CosimError>,
+) -> Result<T, CosimError> {
+    result.inspect_err(|error| {
+        if let Err(second) = write_junit(args, &junit_error(name, &error.to_string())) {
+            eprintln!("foveate: {second}");
+        }
+    })
+}
+
+/// What jobs of these levels leave out of the Verilog that is given. `agree` says that there is no mismatch: else it is not
+/// asked what else there is.
+fn left_out(
+    args: &CosimArgs,
+    first: &Job,
+    levels: &[Level],
+    agree: bool,
+    toolchain: &Toolchain,
+) -> Result<Left, CosimError> {
+    if args.rtl.is_none() {
         return Ok(Left::default());
-    };
-    let levels: Vec<Level> = jobs.iter().map(|job| job.stimulus.level).collect();
-    let tops: Vec<String> =
-        levels.iter().map(|level| first.prefix.name(level.top().module())).collect();
+    }
+    let Job { design, sources, prefix, .. } = first;
+    let tops: Vec<String> = levels.iter().map(|level| prefix.name(level.top().module())).collect();
     let tops: Vec<&str> = tops.iter().map(String::as_str).collect();
-    let modules = not_simulated(&first.sources, &tops);
+    let modules = not_simulated(sources, &tops);
     // Who asks for a part knows that the rest is left out.
-    let variants = if plan::is_whole(args) {
-        not_elaborated(&first.design, &first.sources, &first.prefix, &levels, toolchain)?
+    let variants = if agree && plan::is_whole(args) {
+        not_elaborated(design, sources, prefix, levels, toolchain)?
     } else {
         Vec::new()
     };

@@ -179,7 +179,7 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
         ],
     ];
     for settings in designs {
-        core(dir.path(), settings);
+        core(dir.path(), &[settings, &["frame={width=64,height=48}"]].concat());
         let (code, text) = replay(&folder, &[]);
         assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{settings:?}: {text}");
     }
@@ -194,7 +194,10 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
         ),
     ];
     for (leaf, from, to, port) in faults {
-        core(dir.path(), &[serial, "region.size=4", "hardware.fold=2"]);
+        core(
+            dir.path(),
+            &[serial, "region.size=4", "hardware.fold=2", "frame={width=24,height=16}"],
+        );
         edit(&folder.join(format!("rtl/{leaf}.v")), from, to);
         let (code, text) = replay(&folder, &["rpu", "iverilog"]);
         assert!(
@@ -211,8 +214,9 @@ fn the_bench_of_a_raster_core_finds_an_edited_leaf() {
     }
     let dir = tempfile::tempdir().unwrap();
     let raster = "hardware={organization='raster',pixels_per_clock=2}";
+    let frame = "frame={width=64,height=48}";
     let folder = dir.path().join("core");
-    core(dir.path(), &[raster]);
+    core(dir.path(), &[raster, frame]);
     let (code, text) = replay(&folder, &[]);
     assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{text}");
     let readme = fs::read_to_string(folder.join("README.md")).unwrap();
@@ -222,7 +226,7 @@ fn the_bench_of_a_raster_core_finds_an_edited_leaf() {
         ("vote", "score_i >= minimum_i", "score_i > minimum_i", "_o expected"),
         ("raster_readout", "assign lost_o = held_stale ||", "assign lost_o = 1'b0 &&", "lost_o"),
     ] {
-        core(dir.path(), &[raster]);
+        core(dir.path(), &[raster, frame]);
         edit(&folder.join(format!("rtl/{leaf}.v")), from, to);
         for top in ["rpu", "rcm"] {
             let (code, text) = replay(&folder, &[top, "iverilog"]);

@@ -224,7 +224,7 @@ fn check_names_the_organization() {
     for (preset, words) in [
         ("paper", "organization      pipelined\n"),
         ("serial", "organization      serial, parallel feed, fold 1\n"),
-        ("raster", "organization      raster, 1 pixel per clock, plain pipelining, block store\n"),
+        ("raster", "organization      raster, 1 pixel per clock, plain pipelining, block store,\n"),
     ] {
         let text = succeed_in(dir.path(), &["check", "--preset", preset]);
         assert!(text.contains(words), "{text}");

@@ -104,7 +104,9 @@ fn the_whole_folder_is_simulated() {
     ] {
         let core = format!("core-{organization}");
         let organization = format!("hardware.organization=\"{organization}\"");
-        let design = ["--preset", "bare", "--set", "region.size=4", "--set", &organization];
+        let frame = "frame={width=40,height=24}";
+        let design =
+            ["--preset", "bare", "--set", "region.size=4", "--set", frame, "--set", &organization];
         succeed_in(dir.path(), &[&["generate", "-o", &core][..], &design].concat());
         let (toml, rtl) = (format!("{core}/design.toml"), format!("{core}/rtl"));
         let cosim = |extra: &[&str]| {
@@ -119,6 +121,10 @@ fn the_whole_folder_is_simulated() {
         let names = [&sound["runs"][0]["name"], &sound["runs"][1]["name"]];
         assert_eq!(names, ["rpu iverilog", "rcm 3x2 iverilog"]);
         assert_eq!(sound["not_simulated"], serde_json::json!([]));
+        assert_eq!(sound["not_elaborated"], serde_json::json!([]));
+        // An array of copies is read, not simulated whole.
+        let whole = organization.contains("serial").then_some("full iverilog");
+        assert_eq!(sound["runs"][2]["name"].as_str(), whole);
         let readme = fs::read_to_string(dir.path().join(&core).join("README.md")).unwrap();
         for run in sound["runs"].as_array().unwrap() {
             assert!(readme.contains(run["design"].as_str().unwrap()), "{run}\n{readme}");

@@ -23,9 +23,9 @@ const FEW_CLOCKS: u64 = 20_000;
 const NEAR: [Motif; 4] = [Motif::Bump, Motif::Noise, Motif::Smooth, Motif::Bump];
 /// Frames that go beyond the borders of regions.
 const WIDE_FRAMES: u32 = 8;
-/// Regions side by side from which a frame has a ground that differs from place to place: a word that is stored
-/// or read at a wrong place then shows, wherever that is.
-const WIDE_COLUMNS: u32 = 16;
+/// Regions from which a frame has a ground that differs from place to place: a word that is stored or read at a
+/// wrong place then shows, wherever that is.
+const MANY_REGIONS: u32 = 256;
 /// Regions of such a frame for each that shows something.
 const REGIONS_PER_ACTOR: u32 = 64;
 /// Blocks of the ground side by side, and the levels that they have.
@@ -125,7 +125,8 @@ impl Script {
             sequences.insert(0, stalled.into_iter().chain([last]).collect());
         }
         let drawn = cast.len() * stage.side * stage.side;
-        if drawn <= FEW_PIXELS && part.timing().clocks_per_frame() <= FEW_CLOCKS {
+        let is_small = drawn <= FEW_PIXELS && part.timing().clocks_per_frame() <= FEW_CLOCKS;
+        if is_small {
             let mut artists: Vec<Artist> =
                 cast.iter().map(|_| Artist::new(part, part.region_size(), random.fork())).collect();
             let near = NEAR.iter().map(|&motif| {
@@ -134,13 +135,15 @@ impl Script {
                 Shot { frame: stage.frame(&squares, 0), thresholds: plan.usual, stalls: false }
             });
             sequences.push(near.collect());
-            for more in [0, 1].into_iter().filter(|_| part.thresholds() == Mode::Runtime) {
-                let exact = cast[0].exact(part, &plan.usual, more);
-                sequences.push(vec![
-                    shot(0, exact, &|_, actor| actor.first.clone()),
-                    shot(0, exact, &|_, actor| actor.other.clone()),
-                ]);
-            }
+        }
+        // Of a large frame the minima that are met, and not those that are missed by one.
+        let minima: &[u32] = if is_small { &[0, 1] } else { &[0] };
+        for &more in minima.iter().filter(|_| part.thresholds() == Mode::Runtime) {
+            let exact = cast[0].exact(part, &plan.usual, more);
+            sequences.push(vec![
+                shot(0, exact, &|_, actor| actor.first.clone()),
+                shot(0, exact, &|_, actor| actor.other.clone()),
+            ]);
         }
         if is_wide {
             let shot =
@@ -212,7 +215,7 @@ impl<'a> Stage<'a> {
 
     /// Whether the ground differs from place to place and from turn to turn.
     fn has_ground(&self) -> bool {
-        self.part.columns() >= WIDE_COLUMNS
+        self.part.regions() >= MANY_REGIONS
     }
 
     /// The level of a region that shows nothing: in a wide frame one of a few, by blocks of regions.

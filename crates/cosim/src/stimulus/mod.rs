@@ -62,7 +62,7 @@ pub struct Stimulus {
     /// Frames of the caller, of the size and depth of the design.
     pub frames: Vec<Frame>,
     /// Clocks in a round that are enough: where all directed sequences take more, about as many of them
-    /// are recorded as take so many, but always the [`MOST_TELLING`]. Without it all are.
+    /// are recorded as take so many, but always the first three, the most telling. Without it all are.
     pub enough: Option<u64>,
 }
 

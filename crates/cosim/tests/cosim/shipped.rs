@@ -166,13 +166,13 @@ fn a_raster_core_with_an_external_store_shows_its_streams() {
 #[test]
 fn large_folds_show_everything() {
     for (toml, most) in [
-        ("hardware.fold = 784", 2 << 20),
-        ("hardware.fold = 100\nhardware.feed = 'raster'", 2 << 20),
+        ("hardware.fold = 784", 12 << 20),
+        ("hardware.fold = 100\nhardware.feed = 'raster'", 12 << 20),
         (
             "frame.width = 1920\nframe.height = 1080\nhardware.fold = 8100\ndenoise.filter = 'none'",
-            8 << 20,
+            12 << 20,
         ),
-        ("region.size = 48\nhardware.fold = 25\nregion.neighborhood = 'shared'", 4 << 20),
+        ("region.size = 48\nhardware.fold = 25\nregion.neighborhood = 'shared'", 12 << 20),
     ] {
         let design = design(&format!("hardware.organization = 'serial'\n{toml}\n"));
         for top in TOPS {
@@ -225,18 +225,18 @@ fn what_vectors_cannot_show_is_said() {
 #[test]
 fn the_benches_of_raster_cores_lose_regions_where_regions_can_be_lost() {
     let waits = "temporal.reference = 'last-sent'";
-    // Rows of regions of the frame, what differs, rows of the bench, and whether it loses regions.
-    for (rows, more, tried, loses) in [
-        (30, "", 3, true),
-        (1, "", 1, true),
-        (30, waits, 3, true),
-        (2, waits, 2, false),
-        (3, "temporal.reference = 'last-sent'\nspatial = [{ feature = 'mad' }]", 2, false),
+    // Rows of regions of the frame, what differs, and whether the bench loses regions.
+    for (rows, more, loses) in [
+        (30, "", true),
+        (1, "", true),
+        (30, waits, true),
+        (2, waits, false),
+        (3, "temporal.reference = 'last-sent'\nspatial = [{ feature = 'mad' }]", false),
     ] {
         let frame = frame((40, rows), 8);
         let design = design(&format!("{frame}hardware.organization = 'raster'\n{more}\n"));
         let bench = bench(&design, Top::Rcm);
-        assert_eq!(bench.grid, (4, tried), "{rows} {more}");
+        assert_eq!(bench.grid, (40, rows), "{rows} {more}");
         assert_eq!(bench.shortcoming, None, "{rows} {more}");
         let text = &bench.files[0].contents;
         assert_eq!(text.contains("regions are lost."), loses, "{rows} {more}: {text}");
@@ -401,12 +401,16 @@ fn negative_control(toml: &str, top: Top, player: Player) {
     }
 }
 
+/// Regions of a frame, few, because a bench plays the whole frame.
+const GRID: (u32, u32) = (7, 5);
+
 fn of_organization(size: u32, serial: Option<(u32, &str)>) -> String {
     let hardware = serial.map_or_else(String::new, |(fold, feed)| {
         format!("hardware = {{ organization = 'serial', fold = {fold}, feed = '{feed}' }}\n")
     });
     let small = "temporal.min_count = 2\nspatial = [{ feature = 'edge', min_score = 2 }]\ndenoise.filter = 'none'\n";
-    format!("region.size = {size}\n{}{hardware}", if size == 2 { small } else { "" })
+    let small = if size == 2 { small } else { "" };
+    format!("{}region.size = {size}\n{small}{hardware}", frame(GRID, size))
 }
 
 /// Words of up to four pixels, with references of both kinds: what is sent last is lost, too.
@@ -416,7 +420,9 @@ fn of_raster(size: u32, word: u32) -> String {
         _ => ("plain", "previous"),
     };
     let raster = raster(size, word, pipelining);
-    format!("region.size = {size}\ntemporal.reference = '{reference}'\n{raster}")
+    let columns = (16 * word).div_ceil(size).max(GRID.0);
+    let frame = frame((columns, GRID.1), size);
+    format!("{frame}region.size = {size}\ntemporal.reference = '{reference}'\n{raster}")
 }
 
 /// A sample; [`every_tied_output_fails_at_every_size`] is the whole.

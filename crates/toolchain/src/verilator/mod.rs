@@ -134,6 +134,8 @@ pub fn elaborate(
     let invocation = toolchain
         .invocation(Tool::Verilator)?
         .args(["--xml-only", "--xml-output", HIERARCHY, "--no-timing", "--top-module", top])
+        // By default a loop of more than 1,024 turns is taken for one without end.
+        .args(["--unroll-count", "1000000"])
         .args(Lint::Lenient.flags())
         .args(parameters);
     let invocation = with_sources(invocation, dir.path(), sources, None)?;

@@ -42,10 +42,10 @@ fi
 
 # Names without folders: tools of WebAssembly see the folder that they run in.
 sources=
-for file in $(cat "$top.f"); do
+while read -r file; do
     cp "$file" "$build" || exit 2
     sources="$sources ${file##*/}"
-done
+done <"$top.f"
 cp "synth/${top}_ports.v" synth/ice40_registers.v "$build" || exit 2
 cd "$build" || exit 2
 cat >synthesis.ys <<END
@@ -65,6 +65,7 @@ END
 seed=1
 : >clocks
 while [ "$seed" -le "$seeds" ]; do
+    # shellcheck disable=SC2086 # words of their own
     "${NEXTPNR:-nextpnr-ice40}" $part --timing-allow-fail --json netlist.json --seed "$seed" >"seed$seed.log" 2>&1
     clock=$(sed -n 's/.*Max frequency for clock .*: \([0-9.]*\) MHz.*/\1/p' "seed$seed.log" | tail -n 1)
     if [ -z "$clock" ] || grep -q '^ERROR' "seed$seed.log"; then
