@@ -65,7 +65,9 @@ FACTOR, MARGIN, PER_BLOCK = 2, 64, 60
 
 def weights(text):
     """What each module of the source takes, at the most of its instances: logic, and 18-Kbit blocks."""
-    modules = {name: module for name, module in json.loads(text)["modules"].items() if "blackbox" not in module["attributes"] and "whitebox" not in module["attributes"]}
+    boxes = ("blackbox", "whitebox")
+    modules = json.loads(text)["modules"].items()
+    modules = {name: module for name, module in modules if not any(box in module["attributes"] for box in boxes)}
     own = {}
     for name, module in modules.items():
         logic = blocks = 0
