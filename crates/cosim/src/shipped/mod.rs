@@ -90,7 +90,19 @@ impl ShippedBench {
         }
         let Take { tally, clocks, vectors, is_played } = take;
         let remarks = tally::impossible(&part);
-        let shortcoming = if is_played {
+        let grid = |of: &Design| (of.columns(), of.rows());
+        let is_left_out =
+            top == Top::Rcm && !Level::is_copies(design) && grid(&part) != grid(design);
+        let shortcoming = if is_played && is_left_out {
+            Some(format!(
+                "{} lanes are too many for a bench, and these vectors are for {} x {} regions of {} x {}",
+                design.unit().count,
+                part.columns(),
+                part.rows(),
+                design.columns(),
+                design.rows()
+            ))
+        } else if is_played {
             tally.shortcoming(&part)
         } else {
             Some(format!(

@@ -161,6 +161,18 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// An array of more lanes than a bench can have is not said to pass.
+#[test]
+fn the_bench_of_too_many_lanes_never_passes() {
+    let design = design(
+        "frame = { width = 160, height = 128 }\nregion.size = 4\nhardware.organization = 'serial'\n",
+    );
+    let bench =
+        ShippedBench::new(&design, Top::Rcm, &Prefix::default(), &AtomicBool::new(false)).unwrap();
+    let said = bench.shortcoming.unwrap();
+    assert!(said.contains("1280 lanes") && said.contains("of 40 x 32"), "{said}");
+}
+
 /// What a simulation of the small grid alone leaves out is named with the parameter values.
 #[test]
 fn what_a_small_grid_leaves_out_is_named() {
