@@ -23,6 +23,11 @@ impl Located {
         Self { path, version, banner, stamp }
     }
 
+    /// Whether the file is the one that was asked.
+    pub(crate) fn is_unchanged(&self) -> bool {
+        stamp(&self.path) == self.stamp
+    }
+
     /// What tells this executable from any other: banner, real path, size and time of change. Part of
     /// every cache key, so that what one executable wrote is never taken for the work of another.
     #[must_use]

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use crate::error::ToolError;
@@ -14,13 +14,21 @@ use crate::invocation::{Invocation, Output};
 use crate::located::Located;
 use crate::tool::{Tool, Version};
 
+type Found<K> = Mutex<HashMap<K, Located>>;
+
+/// What this process has found on its machine, for toolchains to come: asking a tool for its version takes longer than
+/// small jobs take.
+static REMEMBERED: LazyLock<Found<(Tool, PathBuf)>> = LazyLock::new(Mutex::default);
+
 const VERSION_LIMIT: Duration = Duration::from_secs(600);
 
 /// The external tools of a machine. Cheap to clone; clones share what was found.
 #[derive(Clone)]
 pub struct Toolchain {
     host: Arc<dyn Host>,
-    found: Arc<Mutex<HashMap<Tool, Located>>>,
+    found: Arc<Found<Tool>>,
+    /// What is known of executables by others, if it is of the same machine.
+    remembered: Option<&'static Found<(Tool, PathBuf)>>,
     cancel: Arc<AtomicBool>,
 }
 
@@ -40,13 +48,18 @@ impl Toolchain {
     /// The tools of this machine.
     #[must_use]
     pub fn system() -> Self {
-        Self::with_host(SystemHost)
+        Self { remembered: Some(&REMEMBERED), ..Self::with_host(SystemHost) }
     }
 
     /// The tools of another machine, such as a mock.
     #[must_use]
     pub fn with_host(host: impl Host + 'static) -> Self {
-        Self { host: Arc::new(host), found: Arc::default(), cancel: Arc::default() }
+        Self {
+            host: Arc::new(host),
+            found: Arc::default(),
+            remembered: None,
+            cancel: Arc::default(),
+        }
     }
 
     /// Stops what is running, and runs nothing more, as soon as the flag is set.
@@ -66,13 +79,20 @@ impl Toolchain {
     /// # Errors
     /// When it is missing, cannot be run, or is too old.
     pub fn find(&self, tool: Tool) -> Result<Located, ToolError> {
-        let known = self.found.lock().unwrap_or_else(PoisonError::into_inner).get(&tool).cloned();
-        if let Some(located) = known {
-            return Ok(located);
+        if let Some(located) = locked(&self.found).get(&tool) {
+            return Ok(located.clone());
         }
-        let located = self.identify(tool, self.locate(tool)?)?;
-        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
-        found.insert(tool, located.clone());
+        let path = self.locate(tool)?;
+        let key = (tool, path.clone());
+        let known = self.remembered.and_then(|all| locked(all).get(&key).cloned());
+        let located = match known.filter(Located::is_unchanged) {
+            Some(located) => located,
+            None => self.identify(tool, path)?,
+        };
+        locked(&self.found).insert(tool, located.clone());
+        if let Some(all) = self.remembered {
+            locked(all).insert(key, located.clone());
+        }
         Ok(located)
     }
 
@@ -146,6 +166,10 @@ impl Toolchain {
     }
 }
 
+fn locked<K>(found: &Found<K>) -> MutexGuard<'_, HashMap<K, Located>> {
+    found.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Builds between releases, which have no version to compare: they are new enough.
 fn is_development_build(tool: Tool, banner: &str) -> bool {
     match tool {
@@ -177,6 +201,25 @@ mod tests {
         assert_eq!(located.banner, "Yosys 0.23 (git sha1 7ce5011c24b)");
         assert_eq!(toolchain.clone().find(Tool::Yosys).unwrap(), located);
         assert_eq!(log.commands(), ["/opt/bin/yosys -V"]);
+    }
+
+    #[test]
+    fn toolchains_of_a_process_ask_an_executable_once_until_it_changes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("yosys");
+        std::fs::write(&path, "one").unwrap();
+        let named = path.to_str().unwrap();
+        let host = MockHost::new().tool(named, "Yosys 0.23\n").variable("FOVEATE_YOSYS", named);
+        let log = host.log();
+        let remembered: &'static Found<_> = Box::leak(Box::default());
+        let first = Toolchain { remembered: Some(remembered), ..Toolchain::with_host(host) };
+        let next = || Toolchain { found: Arc::default(), ..first.clone() };
+        assert_eq!(first.find(Tool::Yosys).unwrap(), next().find(Tool::Yosys).unwrap());
+        assert_eq!(log.commands().len(), 1);
+        std::fs::write(&path, "another").unwrap();
+        let changed = next().find(Tool::Yosys).unwrap();
+        assert_eq!(log.commands().len(), 2);
+        assert_ne!(changed.identity(), first.find(Tool::Yosys).unwrap().identity());
     }
 
     #[test]

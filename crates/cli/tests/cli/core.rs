@@ -179,7 +179,7 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
         ],
     ];
     for settings in designs {
-        core(dir.path(), &[settings, &["frame={width=64,height=48}"]].concat());
+        core(dir.path(), &[settings, &["frame={width=32,height=16}"]].concat());
         let (code, text) = replay(&folder, &[]);
         assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{settings:?}: {text}");
     }

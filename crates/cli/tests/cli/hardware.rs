@@ -104,7 +104,7 @@ fn the_whole_folder_is_simulated() {
     ] {
         let core = format!("core-{organization}");
         let organization = format!("hardware.organization=\"{organization}\"");
-        let frame = "frame={width=40,height=24}";
+        let frame = "frame={width=20,height=16}";
         let design =
             ["--preset", "bare", "--set", "region.size=4", "--set", frame, "--set", &organization];
         succeed_in(dir.path(), &[&["generate", "-o", &core][..], &design].concat());

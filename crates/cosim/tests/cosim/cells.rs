@@ -179,29 +179,50 @@ fn dut(ports: Vec<Port>, sources: Vec<Source>) -> Dut {
     Dut { top, ports, parameters, sources, no_inline }
 }
 
-/// What Yosys makes of it, and the cells that it takes.
-fn synthesized(dut: &Dut) -> (Dut, BTreeSet<String>) {
+/// What Yosys makes of each, and the cells that it takes. One run is for all: it reads its library of cells for two
+/// seconds.
+fn synthesized(duts: &[&Dut]) -> Vec<(Dut, BTreeSet<String>)> {
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
-    let read: String =
-        dut.sources.iter().map(|(name, _)| format!("read_verilog {name}\n")).collect();
+    let (mut sources, mut all) = (BTreeMap::new(), String::new());
+    let (mut outputs, mut write) = (Vec::new(), String::new());
+    for (number, dut) in duts.iter().enumerate() {
+        let module = format!("dut_{number}");
+        for (name, text) in &dut.sources {
+            let own = format!("(* keep_hierarchy *) module {module} (");
+            let is_own = name == "dut.v";
+            let name = if is_own { format!("{module}.v") } else { name.clone() };
+            sources.insert(name, text.replace("module dut (", &own));
+        }
+        all.push_str(&format!("(* keep *) {module} u_{number} ();\n"));
+        write.push_str(&format!(
+            "select {module}\nwrite_verilog -noattr -selected {module}.net.v\nselect -clear\n"
+        ));
+        outputs.push(format!("{module}.net.v"));
+    }
+    sources.insert("all.v".to_owned(), format!("module all;\n{all}endmodule\n"));
+    let names: Vec<&str> = sources.keys().map(String::as_str).collect();
     let script = format!(
-        "{read}synth_xilinx -family xcup -flatten -noiopad -noclkbuf -top dut\n\
-         delete =A:blackbox =A:whitebox\nwrite_verilog -noattr netlist.v\n"
+        "read_verilog {}\nsynth_xilinx -family xcup -flatten -noiopad -noclkbuf -top all\n\
+         delete =A:blackbox =A:whitebox\n{write}",
+        names.join(" ")
     );
-    let outputs = vec!["netlist.v".to_owned()];
-    let job = YosysJob { sources: dut.sources.clone(), script, outputs };
+    let job = YosysJob { sources: sources.into_iter().collect(), script, outputs: outputs.clone() };
     let mut files = yosys::run(&toolchain, &cache, &job).unwrap().files;
-    let netlist = String::from_utf8(files.remove("netlist.v").unwrap()).unwrap();
-    let name = |line: &str| {
-        let word = line.strip_prefix("  ")?.split([' ', '(']).next()?;
-        let is_cell = word.starts_with(|c: char| c.is_ascii_uppercase());
-        is_cell.then(|| word.to_owned())
-    };
-    let cells: BTreeSet<String> = netlist.lines().filter_map(name).collect();
     let library = yosys::cell_models(&toolchain, &cache, "xilinx/cells_sim.v").unwrap();
-    let models = cell_models(&library, cells.clone()).unwrap();
-    let sources = vec![("cells.v".to_owned(), models), ("netlist.v".to_owned(), netlist)];
-    (Dut { sources, ..dut.clone() }, cells)
+    let of = |(number, output): (usize, &String)| {
+        let netlist = String::from_utf8(files.remove(output).unwrap()).unwrap();
+        let netlist = netlist.replace(&format!("module dut_{number}("), "module dut(");
+        let name = |line: &str| {
+            let word = line.strip_prefix("  ")?.split([' ', '(']).next()?;
+            let is_cell = word.starts_with(|c: char| c.is_ascii_uppercase());
+            is_cell.then(|| word.to_owned())
+        };
+        let cells: BTreeSet<String> = netlist.lines().filter_map(name).collect();
+        let models = cell_models(&library, cells.clone()).unwrap();
+        let sources = vec![("cells.v".to_owned(), models), ("netlist.v".to_owned(), netlist)];
+        (Dut { sources, ..duts[number].clone() }, cells)
+    };
+    outputs.iter().enumerate().map(of).collect()
 }
 
 fn run(dut: &Dut, recording: &Recording) -> Result<Vec<Difference>, CosimError> {
@@ -231,18 +252,21 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
     let wide = [(9, 1 << 11), (36, 1 << 9), (27, 1 << 9), (40, 1 << 10)];
     let one = [&shapes[..], &larger].concat().into_iter().map(|shape| (Ports::One, shape));
     let two = [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (Ports::Two, shape));
-    let memories: Vec<(Ports, (u32, u32))> = one.chain(two).collect();
-    let failures = in_parallel(&memories, |&(ports, (width, words))| {
-        let (rtl, recording) = memory(ports, width, words);
-        let (netlist, cells) = synthesized(&rtl);
+    let shapes: Vec<(Ports, (u32, u32))> = one.chain(two).collect();
+    let memories: Vec<(Dut, Recording)> =
+        shapes.iter().map(|&(ports, (width, words))| memory(ports, width, words)).collect();
+    let netlists = synthesized(&memories.iter().map(|(rtl, _)| rtl).collect::<Vec<_>>());
+    let all: Vec<_> = shapes.iter().zip(memories.iter().zip(&netlists)).collect();
+    let failures = in_parallel(&all, |&(&(ports, (width, words)), ((rtl, recording), netlist))| {
+        let (netlist, cells) = netlist;
         let is_ram = |cell: &&String| cell.starts_with("RAMB");
         if cells.iter().filter(is_ram).count() == 0 {
             return Err(format!(
                 "{ports:?} {width} bits, {words} words: no block RAM in {cells:?}"
             ));
         }
-        for dut in [&rtl, &netlist] {
-            match run(dut, &recording) {
+        for dut in [rtl, netlist] {
+            match run(dut, recording) {
                 Ok(found) if found.is_empty() => {}
                 other => {
                     return Err(format!(
@@ -262,7 +286,7 @@ fn a_product_is_that_of_the_rtl() {
         return;
     }
     let (rtl, recording) = product();
-    let (netlist, cells) = synthesized(&rtl);
+    let (netlist, cells) = synthesized(&[&rtl]).remove(0);
     assert!(cells.contains("DSP48E2"), "{cells:?}");
     for dut in [&rtl, &netlist] {
         assert_eq!(run(dut, &recording).unwrap(), []);
@@ -292,29 +316,32 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
     let wires = "    integer i;";
     let there =
         "    wire writes_there = &enables && write_address == read_address;\n    integer i;";
-    for (ports, width, words, cell) in [
+    let shapes = [
         (Ports::One, 8, 1 << 11, "RAMB18E2"),
         (Ports::One, 16, 1 << 11, "RAMB36E2"),
         (Ports::Two, 8, 1 << 11, "RAMB18E2"),
         (Ports::Two, 36, 1 << 9, "RAMB18E2"),
-    ] {
-        let (rtl, recording) = memory(ports, width, words);
-        let (netlist, cells) = synthesized(&rtl);
+    ];
+    let memories = shapes.map(|(ports, width, words, _)| memory(ports, width, words));
+    let netlists = synthesized(&memories.each_ref().map(|(rtl, _)| rtl));
+    for ((ports, width, _, cell), ((_, recording), (netlist, cells))) in
+        shapes.into_iter().zip(memories.iter().zip(&netlists))
+    {
         assert!(cells.contains(cell), "{cells:?}");
         let shape = format!("{ports:?} {width} bits");
-        let write_first = edited(&edited(&netlist, 0, wires, there), 0, word, through);
-        assert!(!run(&write_first, &recording).unwrap().is_empty(), "{shape}: writes first");
+        let write_first = edited(&edited(netlist, 0, wires, there), 0, word, through);
+        assert!(!run(&write_first, recording).unwrap().is_empty(), "{shape}: writes first");
         // A byte that is not enabled is written, with what is unknown.
-        let always = edited(&netlist, 0, "enables !== {ENABLES{1'b0}}", "1'b1");
-        assert_eq!(run(&always, &recording).unwrap(), [], "{shape}");
+        let always = edited(netlist, 0, "enables !== {ENABLES{1'b0}}", "1'b1");
+        assert_eq!(run(&always, recording).unwrap(), [], "{shape}");
         let always = edited(&always, 0, "enables[i] !== 1'b0", "1'b1");
-        assert!(!run(&always, &recording).unwrap().is_empty(), "{shape}: writes always");
+        assert!(!run(&always, recording).unwrap().is_empty(), "{shape}: writes always");
         for (from, to) in [
             (") / DATA;", ") / (2 * DATA);"),
             ("? data[8*i+:8]", "? data[8*i+:8] & ~8'd4"),
             ("posedge CLKARDCLK", "negedge CLKARDCLK"),
         ] {
-            let found = run(&edited(&netlist, 0, from, to), &recording).unwrap();
+            let found = run(&edited(netlist, 0, from, to), recording).unwrap();
             assert!(!found.is_empty(), "{shape}: not found: {to}");
         }
         let writer = if width == 36 { "B" } else { "A" };
@@ -328,11 +355,11 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
             (".DOA_REG(", ".EN_ECC_READ(\"TRUE\"), .DOA_REG(", "EN_ECC_READ"),
             (".INIT_00(256'hx", ".INIT_00(256'h0", "start_unknown"),
         ] {
-            refused(&edited(&netlist, 1, from, to), &recording, said);
+            refused(&edited(netlist, 1, from, to), recording, said);
         }
         if ports == Ports::One {
-            let both = edited(&netlist, 1, ".READ_WIDTH_B(32'd0)", ".READ_WIDTH_B(32'd9)");
-            refused(&both, &recording, "one_port");
+            let both = edited(netlist, 1, ".READ_WIDTH_B(32'd0)", ".READ_WIDTH_B(32'd9)");
+            refused(&both, recording, "one_port");
         } else {
             // A port that only reads must not write, and both have one clock.
             let (enable, none) = if width == 36 { (".WEA(2'h0)", 2) } else { (".WEBWE(", 4) };
@@ -341,11 +368,11 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
             let end = at + text[at..].find(')').unwrap() + 1;
             let name = enable.split('(').next().unwrap();
             let written = format!("{name}({none}'h1)");
-            let found = run(&edited(&netlist, 1, &text[at..end], &written), &recording);
+            let found = run(&edited(netlist, 1, &text[at..end], &written), recording);
             assert!(!found.unwrap().is_empty(), "{shape}: both ports write");
             for clock in [".CLKBWRCLK(~clk_i)", ".CLKBWRCLK(1'h0)"] {
-                let clocks = edited(&netlist, 1, ".CLKBWRCLK(clk_i)", clock);
-                assert!(!run(&clocks, &recording).unwrap().is_empty(), "{shape}: {clock}");
+                let clocks = edited(netlist, 1, ".CLKBWRCLK(clk_i)", clock);
+                assert!(!run(&clocks, recording).unwrap().is_empty(), "{shape}: {clock}");
             }
         }
     }
@@ -360,7 +387,7 @@ fn a_word_of_64_bits_shows_how_yosys_wires_it() {
     }
     let (rtl, recording) = memory(Ports::Two, 64, 1 << 9);
     assert_eq!(run(&rtl, &recording).unwrap(), []);
-    let (netlist, cells) = synthesized(&rtl);
+    let (netlist, cells) = synthesized(&[&rtl]).remove(0);
     assert!(cells.contains("RAMB36E2"), "{cells:?}");
     let found = run(&netlist, &recording).unwrap();
     assert_eq!(!found.is_empty(), wired_wrongly(&netlist.sources[1].1), "{found:?}");

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Only what a design elaborates is shipped: the modules that Verilator finds below the tops are the files.
+//! Only what a design elaborates is shipped: the modules that Icarus finds below the tops are the files.
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
 
 use crate::common::{design, every_design};
 use foveate_design::{Design, Organization};
 use foveate_emit::{LEAVES, SourceFile, Top, verilog};
+use foveate_toolchain::iverilog::{self, IverilogJob};
 use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_toolchain::{Cache, Tool, Toolchain};
 use rayon::prelude::*;
 
 /// The names of the files.
@@ -21,40 +21,16 @@ fn shipped(files: &[SourceFile]) -> BTreeSet<String> {
     files.iter().map(name).collect()
 }
 
-/// The modules at and below `top`, with the parameters of its own text.
+/// The modules at and below `top`, with the parameters of its own text: the scopes of what Icarus compiles.
 fn elaborated(files: &[SourceFile], top: &str) -> BTreeSet<String> {
-    let dir = tempfile::tempdir().unwrap();
-    let mut names = Vec::new();
-    for file in files {
-        let name = file.path.replace('/', "_");
-        fs::write(dir.path().join(&name), &file.contents).unwrap();
-        names.push(name);
-    }
-    let toolchain = Toolchain::system();
-    let args = [
-        "--xml-only",
-        "--xml-output",
-        "tree.xml",
-        "--no-timing",
-        "--Mdir",
-        ".",
-        "--top-module",
-        top,
-    ];
-    let verilator = toolchain.invocation(Tool::Verilator).unwrap();
-    toolchain.run_checked(&verilator.args(args).args(names).dir(dir.path())).unwrap();
-    modules(&dir.path().join("tree.xml"))
-}
-
-/// The names in the source of all modules of a tree.
-fn modules(xml: &Path) -> BTreeSet<String> {
-    let text = fs::read_to_string(xml).unwrap();
-    let attribute = |line: &str| {
-        let (_, rest) = line.split_once(" origName=\"")?;
-        Some(rest.split_once('"')?.0.to_owned())
-    };
-    let modules = text.lines().map(str::trim).filter(|line| line.starts_with("<module "));
-    modules.filter_map(attribute).collect()
+    let sources = files.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
+    let job = IverilogJob { sources, top: top.to_owned(), ..IverilogJob::default() };
+    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let compiled = iverilog::compile(&toolchain, &cache, &job).unwrap();
+    let text = fs::read_to_string(compiled).unwrap();
+    let scopes = text.lines().filter_map(|line| line.split_once(".scope module, "));
+    // The name of the instance, then that of its module.
+    scopes.map(|(_, names)| names.split('"').nth(3).unwrap().to_owned()).collect()
 }
 
 /// What is shipped for a top and not elaborated, or the other way round.
@@ -67,7 +43,7 @@ fn problems(design: &Design, top: Top) -> Option<String> {
 
 #[test]
 fn every_shipped_module_is_elaborated() {
-    if !require_tools(&[Tool::Verilator]) {
+    if !require_tools(&[Tool::Iverilog]) {
         return;
     }
     let found: Vec<String> = every_design()
@@ -88,13 +64,13 @@ fn smaller_grids_need_no_other_modules() {
     for toml in every_design() {
         let design = design(&toml);
         let own = shipped(&verilog(&design, Top::Rcm));
-        let mut config = design.lone_unit().config().clone();
+        let mut config = design.lone_unit().config();
         let is_small = design.organization() != Organization::Serial;
         if is_small {
             // What is beyond the frame stays as it is.
             let side = design.region_size();
             let beyond = |regions: u32, length: u32| regions * side - length;
-            let part = &mut config.frame;
+            let part = &mut config.camera.frame;
             part.width = part.width.map(|width| width - beyond(design.columns(), design.width()));
             part.height = part.height.map(|height| height - beyond(design.rows(), design.height()));
         }
