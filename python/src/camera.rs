@@ -329,7 +329,7 @@ impl Seen {
             self.eye = Some(Eye { design: Arc::new(design), engine });
             self.process = std::process::id();
         }
-        frame.check(config.frame.pixel_bits)
+        frame.check(config.camera.frame.pixel_bits)
     }
 
     fn take_bytes(

@@ -2,7 +2,7 @@
 //! Which exception says what. The messages are those of the command line.
 
 use foveate_cosim::CosimError;
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
@@ -48,7 +48,7 @@ pub(crate) fn os_error(source: &std::io::Error, message: String) -> PyErr {
     }
 }
 
-impl Raise for DesignError {
+impl Raise for ConfigError {
     fn raise(self) -> PyErr {
         value_error(self)
     }

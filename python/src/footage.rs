@@ -215,7 +215,7 @@ pub(crate) fn simulate(
                 clips.len()
             )));
         }
-        let source = open(&inputs, &config, &options).map_err(raise)?;
+        let source = open(&inputs, &config.camera, &options).map_err(raise)?;
         let (width, height) = source.size();
         let design = config.for_frames(width, height).map_err(raise)?;
         let (total, engine) = (source.frames(), Engine::new(&design));

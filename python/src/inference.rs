@@ -162,7 +162,7 @@ pub(crate) fn infer(
     let chosen = chosen(&options)?;
     let input = input_options("infer", &OWN, Some(&options))?;
     let config = config::read(camera, None)?;
-    let shown = shown(inputs, config.frame.pixel_bits)?;
+    let shown = shown(inputs, config.camera.frame.pixel_bits)?;
     let summary = interruptible(py, |cancel| {
         let inference = match shown {
             Shown::Paths(paths) => Inference::new(&config, &network, &paths, &input),

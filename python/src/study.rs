@@ -33,7 +33,7 @@ pub(crate) fn explain(
     let (inputs, options) = (paths(inputs)?, input_options("explain", &[], options)?);
     let config = config::read(camera, None)?;
     let explanation = at_once(py, move || {
-        let source = open(&inputs, &config, &options).map_err(raise)?;
+        let source = open(&inputs, &config.camera, &options).map_err(raise)?;
         foveate_simulator::explain(&config, source, frame, region).map_err(raise)
     })??;
     Ok((json(&explanation)?, explanation.to_string()))
@@ -55,7 +55,7 @@ pub(crate) fn fidelity(
         ideal.map_or_else(|| Ok(config.clone()), |ideal| config::read(Some(ideal), None))?;
     let compared = interruptible(py, |cancel| {
         let go_on = || !cancel.load(Ordering::Relaxed);
-        compare(&inputs, &options, &config, &ideal, &go_on)
+        compare(&inputs, &options, &config.camera, &ideal.camera, &go_on)
     })?
     .map_err(raise)?;
     Ok((json(&compared.figures)?, compared.problem))

@@ -92,7 +92,7 @@ pub(crate) fn event_columns<'py>(
         }
         let Taken { result: outcome, number, time_us, .. } = taken;
         let moment =
-            Moment { design: design.as_ref(), number: *number, time_us: *time_us, outcome };
+            Moment { camera: design.camera(), number: *number, time_us: *time_us, outcome };
         rows.rows(&moment, |row| {
             values.iter_mut().zip(row).for_each(|(own, value)| own.push(value));
         });

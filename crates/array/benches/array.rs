@@ -4,7 +4,7 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use foveate_array::PipelinedArray;
-use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
+use foveate_design::{CameraConfig, Config, Design, FeatureKind, SpatialConfig};
 use foveate_lanes::Level;
 use foveate_model::{PipelinedRcm, RcmInput, Thresholds};
 
@@ -23,7 +23,7 @@ const DESIGNS: [(&str, &[FeatureKind]); 4] = [
 
 fn design(features: &[FeatureKind]) -> Design {
     let spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
-    let config = Config { spatial, ..Config::default() };
+    let config = Config::from(CameraConfig { spatial, ..CameraConfig::default() });
     config.validate().expect("a valid design")
 }
 

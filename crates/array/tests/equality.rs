@@ -113,23 +113,25 @@ fn designs() -> impl Strategy<Value = Design> {
     (features, modes, sizes)
         .prop_map(|(features, modes, (size, bits, columns, rows))| {
             let mut config = Config::default();
-            (config.frame.width, config.frame.height) = (Some(columns * size), Some(rows * size));
-            config.frame.pixel_bits = bits;
-            config.region.size = size;
-            config.temporal.level = Some(1);
-            config.temporal.min_count = size;
-            config.spatial = features
+            (config.camera.frame.width, config.camera.frame.height) =
+                (Some(columns * size), Some(rows * size));
+            config.camera.frame.pixel_bits = bits;
+            config.camera.region.size = size;
+            config.camera.temporal.level = Some(1);
+            config.camera.temporal.min_count = size;
+            config.camera.spatial = features
                 .into_iter()
                 .map(|kind| SpatialConfig { level: None, ..SpatialConfig::new(kind) })
                 .collect();
-            for spatial in &mut config.spatial {
+            for spatial in &mut config.camera.spatial {
                 if matches!(spatial.feature, FeatureKind::Edge | FeatureKind::Corner) {
                     spatial.level = Some(1);
                 }
             }
-            (config.region.neighborhood, config.denoise.filter) = (modes.0, modes.1);
-            (config.temporal.reference, config.render.irrelevant) = (modes.2, modes.3);
-            (config.render.payload, config.decision.combine) = (modes.4, modes.5);
+            (config.camera.region.neighborhood, config.camera.denoise.filter) = (modes.0, modes.1);
+            (config.camera.temporal.reference, config.camera.render.irrelevant) =
+                (modes.2, modes.3);
+            (config.camera.render.payload, config.camera.decision.combine) = (modes.4, modes.5);
             config.hardware.thresholds = modes.6;
             config.hardware.pipelining = Some(modes.7);
             config
@@ -153,7 +155,7 @@ proptest! {
 #[test]
 fn more_regions_than_a_block_are_all_there() {
     let mut config = Config::default();
-    (config.frame.width, config.frame.height) = (Some(80), Some(72));
+    (config.camera.frame.width, config.camera.frame.height) = (Some(80), Some(72));
     let design = config.validate().unwrap();
     assert_eq!(design.regions(), 90);
     assert_eq!(compare(&design, Level::detect(), 3, None), Ok(()));
@@ -162,7 +164,7 @@ fn more_regions_than_a_block_are_all_there() {
 #[test]
 fn a_single_wrong_bit_is_noticed() {
     let mut config = Config::default();
-    (config.frame.width, config.frame.height) = (Some(16), Some(8));
+    (config.camera.frame.width, config.camera.frame.height) = (Some(16), Some(8));
     let design = config.validate().unwrap();
     assert!(compare(&design, Level::detect(), 3, Some(100)).is_err());
 }

@@ -2,7 +2,7 @@
 //! Errors of a bench. A missing tool is a row of the result, and a mismatch is a result; neither is an error.
 
 use foveate_cosim::CosimError;
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_frame::FrameError;
 use foveate_model::ModelError;
@@ -27,7 +27,7 @@ pub enum BenchError {
     Engine(#[from] EngineError),
     /// The part of the design that goes into the netlist is not a valid design.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
     /// The vectors could not be read back.
     #[error("cannot read `{path}`: {source}")]
     Vectors {

@@ -7,21 +7,21 @@ use foveate_cosim::Agreement;
 use foveate_design::Design;
 use foveate_engine::{Engine, Level as Instructions, Options};
 use foveate_frame::Frame;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 
 use crate::error::BenchError;
 use crate::memory::Before;
 use crate::report::{Level, Measured, Row};
 use crate::timer::{Time, Timer};
 
-/// [`Camera`], which everything is compared with in the end.
+/// [`FunctionalCamera`], which everything is compared with in the end.
 pub(crate) fn clear(
     design: &Design,
     frames: &[Frame],
     timer: Timer<'_>,
 ) -> Result<Row, BenchError> {
     let before = Before::now();
-    let mut camera = Camera::new(design);
+    let mut camera = FunctionalCamera::new(design);
     let time = timer.time(|| {
         for frame in frames {
             black_box(camera.step(frame)?);
@@ -29,7 +29,7 @@ pub(crate) fn clear(
         Ok(())
     })?;
     let measured = Measured { peak_bytes: before.peak_bytes(), ..per_frame(design, frames, time) };
-    Ok(Row::of(Level::FunctionalClear, "Camera", measured))
+    Ok(Row::of(Level::FunctionalClear, "FunctionalCamera", measured))
 }
 
 /// [`Engine`] on one thread. It may not skip regions that have not changed: the frames come again and
@@ -51,7 +51,7 @@ pub(crate) fn fast(design: &Design, frames: &[Frame], timer: Timer<'_>) -> Resul
 
 /// Every result of every region and every pixel of the screen; the engine sees `fast`, the model `clear`.
 fn agreement(design: &Design, clear: &[Frame], fast: &[Frame]) -> Result<Agreement, BenchError> {
-    let (mut camera, mut engine) = (Camera::new(design), Engine::new(design));
+    let (mut camera, mut engine) = (FunctionalCamera::new(design), Engine::new(design));
     let mut agreement = Agreement::default();
     for (clear, fast) in clear.iter().zip(fast) {
         let expected = camera.step(clear)?;

@@ -5,9 +5,9 @@
 //! other, and compares each with one above it:
 //!
 //! ```text
-//! functional, clear   Camera            frames          the reference
-//! functional, fast    Engine            frames          every result of every region = Camera
-//! cycle, clear        Pipelined-/SerialRcm   clocks     every score and decision = Camera
+//! functional, clear   FunctionalCamera            frames          the reference
+//! functional, fast    Engine            frames          every result of every region = FunctionalCamera
+//! cycle, clear        Pipelined-/SerialRcm   clocks     every score and decision = FunctionalCamera
 //! cycle, fast         PipelinedArray    clocks          every port at every clock = clear
 //! RTL                 Verilator         clocks          every port at every clock = clear
 //! netlist             Icarus            one RPU         every port at every clock = clear

@@ -64,8 +64,8 @@ fn part(design: &Design) -> Result<Design, BenchError> {
     if design.unit().count == 1 {
         return Ok(design.lone_unit());
     }
-    let (side, mut config) = (design.region_size(), design.config().clone());
-    config.frame.width = Some(design.unit().regions * side);
-    config.frame.height = Some(side);
+    let (side, mut config) = (design.region_size(), design.config());
+    config.camera.frame.width = Some(design.unit().regions * side);
+    config.camera.frame.height = Some(side);
     Ok(config.validate()?)
 }

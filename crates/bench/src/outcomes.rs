@@ -5,7 +5,7 @@
 use foveate_cosim::{Agreement, Layout, Recording};
 use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
-use foveate_model::{Camera, Outcome};
+use foveate_model::{FunctionalCamera, Outcome};
 
 use crate::error::BenchError;
 use crate::vectors::{each_clock, field};
@@ -18,7 +18,7 @@ pub(crate) fn agreement(
     streamed: u64,
 ) -> Result<Agreement, BenchError> {
     let last = frames.len().saturating_sub(1);
-    let mut camera = Camera::new(design);
+    let mut camera = FunctionalCamera::new(design);
     let mut outcomes = Vec::new();
     for number in 0..usize::try_from(streamed).expect("they were in memory") {
         let frame = frames.get(number.min(last)).ok_or(BenchError::NoFrames)?;

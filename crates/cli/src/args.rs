@@ -26,7 +26,7 @@ use std::path::PathBuf;
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
-use foveate_design::{Config, Design, DesignError, Preset};
+use foveate_design::{Config, ConfigError, Design, Preset};
 use foveate_estimate::{ROUTE_DEVICES, RouteDevice};
 
 use self::input::InputArgs;
@@ -115,7 +115,7 @@ impl DesignArgs {
     }
 
     /// Names the file if it is wrong without the overrides, too.
-    fn blame(&self, text: &str, error: DesignError) -> CliError {
+    fn blame(&self, text: &str, error: ConfigError) -> CliError {
         let alone = Config::from_toml(text).and_then(|config| config.validate());
         CliError::Spec { file: self.config.clone().filter(|_| alone.is_err()), error }
     }

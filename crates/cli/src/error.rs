@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use foveate_bench::BenchError;
 use foveate_cosim::CosimError;
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_emit::EmitError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
@@ -25,7 +25,7 @@ use crate::interrupt::{self, DeafError};
 pub(crate) enum CliError {
     /// A configuration that is no design, from a file or from the command line.
     #[error("{}{error}", origin(file.as_deref()))]
-    Spec { file: Option<PathBuf>, error: DesignError },
+    Spec { file: Option<PathBuf>, error: ConfigError },
     #[error(transparent)]
     Tool(#[from] ToolError),
     #[error(transparent)]
@@ -196,8 +196,8 @@ impl From<BenchError> for CliError {
     }
 }
 
-impl From<DesignError> for CliError {
-    fn from(error: DesignError) -> Self {
+impl From<ConfigError> for CliError {
+    fn from(error: ConfigError) -> Self {
         Self::Spec { file: None, error }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Errors of a co-simulation. A mismatch is a result and not an error.
 
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_estimate::EstimateError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
@@ -41,7 +41,7 @@ pub enum CosimError {
 
     /// The design does not allow what was asked for.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
 
     /// The hierarchy that Verilator wrote cannot be read.
     #[error("the hierarchy that Verilator wrote cannot be read: {why}; Verilator 5 is expected")]

@@ -10,7 +10,7 @@ use crate::replay::{self, About};
 use crate::report::{CosimReport, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
 use crate::stimulus::Stimulus;
-use foveate_design::{Design, DesignError};
+use foveate_design::{ConfigError, Design};
 use foveate_emit::{Prefix, SourceFile, verilog};
 use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
@@ -66,7 +66,7 @@ impl Job {
     ///
     /// # Errors
     /// When the level's grid makes a frame that no design can have.
-    pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, DesignError> {
+    pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, ConfigError> {
         let part = stimulus.level.design(design)?;
         // The array takes its grid from its parameters, so that its Verilog is that of the design.
         let mut sources = verilog(design, stimulus.level.top());

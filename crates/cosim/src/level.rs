@@ -2,7 +2,7 @@
 //! How much of the hardware is simulated.
 
 use crate::hierarchy::declares;
-use foveate_design::{Design, DesignError};
+use foveate_design::{ConfigError, Design};
 use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -99,7 +99,7 @@ impl Level {
     ///
     /// # Errors
     /// When the grid makes a frame that no design can have.
-    pub fn design(self, design: &Design) -> Result<Design, DesignError> {
+    pub fn design(self, design: &Design) -> Result<Design, ConfigError> {
         match self {
             Self::Full => Ok(design.clone()),
             Self::Rpu => Ok(design.lone_unit()),
@@ -109,13 +109,13 @@ impl Level {
 }
 
 /// The design for a frame of so many regions, of which as much lies beyond the frame as in the design.
-fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, DesignError> {
-    let mut config = design.config().clone();
+fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, ConfigError> {
+    let mut config = design.config();
     let side = design.region_size();
     let length =
         |regions: u32, own: u32, all: u32| regions.saturating_mul(side) - (all * side - own);
-    config.frame.width = Some(length(columns, design.width(), design.columns()));
-    config.frame.height = Some(length(rows, design.height(), design.rows()));
+    config.camera.frame.width = Some(length(columns, design.width(), design.columns()));
+    config.camera.frame.height = Some(length(rows, design.height(), design.rows()));
     config.validate()
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Named configurations to start from.
 
-use crate::{Config, DesignError};
+use crate::Config;
+use foveate_camera::ConfigError;
 
 /// A named configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,9 +64,9 @@ impl Preset {
     ///
     /// # Errors
     /// When there is none; the message lists those that exist.
-    pub fn find(name: &str) -> Result<&'static Self, DesignError> {
+    pub fn find(name: &str) -> Result<&'static Self, ConfigError> {
         PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
-            DesignError::UnknownPreset {
+            ConfigError::UnknownPreset {
                 name: name.to_owned(),
                 known: PRESETS.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
             }
@@ -76,7 +77,7 @@ impl Preset {
     ///
     /// # Errors
     /// Never for the presets of this crate, which a test proves.
-    pub fn config(&self) -> Result<Config, DesignError> {
+    pub fn config(&self) -> Result<Config, ConfigError> {
         Config::from_toml(self.toml)
     }
 }

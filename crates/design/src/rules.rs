@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The questions that every organization answers; [`crate::organization`] asks them.
 
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Reference, Timing};
+use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use foveate_camera::{Camera, ConfigError};
 
 /// What an array is made of, as often as it needs: an RPU, a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,20 +22,6 @@ pub struct Unit {
     pub split: &'static str,
 }
 
-/// A frame, its regions and their reference, as far as `[hardware]` depends on them.
-pub(crate) struct Grid {
-    /// Width of the frame in pixels.
-    pub(crate) width: u32,
-    /// Side of a region in pixels.
-    pub(crate) size: u32,
-    /// Regions side by side.
-    pub(crate) columns: u32,
-    /// Regions of the frame.
-    pub(crate) regions: u32,
-    /// What a frame is compared with.
-    pub(crate) reference: Reference,
-}
-
 /// What an organization answers.
 pub(crate) trait Rules {
     /// The unit of a design.
@@ -47,9 +34,13 @@ pub(crate) trait Rules {
     fn memories(&self) -> &'static [MemoryKind];
     /// Whether regions may share a unit, `hardware.fold`.
     fn folds(&self) -> bool;
-    /// `[hardware]` for such frames, its keys filled in. [`HardwareConfig::refuse_raster_keys`] is for all
+    /// `[hardware]` of such a camera, its keys filled in. [`HardwareConfig::refuse_raster_keys`] is for all
     /// but the raster organization.
-    fn hardware(&self, asked: &HardwareConfig, grid: &Grid) -> Result<HardwareConfig, DesignError>;
+    fn hardware(
+        &self,
+        asked: &HardwareConfig,
+        camera: &Camera,
+    ) -> Result<HardwareConfig, ConfigError>;
     /// The design whose ports module `rpu` has.
     fn lone_unit(&self, design: &Design) -> Design;
     /// When a design says what.

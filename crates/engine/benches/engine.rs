@@ -3,7 +3,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use foveate_design::{Config, FeatureKind, Neighborhood, SpatialConfig};
+use foveate_camera::{CameraConfig, FeatureKind, Neighborhood, SpatialConfig};
 use foveate_engine::{Engine, Level, Options, Screens};
 
 fn main() {
@@ -41,13 +41,13 @@ const CASES: [(&str, Case); 6] = [
 
 /// An engine for a case, and frames of a moving pattern with noise.
 fn setup(case: Case, options: Options) -> (Engine, Vec<Vec<u8>>) {
-    let mut config = Config::default();
+    let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(case.width), Some(case.height));
     config.region.size = case.side;
     config.region.neighborhood = case.neighborhood;
     config.spatial = case.features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
-    let design = config.validate().expect("a valid design");
-    let engine = Engine::with_options(&design, options).expect("threads");
+    let camera = config.validate().expect("a valid camera");
+    let engine = Engine::with_options(&camera, options).expect("threads");
     let mut state = 1u32;
     let mut frame = |shift: u32| -> Vec<u8> {
         let places = (0..case.height).flat_map(|y| (0..case.width).map(move |x| (x, y)));

@@ -10,7 +10,7 @@
 use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
-use foveate_design::{Config, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
+use foveate_camera::{CameraConfig, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
 use foveate_engine::{Engine, Level, Options, Outcome, Screens};
 
 type Failure = Box<dyn std::error::Error>;
@@ -27,7 +27,7 @@ fn main() -> Result<(), Failure> {
     };
     let path = arguments.first().ok_or("name a clip: an .npy of bytes, frames x height x width")?;
     let clip = Clip::read(path)?;
-    let mut config = Config::default();
+    let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(clip.width), Some(clip.height));
     config.region.size = value("--side").unwrap_or("8").parse()?;
     config.region.neighborhood = match value("--neighborhood") {

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_design::Reference;
+use foveate_camera::Reference;
 
 use crate::denoised::Denoiser;
 use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Several frames at once: the same results as one by one, handed to the threads once.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::core::{Core, Keep};
 use crate::engine::{Engine, Lanes};
@@ -16,7 +16,7 @@ use foveate_lanes::Lane;
 const TOGETHER: usize = 16 << 20;
 
 impl Engine {
-    /// Takes the next frames of a design with up to 8 bits per pixel, the first one first; each is rows
+    /// Takes the next frames of a camera with up to 8 bits per pixel, the first one first; each is rows
     /// of bytes, `stride` apart, where they lie. Returns an outcome per frame, equal to those that
     /// [`Engine::step_u8`] gives one after the other; only which regions are skipped may differ.
     ///
@@ -28,18 +28,18 @@ impl Engine {
     /// call keep all of it in the cache.
     ///
     /// # Errors
-    /// When one of the frames is none of the design; nothing has changed then, nor any screen.
+    /// When one of the frames is none of the camera; nothing has changed then, nor any screen.
     pub fn step_batch_u8(
         &mut self,
         frames: &[&[u8]],
         stride: usize,
         screens: Option<&mut Screens<u8>>,
     ) -> Result<&[Outcome], EngineError> {
-        let frames = checked(&self.design, frames, stride)?;
-        let Self { design, workers, lanes, outcome, outcomes, .. } = self;
+        let frames = checked(&self.camera, frames, stride)?;
+        let Self { camera, workers, lanes, outcome, outcomes, .. } = self;
         match lanes {
             Lanes::Bytes(core) => {
-                prepare(outcomes, design, frames.len());
+                prepare(outcomes, camera, frames.len());
                 run(core, workers, &frames, outcome, (outcomes, screens));
             }
             Lanes::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
@@ -47,7 +47,7 @@ impl Engine {
         Ok(&self.outcomes[..frames.len()])
     }
 
-    /// The same for designs with 9 to 16 bits per pixel: frames, screens and `stride` in words.
+    /// The same for cameras with 9 to 16 bits per pixel: frames, screens and `stride` in words.
     ///
     /// # Errors
     /// As [`Engine::step_batch_u8`].
@@ -57,11 +57,11 @@ impl Engine {
         stride: usize,
         screens: Option<&mut Screens<u16>>,
     ) -> Result<&[Outcome], EngineError> {
-        let frames = checked(&self.design, frames, stride)?;
-        let Self { design, workers, lanes, outcome, outcomes, .. } = self;
+        let frames = checked(&self.camera, frames, stride)?;
+        let Self { camera, workers, lanes, outcome, outcomes, .. } = self;
         match lanes {
             Lanes::Words(core) => {
-                prepare(outcomes, design, frames.len());
+                prepare(outcomes, camera, frames.len());
                 run(core, workers, &frames, outcome, (outcomes, screens));
             }
             Lanes::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
@@ -70,22 +70,22 @@ impl Engine {
     }
 }
 
-/// The pixels as frames of the design.
+/// The pixels as frames of the camera.
 fn checked<'a, T: Lane>(
-    design: &Design,
+    camera: &Camera,
     frames: &[&'a [T]],
     stride: usize,
 ) -> Result<Vec<Pixels<'a, T>>, EngineError> {
     let frame = |(number, &values): (usize, &&'a [T])| {
-        Pixels::checked(design, values, stride)
+        Pixels::checked(camera, values, stride)
             .map_err(|error| EngineError::InBatch { number, error: Box::new(error) })
     };
     frames.iter().enumerate().map(frame).collect()
 }
 
 /// Room for as many outcomes; those of longer batches stay for the next one.
-fn prepare(outcomes: &mut Vec<Outcome>, design: &Design, frames: usize) {
-    let new = || Outcome::new(design.features().len(), index(design.regions()));
+fn prepare(outcomes: &mut Vec<Outcome>, camera: &Camera, frames: usize) {
+    let new = || Outcome::new(camera.features().len(), index(camera.regions()));
     outcomes.resize_with(frames.max(outcomes.len()), new);
 }
 

@@ -136,14 +136,14 @@ pub(crate) fn runs<T: Lane>(plan: &Plan<T>, affected: &[bool], runs: &mut Vec<Ra
 
 #[cfg(test)]
 mod tests {
-    use foveate_design::{Config, Neighborhood};
+    use foveate_camera::{CameraConfig, Neighborhood};
 
     use super::*;
 
     #[test]
     fn runs_cover_affected_regions_and_merge() {
         let found = |width: u32, side: u32, neighborhood, columns: &[usize]| {
-            let mut config = Config::default();
+            let mut config = CameraConfig::default();
             (config.frame.width, config.frame.height) = (Some(width), Some(side));
             (config.region.size, config.region.neighborhood) = (side, neighborhood);
             let plan = Plan::<u8>::new(&config.validate().unwrap());

@@ -4,7 +4,7 @@
 use std::iter;
 use std::ops::Range;
 
-use foveate_design::Reference;
+use foveate_camera::Reference;
 
 use crate::change;
 use crate::look::{Changes, Look};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! From sums to scores, votes, both relevances and the action of every region of a band.
 
-use foveate_design::Action;
-use foveate_design::{Combine, FeatureKind, Irrelevant, Reference};
+use foveate_camera::Action;
+use foveate_camera::{Combine, FeatureKind, Irrelevant, Reference};
 
 use crate::kernel::mad;
 use crate::outcome::Results;

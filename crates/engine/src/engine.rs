@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The engine as its callers see it.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_frame::Frame;
 
 use crate::core::{Core, Keep};
@@ -37,10 +37,10 @@ pub(crate) enum Lanes {
     Words(Core<u16>),
 }
 
-/// An RCM with its renderer: what the model's `Camera` computes, fast.
+/// An RCM with its renderer: what the model's `FunctionalCamera` computes, fast.
 #[derive(Debug)]
 pub struct Engine {
-    pub(crate) design: Design,
+    pub(crate) camera: Camera,
     pub(crate) workers: Workers,
     pub(crate) lanes: Lanes,
     pub(crate) outcome: Outcome,
@@ -53,16 +53,16 @@ pub struct Engine {
 impl Engine {
     /// An engine that has seen nothing yet, on the thread that calls it.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
+    pub fn new(camera: &Camera) -> Self {
         let options = Options::default();
-        Self::on(design, options, Workers::alone(options.level))
+        Self::on(camera, options, Workers::alone(options.level))
     }
 
     /// An engine that runs as asked.
     ///
     /// # Errors
     /// When it asks for more than [`MAX_THREADS`], or the system does not give the threads.
-    pub fn with_options(design: &Design, options: Options) -> Result<Self, EngineError> {
+    pub fn with_options(camera: &Camera, options: Options) -> Result<Self, EngineError> {
         if options.threads > MAX_THREADS {
             return Err(EngineError::TooManyThreads {
                 threads: options.threads,
@@ -78,18 +78,18 @@ impl Engine {
             reason: error.to_string(),
         };
         let workers = Workers::new(options.level, threads).map_err(refused)?;
-        Ok(Self::on(design, options, workers))
+        Ok(Self::on(camera, options, workers))
     }
 
-    fn on(design: &Design, options: Options, workers: Workers) -> Self {
-        let lanes = if design.pixel_bits() <= 8 {
-            Lanes::Bytes(Core::new(Plan::new(design), options.skip))
+    fn on(camera: &Camera, options: Options, workers: Workers) -> Self {
+        let lanes = if camera.pixel_bits() <= 8 {
+            Lanes::Bytes(Core::new(Plan::new(camera), options.skip))
         } else {
-            Lanes::Words(Core::new(Plan::new(design), options.skip))
+            Lanes::Words(Core::new(Plan::new(camera), options.skip))
         };
-        let outcome = Outcome::new(design.features().len(), index(design.regions()));
+        let outcome = Outcome::new(camera.features().len(), index(camera.regions()));
         Self {
-            design: design.clone(),
+            camera: camera.clone(),
             workers,
             lanes,
             outcome,
@@ -98,10 +98,10 @@ impl Engine {
         }
     }
 
-    /// The design.
+    /// The camera.
     #[must_use]
-    pub fn design(&self) -> &Design {
-        &self.design
+    pub fn camera(&self) -> &Camera {
+        &self.camera
     }
 
     /// The vector instructions in use.
@@ -122,7 +122,7 @@ impl Engine {
     /// [`Engine::step_u8`] does not.
     ///
     /// # Errors
-    /// When the frame is not of the design's size and depth; nothing has changed then.
+    /// When the frame is not of the camera's size and depth; nothing has changed then.
     pub fn step(&mut self, frame: &Frame) -> Result<&Outcome, EngineError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         let (width, height) = (index(frame.width()), index(frame.height()));
@@ -147,7 +147,7 @@ impl Engine {
     /// Takes the next frame where it lies.
     ///
     /// # Errors
-    /// When the frame is not of the design's size and depth; nothing has changed then.
+    /// When the frame is not of the camera's size and depth; nothing has changed then.
     pub fn step_raster(&mut self, frame: &Raster) -> Result<&Outcome, EngineError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         match frame.plane() {
@@ -157,7 +157,7 @@ impl Engine {
     }
 
     fn check_kind(&self, given: (u32, u32, u32)) -> Result<(), EngineError> {
-        let expected = (self.design.width(), self.design.height(), self.design.pixel_bits());
+        let expected = (self.camera.width(), self.camera.height(), self.camera.pixel_bits());
         if given == expected {
             return Ok(());
         }
@@ -165,13 +165,13 @@ impl Engine {
         Err(EngineError::FrameKind { given: kind(given), expected: kind(expected) })
     }
 
-    /// Takes the next frame of a design with up to 8 bits per pixel, where it lies: rows of bytes,
+    /// Takes the next frame of a camera with up to 8 bits per pixel, where it lies: rows of bytes,
     /// `stride` apart.
     ///
     /// # Errors
-    /// When that is no frame of the design; nothing has changed then.
+    /// When that is no frame of the camera; nothing has changed then.
     pub fn step_u8(&mut self, pixels: &[u8], stride: usize) -> Result<&Outcome, EngineError> {
-        let raw = Pixels::checked(&self.design, pixels, stride)?;
+        let raw = Pixels::checked(&self.camera, pixels, stride)?;
         let Self { workers, lanes, outcome, .. } = self;
         match lanes {
             Lanes::Bytes(core) => core.step(&[raw], workers, outcome, Keep::nothing()),
@@ -180,12 +180,12 @@ impl Engine {
         Ok(&self.outcome)
     }
 
-    /// Takes the next frame of a design with 9 to 16 bits per pixel, where it lies.
+    /// Takes the next frame of a camera with 9 to 16 bits per pixel, where it lies.
     ///
     /// # Errors
-    /// When that is no frame of the design; nothing has changed then.
+    /// When that is no frame of the camera; nothing has changed then.
     pub fn step_u16(&mut self, pixels: &[u16], stride: usize) -> Result<&Outcome, EngineError> {
-        let raw = Pixels::checked(&self.design, pixels, stride)?;
+        let raw = Pixels::checked(&self.camera, pixels, stride)?;
         let Self { workers, lanes, outcome, .. } = self;
         match lanes {
             Lanes::Words(core) => core.step(&[raw], workers, outcome, Keep::nothing()),
@@ -195,7 +195,7 @@ impl Engine {
     }
 
     pub(crate) fn wrong_lanes(&self, expected: &'static str, given: &'static str) -> EngineError {
-        EngineError::LaneWidth { bits: self.design.pixel_bits(), expected, given }
+        EngineError::LaneWidth { bits: self.camera.pixel_bits(), expected, given }
     }
 
     /// What the last frame has led to.

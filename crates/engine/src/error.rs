@@ -3,16 +3,16 @@
 
 use thiserror::Error;
 
-/// The pixels are not a frame of the design, or the threads cannot be had.
+/// The pixels are not a frame of the camera, or the threads cannot be had.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EngineError {
-    /// A frame of another size or depth than the design's.
-    #[error("the frame has {given}, but the design takes {expected}; give it frames of that kind")]
+    /// A frame of another size or depth than the camera's.
+    #[error("the frame has {given}, but the camera takes {expected}; give it frames of that kind")]
     FrameKind {
         /// Size and depth of the frame.
         given: String,
-        /// Size and depth of the design.
+        /// Size and depth of the camera.
         expected: String,
     },
     /// Too few pixels, or rows that overlap.
@@ -25,14 +25,14 @@ pub enum EngineError {
         given: usize,
         /// Pixels from row to row.
         stride: usize,
-        /// Width of the design.
+        /// Width of the camera.
         width: usize,
-        /// Height of the design.
+        /// Height of the camera.
         height: usize,
         /// Pixels that the size needs with this stride, or with the least possible one.
         needed: usize,
     },
-    /// A pixel that does not fit into the design's bits.
+    /// A pixel that does not fit into the camera's bits.
     #[error("pixel ({x}, {y}) is {value}; the largest value of {bits} bits is {max}")]
     PixelRange {
         /// Column of the pixel.
@@ -49,7 +49,7 @@ pub enum EngineError {
     /// Pixels of the wrong type for the depth.
     #[error("pixels of {bits} bits need the type {expected}, but {given} was given")]
     LaneWidth {
-        /// Bits per pixel of the design.
+        /// Bits per pixel of the camera.
         bits: u32,
         /// The type they need.
         expected: &'static str,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functional model's integers at billions of pixels a second.
 //!
-//! [`Engine`] computes what the model's `Camera` computes, bit for bit, for every design. The
+//! [`Engine`] computes what the model's `FunctionalCamera` computes, bit for bit, for every camera. The
 //! model defines the results; this crate only makes them fast:
 //! - It makes one fused pass over a band of regions while the band is in the cache. A chain of
 //!   whole-frame operations would go through memory once per step.

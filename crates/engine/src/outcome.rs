@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_design::{Action, FeatureKind};
+use foveate_camera::{Action, FeatureKind};
 
 /// Scores and decisions of every region, numbered row by row: the fields of the functional model's
 /// outcome. The rendered frame is at [`Engine::rendered`](crate::Engine::rendered).
@@ -19,7 +19,7 @@ pub struct Outcome {
     pub actions: Vec<Action>,
     /// Changed pixels of every region; all of them where there was no valid reference.
     pub temporal_count: Vec<u32>,
-    /// Scores, by feature in the order of the design and then by region.
+    /// Scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
     /// Regions whose results were kept because their pixels (and, where neighbors are seen, those of
     /// the regions around) were bit-identical to those of the frame before.
@@ -61,7 +61,7 @@ pub(crate) struct Results<'a> {
     pub(crate) active: &'a mut [bool],
     pub(crate) actions: &'a mut [Action],
     pub(crate) temporal_count: &'a mut [u32],
-    /// By feature; empty where the design has fewer.
+    /// By feature; empty where the camera has fewer.
     pub(crate) scores: [&'a mut [u64]; FeatureKind::COUNT],
 }
 

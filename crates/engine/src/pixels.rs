@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pixels of one frame as their source holds them: rows some stride apart, nothing copied.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::EngineError;
 use crate::plan::index;
@@ -25,20 +25,20 @@ impl<'a, T> Pixels<'a, T> {
 }
 
 impl<'a, T: Lane> Pixels<'a, T> {
-    /// The pixels as a frame of the design.
+    /// The pixels as a frame of the camera.
     pub(crate) fn checked(
-        design: &Design,
+        camera: &Camera,
         values: &'a [T],
         stride: usize,
     ) -> Result<Self, EngineError> {
-        let (width, height) = (index(design.width()), index(design.height()));
+        let (width, height) = (index(camera.width()), index(camera.height()));
         let needed = (height - 1).saturating_mul(stride.max(width)).saturating_add(width);
         if stride < width || values.len() < needed {
             let given = values.len();
             return Err(EngineError::FrameLength { given, stride, width, height, needed });
         }
         let raw = Self { values, stride, width, height };
-        let max = u64::from(design.pixel_max());
+        let max = u64::from(camera.pixel_max());
         // Where the type holds no more than the bits, there is nothing to look for.
         let rows = if max < T::MAX.into() { 0..height } else { 0..0 };
         for y in rows {
@@ -46,7 +46,7 @@ impl<'a, T: Lane> Pixels<'a, T> {
             if largest.into() > max {
                 let x = raw.row(y).iter().position(|&pixel| pixel == largest);
                 let x = x.expect("the largest pixel of a row is in it");
-                let (bits, max) = (design.pixel_bits(), design.pixel_max());
+                let (bits, max) = (camera.pixel_bits(), camera.pixel_max());
                 return Err(EngineError::PixelRange { x, y, value: largest.into(), bits, max });
             }
         }

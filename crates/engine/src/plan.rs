@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A design as the kernels need it: geometry in indices, thresholds in lanes.
+//! A camera as the kernels need it: geometry in indices, thresholds in lanes.
 
-use foveate_design::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+use foveate_camera::{
+    Camera, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
 };
 
 use foveate_lanes::Aligned;
@@ -11,7 +11,7 @@ use foveate_lanes::{BLOCK, Lane, threshold};
 /// Blocks in a batch of rows.
 const BATCH: usize = 32;
 
-/// What a design asks for.
+/// What a camera asks for.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan<T: Lane> {
     /// Frame width without padding.
@@ -45,7 +45,7 @@ pub(crate) struct Plan<T: Lane> {
     pub(crate) payload: Payload,
 }
 
-/// A feature in the order of the design.
+/// A feature in the order of the camera.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Feature {
     pub(crate) kind: FeatureKind,
@@ -60,42 +60,42 @@ pub(crate) struct SeamMasks<T: Lane> {
 }
 
 impl<T: Lane> Plan<T> {
-    pub(crate) fn new(design: &Design) -> Self {
-        let side = index(design.region_size());
-        let columns = index(design.columns());
+    pub(crate) fn new(camera: &Camera) -> Self {
+        let side = index(camera.region_size());
+        let columns = index(camera.columns());
         let blocks = (columns * side).div_ceil(BLOCK);
         let level = |kind| {
-            design
+            camera
                 .feature(kind)
                 .map(|feature| feature.level().expect("a feature that counts hits has a level"))
         };
         Self {
-            width: index(design.width()),
-            height: index(design.height()),
+            width: index(camera.width()),
+            height: index(camera.height()),
             side,
             columns,
-            rows: index(design.rows()),
+            rows: index(camera.rows()),
             blocks,
-            median: design.filter() == Filter::Median3x3,
-            seams: (design.neighborhood() == Neighborhood::Isolated)
+            median: camera.filter() == Filter::Median3x3,
+            seams: (camera.neighborhood() == Neighborhood::Isolated)
                 .then(|| SeamMasks::new(side, blocks)),
             edge: level(FeatureKind::Edge).map(half),
             corner: level(FeatureKind::Corner).map(threshold),
-            mad: design
+            mad: camera
                 .feature(FeatureKind::Mad)
                 .map(|feature| feature.mean().expect("mad has a mean").fraction_bits),
-            variance: design.feature(FeatureKind::Variance).is_some(),
-            features: design
+            variance: camera.feature(FeatureKind::Variance).is_some(),
+            features: camera
                 .features()
                 .iter()
                 .map(|feature| Feature { kind: feature.kind(), min_score: feature.min_score() })
                 .collect(),
-            combine: design.combine(),
-            level: threshold(design.temporal().level),
-            min_count: design.temporal().min_count,
-            reference: design.temporal().reference,
-            irrelevant: design.irrelevant(),
-            payload: design.payload(),
+            combine: camera.combine(),
+            level: threshold(camera.temporal().level),
+            min_count: camera.temporal().min_count,
+            reference: camera.temporal().reference,
+            irrelevant: camera.irrelevant(),
+            payload: camera.payload(),
         }
     }
 

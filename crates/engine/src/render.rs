@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Screen and references after the decision: copy, keep or clear each region.
 
-use foveate_design::Action;
-use foveate_design::{Payload, Reference};
+use foveate_camera::Action;
+use foveate_camera::{Payload, Reference};
 
 use crate::pixels::Pixels;
 use crate::plan::Plan;

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use foveate_boxes::BoxError;
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
@@ -30,7 +30,7 @@ pub enum ExploreError {
         /// The table of the file.
         section: &'static str,
         /// What is wrong.
-        error: DesignError,
+        error: ConfigError,
     },
     /// No point of the space can be built.
     #[error("no valid design was found; tried {settings}: {reason}")]
@@ -121,7 +121,7 @@ pub enum ExploreError {
     Footage(Box<FootageError>),
     /// A configuration that is no design.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

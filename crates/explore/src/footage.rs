@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_boxes::{Boxes, Clip, Rect, assign};
-use foveate_design::{Config, Design};
+use foveate_camera::{Camera, CameraConfig};
 use foveate_fidelity::{Figures, Tally};
 use foveate_footage::{InputOptions, Source, SourceFrame, Subject, is_read_once, open, subjects};
 
@@ -20,7 +20,7 @@ use crate::{ExploreError, Hooks, Progress};
 /// less when interrupted.
 pub(crate) const TOGETHER: usize = 16;
 
-/// Counts the pairs of a clip and a design that are done.
+/// Counts the pairs of a clip and a camera that are done.
 pub(crate) struct Count {
     done: AtomicUsize,
     all: usize,
@@ -46,7 +46,7 @@ pub(crate) struct Footage<'a> {
     /// Width and height.
     pub(crate) size: (u32, u32),
     input: &'a InputOptions,
-    ideal: &'a Config,
+    ideal: &'a CameraConfig,
     hooks: &'a dyn Hooks,
     /// Ground-truth boxes of every clip, or none.
     pub(crate) boxes: Vec<Arc<Boxes>>,
@@ -57,7 +57,7 @@ impl<'a> Footage<'a> {
     pub(crate) fn new(
         inputs: &[PathBuf],
         input: &'a InputOptions,
-        ideal: &'a Config,
+        ideal: &'a CameraConfig,
         hooks: &'a dyn Hooks,
     ) -> Result<Self, ExploreError> {
         if let Some(once) = inputs.iter().find(|input| is_read_once(input)) {
@@ -103,32 +103,32 @@ impl<'a> Footage<'a> {
         objects(boxes, frame, source, self.input.crop)
     }
 
-    /// For every clip and design what was seen of it over the whole clip.
+    /// For every clip and camera what was seen of it over the whole clip.
     pub(crate) fn measure(
         &self,
-        designs: &[Design],
+        cameras: &[Camera],
         store: &Store,
     ) -> Result<Vec<Vec<Measured>>, ExploreError> {
-        let count = Count::of(self.subjects.len() * designs.len());
+        let count = Count::of(self.subjects.len() * cameras.len());
         let clips = 0..self.subjects.len();
-        clips.map(|clip| self.measure_clip(clip, designs, store, &count)).collect()
+        clips.map(|clip| self.measure_clip(clip, cameras, store, &count)).collect()
     }
 
-    /// For every design what was seen of it over one clip, by its number.
+    /// For every camera what was seen of it over one clip, by its number.
     pub(crate) fn measure_clip(
         &self,
         clip: usize,
-        designs: &[Design],
+        cameras: &[Camera],
         store: &Store,
         count: &Count,
     ) -> Result<Vec<Measured>, ExploreError> {
-        let keys = self.keys(clip, designs);
+        let keys = self.keys(clip, cameras);
         let mut found: Vec<Option<Measured>> = keys.iter().map(|key| store.get(key)).collect();
         count.add(found.iter().flatten().count());
         let missing: Vec<usize> =
-            (0..designs.len()).filter(|&index| found[index].is_none()).collect();
+            (0..cameras.len()).filter(|&index| found[index].is_none()).collect();
         for some in missing.chunks(TOGETHER) {
-            let together: Vec<Design> = some.iter().map(|&index| designs[index].clone()).collect();
+            let together: Vec<Camera> = some.iter().map(|&index| cameras[index].clone()).collect();
             let whole = std::slice::from_ref(&(0..u64::MAX));
             let measured = self.parts(clip, &together, whole, &|| count.progress())?;
             for (&index, mut parts) in some.iter().zip(measured) {
@@ -144,11 +144,11 @@ impl<'a> Footage<'a> {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// The names of the measurements of some designs over one clip, by its number.
-    pub(crate) fn keys(&self, clip: usize, designs: &[Design]) -> Vec<String> {
+    /// The names of the measurements of some cameras over one clip, by its number.
+    pub(crate) fn keys(&self, clip: usize, cameras: &[Camera]) -> Vec<String> {
         let clip = identity(&self.subjects[clip], self.input);
         let ideal = self.ideal.to_toml();
-        designs.iter().map(|design| key(&clip, &ideal, design.config())).collect()
+        cameras.iter().map(|camera| key(&clip, &ideal, camera.config())).collect()
     }
 
     /// A clip from its beginning.
@@ -156,17 +156,17 @@ impl<'a> Footage<'a> {
         Ok(open(&subject.inputs, self.ideal, self.input)?)
     }
 
-    /// For every design its figures over the first halves of all clips, and what becomes of objects; `halves` says for each clip how
-    /// many frames that is. `before` designs count as done already.
+    /// For every camera its figures over the first halves of all clips, and what becomes of objects; `halves` says for each clip how
+    /// many frames that is. `before` cameras count as done already.
     pub(crate) fn first_halves(
         &self,
-        designs: &[Design],
+        cameras: &[Camera],
         halves: &[(u64, u64)],
         before: usize,
     ) -> Result<Vec<(Figures, Objects)>, ExploreError> {
         let mut found = Vec::new();
-        let all = before + designs.len();
-        for some in designs.chunks(TOGETHER) {
+        let all = before + cameras.len();
+        for some in cameras.chunks(TOGETHER) {
             let mut sums: Vec<Option<(Tally, Objects)>> = vec![None; some.len()];
             let done = before + found.len();
             let tell = || Progress::Measuring { done, all };
@@ -188,11 +188,11 @@ impl<'a> Footage<'a> {
         Ok(found)
     }
 
-    /// What was seen of designs in parts of one clip, by its number, measured now.
+    /// What was seen of cameras in parts of one clip, by its number, measured now.
     pub(crate) fn parts(
         &self,
         clip: usize,
-        designs: &[Design],
+        cameras: &[Camera],
         parts: &[Range<u64>],
         tell: &(dyn Fn() -> Progress + Sync),
     ) -> Result<Vec<Vec<Measured>>, ExploreError> {
@@ -202,6 +202,6 @@ impl<'a> Footage<'a> {
         };
         let boxes = self.boxes.get(clip).map(AsRef::as_ref);
         let (subject, input, ideal) = (&self.subjects[clip], self.input, self.ideal);
-        measure::Clip { subject, input, ideal, parts, boxes, go_on: &go_on }.measure(designs)
+        measure::Clip { subject, input, ideal, parts, boxes, go_on: &go_on }.measure(cameras)
     }
 }

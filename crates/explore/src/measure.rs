@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A clip through the ideal camera once, and through the engine of every design beside it.
+//! A clip through the ideal camera once, and through the engine of every camera beside it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use foveate_boxes::{Boxes, Rect};
-use foveate_design::{Config, Design};
+use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_fidelity::{Fidelity, Tally};
 use foveate_footage::{FootageError, InputOptions, Kind, Source, Subject, open};
@@ -22,7 +22,7 @@ use crate::objects::{Objects, objects};
 /// Frames that are ready before the engines ask for them.
 const AHEAD: usize = 2;
 
-/// What was seen of a design over a part of a clip: the same wherever and whenever it was measured.
+/// What was seen of a camera over a part of a clip: the same wherever and whenever it was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Measured {
     /// Errors against the ideal.
@@ -38,8 +38,8 @@ pub(crate) struct Measured {
 pub(crate) struct Clip<'a> {
     pub(crate) subject: &'a Subject,
     pub(crate) input: &'a InputOptions,
-    /// The camera that designs are compared with, for frames of the clip's size.
-    pub(crate) ideal: &'a Config,
+    /// The camera that cameras are compared with, for frames of the clip's size.
+    pub(crate) ideal: &'a CameraConfig,
     /// Parts of the clip, by the numbers of their frames, that are measured apart.
     pub(crate) parts: &'a [Range<u64>],
     /// Its ground-truth boxes, if there are any.
@@ -56,9 +56,9 @@ struct Judged {
     objects: Vec<Rect>,
 }
 
-/// A design at work.
+/// A camera at work.
 struct Candidate {
-    design: Design,
+    camera: Camera,
     engine: Engine,
     bits: u32,
     /// One for each part.
@@ -67,13 +67,13 @@ struct Candidate {
 }
 
 impl Clip<'_> {
-    /// For every design what was seen of it in every part.
-    pub(crate) fn measure(&self, designs: &[Design]) -> Result<Vec<Vec<Measured>>, ExploreError> {
+    /// For every camera what was seen of it in every part.
+    pub(crate) fn measure(&self, cameras: &[Camera]) -> Result<Vec<Vec<Measured>>, ExploreError> {
         let source = open(&self.subject.inputs, self.ideal, self.input)?;
         let (width, height) = source.size();
         let ideal = &self.ideal.for_frames(width, height)?;
-        let candidate = |design| Candidate::new(ideal, design, self.parts.len());
-        let mut candidates = designs.iter().map(candidate).collect::<Result<Vec<_>, _>>()?;
+        let candidate = |camera| Candidate::new(ideal, camera, self.parts.len());
+        let mut candidates = cameras.iter().map(candidate).collect::<Result<Vec<_>, _>>()?;
         let set = source.kind() == Kind::Set;
         let problem = thread::scope(|scope| {
             let (give, take) = sync_channel(AHEAD);
@@ -120,7 +120,7 @@ impl Clip<'_> {
     fn judge(
         &self,
         mut source: Box<dyn Source>,
-        ideal: &Design,
+        ideal: &Camera,
         end: u64,
         give: &SyncSender<Judged>,
     ) -> Result<Option<String>, ExploreError> {
@@ -148,14 +148,14 @@ impl Clip<'_> {
 }
 
 impl Candidate {
-    fn new(ideal: &Design, design: &Design, parts: usize) -> Result<Self, ExploreError> {
-        let fidelity = (0..parts).map(|_| Fidelity::new(ideal, design));
+    fn new(ideal: &Camera, camera: &Camera, parts: usize) -> Result<Self, ExploreError> {
+        let fidelity = (0..parts).map(|_| Fidelity::new(ideal, camera));
         Ok(Self {
-            engine: Engine::new(design),
-            bits: design.pixel_bits(),
+            engine: Engine::new(camera),
+            bits: camera.pixel_bits(),
             fidelity: fidelity.collect::<Result<_, _>>()?,
             objects: vec![Objects::default(); parts],
-            design: design.clone(),
+            camera: camera.clone(),
         })
     }
 
@@ -173,7 +173,7 @@ impl Candidate {
         let frame = frames.get(&self.bits).unwrap_or(&judged.frame);
         self.engine.step_raster(frame)?;
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
-        self.objects[part].add(&self.design, &judged.objects, &outcome.active);
+        self.objects[part].add(&self.camera, &judged.objects, &outcome.active);
         Ok(self.fidelity[part].add(&judged.frame, &judged.ideal, outcome, screen)?)
     }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Ground-truth objects of a clip, and of how many a design sends at least half.
+//! Ground-truth objects of a clip, and of how many a camera sends at least half.
 
 use std::path::Path;
 
 use foveate_boxes::{Boxes, Grid, Place, Rect, View};
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_footage::{Crop, Source, SourceFrame};
 use serde::{Deserialize, Serialize};
 
@@ -19,8 +19,8 @@ pub(crate) struct Objects {
 }
 
 impl Objects {
-    pub(crate) fn add(&mut self, design: &Design, objects: &[Rect], active: &[bool]) {
-        let (side, width, height) = (design.region_size(), design.width(), design.height());
+    pub(crate) fn add(&mut self, camera: &Camera, objects: &[Rect], active: &[bool]) {
+        let (side, width, height) = (camera.region_size(), camera.width(), camera.height());
         let grid = Grid { side, width, height };
         for object in objects {
             let (yes, regions) = grid.votes(object, active);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A point with all its figures.
 
+use foveate_camera::Camera;
 use foveate_design::{Config, Design};
 use foveate_estimate::Speed;
 use foveate_fidelity::{Figures, Tally};
@@ -63,7 +64,7 @@ impl Row {
         Some(Self {
             number,
             settings,
-            config: design.config().clone(),
+            config: design.config(),
             fingerprint: design.fingerprint(),
             bytes_per_frame: bytes_per_frame(design, figures.active),
             clocks_per_frame,
@@ -89,10 +90,10 @@ pub(crate) fn together(measured: &[&Measured]) -> Option<Tally> {
 }
 
 /// As `simulate` counts: the two bits of every region say what becomes of it, so no addresses are sent.
-pub(crate) fn bytes_per_frame(design: &Design, active: f64) -> f64 {
-    let pixels = f64::from(design.width()) * f64::from(design.height());
-    let bits = pixels * active * f64::from(design.pixel_bits());
-    (2.0 * f64::from(design.regions()) + bits) / 8.0
+pub(crate) fn bytes_per_frame(camera: &Camera, active: f64) -> f64 {
+    let pixels = f64::from(camera.width()) * f64::from(camera.height());
+    let bits = pixels * active * f64::from(camera.pixel_bits());
+    (2.0 * f64::from(camera.regions()) + bits) / 8.0
 }
 
 /// A count as a number to calculate with.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A space of designs as a file defines it: the start, the ideal camera, and what varies.
 
-use foveate_design::{Config, DesignError, Preset};
+use foveate_camera::{CameraConfig, ConfigError};
+use foveate_design::{Config, Preset};
 use serde::Deserialize;
 use toml::{Table, Value};
 
 use crate::ExploreError;
 use crate::method::{Axis, MAX_POINTS, Method};
-use crate::store::functional;
 
 /// Which designs to look at.
 #[derive(Clone, Debug)]
@@ -15,7 +15,7 @@ pub struct Space {
     /// The configuration from which every point starts.
     pub(crate) start: Start,
     /// The camera with which designs are compared; it computes in floating point over whole frames.
-    pub ideal: Config,
+    pub ideal: CameraConfig,
     /// What varies, in the order of the file.
     pub axes: Vec<Axis>,
     /// Which combinations are points.
@@ -31,12 +31,12 @@ pub(crate) struct Start(String);
 impl Start {
     /// The configuration with overrides, each `key=TOML_VALUE`. Its thresholds follow an override of the
     /// depth; those that are overridden are in grey levels of the new one.
-    pub(crate) fn with(&self, overrides: &[String]) -> Result<Config, DesignError> {
+    pub(crate) fn with(&self, overrides: &[String]) -> Result<Config, ConfigError> {
         Config::from_toml_with(&self.0, overrides)
     }
 
     /// The same with thresholds in grey levels of the start, those that are overridden too.
-    pub(crate) fn with_its_levels(&self, overrides: &[String]) -> Result<Config, DesignError> {
+    pub(crate) fn with_its_levels(&self, overrides: &[String]) -> Result<Config, ConfigError> {
         let (depth, others): (Vec<String>, Vec<String>) =
             overrides.iter().cloned().partition(|text| text.starts_with("frame.pixel_bits="));
         Self(self.with(&others)?.to_toml()).with(&depth)
@@ -103,7 +103,7 @@ impl Space {
         let start = Start(start.map_err(section("design"))?.to_toml());
         // What the ideal sees does not depend on how an array is built.
         let ideal = start.with(&overrides(&file.ideal)).map_err(section("ideal"))?;
-        let ideal = functional(&ideal);
+        let ideal = ideal.camera;
         ideal.validate().map_err(section("ideal"))?;
         let axes = axes("", &file.vary)?;
         let method =
@@ -128,7 +128,7 @@ impl Axis {
     fn check(&self, start: &Start) -> Result<(), ExploreError> {
         let first = self.values.first().map(|value| format!("{}={value}", self.key));
         match start.with(first.as_slice()) {
-            Err(error @ DesignError::UnknownKey { .. }) => {
+            Err(error @ ConfigError::UnknownKey { .. }) => {
                 Err(ExploreError::Section { section: "vary", error })
             }
             _ => Ok(()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is finished, in the folder of the exploration: a file for every clip and design, under a name
+//! What is finished, in the folder of the exploration: a file for every clip and camera, under a name
 //! that says all that the figures depend on. A rerun does only what is missing.
 
 use std::fmt::Write as _;
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-use foveate_design::{Config, HardwareConfig};
+use foveate_camera::CameraConfig;
 use foveate_footage::{InputOptions, Subject};
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
@@ -51,14 +51,9 @@ impl Store {
     }
 }
 
-/// The part of a configuration that figures depend on: not how the array is built.
-pub(crate) fn functional(config: &Config) -> Config {
-    Config { hardware: HardwareConfig::default(), ..config.clone() }
-}
-
 /// The name of a measurement; the ideal is its TOML.
-pub(crate) fn key(clip: &str, ideal: &str, functional: &Config) -> String {
-    let text = format!("{VERSION}\n{clip}\n{ideal}\n{}", functional.to_toml());
+pub(crate) fn key(clip: &str, ideal: &str, camera: &CameraConfig) -> String {
+    let text = format!("{VERSION}\n{clip}\n{ideal}\n{}", camera.to_toml());
     sha256_hex(text)[..KEY_DIGITS].to_owned()
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an exploration has to measure: the clips, and the designs that look different to a camera.
+//! What an exploration has to measure: the clips, and the cameras of the designs.
 
 use std::collections::BTreeMap;
 
-use foveate_design::{Config, Design};
+use foveate_camera::Camera;
 
 use crate::footage::Footage;
-use crate::store::functional;
 use crate::{ExploreError, Hooks, Point, Refused, Request};
 
 /// Clips, points, and what is to be seen of them.
@@ -16,8 +15,8 @@ pub(crate) struct Work<'a> {
     pub(crate) footage: Footage<'a>,
     pub(crate) points: Vec<Point>,
     pub(crate) refused: Vec<Refused>,
-    /// The designs that look different: how an array is built does not change what it computes.
-    pub(crate) looks: Vec<Design>,
+    /// The cameras of the designs, each once.
+    pub(crate) looks: Vec<Camera>,
     /// For each point which of them it is.
     pub(crate) look_of: Vec<usize>,
 }
@@ -45,7 +44,7 @@ impl<'a> Work<'a> {
         Ok(Self { footage, points, refused, looks, look_of })
     }
 
-    /// For each of the designs that look different the first point that is it.
+    /// For each of the cameras the first point that is it.
     pub(crate) fn first_points(&self) -> Vec<&Point> {
         let mut found = Vec::with_capacity(self.looks.len());
         for (point, &look) in self.points.iter().zip(&self.look_of) {
@@ -57,14 +56,14 @@ impl<'a> Work<'a> {
     }
 }
 
-fn looks(points: &[Point]) -> Result<(Vec<Design>, Vec<usize>), ExploreError> {
+fn looks(points: &[Point]) -> Result<(Vec<Camera>, Vec<usize>), ExploreError> {
     let (mut looks, mut numbers, mut of_point) = (Vec::new(), BTreeMap::new(), Vec::new());
     for point in points {
-        let functional: Config = functional(&point.config);
+        let camera = &point.config.camera;
         let next = numbers.len();
-        let number = *numbers.entry(functional.to_toml()).or_insert(next);
+        let number = *numbers.entry(camera.to_toml()).or_insert(next);
         if number == next {
-            looks.push(functional.validate()?);
+            looks.push(camera.validate()?);
         }
         of_point.push(number);
     }

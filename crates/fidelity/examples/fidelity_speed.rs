@@ -4,7 +4,7 @@
 
 use std::time::Instant;
 
-use foveate_design::Config;
+use foveate_camera::CameraConfig;
 use foveate_engine::Engine;
 use foveate_fidelity::Fidelity;
 use foveate_frame::Raster;
@@ -14,23 +14,23 @@ use foveate_scenes::{Scene, SceneSize};
 fn main() {
     for (width, height) in [(1280, 720), (1920, 1080)] {
         for (side, bits) in [(8, 8), (32, 8), (3, 8), (8, 6), (8, 12)] {
-            let mut config = Config::default();
+            let mut config = CameraConfig::default();
             (config.frame.width, config.frame.height) = (Some(width), Some(height));
             config.frame.pixel_bits = bits.max(8);
             let ideal = config.validate().unwrap();
             config.region.size = side;
             config.frame.pixel_bits = bits;
-            let design = config.validate().unwrap();
+            let camera = config.validate().unwrap();
             let size = SceneSize { width, height, bits: bits.max(8), region_size: 8, frames: 2 };
             let own = Scene::Street.frames(size);
             let other = Scene::Street.frames(SceneSize { bits, ..size });
-            let mut camera = IdealCamera::new(&ideal);
-            let mut engine = Engine::new(&design);
-            let mut fidelity = Fidelity::new(&ideal, &design).unwrap();
+            let mut reference = IdealCamera::new(&ideal);
+            let mut engine = Engine::new(&camera);
+            let mut fidelity = Fidelity::new(&ideal, &camera).unwrap();
             let mut best = f64::INFINITY;
             for (own, other) in own.zip(other) {
                 let input = Raster::from(&own);
-                let seen = camera.step(&input).unwrap();
+                let seen = reference.step(&input).unwrap();
                 let outcome = engine.step(&other).unwrap().clone();
                 for _ in 0..10 {
                     let start = Instant::now();

@@ -2,7 +2,7 @@
 //! Areas, in pixels, where the decisions of two cameras differ. In areas, regions of different sizes can
 //! be compared.
 
-use foveate_design::Action;
+use foveate_camera::Action;
 use serde::{Deserialize, Serialize};
 
 /// Every combination of two states, `ideal << STATE_BITS | candidate`.

@@ -7,37 +7,37 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FidelityError {
-    /// Two designs for frames of different sizes.
+    /// Two cameras for frames of different sizes.
     #[error(
-        "the ideal design is for frames of {ideal} pixels, but the candidate is for {candidate}; \
+        "the ideal camera is for frames of {ideal} pixels, but the candidate is for {candidate}; \
          give both the same size"
     )]
     FrameSize {
-        /// Width and height of the ideal design.
+        /// Width and height of the ideal camera.
         ideal: String,
         /// Width and height of the candidate.
         candidate: String,
     },
-    /// An input of another size or depth than the ideal design's.
+    /// An input of another size or depth than the ideal camera's.
     #[error(
-        "the input has {given}, but the ideal design takes {expected}; give the frames that it saw"
+        "the input has {given}, but the ideal camera takes {expected}; give the frames that it saw"
     )]
     FrameKind {
         /// Size and depth of the input.
         given: String,
-        /// Size and depth of the ideal design.
+        /// Size and depth of the ideal camera.
         expected: String,
     },
-    /// Results of another design.
+    /// Results of another camera.
     #[error(
-        "{what}: {given} values were given, but the design has {expected}; give the results of that design"
+        "{what}: {given} values were given, but the camera has {expected}; give the results of that camera"
     )]
     Length {
         /// Of which side, and which results.
         what: &'static str,
         /// Values that came.
         given: usize,
-        /// Values that the design needs.
+        /// Values that the camera needs.
         expected: usize,
     },
     /// A screen whose pixels are of the wrong type for the candidate's depth.

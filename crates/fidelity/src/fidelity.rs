@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compares a candidate with the ideal, frame by frame.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_engine::Outcome;
 use foveate_frame::{Plane, Raster};
 use foveate_ideal::IdealOutcome;
@@ -18,8 +18,8 @@ use crate::{FidelityError, Tally};
 /// Compares the frames of one clip; memory is allocated with the first.
 #[derive(Clone, Debug)]
 pub struct Fidelity {
-    ideal: Design,
-    candidate: Design,
+    ideal: Camera,
+    candidate: Camera,
     cells: Cells,
     pairs: Vec<Pair>,
     /// Decisions of the ideal and of the candidate.
@@ -48,10 +48,10 @@ impl Fidelity {
     ///
     /// # Errors
     /// When the sizes differ.
-    pub fn new(ideal: &Design, candidate: &Design) -> Result<Self, FidelityError> {
-        let size = |design: &Design| (design.width(), design.height());
+    pub fn new(ideal: &Camera, candidate: &Camera) -> Result<Self, FidelityError> {
+        let size = |camera: &Camera| (camera.width(), camera.height());
         if size(ideal) != size(candidate) {
-            let name = |design: &Design| format!("{}x{}", design.width(), design.height());
+            let name = |camera: &Camera| format!("{}x{}", camera.width(), camera.height());
             return Err(FidelityError::FrameSize {
                 ideal: name(ideal),
                 candidate: name(candidate),
@@ -81,7 +81,7 @@ impl Fidelity {
     /// engine made of it, and the candidate's screen after it.
     ///
     /// # Errors
-    /// When something is not of the size or depth of its design; nothing has been added then.
+    /// When something is not of the size or depth of its camera; nothing has been added then.
     pub fn add(
         &mut self,
         input: &Raster,
@@ -164,23 +164,23 @@ impl Fidelity {
             return Err(FidelityError::LaneWidth { bits, expected: needed, given: name });
         }
         let pixels = self.ideal.width() as usize * self.ideal.height() as usize;
-        let design = &self.ideal;
-        let regions = design.regions() as usize;
+        let camera = &self.ideal;
+        let regions = camera.regions() as usize;
         same("ideal, srs", ideal.srs.len(), regions)?;
         same("ideal, trs", ideal.trs.len(), regions)?;
         same("ideal, actions", ideal.actions.len(), regions)?;
         same("ideal, changed pixels", ideal.changed.len(), regions)?;
-        same("ideal, features", ideal.scores.len(), design.features().len())?;
+        same("ideal, features", ideal.scores.len(), camera.features().len())?;
         each("ideal, scores", ideal.scores.iter().map(Vec::len), regions)?;
         same("ideal, denoised pixels", ideal.denoised.len(), pixels)?;
         same("ideal, rendered pixels", ideal.rendered.len(), pixels)?;
-        let design = &self.candidate;
-        let regions = design.regions() as usize;
+        let camera = &self.candidate;
+        let regions = camera.regions() as usize;
         same("candidate, srs", candidate.srs.len(), regions)?;
         same("candidate, trs", candidate.trs.len(), regions)?;
         same("candidate, actions", candidate.actions.len(), regions)?;
         same("candidate, changed pixels", candidate.temporal_count.len(), regions)?;
-        same("candidate, features", candidate.scores.len(), design.features().len())?;
+        same("candidate, features", candidate.scores.len(), camera.features().len())?;
         each("candidate, scores", candidate.scores.iter().map(Vec::len), regions)?;
         same("candidate, pixels of the screen", len, pixels)
     }
@@ -202,7 +202,7 @@ fn each(
 }
 
 impl<T: Sample> Sight<T> {
-    fn new(ideal: &Design, candidate: &Design) -> Self {
+    fn new(ideal: &Camera, candidate: &Camera) -> Self {
         let (width, height) = (ideal.width() as usize, ideal.height() as usize);
         Self {
             planes: Planes::new(ideal, candidate),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far a design is from the ideal camera, over the frames of clips.
+//! How far a camera is from the ideal camera, over the frames of clips.
 //!
 //! A [`Fidelity`] gets each input frame with the results of the ideal camera
 //! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`Tally`] holds whole numbers

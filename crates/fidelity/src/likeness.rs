@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! PSNR and SSIM of what a receiver sees against the original, where there is no design to compare.
+//! PSNR and SSIM of what a receiver sees against the original, where there is no camera to compare.
 
 use crate::FidelityError;
 use crate::picture::{Comparison, PictureTally};

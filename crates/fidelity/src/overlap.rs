@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Two grids of regions over one frame: the cells that the lines of both cut it into.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::areas::{Table, place};
 
@@ -23,7 +23,7 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    pub(crate) fn new(ideal: &Design, candidate: &Design) -> Self {
+    pub(crate) fn new(ideal: &Camera, candidate: &Camera) -> Self {
         let sides = (ideal.region_size(), candidate.region_size());
         Self {
             across: strips(ideal.width(), sides),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The pictures of one frame in one pixel type, at the depth of the ideal.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_frame::{Plane, convert_depth};
 use foveate_ideal::IdealOutcome;
 
@@ -30,7 +30,7 @@ pub(crate) struct Pictures<'p, T> {
 }
 
 impl<T: Sample> Planes<T> {
-    pub(crate) fn new(ideal: &Design, candidate: &Design) -> Self {
+    pub(crate) fn new(ideal: &Camera, candidate: &Camera) -> Self {
         let (from, to) = (candidate.pixel_bits(), ideal.pixel_bits());
         let values = 0..=u16::try_from(candidate.pixel_max()).expect("a pixel has at most 16 bits");
         let depths = match from == to {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Errors of the scores that both designs have, region by region; only where regions are the same.
+//! Errors of the scores that both cameras have, region by region; only where regions are the same.
 
-use foveate_design::{Design, Measure};
+use foveate_camera::{Camera, Measure};
 use foveate_engine::Outcome;
 use foveate_ideal::IdealOutcome;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ impl ScoreTally {
     }
 }
 
-/// A score that both designs have.
+/// A score that both cameras have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     /// Which feature of the ideal and of the candidate; `None` for the temporal score.
@@ -46,7 +46,7 @@ pub(crate) struct Pair {
 
 impl Pair {
     /// Every score that can be compared, the temporal last; none for regions of different sizes.
-    pub(crate) fn all(ideal: &Design, candidate: &Design) -> Vec<Self> {
+    pub(crate) fn all(ideal: &Camera, candidate: &Camera) -> Vec<Self> {
         if ideal.region_size() != candidate.region_size() {
             return Vec::new();
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How old the candidate's screen is, in the regions that the ideal finds relevant.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use serde::{Deserialize, Serialize};
 
 use crate::sample::Sample;
@@ -52,7 +52,7 @@ pub(crate) struct Watch<T: Sample> {
 }
 
 impl<T: Sample> Watch<T> {
-    pub(crate) fn new(ideal: &Design) -> Self {
+    pub(crate) fn new(ideal: &Camera) -> Self {
         let width = ideal.width() as usize;
         Self {
             width,

@@ -16,7 +16,7 @@ pub struct Tally {
     pub(crate) frames: u64,
     /// Pixels of all frames.
     pub(crate) pixels: u64,
-    /// Largest pixel of the ideal design.
+    /// Largest pixel of the ideal camera.
     pub(crate) peak: u32,
     pub(crate) scores: Vec<ScoreTally>,
     pub(crate) areas: Areas,
@@ -26,7 +26,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Adds the frames of another tally: of the same two designs, but for the size of the frames.
+    /// Adds the frames of another tally: of the same two cameras, but for the size of the frames.
     ///
     /// Scores are added by name. Of different depths the largest pixel counts, for PSNR, which then says
     /// little.

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::DesignError;
+use foveate_camera::ConfigError;
 use foveate_frame::FrameError;
 use foveate_scenes::SceneError;
 use foveate_toolchain::ToolError;
@@ -247,7 +247,7 @@ pub enum FootageError {
     },
     /// The configuration does not fit.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
     /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),

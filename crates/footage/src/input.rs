@@ -12,7 +12,7 @@ pub(crate) use find::{entries, expand};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use foveate_design::Config;
+use foveate_camera::CameraConfig;
 use foveate_scenes::{Scene, SceneSize};
 
 use crate::limits::Crop;
@@ -69,7 +69,7 @@ pub struct InputOptions {
 /// When an input does not exist or cannot be read, or when there are several inputs other than images.
 pub fn open<P: AsRef<Path>>(
     inputs: &[P],
-    config: &Config,
+    config: &CameraConfig,
     options: &InputOptions,
 ) -> Result<Box<dyn Source>, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
@@ -96,7 +96,7 @@ pub fn is_read_once(input: &Path) -> bool {
 
 fn feed(
     inputs: &[&Path],
-    config: &Config,
+    config: &CameraConfig,
     options: &InputOptions,
 ) -> Result<Box<dyn Feed>, FootageError> {
     if let (Some(special), 2..) = (inputs.iter().find(|input| is_special(input)), inputs.len()) {
@@ -195,7 +195,7 @@ fn file(
 
 fn scene(
     name: &str,
-    config: &Config,
+    config: &CameraConfig,
     options: &InputOptions,
 ) -> Result<Box<dyn Feed>, FootageError> {
     let scene = Scene::find(name)?;

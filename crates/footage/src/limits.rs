@@ -2,7 +2,8 @@
 //! Limits and parts of frames, which readers follow and errors name.
 
 /// Largest width and height of an image, in pixels.
-pub const MAX_SIDE: u32 = 16_384;
+pub use foveate_camera::MAX_SIDE;
+
 /// Largest file in GiB, and the most memory that decoding may take.
 pub(crate) const MAX_FILE_GIB: u64 = 1;
 

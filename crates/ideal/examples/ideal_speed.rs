@@ -4,14 +4,14 @@
 
 use std::time::Instant;
 
-use foveate_design::{Config, FeatureKind, SpatialConfig};
+use foveate_camera::{CameraConfig, FeatureKind, SpatialConfig};
 use foveate_frame::Raster;
 use foveate_ideal::IdealCamera;
 
 fn main() {
     for (width, height) in [(1280_u32, 720_u32), (1920, 1080)] {
         for features in [&[FeatureKind::Edge][..], FeatureKind::ALL] {
-            let mut config = Config::default();
+            let mut config = CameraConfig::default();
             (config.frame.width, config.frame.height) = (Some(width), Some(height));
             config.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
             let mut camera = IdealCamera::new(&config.validate().unwrap());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ideal camera: one whole frame at a time.
 
-use foveate_design::Action;
-use foveate_design::{Design, Filter, Payload};
+use foveate_camera::Action;
+use foveate_camera::{Camera, Filter, Payload};
 use foveate_frame::Raster;
 
 use crate::feature::{Scratch, score};
@@ -15,12 +15,12 @@ use crate::{IdealError, IdealOutcome};
 
 /// A camera that computes what the contract says in real numbers.
 ///
-/// Of its design it takes frame, regions, filter, features, thresholds, combination, reference, payload
+/// Of its camera it takes frame, regions, filter, features, thresholds, combination, reference, payload
 /// and what is shown where nothing is relevant. It ignores neighborhood (windows always see the whole
 /// frame, `shared`), fraction bits of the mean (it is the real mean) and hardware.
 #[derive(Clone, Debug)]
 pub struct IdealCamera {
-    design: Design,
+    camera: Camera,
     grid: Grid,
     rules: Rules,
     memory: Memory,
@@ -34,11 +34,11 @@ pub struct IdealCamera {
 impl IdealCamera {
     /// A camera that has seen nothing yet.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
-        let grid = Grid::of(design);
-        let rules = Rules::of(design);
+    pub fn new(camera: &Camera) -> Self {
+        let grid = Grid::of(camera);
+        let rules = Rules::of(camera);
         Self {
-            memory: Memory::new(design, &grid),
+            memory: Memory::new(camera, &grid),
             raw: Plane::black(&grid),
             denoised: Plane::black(&grid),
             columns: Columns::default(),
@@ -46,14 +46,14 @@ impl IdealCamera {
             outcome: IdealOutcome::new(rules.features.len(), &grid),
             rules,
             grid,
-            design: design.clone(),
+            camera: camera.clone(),
         }
     }
 
-    /// The design, as it was given.
+    /// The camera, as it was given.
     #[must_use]
-    pub fn design(&self) -> &Design {
-        &self.design
+    pub fn camera(&self) -> &Camera {
+        &self.camera
     }
 
     /// What the last frame has led to; after none or a reset what is left of it says nothing.
@@ -71,11 +71,11 @@ impl IdealCamera {
     /// Takes the next frame.
     ///
     /// # Errors
-    /// When the frame is not of the design's size and depth; nothing has changed then.
+    /// When the frame is not of the camera's size and depth; nothing has changed then.
     pub fn step(&mut self, frame: &Raster) -> Result<&IdealOutcome, IdealError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         self.raw.pad(frame.plane(), &self.grid);
-        match self.design.filter() {
+        match self.camera.filter() {
             Filter::None => self.denoised.copy(&self.raw),
             Filter::Median3x3 => median(&self.raw, &mut self.denoised, &mut self.columns),
         }
@@ -91,7 +91,7 @@ impl IdealCamera {
     }
 
     fn check_kind(&self, given: (u32, u32, u32)) -> Result<(), IdealError> {
-        let expected = (self.design.width(), self.design.height(), self.design.pixel_bits());
+        let expected = (self.camera.width(), self.camera.height(), self.camera.pixel_bits());
         if given == expected {
             return Ok(());
         }
@@ -100,11 +100,11 @@ impl IdealCamera {
     }
 
     fn score(&mut self) {
-        let Self { design, grid, rules, memory, denoised, scratch, outcome, .. } = self;
+        let Self { camera, grid, rules, memory, denoised, scratch, outcome, .. } = self;
         for (feature, scores) in rules.features.iter().zip(&mut outcome.scores) {
             score((feature.kind, feature.level), denoised, grid, scratch, scores);
         }
-        let all = f64::from(design.region_pixels());
+        let all = f64::from(camera.region_pixels());
         memory.compare(denoised, grid, all, &mut outcome.changed);
     }
 
@@ -120,8 +120,8 @@ impl IdealCamera {
 
     /// Renders one region; the rest of the screen stays.
     fn show(&mut self, region: usize) {
-        let Self { design, grid, raw, denoised, outcome, .. } = self;
-        let payload = match design.payload() {
+        let Self { camera, grid, raw, denoised, outcome, .. } = self;
+        let payload = match camera.payload() {
             Payload::Denoised => denoised,
             Payload::Raw => raw,
         };

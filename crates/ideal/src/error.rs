@@ -3,16 +3,16 @@
 
 use thiserror::Error;
 
-/// A frame that does not belong to the design.
+/// A frame that does not belong to the camera.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IdealError {
-    /// A frame of another size or depth than the design's.
-    #[error("the frame has {given}, but the design takes {expected}; give it frames of that kind")]
+    /// A frame of another size or depth than the camera's.
+    #[error("the frame has {given}, but the camera takes {expected}; give it frames of that kind")]
     FrameKind {
         /// Size and depth of the frame.
         given: String,
-        /// Size and depth of the design.
+        /// Size and depth of the camera.
         expected: String,
     },
 }

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 /// Sizes in pixels and numbers of regions.
 #[derive(Clone, Copy, Debug)]
@@ -21,13 +21,13 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    pub(crate) fn of(design: &Design) -> Self {
+    pub(crate) fn of(camera: &Camera) -> Self {
         Self {
-            width: index(design.width()),
-            height: index(design.height()),
-            side: index(design.region_size()),
-            columns: index(design.columns()),
-            rows: index(design.rows()),
+            width: index(camera.width()),
+            height: index(camera.height()),
+            side: index(camera.region_size()),
+            columns: index(camera.columns()),
+            rows: index(camera.rows()),
         }
     }
 

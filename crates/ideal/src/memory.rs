@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a frame is compared with: the denoised pixels of every region as they once were.
 
-use foveate_design::Action;
-use foveate_design::{Design, Reference};
+use foveate_camera::Action;
+use foveate_camera::{Camera, Reference};
 
 use crate::feature::add_up;
 use crate::grid::Grid;
@@ -20,10 +20,10 @@ pub(crate) struct Memory {
 
 impl Memory {
     /// Of a camera that has seen nothing.
-    pub(crate) fn new(design: &Design, grid: &Grid) -> Self {
+    pub(crate) fn new(camera: &Camera, grid: &Grid) -> Self {
         Self {
-            kind: design.temporal().reference,
-            level: f64::from(design.temporal().level),
+            kind: camera.temporal().reference,
+            level: f64::from(camera.temporal().level),
             plane: Plane::black(grid),
             valid: vec![false; grid.regions()],
             line: vec![0.0; grid.padded().0],

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What one frame leads to.
 
-use foveate_design::Action;
+use foveate_camera::Action;
 
 use crate::grid::Grid;
 
@@ -17,7 +17,7 @@ pub struct IdealOutcome {
     pub active: Vec<bool>,
     /// What becomes of every region on the screen.
     pub actions: Vec<Action>,
-    /// Scores, by feature in the order of the design and then by region: hits 0..=n for `edge` and
+    /// Scores, by feature in the order of the camera and then by region: hits 0..=n for `edge` and
     /// `corner`, grey levels for `mad`, squared grey levels for `variance`.
     pub scores: Vec<Vec<f64>>,
     /// Changed pixels of every region, 0..=n; all of them where there was no valid reference.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds and decisions, as the configuration writes them.
 
-use foveate_design::Action;
-use foveate_design::{Combine, Decimal, Design, FeatureKind, Irrelevant};
+use foveate_camera::Action;
+use foveate_camera::{Camera, Combine, Decimal, FeatureKind, Irrelevant};
 
 /// One feature.
 #[derive(Clone, Copy, Debug)]
@@ -24,18 +24,18 @@ pub(crate) struct Rules {
 }
 
 impl Rules {
-    pub(crate) fn of(design: &Design) -> Self {
-        let feature = |entry: &foveate_design::SpatialConfig| Feature {
+    pub(crate) fn of(camera: &Camera) -> Self {
+        let feature = |entry: &foveate_camera::SpatialConfig| Feature {
             kind: entry.feature,
             // A feature that counts no hits does not ask for it.
             level: f64::from(entry.level.unwrap_or(0)),
-            min_score: real(entry.min_score.expect("a design has every key filled in")),
+            min_score: real(entry.min_score.expect("a camera has every key filled in")),
         };
         Self {
-            features: design.config().spatial.iter().map(feature).collect(),
-            combine: design.combine(),
-            min_count: f64::from(design.temporal().min_count),
-            irrelevant: design.irrelevant(),
+            features: camera.config().spatial.iter().map(feature).collect(),
+            combine: camera.combine(),
+            min_count: f64::from(camera.temporal().min_count),
+            irrelevant: camera.irrelevant(),
         }
     }
 

@@ -70,7 +70,7 @@ impl Clips {
             if let Some(once) = subject.inputs.iter().find(|input| several && is_read_once(input)) {
                 return Err(InferenceError::ReadOnce { input: once.display().to_string() });
             }
-            let source = open(&subject.inputs, config, input)?;
+            let source = open(&subject.inputs, &config.camera, input)?;
             let size = source.size();
             match found.subjects.first() {
                 None => found.size = size,
@@ -117,10 +117,10 @@ impl Clips {
     }
 
     fn open(&mut self, clip: usize) -> Result<Box<dyn Source>, InferenceError> {
-        let opened = self
-            .only
-            .take()
-            .map_or_else(|| open(&self.subjects[clip].inputs, &self.config, &self.input), Ok);
+        let opened = self.only.take().map_or_else(
+            || open(&self.subjects[clip].inputs, &self.config.camera, &self.input),
+            Ok,
+        );
         Ok(opened?)
     }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use foveate_accelerator::AcceleratorError;
 use foveate_chart::ChartError;
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_network::NetworkError;
@@ -41,7 +41,7 @@ pub enum InferenceError {
     Footage(#[from] FootageError),
     /// The configuration is not a valid design.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

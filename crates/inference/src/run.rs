@@ -259,7 +259,7 @@ impl<'a> Run<'a> {
             outputs: self.files.outputs.finish()?,
             clips,
             design: self.design.fingerprint(),
-            configuration: self.design.config().clone(),
+            configuration: self.design.config(),
             layers,
         };
         Ok(Ended { summary, frames: Table::of(self.rows.into_iter()), counted: self.counted })

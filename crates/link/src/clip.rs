@@ -65,7 +65,7 @@ pub(crate) fn watch(
     folder: &Path,
     tick: &dyn Fn() -> bool,
 ) -> Result<Seen, LinkError> {
-    let mut source = open(&subject.inputs, config, input)?;
+    let mut source = open(&subject.inputs, &config.camera, input)?;
     if source.kind() == Kind::Set {
         return Err(LinkError::Set { name: subject.name.clone() });
     }
@@ -83,7 +83,7 @@ pub(crate) fn watch(
     let mut camera = Watch::new(&design);
     let mut pixels = PixelCamera::new(&design, PixelEvents::default())?;
     let mut others = Vec::new();
-    for swept in swept(design.config()) {
+    for swept in swept(&design.config()) {
         others.push((Watch::new(&swept.design), 0, swept));
     }
     let (mut times_us, mut sent) = (Vec::new(), Vec::new());

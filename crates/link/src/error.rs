@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use foveate_chart::ChartError;
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_fidelity::FidelityError;
 use foveate_footage::FootageError;
@@ -24,7 +24,7 @@ pub enum LinkError {
     Footage(#[from] FootageError),
     /// The configuration is not a valid design.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

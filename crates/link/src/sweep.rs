@@ -25,12 +25,12 @@ pub(crate) fn swept(config: &Config) -> Vec<Swept> {
         |key, value, config: Config| Some(Swept { key, value, design: config.validate().ok()? });
     let level = |&value: &u32| {
         let mut config = config.clone();
-        config.temporal.level = Some(value);
+        config.camera.temporal.level = Some(value);
         swept("temporal.level", value.into(), config)
     };
     let score = |&value: &u64| {
         let mut config = config.clone();
-        config.spatial.first_mut()?.min_score = Some(Decimal::whole(value));
+        config.camera.spatial.first_mut()?.min_score = Some(Decimal::whole(value));
         swept("spatial.0.min_score", value, config)
     };
     LEVELS.iter().filter_map(level).chain(SCORES.iter().filter_map(score)).collect()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How votes become SRS, and what SRS and TRS do to a region.
 
-use foveate_design::{Action, Combine, Design, Irrelevant};
+use foveate_camera::{Action, Camera, Combine, Irrelevant};
 
 /// SRS from the votes of the features.
 pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) -> bool {
@@ -13,11 +13,11 @@ pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) 
 
 /// What becomes of a region with these two bits.
 #[must_use]
-pub fn action(design: &Design, srs: bool, trs: bool) -> Action {
+pub fn action(camera: &Camera, srs: bool, trs: bool) -> Action {
     match (trs, srs) {
         (true, true) => Action::Forward,
         (false, true) => Action::Hold,
-        (_, false) => match design.irrelevant() {
+        (_, false) => match camera.irrelevant() {
             Irrelevant::Zero => Action::Blank,
             Irrelevant::Hold => Action::Hold,
         },

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_design::{Design, Filter};
+use foveate_camera::{Camera, Filter};
 
 use crate::region::{Area, black_padded};
 use crate::window::{RegionView, Window};
@@ -29,26 +29,26 @@ fn sorted(a: u16, b: u16, c: u16) -> [u16; 3] {
     [low.min(c), low.max(high.min(c)), high.max(c)]
 }
 
-/// A padded frame, denoised as the design says.
+/// A padded frame, denoised as the camera says.
 ///
 /// # Panics
-/// When the frame is not as large as the design's padded frame.
+/// When the frame is not as large as the camera's padded frame.
 #[must_use]
-pub fn denoise(design: &Design, padded: &Frame) -> Frame {
-    let mut denoised = black_padded(design);
-    denoise_into(design, padded, &mut denoised);
+pub fn denoise(camera: &Camera, padded: &Frame) -> Frame {
+    let mut denoised = black_padded(camera);
+    denoise_into(camera, padded, &mut denoised);
     denoised
 }
 
 /// Denoises one padded frame into another.
-pub(crate) fn denoise_into(design: &Design, padded: &Frame, denoised: &mut Frame) {
-    match design.filter() {
+pub(crate) fn denoise_into(camera: &Camera, padded: &Frame, denoised: &mut Frame) {
+    match camera.filter() {
         Filter::None => denoised.clone_from(padded),
         Filter::Median3x3 => {
-            for region in 0..design.regions() {
-                let area = Area::of(design, region);
+            for region in 0..camera.regions() {
+                let area = Area::of(camera, region);
                 for y in area.rows() {
-                    let row = denoised_run(design, padded, region, area.columns(), y);
+                    let row = denoised_run(camera, padded, region, area.columns(), y);
                     denoised.write(area.left, y, &row);
                 }
             }
@@ -58,16 +58,16 @@ pub(crate) fn denoise_into(design: &Design, padded: &Frame, denoised: &mut Frame
 
 /// Some pixels of row `y` of one region of a padded frame, denoised; all that their windows see must be there.
 pub(crate) fn denoised_run(
-    design: &Design,
+    camera: &Camera,
     padded: &Frame,
     region: u32,
     columns: Range<u32>,
     y: u32,
 ) -> Vec<u16> {
-    match design.filter() {
+    match camera.filter() {
         Filter::None => columns.map(|x| padded.get(x, y)).collect(),
         Filter::Median3x3 => {
-            let view = RegionView::new(design, padded, region);
+            let view = RegionView::new(camera, padded, region);
             columns.map(|x| median(&view.window(x, y))).collect()
         }
     }

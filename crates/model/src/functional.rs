@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functional reference: an RCM and its renderer, one whole frame at a time.
 
-use foveate_design::{Design, Payload};
+use foveate_camera::{Camera, Payload};
 
 use crate::decision::{action, combined};
 use crate::denoise::denoise_into;
@@ -10,7 +10,7 @@ use crate::region::{Area, black, black_padded, check_kind, pad_into};
 use crate::render::Screen;
 use crate::temporal::References;
 use crate::{ModelError, feature};
-use foveate_design::Action;
+use foveate_camera::Action;
 use foveate_frame::Frame;
 
 /// Everything that one frame leads to. Regions are numbered row by row.
@@ -26,7 +26,7 @@ pub struct Outcome {
     pub actions: Vec<Action>,
     /// Changed pixels of every region; all of them where there was no valid reference.
     pub temporal_count: Vec<u32>,
-    /// Scores, by feature in the order of the design and then by region.
+    /// Scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
     /// The frame, padded.
     pub padded: Frame,
@@ -37,25 +37,25 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    fn new(design: &Design) -> Self {
-        let regions = index(design.regions());
+    fn new(camera: &Camera) -> Self {
+        let regions = index(camera.regions());
         Self {
             srs: vec![false; regions],
             trs: vec![false; regions],
             active: vec![false; regions],
             actions: vec![Action::Hold; regions],
             temporal_count: vec![0; regions],
-            scores: vec![vec![0; regions]; design.features().len()],
-            padded: black_padded(design),
-            denoised: black_padded(design),
-            rendered: black(design),
+            scores: vec![vec![0; regions]; camera.features().len()],
+            padded: black_padded(camera),
+            denoised: black_padded(camera),
+            rendered: black(camera),
         }
     }
 
     /// The padded frame whose pixels active regions forward.
     #[must_use]
-    pub fn payload(&self, design: &Design) -> &Frame {
-        match design.payload() {
+    pub fn payload(&self, camera: &Camera) -> &Frame {
+        match camera.payload() {
             Payload::Denoised => &self.denoised,
             Payload::Raw => &self.padded,
         }
@@ -64,56 +64,56 @@ impl Outcome {
 
 /// An RCM with its renderer. Between frames it remembers references and the screen, nothing else.
 #[derive(Clone, Debug)]
-pub struct Camera {
-    design: Design,
+pub struct FunctionalCamera {
+    camera: Camera,
     references: References,
     screen: Screen,
     outcome: Outcome,
 }
 
-impl Camera {
+impl FunctionalCamera {
     /// A camera that has seen nothing yet.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
+    pub fn new(camera: &Camera) -> Self {
         Self {
-            references: References::none(design),
-            screen: Screen::black(design),
-            outcome: Outcome::new(design),
-            design: design.clone(),
+            references: References::none(camera),
+            screen: Screen::black(camera),
+            outcome: Outcome::new(camera),
+            camera: camera.clone(),
         }
     }
 
-    /// The design.
+    /// The camera.
     #[must_use]
-    pub fn design(&self) -> &Design {
-        &self.design
+    pub fn camera(&self) -> &Camera {
+        &self.camera
     }
 
     /// Forgets every frame.
     pub fn reset(&mut self) {
-        self.references = References::none(&self.design);
-        self.screen = Screen::black(&self.design);
+        self.references = References::none(&self.camera);
+        self.screen = Screen::black(&self.camera);
     }
 
     /// What the next frame's region will be compared with: denoised pixels, row by row; `None` where
     /// there is no valid reference.
     ///
     /// # Panics
-    /// When the design has no such region.
+    /// When the camera has no such region.
     #[must_use]
     pub fn reference(&self, region: u32) -> Option<Vec<u16>> {
-        self.references.pixels(&self.design, region)
+        self.references.pixels(&self.camera, region)
     }
 
     /// Takes the next frame.
     ///
     /// # Errors
-    /// When the frame is not of the design's size and depth; nothing has changed then.
+    /// When the frame is not of the camera's size and depth; nothing has changed then.
     pub fn step(&mut self, frame: &Frame) -> Result<&Outcome, ModelError> {
-        check_kind(&self.design, frame)?;
+        check_kind(&self.camera, frame)?;
         pad_into(frame, &mut self.outcome.padded);
-        denoise_into(&self.design, &self.outcome.padded, &mut self.outcome.denoised);
-        for region in 0..self.design.regions() {
+        denoise_into(&self.camera, &self.outcome.padded, &mut self.outcome.denoised);
+        for region in 0..self.camera.regions() {
             self.decide(region);
             self.act(region);
         }
@@ -123,19 +123,19 @@ impl Camera {
 
     /// Scores and both relevances of one region.
     fn decide(&mut self, region: u32) {
-        let Self { design, references, outcome, .. } = self;
+        let Self { camera, references, outcome, .. } = self;
         let at = index(region);
-        for (feature, scores) in design.features().iter().zip(&mut outcome.scores) {
-            scores[at] = feature::of_region(design, feature, &outcome.denoised, region);
+        for (feature, scores) in camera.features().iter().zip(&mut outcome.scores) {
+            scores[at] = feature::of_region(camera, feature, &outcome.denoised, region);
         }
-        let votes = design
+        let votes = camera
             .features()
             .iter()
             .zip(&outcome.scores)
             .map(|(feature, scores)| scores[at] >= feature.min_score());
-        let srs = combined(design.combine(), votes);
-        let count = references.count(design, &outcome.denoised, region);
-        let trs = count >= design.temporal().min_count;
+        let srs = combined(camera.combine(), votes);
+        let count = references.count(camera, &outcome.denoised, region);
+        let trs = count >= camera.temporal().min_count;
         outcome.srs[at] = srs;
         outcome.trs[at] = trs;
         outcome.active[at] = srs && trs;
@@ -144,11 +144,11 @@ impl Camera {
 
     /// What follows from them: the screen and the next reference.
     fn act(&mut self, region: u32) {
-        let Self { design, references, screen, outcome } = self;
+        let Self { camera, references, screen, outcome } = self;
         let at = index(region);
-        let action = action(design, outcome.srs[at], outcome.trs[at]);
+        let action = action(camera, outcome.srs[at], outcome.trs[at]);
         outcome.actions[at] = action;
-        screen.show(Area::of(design, region), action, outcome.payload(design));
-        references.update(design, &outcome.denoised, region, action);
+        screen.show(Area::of(camera, region), action, outcome.payload(camera));
+        references.update(camera, &outcome.denoised, region, action);
     }
 }

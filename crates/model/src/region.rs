@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where a region lies in the padded frame, and the padding itself.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::ModelError;
 use crate::number::index;
@@ -17,9 +17,9 @@ pub(crate) struct Area {
 
 impl Area {
     /// The place of region `region`; regions are numbered row by row.
-    pub(crate) fn of(design: &Design, region: u32) -> Self {
-        let side = design.region_size();
-        let (column, row) = (region % design.columns(), region / design.columns());
+    pub(crate) fn of(camera: &Camera, region: u32) -> Self {
+        let side = camera.region_size();
+        let (column, row) = (region % camera.columns(), region / camera.columns());
         Self { left: column * side, top: row * side, side }
     }
 
@@ -64,43 +64,43 @@ impl Area {
     }
 }
 
-/// A black frame of the design's size.
-pub(crate) fn black(design: &Design) -> Frame {
-    filled(design, design.width(), design.height())
+/// A black frame of the camera's size.
+pub(crate) fn black(camera: &Camera) -> Frame {
+    filled(camera, camera.width(), camera.height())
 }
 
-/// A black frame as large as a whole number of the design's regions.
-pub(crate) fn black_padded(design: &Design) -> Frame {
-    let side = design.region_size();
-    filled(design, design.columns() * side, design.rows() * side)
+/// A black frame as large as a whole number of the camera's regions.
+pub(crate) fn black_padded(camera: &Camera) -> Frame {
+    let side = camera.region_size();
+    filled(camera, camera.columns() * side, camera.rows() * side)
 }
 
-fn filled(design: &Design, width: u32, height: u32) -> Frame {
-    Frame::filled(width, height, design.pixel_bits(), 0).expect("a design has a size and a depth")
+fn filled(camera: &Camera, width: u32, height: u32) -> Frame {
+    Frame::filled(width, height, camera.pixel_bits(), 0).expect("a camera has a size and a depth")
 }
 
 /// The pixels of one region of a padded frame, row by row, appended to `out`.
 ///
 /// # Panics
-/// When the frame is not as large as the design's padded frame, or has no such region.
-pub fn region_pixels(design: &Design, padded: &Frame, region: u32, out: &mut Vec<u16>) {
-    out.extend(Area::of(design, region).pixels(padded));
+/// When the frame is not as large as the camera's padded frame, or has no such region.
+pub fn region_pixels(camera: &Camera, padded: &Frame, region: u32, out: &mut Vec<u16>) {
+    out.extend(Area::of(camera, region).pixels(padded));
 }
 
 /// The frame, made as large as a whole number of regions by repeating its last column and row.
 ///
 /// # Errors
-/// When the frame is not of the design's size and depth.
-pub fn pad(design: &Design, frame: &Frame) -> Result<Frame, ModelError> {
-    check_kind(design, frame)?;
-    let mut padded = black_padded(design);
+/// When the frame is not of the camera's size and depth.
+pub fn pad(camera: &Camera, frame: &Frame) -> Result<Frame, ModelError> {
+    check_kind(camera, frame)?;
+    let mut padded = black_padded(camera);
     pad_into(frame, &mut padded);
     Ok(padded)
 }
 
-/// Refuses a frame that is not of the design's size and depth.
-pub(crate) fn check_kind(design: &Design, frame: &Frame) -> Result<(), ModelError> {
-    let expected = (design.width(), design.height(), design.pixel_bits());
+/// Refuses a frame that is not of the camera's size and depth.
+pub(crate) fn check_kind(camera: &Camera, frame: &Frame) -> Result<(), ModelError> {
+    let expected = (camera.width(), camera.height(), camera.pixel_bits());
     if (frame.width(), frame.height(), frame.bits()) == expected {
         return Ok(());
     }

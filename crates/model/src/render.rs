@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The screen: what remains of each region after its action.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::region::{Area, black_padded, crop_into};
-use foveate_design::Action;
+use foveate_camera::Action;
 use foveate_frame::Frame;
 
 /// The rendered regions, padding included; black before the first frame.
@@ -13,8 +13,8 @@ pub(crate) struct Screen(Frame);
 
 impl Screen {
     /// A black screen.
-    pub(crate) fn black(design: &Design) -> Self {
-        Self(black_padded(design))
+    pub(crate) fn black(camera: &Camera) -> Self {
+        Self(black_padded(camera))
     }
 
     /// Renders one region of a frame whose pixels are `payload`.

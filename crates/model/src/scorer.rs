@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What one region scores, from its stream alone.
 
-use foveate_design::{Design, FeatureKind, Filter, SpatialFeature};
+use foveate_camera::{Camera, FeatureKind, Filter, SpatialFeature};
 
 use crate::Thresholds;
 use crate::denoise::median;
@@ -25,16 +25,16 @@ pub struct RegionScorer {
 }
 
 impl RegionScorer {
-    /// A scorer of the design's regions.
+    /// A scorer of the camera's regions.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
-        let scored_side = index(design.denoised_side());
+    pub fn new(camera: &Camera) -> Self {
+        let scored_side = index(camera.denoised_side());
         Self {
-            side: index(design.region_size()),
-            filter: design.filter(),
-            needs_border: design.needs_border(),
-            features: design.features().to_vec(),
-            raw: Square::black(index(design.stream_side())),
+            side: index(camera.region_size()),
+            filter: camera.filter(),
+            needs_border: camera.needs_border(),
+            features: camera.features().to_vec(),
+            raw: Square::black(index(camera.stream_side())),
             scored_side,
             scored: Square::black(scored_side),
         }
@@ -61,7 +61,7 @@ impl RegionScorer {
         self.scored.middle(self.side)
     }
 
-    /// The scores of the features, in the order of the design.
+    /// The scores of the features, in the order of the camera.
     #[must_use]
     pub fn scores(&self, thresholds: &Thresholds) -> [u64; FeatureKind::COUNT] {
         let mut scores = [0; FeatureKind::COUNT];

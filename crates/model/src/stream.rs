@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a region feeds to its RPU: the pixels with their halo, and its place in the frame.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::region::Area;
 use foveate_frame::Frame;
 
 /// Appends the raw pixels that region `region` of a frame feeds to its RPU: a square of
-/// `design.stream_side()`, row by row. A position outside of the frame holds the nearest pixel,
+/// `camera.stream_side()`, row by row. A position outside of the frame holds the nearest pixel,
 /// which is padding and halo in one; a frame that is padded already gives the same stream.
-pub fn region_stream(design: &Design, frame: &Frame, region: u32, out: &mut Vec<u16>) {
-    let area = Area::of(design, region);
-    let halo = i64::from(design.halo());
+pub fn region_stream(camera: &Camera, frame: &Frame, region: u32, out: &mut Vec<u16>) {
+    let area = Area::of(camera, region);
+    let halo = i64::from(camera.halo());
     let reach = |from: u32| i64::from(from) - halo..i64::from(from + area.side) + halo;
     for y in reach(area.top) {
         out.extend(reach(area.left).map(|x| frame.clamped(x, y)));
@@ -30,13 +30,13 @@ pub(crate) const BOTTOM: u8 = 0b1000;
 /// The sides of a region that are sides of the (padded) frame, as `border_i` takes them:
 /// `{bottom, top, right, left}`, left in bit 0.
 #[must_use]
-pub fn region_border(design: &Design, region: u32) -> u8 {
-    let (column, row) = (region % design.columns(), region / design.columns());
+pub fn region_border(camera: &Camera, region: u32) -> u8 {
+    let (column, row) = (region % camera.columns(), region / camera.columns());
     [
         (column == 0, LEFT),
-        (column + 1 == design.columns(), RIGHT),
+        (column + 1 == camera.columns(), RIGHT),
         (row == 0, TOP),
-        (row + 1 == design.rows(), BOTTOM),
+        (row + 1 == camera.rows(), BOTTOM),
     ]
     .into_iter()
     .filter_map(|(touches, bit)| touches.then_some(bit))

@@ -2,26 +2,26 @@
 //! The temporal score: how many pixels differ from the region's reference, and what the reference
 //! is.
 
-use foveate_design::{Design, Reference};
+use foveate_camera::{Camera, Reference};
 
 use crate::number::{count, index};
 use crate::region::{Area, black_padded};
-use foveate_design::Action;
+use foveate_camera::Action;
 use foveate_frame::Frame;
 
 /// `|now - reference|` of every pixel of a region of two padded frames, row by row; a pixel has
 /// changed when this is above the level.
 ///
 /// # Panics
-/// When a frame is not as large as the design's padded frame, or has no such region.
+/// When a frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn temporal_differences(
-    design: &Design,
+    camera: &Camera,
     now: &Frame,
     reference: &Frame,
     region: u32,
 ) -> Vec<u32> {
-    differences(Area::of(design, region), now, reference).collect()
+    differences(Area::of(camera, region), now, reference).collect()
 }
 
 fn differences(area: Area, now: &Frame, reference: &Frame) -> impl Iterator<Item = u32> {
@@ -38,34 +38,34 @@ pub(crate) struct References {
 
 impl References {
     /// No region has a reference yet.
-    pub(crate) fn none(design: &Design) -> Self {
-        Self { frame: black_padded(design), valid: vec![false; index(design.regions())] }
+    pub(crate) fn none(camera: &Camera) -> Self {
+        Self { frame: black_padded(camera), valid: vec![false; index(camera.regions())] }
     }
 
     /// The reference of a region, row by row, if it is valid.
-    pub(crate) fn pixels(&self, design: &Design, region: u32) -> Option<Vec<u16>> {
-        self.valid[index(region)].then(|| Area::of(design, region).pixels(&self.frame).collect())
+    pub(crate) fn pixels(&self, camera: &Camera, region: u32) -> Option<Vec<u16>> {
+        self.valid[index(region)].then(|| Area::of(camera, region).pixels(&self.frame).collect())
     }
 
     /// Changed pixels of a region; all of them where there is no valid reference.
-    pub(crate) fn count(&self, design: &Design, denoised: &Frame, region: u32) -> u32 {
+    pub(crate) fn count(&self, camera: &Camera, denoised: &Frame, region: u32) -> u32 {
         if !self.valid[index(region)] {
-            return design.region_pixels();
+            return camera.region_pixels();
         }
-        let level = design.temporal().level;
-        let differences = differences(Area::of(design, region), denoised, &self.frame);
+        let level = camera.temporal().level;
+        let differences = differences(Area::of(camera, region), denoised, &self.frame);
         count(differences.map(|difference| difference > level))
     }
 
     /// What the next frame will be compared with, now that this frame's action is known.
     pub(crate) fn update(
         &mut self,
-        design: &Design,
+        camera: &Camera,
         denoised: &Frame,
         region: u32,
         action: Action,
     ) {
-        let keep = match (design.temporal().reference, action) {
+        let keep = match (camera.temporal().reference, action) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => false,
             (Reference::LastSent, Action::Hold) => true,
             (Reference::LastSent, Action::Blank) => {
@@ -75,7 +75,7 @@ impl References {
             }
         };
         if !keep {
-            Area::of(design, region).copy(denoised, &mut self.frame);
+            Area::of(camera, region).copy(denoised, &mut self.frame);
             self.valid[index(region)] = true;
         }
     }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The threshold inputs of a core; every organization has the same.
 
-use foveate_design::{Design, FeatureKind};
+use foveate_camera::{Camera, FeatureKind};
+use foveate_design::Design;
 
 /// What is applied to the threshold inputs in one clock. Features are numbered in the order of the
-/// design; places that it does not use are ignored.
+/// camera; places that it does not use are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Thresholds {
     /// Per-pixel thresholds of the features that count hits.
@@ -18,10 +19,10 @@ pub struct Thresholds {
 }
 
 impl Thresholds {
-    /// The thresholds that the design was configured with.
+    /// The thresholds that the camera was configured with.
     #[must_use]
-    pub fn of(design: &Design) -> Self {
-        let temporal = design.temporal();
+    pub fn of(camera: &Camera) -> Self {
+        let temporal = camera.temporal();
         let mut thresholds = Self {
             level: [0; FeatureKind::COUNT],
             min_score: [0; FeatureKind::COUNT],
@@ -29,7 +30,7 @@ impl Thresholds {
             temporal_min_count: temporal.min_count,
         };
         let places = thresholds.level.iter_mut().zip(&mut thresholds.min_score);
-        for (feature, (level, min_score)) in design.features().iter().zip(places) {
+        for (feature, (level, min_score)) in camera.features().iter().zip(places) {
             // A feature without a level has no such input.
             *level = feature.level().unwrap_or(0);
             *min_score = feature.min_score();

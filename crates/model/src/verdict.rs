@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scores and decision of one region in one frame.
 
-use foveate_design::{Action, Design, FeatureKind};
+use foveate_camera::{Action, Camera, FeatureKind};
 
 use crate::decision::{action, combined};
 use crate::number::index;
@@ -19,19 +19,19 @@ pub(crate) struct Verdict {
 impl Verdict {
     /// Of the region that the scorer has taken; `reference` is `None` where there is no valid one.
     pub(crate) fn of(
-        design: &Design,
+        camera: &Camera,
         scorer: &RegionScorer,
         reference: Option<&[u16]>,
         thresholds: &Thresholds,
     ) -> Self {
         let scores = scorer.scores(thresholds);
         let temporal_count = scorer.temporal_count(reference, thresholds);
-        let minima = design.features().iter().zip(&thresholds.min_score);
+        let minima = camera.features().iter().zip(&thresholds.min_score);
         let votes = minima.zip(&scores).map(|((_, min), score)| score >= min);
         Self {
             scores,
             temporal_count,
-            srs: combined(design.combine(), votes),
+            srs: combined(camera.combine(), votes),
             trs: temporal_count >= thresholds.temporal_min_count,
         }
     }
@@ -49,7 +49,7 @@ impl Verdict {
     }
 
     /// What becomes of the region.
-    pub(crate) fn action(&self, design: &Design) -> Action {
-        action(design, self.srs, self.trs)
+    pub(crate) fn action(&self, camera: &Camera) -> Action {
+        action(camera, self.srs, self.trs)
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! 3x3 windows, and what they see beyond the border of their region.
 
-use foveate_design::{Design, Neighborhood};
+use foveate_camera::{Camera, Neighborhood};
 
 use crate::number::index;
 use crate::region::Area;
@@ -44,9 +44,9 @@ pub(crate) struct RegionView<'a> {
 
 impl<'a> RegionView<'a> {
     /// Region `region` of a padded frame.
-    pub(crate) fn new(design: &Design, frame: &'a Frame, region: u32) -> Self {
-        let area = Area::of(design, region);
-        let bounds = match design.neighborhood() {
+    pub(crate) fn new(camera: &Camera, frame: &'a Frame, region: u32) -> Self {
+        let area = Area::of(camera, region);
+        let bounds = match camera.neighborhood() {
             Neighborhood::Isolated => Bounds {
                 left: area.left,
                 top: area.top,

@@ -125,7 +125,7 @@ impl Batch<'_> {
     }
 
     fn simulate(&self, clip: &Clip) -> Result<Summary, SimulatorError> {
-        let source = open(&clip.inputs, self.config, self.input)?;
+        let source = open(&clip.inputs, &self.config.camera, self.input)?;
         let output = self.folder.join(&clip.place);
         Simulation::new(self.config, source)?.run(&output, self.options, &mut Frames(self))
     }

@@ -4,7 +4,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_frame::FrameError;
@@ -104,7 +104,7 @@ pub enum SimulatorError {
     Cancelled,
     /// The configuration does not fit.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -9,7 +9,7 @@ mod gather;
 mod text;
 
 use foveate_design::{Config, FeatureKind, Filter};
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 use serde::Serialize;
 
 use crate::SimulatorError;
@@ -139,7 +139,7 @@ pub fn explain(
         return Err(SimulatorError::NoSuchRegion { x, y, columns, rows });
     }
     let number = y * columns + x;
-    let mut camera = Camera::new(&design);
+    let mut camera = FunctionalCamera::new(&design);
     let mut frames = 0;
     loop {
         let Some(current) = source.next_frame()? else {

@@ -9,13 +9,13 @@ use foveate_design::{
 /// enough for any depth.
 pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[FeatureKind]) -> Config {
     let mut config = Config::default();
-    (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
-    config.frame.pixel_bits = bits;
-    config.region.size = side;
-    config.temporal.level = Some((1u32 << bits) / 32);
-    config.temporal.min_count = 3;
-    config.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
-    for spatial in &mut config.spatial {
+    (config.camera.frame.width, config.camera.frame.height) = (Some(size.0), Some(size.1));
+    config.camera.frame.pixel_bits = bits;
+    config.camera.region.size = side;
+    config.camera.temporal.level = Some((1u32 << bits) / 32);
+    config.camera.temporal.min_count = 3;
+    config.camera.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    for spatial in &mut config.camera.spatial {
         match spatial.feature {
             FeatureKind::Edge | FeatureKind::Corner => {
                 spatial.level = Some((1 << bits) / 4);
@@ -46,10 +46,10 @@ pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
                 for &payload in Payload::ALL {
                     let turn = designs.len() % features.len();
                     let mut config = config(size, side, bits, features[turn]);
-                    config.region.neighborhood = neighborhood;
-                    config.denoise.filter = filter;
-                    config.temporal.reference = reference;
-                    config.render.payload = payload;
+                    config.camera.region.neighborhood = neighborhood;
+                    config.camera.denoise.filter = filter;
+                    config.camera.temporal.reference = reference;
+                    config.camera.render.payload = payload;
                     designs.push(design(&config));
                 }
             }

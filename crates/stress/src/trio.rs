@@ -5,7 +5,7 @@ use foveate_array::PipelinedArray;
 use foveate_design::Design;
 use foveate_engine::Engine;
 use foveate_frame::Frame;
-use foveate_model::{Camera, RpuOutput, Thresholds, region_stream};
+use foveate_model::{FunctionalCamera, RpuOutput, Thresholds, region_stream};
 
 use crate::pixels::Random;
 
@@ -37,7 +37,7 @@ pub(crate) fn compare(
     unrest: bool,
 ) -> Tally {
     let mut tally = Tally::default();
-    let mut camera = Camera::new(design);
+    let mut camera = FunctionalCamera::new(design);
     let mut engine = Engine::new(design);
     let mut clocks = Clocks::new(design, unrest);
     // A decision may come a frame late, and an interrupted run owes some for ever.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use foveate_boxes::BoxError;
 use foveate_chart::ChartError;
-use foveate_design::DesignError;
+use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_staging::StagingError;
@@ -20,7 +20,7 @@ pub enum StudyError {
     Footage(Box<FootageError>),
     /// A point of the study is not a valid design.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Design(#[from] ConfigError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -120,7 +120,7 @@ impl Watcher<'_> {
         see: &(impl Fn(&G, &mut T, &Design, &Seen<'_>) + Sync),
         count: &dyn Fn(),
     ) -> Result<Watched<T, G>, StudyError> {
-        let mut source = open(&subject.inputs, self.config, self.input)?;
+        let mut source = open(&subject.inputs, &self.config.camera, self.input)?;
         let (width, height) = source.size();
         let design = |config: &Config| config.for_frames(width, height);
         let designs = configs.iter().map(design).collect::<Result<Vec<_>, _>>()?;

@@ -23,9 +23,9 @@ impl DesignArgs {
         let config = self.read()?;
         let options = InputOptions { frames: Some(at_most), ..InputOptions::default() };
         warn_of(inputs, &options);
-        let simulation = Simulation::new(&config, open(inputs, &config, &options)?)?;
+        let simulation = Simulation::new(&config, open(inputs, &config.camera, &options)?)?;
         let design = simulation.design().clone();
-        let mut source = open(inputs, &config, &options)?;
+        let mut source = open(inputs, &config.camera, &options)?;
         let mut frames = Vec::new();
         while let Some(next) = source.next_frame()? {
             frames.push(next.frame.to_frame().map_err(SimulatorError::from)?);

@@ -11,7 +11,7 @@ use crate::output;
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let config = args.design.read()?;
     let options = args.input.options(ImagesAs::Clip);
-    let source = open(&args.inputs, &config, &options)?;
+    let source = open(&args.inputs, &config.camera, &options)?;
     warn_of(&args.inputs, &options);
     let explanation = explain(&config, source, args.frame, args.region)?;
     if args.json { output::json(&explanation) } else { output::text(&explanation.to_string()) }

@@ -27,7 +27,8 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
         // Every key but the frame's size, unless the preset is for one: simulations take it from their input.
         let own = Preset::find(name)?.config()?;
         let mut config = own.validate()?.spelled_out();
-        (config.frame.width, config.frame.height) = (own.frame.width, own.frame.height);
+        (config.camera.frame.width, config.camera.frame.height) =
+            (own.camera.frame.width, own.camera.frame.height);
         return if args.json { output::json(&config) } else { output::text(&file(name, &config)) };
     }
     let entries: Vec<Entry> = if args.scenes {
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
 }
 
 fn file(name: &str, config: &Config) -> String {
-    let size = match (config.frame.width, config.frame.height) {
+    let size = match (config.camera.frame.width, config.camera.frame.height) {
         (None, None) => {
             "Without frame.width and frame.height, which are 224 then, `foveate simulate` and\n\
                          # `foveate cosim` take them from their input."

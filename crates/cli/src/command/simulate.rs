@@ -48,7 +48,7 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
     let mut hooks = Terminal::new(*quiet)?;
     match plan {
         Plan::One => {
-            let source = open(inputs, config, input)?;
+            let source = open(inputs, &config.camera, input)?;
             let simulation = Simulation::new(config, source)?;
             let summary = simulation.run(folder, options, &mut hooks);
             hooks.shown.finish();

@@ -71,3 +71,21 @@ fn the_map_is_what_the_manifests_say() {
         }
     }
 }
+
+/// What computes a camera, or shows it frames, cannot ask what hardware it has.
+#[test]
+fn the_crates_of_the_camera_cannot_see_hardware() {
+    let imports = manifests();
+    let mut reached = BTreeSet::from(
+        ["camera", "engine", "fidelity", "footage", "ideal", "network"].map(String::from),
+    );
+    loop {
+        let more: BTreeSet<String> =
+            reached.iter().flat_map(|name| &imports[name]).cloned().collect();
+        if more.is_subset(&reached) {
+            break;
+        }
+        reached.extend(more);
+    }
+    assert!(!reached.contains("design"), "{reached:?}");
+}

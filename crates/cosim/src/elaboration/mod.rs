@@ -11,7 +11,7 @@ mod xml;
 
 use crate::error::CosimError;
 use crate::level::Level;
-use foveate_design::{Design, DesignError};
+use foveate_design::{ConfigError, Design};
 use foveate_emit::{Parameter, Prefix, SourceFile, Top};
 use foveate_toolchain::{Source, Toolchain, verilator};
 use std::collections::BTreeSet;
@@ -55,7 +55,7 @@ pub fn not_elaborated(
     toolchain: &Toolchain,
 ) -> Result<Vec<NotElaborated>, CosimError> {
     let simulated = levels.iter().map(|level| Ok((level.top(), level.design(design)?)));
-    let simulated = simulated.collect::<Result<Vec<_>, DesignError>>()?;
+    let simulated = simulated.collect::<Result<Vec<_>, ConfigError>>()?;
     let is_simulated = |top: Top| {
         let same = |part: &Design| top.parameters(part) == top.parameters(design);
         simulated.iter().any(|(other, part)| *other == top && same(part))

@@ -222,9 +222,9 @@ mod tests {
         for bits in [1, 2, 8, 12, 16] {
             for side in [2, 3, 5, 8, 12, 66] {
                 let mut config = Config::default();
-                config.frame.pixel_bits = bits;
-                config.spatial[0].level = Some(1);
-                config.temporal.level = Some(u32::from(bits > 1));
+                config.camera.frame.pixel_bits = bits;
+                config.camera.spatial[0].level = Some(1);
+                config.camera.temporal.level = Some(u32::from(bits > 1));
                 let design = config.validate().unwrap();
                 let mut artist = Artist::new(&design, side, Random::new(u64::from(bits * side)));
                 for round in 0..60 {

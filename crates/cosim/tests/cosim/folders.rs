@@ -17,7 +17,7 @@ const SIMULATOR: Simulator = Simulator::Iverilog;
 
 fn run(output: &Path, edit: impl FnOnce(&mut Job)) -> Result<CosimReport, CosimError> {
     let mut config = Config::default();
-    config.region.size = 4;
+    config.camera.region.size = 4;
     cosimulate(&design(&config, (1, 1)), SIMULATOR, directed(Level::Rpu, 1), output, edit)
 }
 

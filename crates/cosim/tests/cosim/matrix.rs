@@ -5,15 +5,15 @@
 use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
-    Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Pipelining,
-    Reference, Thresholds,
+    CameraConfig, Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
+    Pipelining, Reference, Thresholds,
 };
 
 /// From this many pixels per region on, the time to build with Verilator is won back.
 const COMPILED_FROM: u32 = 16 * 16;
 
 fn simulator(config: &Config) -> Simulator {
-    if config.region.size * config.region.size >= COMPILED_FROM {
+    if config.camera.region.size * config.camera.region.size >= COMPILED_FROM {
         Simulator::Verilator
     } else {
         Simulator::Iverilog
@@ -49,14 +49,16 @@ fn matrix() -> Vec<Config> {
                     for &reference in Reference::ALL {
                         let turn = configs.len();
                         let fraction = u32::try_from(turn / 4 % 5).unwrap();
-                        let mut config =
-                            Config { spatial: vec![feature(kind, fraction)], ..Config::default() };
-                        config.region.size = size;
-                        config.region.neighborhood = neighborhood;
-                        config.denoise.filter = filter;
-                        config.temporal.reference = reference;
-                        config.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
-                        config.render.payload = Payload::ALL[turn / 3 % 2];
+                        let mut config = Config::from(CameraConfig {
+                            spatial: vec![feature(kind, fraction)],
+                            ..CameraConfig::default()
+                        });
+                        config.camera.region.size = size;
+                        config.camera.region.neighborhood = neighborhood;
+                        config.camera.denoise.filter = filter;
+                        config.camera.temporal.reference = reference;
+                        config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
+                        config.camera.render.payload = Payload::ALL[turn / 3 % 2];
                         config.hardware.pipelining = Some(pipelining(turn));
                         configs.push(config);
                     }
@@ -89,46 +91,49 @@ fn what_the_matrix_leaves_out_agrees() {
     for (turn, kinds) in sets.iter().enumerate() {
         for &combine in Combine::ALL {
             let spatial = kinds.iter().map(|&kind| feature(kind, 2)).collect();
-            let mut config = Config { spatial, ..Config::default() };
-            config.region.size = [8, 5, 4][turn % 3];
-            config.region.neighborhood = Neighborhood::ALL[turn % 2];
-            config.decision.combine = combine;
-            config.temporal.reference = Reference::ALL[(turn + 1) % 2];
-            config.render.payload = Payload::ALL[turn / 2 % 2];
+            let mut config = Config::from(CameraConfig { spatial, ..CameraConfig::default() });
+            config.camera.region.size = [8, 5, 4][turn % 3];
+            config.camera.region.neighborhood = Neighborhood::ALL[turn % 2];
+            config.camera.decision.combine = combine;
+            config.camera.temporal.reference = Reference::ALL[(turn + 1) % 2];
+            config.camera.render.payload = Payload::ALL[turn / 2 % 2];
             configs.push(config);
         }
     }
     for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
         let mut config = Config::default();
-        config.frame.pixel_bits = bits;
+        config.camera.frame.pixel_bits = bits;
         let kinds = [[Edge, Mad], [Corner, Variance]][turn % 2];
-        config.spatial = kinds.map(|kind| feature(kind, 4)).to_vec();
-        for spatial in &mut config.spatial {
+        config.camera.spatial = kinds.map(|kind| feature(kind, 4)).to_vec();
+        for spatial in &mut config.camera.spatial {
             spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
             spatial.min_score = Some(Decimal::whole(0));
         }
-        config.temporal.level = Some(u32::from(bits > 1));
-        config.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
-        config.temporal.reference = Reference::ALL[turn % 2];
+        config.camera.temporal.level = Some(u32::from(bits > 1));
+        config.camera.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
+        config.camera.temporal.reference = Reference::ALL[turn % 2];
         configs.push(config);
     }
     for (turn, size) in [2, 3, 7, 2, 3, 7, 2, 64, 64].into_iter().enumerate() {
         let spatial = vec![feature([Edge, Mad, Corner, Variance][turn % 4], size % 3)];
-        let mut config = Config { spatial, ..Config::default() };
-        config.region.size = size;
-        config.spatial[0].min_score = Some(Decimal::whole(2));
-        config.temporal.min_count = 2;
-        config.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
-        config.temporal.reference = Reference::ALL[turn % 2];
-        config.render.payload = Payload::ALL[turn / 2 % 2];
+        let mut config = Config::from(CameraConfig { spatial, ..CameraConfig::default() });
+        config.camera.region.size = size;
+        config.camera.spatial[0].min_score = Some(Decimal::whole(2));
+        config.camera.temporal.min_count = 2;
+        config.camera.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
+        config.camera.temporal.reference = Reference::ALL[turn % 2];
+        config.camera.render.payload = Payload::ALL[turn / 2 % 2];
         configs.push(config);
     }
     for (turn, &kind) in FeatureKind::ALL.iter().cycle().take(8).enumerate() {
-        let mut config = Config { spatial: vec![feature(kind, 3)], ..Config::default() };
+        let mut config = Config::from(CameraConfig {
+            spatial: vec![feature(kind, 3)],
+            ..CameraConfig::default()
+        });
         config.hardware.thresholds = Thresholds::Constant;
-        config.region.size = [4, 5][turn / 4];
-        config.denoise.filter = Filter::ALL[turn % 2];
-        config.temporal.reference = Reference::ALL[turn / 2 % 2];
+        config.camera.region.size = [4, 5][turn / 4];
+        config.camera.denoise.filter = Filter::ALL[turn % 2];
+        config.camera.temporal.reference = Reference::ALL[turn / 2 % 2];
         configs.push(config);
     }
     for (turn, config) in configs.iter_mut().enumerate() {

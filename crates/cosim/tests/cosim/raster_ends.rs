@@ -8,8 +8,8 @@ use crate::common::vectors::{clocks, value};
 use crate::common::{agrees, design, directed, feature, simulators};
 use foveate_cosim::{Level, Recording, Simulator, Stimulus};
 use foveate_design::{
-    Config, Decimal, Design, FeatureKind, Filter, Organization, Payload, Pipelining, PortRole,
-    Reference,
+    CameraConfig, Config, Decimal, Design, FeatureKind, Filter, Organization, Payload, Pipelining,
+    PortRole, Reference,
 };
 use foveate_frame::Frame;
 
@@ -17,25 +17,28 @@ use foveate_frame::Frame;
 /// fewest words that a region has, and fewer rows of regions than the buffer keeps.
 fn designs() -> Vec<Design> {
     let of = |kind, (size, pixels), grid, more: &dyn Fn(&mut Config)| {
-        let mut config = Config { spatial: vec![feature(kind, 0)], ..Config::default() };
+        let mut config = Config::from(CameraConfig {
+            spatial: vec![feature(kind, 0)],
+            ..CameraConfig::default()
+        });
         config.hardware.organization = Organization::Raster;
         config.hardware.pixels_per_clock = Some(pixels);
-        config.region.size = size;
-        config.denoise.filter = Filter::None;
-        config.spatial[0].min_score = Some(Decimal::whole(1));
-        config.temporal.min_count = 1;
+        config.camera.region.size = size;
+        config.camera.denoise.filter = Filter::None;
+        config.camera.spatial[0].min_score = Some(Decimal::whole(1));
+        config.camera.temporal.min_count = 1;
         more(&mut config);
         design(&config, grid)
     };
     vec![
         of(FeatureKind::Edge, (4, 1), (4, 4), &|_| {}),
         of(FeatureKind::Mad, (4, 1), (5, 5), &|config| {
-            config.temporal.reference = Reference::LastSent;
+            config.camera.temporal.reference = Reference::LastSent;
         }),
         of(FeatureKind::Variance, (8, 4), (8, 4), &|config| {
             config.hardware.pipelining = Some(Pipelining::Deep);
-            config.temporal.reference = Reference::LastSent;
-            config.render.payload = Payload::Raw;
+            config.camera.temporal.reference = Reference::LastSent;
+            config.camera.render.payload = Payload::Raw;
         }),
         of(FeatureKind::Edge, (2, 2), (16, 1), &|config| {
             config.hardware.pipelining = Some(Pipelining::Deep);

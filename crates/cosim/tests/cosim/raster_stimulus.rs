@@ -8,18 +8,19 @@ use crate::common::vectors::{clocks, value};
 use crate::common::{design, directed, feature};
 use foveate_cosim::{Level, Recording, Stimulus};
 use foveate_design::{
-    Config, Design, FeatureKind, Filter, Neighborhood, Organization, PortRole, RasterTiming,
-    Reference,
+    CameraConfig, Config, Design, FeatureKind, Filter, Neighborhood, Organization, PortRole,
+    RasterTiming, Reference,
 };
 use foveate_frame::Frame;
 
 /// Small, with two features, the last of them this.
 fn config(last: FeatureKind) -> Config {
     let features = [feature(FeatureKind::Edge, 0), feature(last, 1)];
-    let mut config = Config { spatial: features.to_vec(), ..Config::default() };
+    let mut config =
+        Config::from(CameraConfig { spatial: features.to_vec(), ..CameraConfig::default() });
     config.hardware.organization = Organization::Raster;
-    config.region.size = 4;
-    config.temporal.reference = Reference::LastSent;
+    config.camera.region.size = 4;
+    config.camera.temporal.reference = Reference::LastSent;
     config
 }
 
@@ -27,9 +28,9 @@ fn config(last: FeatureKind) -> Config {
 fn designs() -> [Design; 3] {
     let mut wide = config(FeatureKind::Variance);
     wide.hardware.pixels_per_clock = Some(2);
-    wide.region.neighborhood = Neighborhood::Shared;
+    wide.camera.region.neighborhood = Neighborhood::Shared;
     let mut small = config(FeatureKind::Corner);
-    small.denoise.filter = Filter::None;
+    small.camera.denoise.filter = Filter::None;
     [design(&config(FeatureKind::Mad), (4, 5)), design(&wide, (8, 4)), design(&small, (4, 2))]
 }
 

@@ -8,17 +8,17 @@ use crate::common::vectors::{clocks, field, value};
 use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
 use foveate_cosim::{Level, Recording, Simulator};
 use foveate_design::{
-    Config, Design, FeatureKind, Filter, Neighborhood, Organization, Payload, Pipelining, PortRole,
-    RasterTiming, Store, Thresholds,
+    CameraConfig, Config, Design, FeatureKind, Filter, Neighborhood, Organization, Payload,
+    Pipelining, PortRole, RasterTiming, Store, Thresholds,
 };
 
 /// Regions of 4x4 pixels with these features.
 fn config(kinds: &[FeatureKind]) -> Config {
     let spatial = kinds.iter().map(|&kind| feature(kind, 1)).collect();
-    let mut config = Config { spatial, ..Config::default() };
+    let mut config = Config::from(CameraConfig { spatial, ..CameraConfig::default() });
     config.hardware.organization = Organization::Raster;
     config.hardware.store = Some(Store::External);
-    config.region.size = 4;
+    config.camera.region.size = 4;
     config
 }
 
@@ -28,10 +28,10 @@ fn outside() -> [Design; 3] {
     let mut deep = config(&[FeatureKind::Corner]);
     deep.hardware.pipelining = Some(Pipelining::Deep);
     deep.hardware.pixels_per_clock = Some(2);
-    deep.region.neighborhood = Neighborhood::Shared;
+    deep.camera.region.neighborhood = Neighborhood::Shared;
     deep.hardware.forward = Some(false);
     let mut pass = config(&[FeatureKind::Mad]);
-    pass.denoise.filter = Filter::None;
+    pass.camera.denoise.filter = Filter::None;
     [design(&plain, (4, 3)), design(&deep, (8, 2)), design(&pass, (4, 3))]
 }
 
@@ -151,7 +151,7 @@ fn the_memory_gives_back_what_was_stored_but_where_it_fails() {
 fn wrong_references_change_what_is_decided() {
     let [design, ..] = outside();
     let (recording, inside) = (record(&design, 1), {
-        let mut config = design.config().clone();
+        let mut config = design.config();
         config.hardware.store = Some(Store::Block);
         record(&config.validate().unwrap(), 1)
     });
@@ -210,17 +210,17 @@ fn matrix(store: Store, forward: bool) -> Vec<Design> {
             config.hardware.forward = Some(forward);
             config.hardware.pipelining = Some(pipelining);
             let (size, pixels) = [(4, 1), (4, 2), (5, 1), (8, 4), (4, 4)][turn % 5];
-            (config.region.size, config.hardware.pixels_per_clock) = (size, Some(pixels));
-            config.denoise.filter = Filter::ALL[turn / 2 % 2];
-            config.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
-            config.render.payload = Payload::ALL[turn / 2 % 2];
+            (config.camera.region.size, config.hardware.pixels_per_clock) = (size, Some(pixels));
+            config.camera.denoise.filter = Filter::ALL[turn / 2 % 2];
+            config.camera.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
+            config.camera.render.payload = Payload::ALL[turn / 2 % 2];
             config.hardware.thresholds =
                 [Thresholds::Runtime, Thresholds::Runtime, Thresholds::Constant][turn % 3];
             let columns = (16 * pixels).div_ceil(size).max(4);
             // Ragged on the right and below, every other one.
             let odd = u32::try_from(turn % 2).unwrap();
-            config.frame.width = Some(columns * size - odd);
-            config.frame.height = Some(3 * size - 2 * odd);
+            config.camera.frame.width = Some(columns * size - odd);
+            config.camera.frame.height = Some(3 * size - 2 * odd);
             designs.push(config.validate().unwrap());
         }
     }
@@ -234,7 +234,7 @@ fn check_all(store: Store, forward: bool) {
     let output = tempfile::tempdir().unwrap();
     let failures = in_parallel(&matrix(store, forward), |design| {
         let folder = output.path().join(design.fingerprint());
-        let what = format!("{} {}", name(design.config()), design.config().hardware.in_words());
+        let what = format!("{} {}", name(&design.config()), design.hardware().in_words());
         agrees(&what, design, Simulator::Iverilog, directed(Level::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));

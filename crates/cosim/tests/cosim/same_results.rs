@@ -13,7 +13,7 @@ use foveate_design::{
     Payload, Pipelining, PortRole, Reference, Store,
 };
 use foveate_frame::Frame;
-use foveate_model::{Camera, region_pixels};
+use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_toolchain::testing::require_tools;
 
@@ -32,7 +32,7 @@ struct Result {
 type Results = Vec<Vec<Result>>;
 
 fn functional(design: &Design, frames: &[Frame]) -> Results {
-    let mut camera = Camera::new(design);
+    let mut camera = FunctionalCamera::new(design);
     let mut results = Vec::new();
     for frame in frames {
         let outcome = camera.step(frame).unwrap();
@@ -178,7 +178,7 @@ fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(
         let mut config = config.clone();
         config.hardware.organization = organization;
         (config.hardware.feed, config.hardware.fold) = (feed, fold);
-        (config.frame.width, config.frame.height) =
+        (config.camera.frame.width, config.camera.frame.height) =
             (Some(frames[0].width()), Some(frames[0].height()));
         config.validate().unwrap()
     };
@@ -243,16 +243,16 @@ fn configs() -> Vec<Config> {
     for (turn, kinds) in sets.into_iter().enumerate() {
         let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
         let mut config = config(&features);
-        config.region.size = [4, 5][turn % 2];
-        for spatial in &mut config.spatial {
+        config.camera.region.size = [4, 5][turn % 2];
+        for spatial in &mut config.camera.spatial {
             spatial.min_score = Some(Decimal::whole(3));
         }
-        config.temporal.min_count = 3;
-        config.denoise.filter = Filter::ALL[turn / 2 % 2];
-        config.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
-        config.temporal.reference = Reference::ALL[turn.div_ceil(2) % 2];
-        config.render.irrelevant = Irrelevant::ALL[turn / 3 % 2];
-        config.render.payload = Payload::ALL[turn % 2];
+        config.camera.temporal.min_count = 3;
+        config.camera.denoise.filter = Filter::ALL[turn / 2 % 2];
+        config.camera.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
+        config.camera.temporal.reference = Reference::ALL[turn.div_ceil(2) % 2];
+        config.camera.render.irrelevant = Irrelevant::ALL[turn / 3 % 2];
+        config.camera.render.payload = Payload::ALL[turn % 2];
         configs.push(config);
     }
     configs
@@ -264,9 +264,9 @@ fn hard_cases_give_the_same_in_both_organizations() {
         return;
     }
     let failures = in_parallel(&configs(), |config| {
-        let side = config.region.size;
-        let frames = hard_cases(3 * side - 1, 2 * side, config.frame.pixel_bits);
-        check(config, &frames, &format!("{:?}", config.spatial))
+        let side = config.camera.region.size;
+        let frames = hard_cases(3 * side - 1, 2 * side, config.camera.frame.pixel_bits);
+        check(config, &frames, &format!("{:?}", config.camera.spatial))
     });
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
@@ -275,11 +275,11 @@ fn hard_cases_give_the_same_in_both_organizations() {
 #[test]
 fn the_vectors_of_a_raster_core_give_the_same() {
     for (turn, mut config) in configs().into_iter().enumerate() {
-        let side = config.region.size;
+        let side = config.camera.region.size;
         let wide = if side.is_multiple_of(2) && turn > 1 { 2 } else { 1 };
         let (width, height) = (wide * 5 * side - 1, 4 * side - 2);
-        let frames = hard_cases(width, height, config.frame.pixel_bits);
-        (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        let frames = hard_cases(width, height, config.camera.frame.pixel_bits);
+        (config.camera.frame.width, config.camera.frame.height) = (Some(width), Some(height));
         config.hardware.organization = Organization::Raster;
         config.hardware.pixels_per_clock = Some(wide);
         let design = config.validate().unwrap();
@@ -299,10 +299,11 @@ fn the_vectors_of_a_raster_core_give_the_same() {
 #[test]
 fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
     for (turn, mut config) in configs().into_iter().enumerate() {
-        let side = config.region.size;
-        let frames = hard_cases(5 * side - 1, 4 * side - 2, config.frame.pixel_bits);
-        (config.frame.width, config.frame.height) = (Some(5 * side - 1), Some(4 * side - 2));
-        config.temporal.reference = Reference::Previous;
+        let side = config.camera.region.size;
+        let frames = hard_cases(5 * side - 1, 4 * side - 2, config.camera.frame.pixel_bits);
+        (config.camera.frame.width, config.camera.frame.height) =
+            (Some(5 * side - 1), Some(4 * side - 2));
+        config.camera.temporal.reference = Reference::Previous;
         config.hardware.organization = Organization::Raster;
         config.hardware.pipelining = Some(Pipelining::ALL[turn % 2]);
         for (store, forward) in

@@ -62,9 +62,9 @@ fn check_all(cases: &[Case]) {
 
 /// Lets the keys that are no axis of a test take turns.
 fn with_turns(mut config: Config, turn: usize) -> Config {
-    config.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
-    config.render.payload = Payload::ALL[turn / 3 % 2];
-    config.decision.combine = Combine::ALL[turn / 5 % 2];
+    config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
+    config.camera.render.payload = Payload::ALL[turn / 3 % 2];
+    config.camera.decision.combine = Combine::ALL[turn / 5 % 2];
     config
 }
 
@@ -79,10 +79,10 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
                     let turn = cases.len();
                     let fraction = u32::try_from(turn % 5).unwrap();
                     let mut config = with_turns(config(&[feature(kind, fraction)]), turn);
-                    config.denoise.filter = filter;
-                    config.region.neighborhood = neighborhood;
-                    config.temporal.reference = reference;
-                    config.region.size = [4, 5, 4, 8][turn / 3 % 4];
+                    config.camera.denoise.filter = filter;
+                    config.camera.region.neighborhood = neighborhood;
+                    config.camera.temporal.reference = reference;
+                    config.camera.region.size = [4, 5, 4, 8][turn / 3 % 4];
                     config.hardware.fold = [1, 2, 1, 3][turn % 4];
                     config.hardware.feed = Some(Feed::ALL[(turn / 2 + turn / 8) % 2]);
                     cases.push(Case::lane(config));
@@ -125,10 +125,10 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
                 let mut config = with_turns(config(&features), turn);
                 config.hardware.feed = Some(feed);
                 config.hardware.fold = fold;
-                config.region.neighborhood = neighborhood;
-                config.region.size = [4, 5, 4, 4, 5][turn % 5];
-                config.denoise.filter = Filter::ALL[turn / 2 % 2];
-                config.temporal.reference = Reference::ALL[(turn + turn / 7) % 2];
+                config.camera.region.neighborhood = neighborhood;
+                config.camera.region.size = [4, 5, 4, 4, 5][turn % 5];
+                config.camera.denoise.filter = Filter::ALL[turn / 2 % 2];
+                config.camera.temporal.reference = Reference::ALL[(turn + turn / 7) % 2];
                 cases.push(Case::array(config, grid));
             }
         }
@@ -144,15 +144,15 @@ fn depths_sizes_memories_and_constants_agree() {
     for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
         let kinds = [[Edge, Mad], [Corner, Variance]][turn % 2];
         let mut config = config(&kinds.map(|kind| feature(kind, 4)));
-        config.frame.pixel_bits = bits;
-        for spatial in &mut config.spatial {
+        config.camera.frame.pixel_bits = bits;
+        for spatial in &mut config.camera.spatial {
             spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
             spatial.min_score = Some(Decimal::whole(0));
         }
-        config.temporal.level = Some(u32::from(bits > 1));
-        config.region.size = 4;
-        config.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
-        config.temporal.reference = Reference::ALL[turn % 2];
+        config.camera.temporal.level = Some(u32::from(bits > 1));
+        config.camera.region.size = 4;
+        config.camera.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
+        config.camera.temporal.reference = Reference::ALL[turn % 2];
         config.hardware.feed = Some(Feed::ALL[turn / 3 % 2]);
         config.hardware.fold = 1 + u32::try_from(turn % 2).unwrap();
         cases.push(Case::array(config, (2, 1)));
@@ -163,26 +163,26 @@ fn depths_sizes_memories_and_constants_agree() {
     {
         let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn % 3];
         let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
-        config.region.size = size;
+        config.camera.region.size = size;
         config.hardware.fold = fold;
         config.hardware.feed = Some(Feed::ALL[turn % 2]);
-        config.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
-        config.temporal.reference = Reference::ALL[turn / 2 % 2];
-        config.denoise.filter = Filter::ALL[(turn / 2 + turn) % 2];
+        config.camera.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
+        config.camera.temporal.reference = Reference::ALL[turn / 2 % 2];
+        config.camera.denoise.filter = Filter::ALL[(turn / 2 + turn) % 2];
         cases.push(Case::array(config, (3, 2)));
     }
     let mut large = config(&[feature(Edge, 0)]);
-    large.region.size = 32;
-    large.denoise.filter = Filter::None;
-    large.temporal.reference = Reference::LastSent;
+    large.camera.region.size = 32;
+    large.camera.denoise.filter = Filter::None;
+    large.camera.temporal.reference = Reference::LastSent;
     cases.push(Case::lane(large));
     for (turn, &kind) in FeatureKind::ALL.iter().enumerate() {
         let mut config = with_turns(config(&[feature(kind, 3)]), turn);
         config.hardware.thresholds = Thresholds::Constant;
-        config.region.size = [4, 5][turn % 2];
+        config.camera.region.size = [4, 5][turn % 2];
         config.hardware.fold = [1, 2][turn / 2];
-        config.denoise.filter = Filter::ALL[turn % 2];
-        config.temporal.reference = Reference::ALL[turn / 2];
+        config.camera.denoise.filter = Filter::ALL[turn % 2];
+        config.camera.temporal.reference = Reference::ALL[turn / 2];
         cases.push(Case::array(config, (2, 2)));
     }
     check_all(&cases);
@@ -206,10 +206,10 @@ fn deep_arrays_agree() {
                     config.hardware.memory = Some(memory);
                     config.hardware.feed = Some(feed);
                     config.hardware.fold = [2, 1, 3][turn % 3];
-                    config.denoise.filter = filter;
-                    config.temporal.reference = reference;
-                    config.region.size = [4, 5, 4][turn / 2 % 3];
-                    config.region.neighborhood =
+                    config.camera.denoise.filter = filter;
+                    config.camera.temporal.reference = reference;
+                    config.camera.region.size = [4, 5, 4][turn / 2 % 3];
+                    config.camera.region.neighborhood =
                         Neighborhood::ALL[(turn / 4 + turn / 2 + turn) % 2];
                     cases.push(Case::array(config, (3, 2)));
                 }
@@ -234,12 +234,12 @@ fn the_memory_that_is_named_agrees() {
                 {
                     let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn / 2 % 3];
                     let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
-                    config.denoise.filter = filter;
-                    config.temporal.reference = reference;
+                    config.camera.denoise.filter = filter;
+                    config.camera.temporal.reference = reference;
                     config.hardware.feed = Some(feed);
                     config.hardware.fold = fold;
-                    config.region.size = size;
-                    config.region.neighborhood = Neighborhood::ALL[(turn / 4 + turn) % 2];
+                    config.camera.region.size = size;
+                    config.camera.region.neighborhood = Neighborhood::ALL[(turn / 4 + turn) % 2];
                     let ruled = design(&config, (5, 2)).lane_memory().kind;
                     assert_ne!(ruled, memory, "the rule would choose it, too");
                     config.hardware.memory = Some(memory);

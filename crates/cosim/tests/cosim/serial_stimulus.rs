@@ -24,9 +24,9 @@ fn record(design: &Design, stimulus: &Stimulus) -> Recording {
 fn every_feature() -> Config {
     let features: Vec<_> = FeatureKind::ALL.iter().map(|&kind| feature(kind, 2)).collect();
     let mut config = config(&features);
-    config.region.size = 4;
-    config.denoise.filter = Filter::None;
-    config.temporal.reference = Reference::LastSent;
+    config.camera.region.size = 4;
+    config.camera.denoise.filter = Filter::None;
+    config.camera.temporal.reference = Reference::LastSent;
     config
 }
 
@@ -35,7 +35,7 @@ fn designs() -> [Design; 2] {
     let mut raster = every_feature();
     raster.hardware.feed = Some(Feed::Raster);
     raster.hardware.fold = 4;
-    raster.region.neighborhood = Neighborhood::Shared;
+    raster.camera.region.neighborhood = Neighborhood::Shared;
     [every_feature(), raster].map(|config| design(&config, GRID))
 }
 
@@ -283,11 +283,11 @@ fn scores_reach_their_largest_values() {
 fn the_largest_gradient_meets_its_level() {
     for bits in [1, 3, 8, 16] {
         let mut config = config(&[feature(FeatureKind::Edge, 2)]);
-        config.frame.pixel_bits = bits;
-        config.region.size = 4;
-        config.denoise.filter = Filter::None;
-        config.spatial[0].level = Some(1);
-        config.temporal.level = Some(0);
+        config.camera.frame.pixel_bits = bits;
+        config.camera.region.size = 4;
+        config.camera.denoise.filter = Filter::None;
+        config.camera.spatial[0].level = Some(1);
+        config.camera.temporal.level = Some(0);
         let design = design(&config, GRID);
         let recording = record(&design, &directed(LEVEL, 1));
         let largest = 6 * u64::from(design.pixel_max());

@@ -179,7 +179,7 @@ fn the_vectors_damage_streams_in_every_state() {
 fn without_it_the_vectors_are_what_they_were() {
     for keys in DESIGNS {
         let with = design(keys);
-        let mut config = with.config().clone();
+        let mut config = with.config();
         config.hardware.sync = None;
         let without = config.validate().unwrap();
         let record =

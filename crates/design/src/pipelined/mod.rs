@@ -6,8 +6,9 @@ mod timing;
 
 pub use timing::PipelinedTiming;
 
-use crate::rules::{Grid, Rules, Unit};
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use crate::rules::{Rules, Unit};
+use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use foveate_camera::{Camera, ConfigError};
 
 /// The organization as the answers to [`Rules`].
 pub(crate) struct Pipelined;
@@ -40,7 +41,7 @@ impl Rules for Pipelined {
         false
     }
 
-    fn hardware(&self, asked: &HardwareConfig, _: &Grid) -> Result<HardwareConfig, DesignError> {
+    fn hardware(&self, asked: &HardwareConfig, _: &Camera) -> Result<HardwareConfig, ConfigError> {
         asked.refuse_raster_keys()?;
         if asked.fold != 1 {
             let remedy = "only the serial organization shares lanes; use 1";

@@ -3,8 +3,8 @@
 //! store of a single one.
 
 use super::RasterTiming;
-use crate::width::{bits_for, index_bits};
 use crate::{Design, Filter, Reference, SpatialFeature, Store};
+use crate::{bits_for, index_bits};
 
 /// Bits of the row of regions that waits in a queue, modulo 8.
 const ROW_BITS: u32 = 3;

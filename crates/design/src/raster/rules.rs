@@ -2,11 +2,9 @@
 //! What a raster design answers, and which frames its core takes; see [`crate::organization`].
 
 use super::{RasterTiming, ports::ports};
-use crate::rules::{Grid, Rules, Unit};
-use crate::validate::in_range;
-use crate::{
-    Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Reference, Store, Timing,
-};
+use crate::rules::{Rules, Unit};
+use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Store, Timing};
+use foveate_camera::{Camera, ConfigError, Reference, in_range};
 
 /// Pixels that a word may have.
 const WORDS: [u32; 3] = [1, 2, 4];
@@ -51,21 +49,26 @@ impl Rules for Raster {
         false
     }
 
-    fn hardware(&self, asked: &HardwareConfig, grid: &Grid) -> Result<HardwareConfig, DesignError> {
+    fn hardware(
+        &self,
+        asked: &HardwareConfig,
+        camera: &Camera,
+    ) -> Result<HardwareConfig, ConfigError> {
         refuse_lanes(asked)?;
         let pixels = asked.pixels_per_clock.unwrap_or(WORDS[0]);
-        check_word(asked, pixels, grid)?;
-        check_reference(asked, grid.reference)?;
+        check_word(asked, pixels, camera.region_size())?;
+        check_reference(asked, camera.temporal().reference)?;
         let why = " for organization = \"raster\"; use a narrower frame, or \"serial\"";
-        in_range("frame.width", grid.width, 1..=MAX_WIDTH, why)?;
-        let columns = least_columns(grid.size, pixels);
-        if grid.columns < columns {
+        in_range("frame.width", camera.width(), 1..=MAX_WIDTH, why)?;
+        let size = camera.region_size();
+        let columns = least_columns(size, pixels);
+        if camera.columns() < columns {
             let remedy = format!(
                 "a row must have at least {MIN_COLUMNS} regions and {MIN_ROW_WORDS} words of \
                  {pixels} pixels; use frames of at least {} pixels, or smaller regions",
-                (columns - 1) * grid.size + 1
+                (columns - 1) * size + 1
             );
-            return Err(asked.clash("frame.width", grid.width.to_string(), &remedy));
+            return Err(asked.clash("frame.width", camera.width().to_string(), &remedy));
         }
         Ok(HardwareConfig {
             pixels_per_clock: Some(pixels),
@@ -81,9 +84,9 @@ impl Rules for Raster {
     fn lone_unit(&self, design: &Design) -> Design {
         let size = design.region_size();
         let columns = least_columns(size, design.pixels_per_clock());
-        let mut config = design.config().clone();
-        config.frame.width = Some(columns * size);
-        config.frame.height = Some(LONE_ROWS * size);
+        let mut config = design.config();
+        config.camera.frame.width = Some(columns * size);
+        config.camera.frame.height = Some(LONE_ROWS * size);
         config.validate().expect("a raster design stays one with the smallest frame")
     }
 
@@ -101,7 +104,7 @@ impl Rules for Raster {
 }
 
 /// Refuses what only lanes have.
-fn refuse_lanes(asked: &HardwareConfig) -> Result<(), DesignError> {
+fn refuse_lanes(asked: &HardwareConfig) -> Result<(), ConfigError> {
     if asked.fold != 1 {
         let remedy = "only the serial organization shares lanes; use 1";
         return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));
@@ -119,29 +122,29 @@ fn refuse_lanes(asked: &HardwareConfig) -> Result<(), DesignError> {
 }
 
 /// Refuses words that do not fill the rows of a region.
-fn check_word(asked: &HardwareConfig, pixels: u32, grid: &Grid) -> Result<(), DesignError> {
+fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), ConfigError> {
     let key = "hardware.pixels_per_clock";
     if !WORDS.contains(&pixels) {
-        return Err(DesignError::Range {
+        return Err(ConfigError::Range {
             key: key.to_owned(),
             value: pixels.to_string(),
             valid: "1, 2 or 4".to_owned(),
         });
     }
-    if grid.size.is_multiple_of(pixels) {
+    if size.is_multiple_of(pixels) {
         return Ok(());
     }
-    let remedy = format!("it must divide region.size = {}; use fewer pixels", grid.size);
+    let remedy = format!("it must divide region.size = {}; use fewer pixels", size);
     Err(asked.clash(key, pixels.to_string(), &remedy))
 }
 
 /// Refuses what cannot keep the references of `last-sent`.
-fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), DesignError> {
+fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), ConfigError> {
     if reference == Reference::Previous {
         return Ok(());
     }
     let clash = |key: &str, value: String, remedy: &str| {
-        Err(DesignError::Combination {
+        Err(ConfigError::Combination {
             key: key.to_owned(),
             value,
             with: format!("temporal.reference = \"{reference}\""),

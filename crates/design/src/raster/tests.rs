@@ -177,7 +177,7 @@ fn only_small_frames_of_last_sent_wait() {
 #[test]
 fn keys_are_filled_in_and_only_here() {
     let plain = design(&[]);
-    let hardware = &plain.config().hardware;
+    let hardware = &plain.hardware();
     assert_eq!(
         (hardware.pixels_per_clock, hardware.pipelining, hardware.store),
         (Some(1), Some(Pipelining::Plain), Some(Store::Block))

@@ -2,15 +2,16 @@
 //! How far a serial design can be folded before it is too slow, and which folds may be the cheapest.
 
 use super::{Phase, SerialTiming};
-use crate::{Design, DesignError};
+use crate::Design;
+use foveate_camera::ConfigError;
 
 impl Design {
     /// The same design with another fold.
     ///
     /// # Errors
     /// Where `fold` is not 1..=M, or more than 1 in an organization that does not fold.
-    pub fn with_fold(&self, fold: u32) -> Result<Self, DesignError> {
-        let mut config = self.config().clone();
+    pub fn with_fold(&self, fold: u32) -> Result<Self, ConfigError> {
+        let mut config = self.config();
         config.hardware.fold = fold;
         config.validate()
     }

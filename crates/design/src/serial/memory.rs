@@ -121,7 +121,7 @@ impl LaneMemory {
         let luts = bits * depth.div_ceil(LUT_WORDS);
         let blocks = RAMB18.map(|(wide, words)| bits.div_ceil(wide) * depth.div_ceil(words));
         let blocks = blocks.into_iter().min().expect("a block has words");
-        let (kind, why) = match design.config().hardware.memory {
+        let (kind, why) = match design.hardware().memory {
             Some(kind) => (kind, MemoryChoice::Configured),
             None if luts <= MAX_MEMORY_LUTS => {
                 (MemoryKind::Distributed, MemoryChoice::Limit(MAX_MEMORY_LUTS))

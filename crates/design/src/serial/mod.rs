@@ -104,8 +104,8 @@ impl Design {
     #[must_use]
     pub fn one_lane(&self) -> Self {
         let (width, height) = (self.fold() * self.region_size(), self.region_size());
-        let mut config = self.config().clone();
-        (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        let mut config = self.config();
+        (config.camera.frame.width, config.camera.frame.height) = (Some(width), Some(height));
         let lane = config.validate_up_to(u32::MAX);
         lane.expect("a valid design stays one with a frame of as many regions as share a lane")
     }

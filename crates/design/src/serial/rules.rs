@@ -2,9 +2,9 @@
 //! What a serial design answers; see [`crate::organization`].
 
 use super::{SerialTiming, ports::ports};
-use crate::rules::{Grid, Rules, Unit};
-use crate::validate::in_range;
-use crate::{Design, DesignError, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use crate::rules::{Rules, Unit};
+use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use foveate_camera::{Camera, ConfigError, in_range};
 
 /// Smallest side of a region.
 const MIN_SIDE: u32 = 4;
@@ -44,9 +44,10 @@ impl Rules for Serial {
     fn hardware(
         &self,
         asked: &HardwareConfig,
-        &Grid { size, regions, .. }: &Grid,
-    ) -> Result<HardwareConfig, DesignError> {
+        camera: &Camera,
+    ) -> Result<HardwareConfig, ConfigError> {
         asked.refuse_raster_keys()?;
+        let (size, regions) = (camera.region_size(), camera.regions());
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
             return Err(asked.clash("region.size", size.to_string(), &remedy));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The configuration at its boundary: what is accepted, what it becomes, what is refused and how.
 
-use foveate_design::{Config, Design, DesignError, PRESETS, PipelinedTiming, Preset};
+use foveate_design::{Config, ConfigError, Design, PRESETS, PipelinedTiming, Preset};
 
 fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()
@@ -27,10 +27,10 @@ fn every_preset_is_a_design_and_survives_writing() {
         let config = preset.config().unwrap();
         let design = config.validate().unwrap();
         let again = Config::from_toml(&design.config().to_toml()).unwrap();
-        assert_eq!(&again, design.config(), "{}", preset.name);
+        assert_eq!(again, design.config(), "{}", preset.name);
         assert_eq!(again.validate().unwrap().fingerprint(), design.fingerprint());
     }
-    assert!(matches!(Preset::find("papre"), Err(DesignError::UnknownPreset { .. })));
+    assert!(matches!(Preset::find("papre"), Err(ConfigError::UnknownPreset { .. })));
 }
 
 #[test]
@@ -86,13 +86,13 @@ fn plain_pipelining_is_the_default() {
     assert_eq!(design(&pipelining("plain")).fingerprint(), paper);
     let deep = design(&pipelining("deep"));
     assert_ne!(deep.fingerprint(), paper);
-    assert_eq!(deep.config().hardware.in_words(), "pipelined, deep pipelining");
+    assert_eq!(deep.hardware().in_words(), "pipelined, deep pipelining");
     let serial = |keys: &str| design(&format!("{keys}organization = \"serial\"\n"));
     let plain = serial("[hardware]\n");
     assert_eq!(serial(&pipelining("plain")).fingerprint(), plain.fingerprint());
     let deep = serial(&pipelining("deep"));
     assert_ne!(deep.fingerprint(), plain.fingerprint());
-    assert!(deep.config().hardware.in_words().contains("deep pipelining"));
+    assert!(deep.hardware().in_words().contains("deep pipelining"));
 }
 
 #[test]
@@ -231,7 +231,7 @@ fn overrides_reach_every_key() {
     let design = config.unwrap().validate().unwrap();
     assert_eq!((design.region_size(), design.features()[0].level()), (16, Some(50)));
     let two = with(&["spatial=[{feature=\"mad\"},{feature=\"corner\"}]"]).unwrap();
-    assert_eq!(two.spatial.len(), 2);
+    assert_eq!(two.camera.spatial.len(), 2);
     for wrong in [
         "region.size=16\ntemporal=3",
         "region.size",
@@ -247,9 +247,9 @@ fn overrides_reach_every_key() {
 #[test]
 fn an_input_gives_its_size_unless_the_file_names_another() {
     let mut open = Config::default();
-    open.fit_frame(640, 480).unwrap();
+    open.camera.fit_frame(640, 480).unwrap();
     assert_eq!(open.validate().unwrap().width(), 640);
-    let error = open.fit_frame(320, 480).unwrap_err().to_string();
+    let error = open.camera.fit_frame(320, 480).unwrap_err().to_string();
     assert!(error.contains("frame.width") && error.contains("640") && error.contains("320x480"));
 }
 

@@ -82,7 +82,7 @@ fn defaults_of_some_depths_by_hand() {
     let at = |bits: u32| {
         let all = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\"},{feature=\"variance\"}]";
         let design = design("", &[&format!("frame.pixel_bits={bits}"), all]);
-        let spatial = &design.config().spatial;
+        let spatial = &design.config().camera.spatial;
         let text = |entry: &SpatialConfig| entry.min_score.unwrap().to_string();
         (
             design.temporal().level,
@@ -105,7 +105,7 @@ fn defaults_of_some_depths_by_hand() {
 #[test]
 fn a_file_with_every_key_follows_an_override_of_the_depth() {
     for (name, text) in starts() {
-        let every_key = design(&text, &[]).config().clone();
+        let every_key = design(&text, &[]).config();
         for bits in 1..=16 {
             let bits = format!("frame.pixel_bits={bits}");
             let short = design(&text, &[&bits]);
@@ -126,7 +126,7 @@ fn what_is_written_is_in_levels_of_the_depth_that_it_is_written_with() {
     assert_eq!(design(five, &["frame={width=64}"]).temporal().level, 16);
     let scores = "[[spatial]]\nfeature = \"variance\"\nmin_score = 8\n";
     let six = with(scores, &["frame.pixel_bits=6"]);
-    assert_eq!(six.spatial[0].min_score, Decimal::from_f64(0.5));
+    assert_eq!(six.camera.spatial[0].min_score, Decimal::from_f64(0.5));
     // An error is told as it is in the file, whatever the depth.
     let wrong = Config::from_toml_with("[temporal]\nlevel = \"high\"\n", &["frame.pixel_bits=5"]);
     assert!(wrong.unwrap_err().to_string().contains("`temporal.level`: \"high\" is not valid"));

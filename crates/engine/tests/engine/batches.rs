@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several frames at once give what they give one by one, for every design, film, division into
+//! Several frames at once give what they give one by one, for every camera, film, division into
 //! batches, number of threads and instruction set.
 
-use foveate_design::{Design, FeatureKind, Neighborhood, Reference, SpatialConfig};
+use foveate_camera::{Camera, FeatureKind, Neighborhood, Reference, SpatialConfig};
 use foveate_engine::{Engine, Level, Options, Outcome, Screens};
 use foveate_frame::Frame;
 use foveate_frame::Plane;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 use proptest::prelude::*;
 
 use crate::film::{Change, film, scripts};
-use crate::hard_cases::design;
+use crate::hard_cases::camera;
 use crate::properties::assert_same;
-use crate::recipe::designs;
+use crate::recipe::cameras;
 
 /// One call.
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +38,8 @@ fn calls() -> impl Strategy<Value = Vec<Call>> {
 }
 
 /// Rows with a gap between them, of values that no frame could have.
-fn strided(design: &Design, frame: &Frame, gap: usize) -> Vec<u16> {
-    let rows = frame.pixels().chunks(usize::try_from(design.width()).unwrap());
+fn strided(camera: &Camera, frame: &Frame, gap: usize) -> Vec<u16> {
+    let rows = frame.pixels().chunks(usize::try_from(camera.width()).unwrap());
     rows.flat_map(|row| row.iter().copied().chain(vec![u16::MAX; gap])).collect()
 }
 
@@ -57,10 +57,10 @@ fn step(
     gap: usize,
     kept: Option<&mut Kept>,
 ) -> (Vec<Outcome>, Vec<Vec<u16>>) {
-    let design = engine.design().clone();
-    let stride = usize::try_from(design.width()).unwrap() + gap;
-    let words: Vec<Vec<u16>> = frames.iter().map(|f| strided(&design, f, gap)).collect();
-    if design.pixel_bits() > 8 {
+    let camera = engine.camera().clone();
+    let stride = usize::try_from(camera.width()).unwrap() + gap;
+    let words: Vec<Vec<u16>> = frames.iter().map(|f| strided(&camera, f, gap)).collect();
+    if camera.pixel_bits() > 8 {
         let frames: Vec<&[u16]> = words.iter().map(Vec::as_slice).collect();
         let mut screens = kept.map(|kept| &mut kept.words);
         let outcomes = engine.step_batch_u16(&frames, stride, screens.as_deref_mut());
@@ -79,20 +79,19 @@ fn step(
 
 /// Runs a film through the model frame by frame and through engines call by call, over and over until
 /// the calls end; returns how many regions were skipped with one thread.
-fn check(design: &Design, film: &[Frame], calls: &[Call], options: Options, gap: usize) -> usize {
-    let mut camera = Camera::new(design);
-    let engine = |threads| Engine::with_options(design, Options { threads, ..options }).unwrap();
+fn check(camera: &Camera, film: &[Frame], calls: &[Call], options: Options, gap: usize) -> usize {
+    let mut model = FunctionalCamera::new(camera);
+    let engine = |threads| Engine::with_options(camera, Options { threads, ..options }).unwrap();
     let mut engines = [1, 2, 3].map(engine);
     let (mut film, mut skipped, mut kept) = (film.iter().cycle(), 0, Kept::default());
     for call in calls {
-        let context = format!("{call:?} of {calls:?}, {options:?}, {:?}", design.config());
+        let context = format!("{call:?} of {calls:?}, {options:?}, {:?}", camera.config());
         if call.reset {
-            camera.reset();
+            model.reset();
             engines.iter_mut().for_each(Engine::reset);
         }
         let frames: Vec<Frame> = film.by_ref().take(call.frames).cloned().collect();
-        let clear: Vec<_> =
-            frames.iter().map(|frame| camera.step(frame).unwrap().clone()).collect();
+        let clear: Vec<_> = frames.iter().map(|frame| model.step(frame).unwrap().clone()).collect();
         let found = engines.each_mut().map(|engine| match (call.single, &frames[..]) {
             (true, [frame]) => (vec![engine.step(frame).unwrap().clone()], Vec::new()),
             _ => step(engine, &frames, gap, call.screens.then_some(&mut kept)),
@@ -131,7 +130,7 @@ proptest! {
 
     #[test]
     fn batches_equal_the_model(
-        design in designs(),
+        camera in cameras(),
         (seed, script) in scripts(),
         calls in calls(),
         skip in any::<bool>(),
@@ -139,7 +138,7 @@ proptest! {
         gap in 0usize..4,
     ) {
         let options = Options { threads: 1, skip, level };
-        check(&design, &film(&design, seed, &script), &calls, options, gap);
+        check(&camera, &film(&camera, seed, &script), &calls, options, gap);
     }
 }
 
@@ -153,7 +152,7 @@ fn strips_go_through_a_batch_without_a_seam() {
         for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
             for reference in [Reference::Previous, Reference::LastSent] {
                 for bits in [8, 10] {
-                    let design = design(330, 170, side, |config| {
+                    let camera = camera(330, 170, side, |config| {
                         config.spatial =
                             FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
                         config.frame.pixel_bits = bits;
@@ -161,8 +160,8 @@ fn strips_go_through_a_batch_without_a_seam() {
                         config.temporal.reference = reference;
                     });
                     let calls = [batch(2), batch(5), batch(1), batch(9), batch(4)];
-                    let film = film(&design, 9, &script);
-                    assert!(check(&design, &film, &calls, Options::default(), 0) > 0);
+                    let film = film(&camera, 9, &script);
+                    assert!(check(&camera, &film, &calls, Options::default(), 0) > 0);
                 }
             }
         }
@@ -172,17 +171,17 @@ fn strips_go_through_a_batch_without_a_seam() {
 /// What lies still is found within a batch, without one before it.
 #[test]
 fn a_single_batch_is_skipped_where_it_stands_still() {
-    let design = design(250, 70, 8, |_| {});
-    let frames = film(&design, 5, &[Change::Still; 7]);
-    let skipped = check(&design, &frames, &[batch(8)], Options::default(), 0);
-    assert_eq!(skipped, 7 * usize::try_from(design.regions()).unwrap());
+    let camera = camera(250, 70, 8, |_| {});
+    let frames = film(&camera, 5, &[Change::Still; 7]);
+    let skipped = check(&camera, &frames, &[batch(8)], Options::default(), 0);
+    assert_eq!(skipped, 7 * usize::try_from(camera.regions()).unwrap());
 }
 
 /// More frames than go through the engine together.
 #[test]
 fn long_batches_are_one_film() {
-    let design = design(1500, 1100, 64, |_| {});
+    let camera = camera(1500, 1100, 64, |_| {});
     let script = [Change::Still, Change::Patch(0.3, 0.4), Change::Still, Change::Fade];
     let calls = [batch(7), batch(6)];
-    check(&design, &film(&design, 11, &script), &calls, Options::default(), 0);
+    check(&camera, &film(&camera, 11, &script), &calls, Options::default(), 0);
 }

@@ -2,7 +2,7 @@
 //! Films with everything that matters between two frames: noise, stillness, small changes, flat
 //! and stepped areas.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_frame::Frame;
 use proptest::prelude::*;
 
@@ -43,10 +43,10 @@ pub(crate) fn scripts() -> impl Strategy<Value = (u64, Vec<Change>)> {
 }
 
 /// The frames of a script; the first is noise.
-pub(crate) fn film(design: &Design, seed: u64, script: &[Change]) -> Vec<Frame> {
+pub(crate) fn film(camera: &Camera, seed: u64, script: &[Change]) -> Vec<Frame> {
     let mut random = Random(seed | 1);
-    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
-    let max = u16::try_from(design.pixel_max()).unwrap();
+    let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
+    let max = u16::try_from(camera.pixel_max()).unwrap();
     let mut pixels: Vec<u16> = (0..width * height).map(|_| random.below(max)).collect();
     let mut frames = vec![Frame::new(width, height, bits, pixels.clone()).unwrap()];
     for &change in script {

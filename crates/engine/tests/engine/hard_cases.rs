@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cases that random designs would meet too seldom.
+//! Cases that random cameras would meet too seldom.
 
-use foveate_design::{
-    Config, Design, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
+use foveate_camera::{
+    Camera, CameraConfig, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
 };
 use foveate_engine::Options;
 use foveate_frame::Frame;
@@ -10,20 +10,20 @@ use foveate_frame::Frame;
 use crate::film::{Change, film};
 use crate::properties::check;
 
-pub(crate) fn design(
+pub(crate) fn camera(
     width: u32,
     height: u32,
     side: u32,
-    change: impl FnOnce(&mut Config),
-) -> Design {
-    let mut config = Config::default();
+    change: impl FnOnce(&mut CameraConfig),
+) -> Camera {
+    let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
     config.region.size = side;
     change(&mut config);
     config.validate().unwrap()
 }
 
-fn every_feature(config: &mut Config) {
+fn every_feature(config: &mut CameraConfig) {
     config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
 }
 
@@ -31,19 +31,19 @@ fn every_feature(config: &mut Config) {
 #[test]
 fn the_largest_sums_stay_inside_their_lanes() {
     for bits in [8, 16] {
-        let design = design(128, 128, 64, |config| {
+        let camera = camera(128, 128, 64, |config| {
             every_feature(config);
             config.frame.pixel_bits = bits;
             config.spatial[0].level = Some(0);
             config.spatial[1].level = Some(0);
             config.spatial[2].mean_fraction_bits = Some(12);
         });
-        let max = u16::try_from(design.pixel_max()).unwrap();
+        let max = u16::try_from(camera.pixel_max()).unwrap();
         let full = Frame::filled(128, 128, bits, max).unwrap();
         let stripes = |x: u32, _| if (x / 2).is_multiple_of(2) { 0 } else { max };
         let stripes = Frame::from_fn(128, 128, bits, stripes).unwrap();
         let halves = Frame::from_fn(128, 128, bits, |_, y| if y < 32 { 0 } else { max }).unwrap();
-        check(&design, &[full, stripes, halves], Options::default());
+        check(&camera, &[full, stripes, halves], Options::default());
     }
 }
 
@@ -76,7 +76,7 @@ fn stillness_is_skipped_and_exact() {
         for reference in [Reference::Previous, Reference::LastSent] {
             for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
                 for min_count in [0, 1, 40] {
-                    let design = design(250, 70, 8, |config| {
+                    let camera = camera(250, 70, 8, |config| {
                         every_feature(config);
                         config.region.neighborhood = neighborhood;
                         config.temporal.reference = reference;
@@ -84,11 +84,11 @@ fn stillness_is_skipped_and_exact() {
                         config.render.irrelevant = irrelevant;
                         config.spatial[0].level = Some(400);
                     });
-                    let frames = film(&design, 77, &script);
+                    let frames = film(&camera, 77, &script);
                     for threads in [1, 2] {
                         let options = Options { threads, ..Options::default() };
-                        assert!(check(&design, &frames, options) > 1000);
-                        assert_eq!(check(&design, &frames, Options { skip: false, ..options }), 0);
+                        assert!(check(&camera, &frames, options) > 1000);
+                        assert_eq!(check(&camera, &frames, Options { skip: false, ..options }), 0);
                     }
                 }
             }
@@ -100,7 +100,7 @@ fn stillness_is_skipped_and_exact() {
 /// a region's border, in a scene that is skipped everywhere else.
 #[test]
 fn the_halo_of_a_skipped_region_is_watched() {
-    let design = design(200, 24, 8, |config| {
+    let camera = camera(200, 24, 8, |config| {
         every_feature(config);
         config.region.neighborhood = Neighborhood::Shared;
         config.spatial[0].level = Some(10);
@@ -110,8 +110,8 @@ fn the_halo_of_a_skipped_region_is_watched() {
         for y in 5u32..11 {
             let place = (f64::from(x) + 0.5, f64::from(y) + 0.5);
             let spots = [Change::Still, Change::Spot(place.0 / 200.0, place.1 / 24.0)];
-            let frames = film(&design, u64::from(100 * x + y), &spots);
-            assert!(check(&design, &frames, Options::default()) > 50);
+            let frames = film(&camera, u64::from(100 * x + y), &spots);
+            assert!(check(&camera, &frames, Options::default()) > 50);
         }
     }
 }
@@ -121,11 +121,11 @@ fn the_halo_of_a_skipped_region_is_watched() {
 fn several_runs_of_one_band_do_not_mix() {
     for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
         for side in [8, 12] {
-            let design = design(1000, 40, side, |config| {
+            let camera = camera(1000, 40, side, |config| {
                 every_feature(config);
                 config.region.neighborhood = neighborhood;
             });
-            let mut frames = film(&design, 21, &[Change::Still]);
+            let mut frames = film(&camera, 21, &[Change::Still]);
             for round in 0..3 {
                 let last = frames.last().unwrap().clone();
                 let spots = [40 + round, 450 + round, 905 + round];
@@ -135,7 +135,7 @@ fn several_runs_of_one_band_do_not_mix() {
                 };
                 frames.push(Frame::from_fn(1000, 40, 8, pixel).unwrap());
             }
-            assert!(check(&design, &frames, Options::default()) > 500);
+            assert!(check(&camera, &frames, Options::default()) > 500);
         }
     }
 }
@@ -154,11 +154,11 @@ fn what_is_still_after_a_wipe_loses_its_reference() {
         Change::Still,
     ];
     for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
-        let design = design(600, 64, 8, |config| {
+        let camera = camera(600, 64, 8, |config| {
             config.temporal.reference = Reference::LastSent;
             config.render.irrelevant = irrelevant;
         });
-        assert!(check(&design, &film(&design, 9, &script), Options::default()) > 1000);
+        assert!(check(&camera, &film(&camera, 9, &script), Options::default()) > 1000);
     }
 }
 
@@ -166,10 +166,10 @@ fn what_is_still_after_a_wipe_loses_its_reference() {
 #[test]
 fn regions_that_share_a_block_with_a_change_stay_exact() {
     for side in [3, 5, 6, 7, 12, 48] {
-        let design = design(300, 3 * side, side, every_feature);
+        let camera = camera(300, 3 * side, side, every_feature);
         let script =
             [Change::Still, Change::Spot(0.45, 0.5), Change::Still, Change::Spot(0.9, 0.1)];
-        check(&design, &film(&design, 5, &script), Options::default());
+        check(&camera, &film(&camera, 5, &script), Options::default());
     }
 }
 
@@ -182,15 +182,15 @@ fn strips_of_several_threads_meet_without_a_seam() {
     for side in [5, 8, 32] {
         for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
             for reference in [Reference::Previous, Reference::LastSent] {
-                let design = design(530, 270, side, |config| {
+                let camera = camera(530, 270, side, |config| {
                     every_feature(config);
                     config.region.neighborhood = neighborhood;
                     config.temporal.reference = reference;
                 });
-                let frames = film(&design, 3, &script);
+                let frames = film(&camera, 3, &script);
                 for threads in [2, 3] {
                     let options = Options { threads, ..Options::default() };
-                    check(&design, &frames, options);
+                    check(&camera, &frames, options);
                 }
             }
         }

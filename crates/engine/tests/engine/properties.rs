@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Engine and model give the same results for every design, film, instruction set and number of
+//! Engine and model give the same results for every camera, film, instruction set and number of
 //! threads, whether regions are skipped or not.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_engine::{Engine, Level, Options, Outcome};
 use foveate_frame::Frame;
 use foveate_frame::Plane;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 use proptest::prelude::*;
 
 use crate::film::{film, scripts};
-use crate::recipe::designs;
+use crate::recipe::cameras;
 
 pub(crate) fn assert_same(fast: &Outcome, clear: &foveate_model::Outcome, context: &str) {
     assert_eq!(fast.scores, clear.scores, "scores, {context}");
@@ -22,23 +22,23 @@ pub(crate) fn assert_same(fast: &Outcome, clear: &foveate_model::Outcome, contex
 }
 
 /// Runs a film through both; returns how many regions were skipped.
-pub(crate) fn check(design: &Design, frames: &[Frame], options: Options) -> usize {
-    let mut camera = Camera::new(design);
-    let mut engine = Engine::with_options(design, options).unwrap();
+pub(crate) fn check(camera: &Camera, frames: &[Frame], options: Options) -> usize {
+    let mut model = FunctionalCamera::new(camera);
+    let mut engine = Engine::with_options(camera, options).unwrap();
     let mut skipped = 0;
     for (number, frame) in frames.iter().enumerate() {
-        let context = format!("frame {number}, {options:?}, {:?}", design.config());
-        let clear = camera.step(frame).unwrap();
+        let context = format!("frame {number}, {options:?}, {:?}", camera.config());
+        let clear = model.step(frame).unwrap();
         let fast = engine.step(frame).unwrap();
         assert_same(fast, clear, &context);
         skipped += fast.skipped;
         assert_eq!(engine.rendered().to_words(), clear.rendered.pixels(), "screen, {context}");
     }
     // A reset forgets everything.
-    camera.reset();
+    model.reset();
     engine.reset();
     if let Some(frame) = frames.last() {
-        assert_same(engine.step(frame).unwrap(), camera.step(frame).unwrap(), "after a reset");
+        assert_same(engine.step(frame).unwrap(), model.step(frame).unwrap(), "after a reset");
     }
     skipped
 }
@@ -57,28 +57,28 @@ proptest! {
 
     #[test]
     fn engine_equals_the_model(
-        design in designs(),
+        camera in cameras(),
         (seed, script) in scripts(),
         options in options(),
     ) {
-        check(&design, &film(&design, seed, &script), options);
+        check(&camera, &film(&camera, seed, &script), options);
     }
 
     /// A frame where it lies, with a stride, gives what a copy of it gives.
     #[test]
     fn rows_with_a_stride_equal_a_whole_frame(
-        design in designs(),
+        camera in cameras(),
         (seed, script) in scripts(),
         gap in 0usize..5,
     ) {
-        let (mut plain, mut strided) = (Engine::new(&design), Engine::new(&design));
-        let width = usize::try_from(design.width()).unwrap();
-        for frame in film(&design, seed, &script) {
+        let (mut plain, mut strided) = (Engine::new(&camera), Engine::new(&camera));
+        let width = usize::try_from(camera.width()).unwrap();
+        for frame in film(&camera, seed, &script) {
             let rows = frame.pixels().chunks(width);
             let words: Vec<u16> =
                 rows.flat_map(|row| row.iter().copied().chain(vec![u16::MAX; gap])).collect();
             let expected = plain.step(&frame).unwrap();
-            match plain_bits(&design) {
+            match plain_bits(&camera) {
                 true => {
                     let bytes: Vec<u8> = words.iter().map(|&p| p.to_le_bytes()[0]).collect();
                     prop_assert_eq!(strided.step_u8(&bytes, width + gap).unwrap(), expected);
@@ -87,11 +87,11 @@ proptest! {
             }
             prop_assert_eq!(strided.rendered(), plain.rendered());
             let bytes = matches!(plain.rendered(), Plane::Bytes(_));
-            prop_assert_eq!(bytes, plain_bits(&design));
+            prop_assert_eq!(bytes, plain_bits(&camera));
         }
     }
 }
 
-fn plain_bits(design: &Design) -> bool {
-    design.pixel_bits() <= 8
+fn plain_bits(camera: &Camera) -> bool {
+    camera.pixel_bits() <= 8
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random designs that the engine and the model are both given.
+//! Random cameras that the engine and the model are both given.
 
-use foveate_design::{
-    Combine, Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
+use foveate_camera::{
+    Camera, CameraConfig, Combine, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
     Reference, SpatialConfig,
 };
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// Every kind of design: frames of one block of lanes, of several, and ragged ones.
-pub(crate) fn designs() -> impl Strategy<Value = Design> {
+/// Every kind of camera: frames of one block of lanes, of several, and ragged ones.
+pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
     let side = prop_oneof![
         4 => select(vec![2u32, 4, 8, 16, 32, 64]),
         3 => select(vec![3u32, 5, 6, 7, 12, 20, 33, 63]),
@@ -29,7 +29,7 @@ pub(crate) fn designs() -> impl Strategy<Value = Design> {
         let switches = proptest::array::uniform6(any::<bool>());
         (width, height, features, temporal, switches).prop_map(
             move |(width, height, features, temporal, on)| {
-                let mut config = Config::default();
+                let mut config = CameraConfig::default();
                 (config.frame.width, config.frame.height) = (Some(width), Some(height));
                 (config.frame.pixel_bits, config.region.size) = (bits, side);
                 config.spatial = features;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is no frame of the design is refused by name, and changes nothing.
+//! What is no frame of the camera is refused by name, and changes nothing.
 
-use foveate_design::{Config, Design};
+use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::{Engine, EngineError, MAX_THREADS, Options, Outcome, Screens};
 use foveate_frame::Frame;
 
-fn design(bits: u32) -> Design {
-    let mut config = Config::default();
+fn camera(bits: u32) -> Camera {
+    let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(20), Some(9));
     config.frame.pixel_bits = bits;
     config.validate().unwrap()
@@ -18,11 +18,11 @@ fn message(result: Result<&Outcome, EngineError>) -> String {
 
 #[test]
 fn what_is_no_frame_of_the_design_is_refused() {
-    let mut engine = Engine::new(&design(6));
+    let mut engine = Engine::new(&camera(6));
     let other = Frame::filled(20, 9, 8, 1).unwrap();
     assert_eq!(
         message(engine.step(&other)),
-        "the frame has 20x9 pixels of 8 bits, but the design takes 20x9 pixels of 6 bits; give it \
+        "the frame has 20x9 pixels of 8 bits, but the camera takes 20x9 pixels of 6 bits; give it \
          frames of that kind"
     );
     assert_eq!(
@@ -43,20 +43,20 @@ fn what_is_no_frame_of_the_design_is_refused() {
     assert_eq!((engine.outcome().clone(), engine.rendered().to_words()), before);
     let refused = message(engine.step_u16(&[0; 180], 20));
     assert_eq!(refused, "pixels of 6 bits need the type u8, but u16 was given");
-    assert!(Engine::new(&design(9)).step_u8(&[0; 180], 20).is_err());
+    assert!(Engine::new(&camera(9)).step_u8(&[0; 180], 20).is_err());
 }
 
 #[test]
 fn more_threads_than_help_are_refused_before_one_is_started() {
     for threads in [MAX_THREADS + 1, 1_000_000, usize::MAX] {
         let options = Options { threads, ..Options::default() };
-        let refusal = Engine::with_options(&design(6), options).unwrap_err().to_string();
+        let refusal = Engine::with_options(&camera(6), options).unwrap_err().to_string();
         let right = "expected 1 to 256, or 0, which takes one per processor";
         assert_eq!(refusal, format!("threads = {threads}: {right}"));
     }
     for threads in [0, MAX_THREADS] {
         let options = Options { threads, ..Options::default() };
-        assert!(Engine::with_options(&design(6), options).is_ok());
+        assert!(Engine::with_options(&camera(6), options).is_ok());
     }
 }
 
@@ -65,7 +65,7 @@ fn batches_with_a_wrong_frame_change_nothing() {
     fn refused<T: std::fmt::Debug>(result: Result<T, EngineError>) -> String {
         result.unwrap_err().to_string()
     }
-    let mut engine = Engine::new(&design(6));
+    let mut engine = Engine::new(&camera(6));
     let (good, bad) = (&[9; 180][..], &[64; 180][..]);
     engine.step_batch_u8(&[good, good], 20, None).unwrap();
     let before = (engine.outcome().clone(), engine.rendered().to_words());
@@ -87,7 +87,7 @@ fn batches_with_a_wrong_frame_change_nothing() {
     assert!(engine.step_batch_u8(&[bad], 20, Some(&mut screens)).is_err());
     assert_eq!(screens.get(0).map(<[u8]>::to_vec), Some(vec![0; 180]));
     assert_eq!(screens.get(1), None);
-    assert!(Engine::new(&design(9)).step_batch_u8(&[good], 20, None).is_err());
+    assert!(Engine::new(&camera(9)).step_batch_u8(&[good], 20, None).is_err());
     assert_eq!((engine.outcome().clone(), engine.rendered().to_words()), before);
     assert!(engine.step_batch_u8(&[], 20, None).unwrap().is_empty());
     assert_eq!((engine.outcome().clone(), engine.rendered().to_words()), before);

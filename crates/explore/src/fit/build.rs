@@ -2,8 +2,8 @@
 //! Builds looks: which arrays are possible, what each costs, and which is the cheapest.
 
 use foveate_design::{
-    Config, Design, FeatureKind, Filter, HardwareConfig, MemoryKind, Neighborhood, Organization,
-    Reference,
+    CameraConfig, Config, Design, FeatureKind, Filter, HardwareConfig, MemoryKind, Neighborhood,
+    Organization, Reference,
 };
 use foveate_estimate::{Device, Speed};
 
@@ -154,7 +154,7 @@ fn make_slower(
 
 /// The simplest looks: those for which no simpler look meets the limits too.
 fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
-    let simpler = |one: &Config, other: &Config| {
+    let simpler = |one: &CameraConfig, other: &CameraConfig| {
         let (one, other) = (complexity(one), complexity(other));
         one.0 == other.0
             && one != other
@@ -177,7 +177,7 @@ fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
 /// What cannot be compared, and what costs more the larger it is.
 type Complexity = ((u32, Neighborhood, Vec<FeatureKind>), [u32; 4]);
 
-fn complexity(config: &Config) -> Complexity {
+fn complexity(config: &CameraConfig) -> Complexity {
     let features = config.spatial.iter().map(|entry| entry.feature).collect();
     let fraction = config.spatial.iter().filter_map(|entry| entry.mean_fraction_bits).sum();
     let ordered = [
@@ -200,7 +200,7 @@ fn in_batches(
 ) -> Result<(Vec<Candidate>, usize), ExploreError> {
     let mut designs: Vec<(&Look, Design)> = Vec::new();
     for look in looks {
-        let ways = ways(&look.config, request.task, bounds);
+        let ways = ways(&look.config, &request.task.hardware, bounds);
         designs.extend(ways.into_iter().map(|design| (*look, design)));
     }
     in_turn(&mut designs);
@@ -258,20 +258,19 @@ fn synthesize(
 /// enough, these are the organizations with a unit for each region, and at a planned clock also fold 1. An
 /// organization with one unit for all regions comes with the fewest pixels per clock that are fast enough; at a
 /// planned clock with the most, if none is.
-fn ways(look: &Config, task: &Config, bounds: Bounds) -> Vec<Design> {
+fn ways(look: &CameraConfig, asked: &HardwareConfig, bounds: Bounds) -> Vec<Design> {
     let Bounds { max_clocks, planned, memory } = bounds;
     let with = |organization: Organization, feed, pixels_per_clock| {
-        let mut config = look.clone();
-        config.hardware = HardwareConfig {
+        let hardware = HardwareConfig {
             organization,
             feed,
             memory: memory.filter(|kind| organization.memories().contains(kind)),
-            thresholds: task.hardware.thresholds,
-            sync: task.hardware.sync,
+            thresholds: asked.thresholds,
+            sync: asked.sync,
             pixels_per_clock,
             ..HardwareConfig::default()
         };
-        config.validate().ok()
+        Config { camera: look.clone(), hardware }.validate().ok()
     };
     let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());
     let (mut found, mut fast) = (Vec::new(), false);
@@ -318,7 +317,7 @@ mod tests {
     fn words(max_clocks: u64, planned: bool) -> (Vec<u32>, bool) {
         let look = Config::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
         let bounds = Bounds { max_clocks: Some(max_clocks), planned, memory: None };
-        let ways = ways(&look, &look, bounds);
+        let ways = ways(&look.camera, &look.hardware, bounds);
         let of = |organization| ways.iter().filter(move |d| d.organization() == organization);
         let words = of(Organization::Raster).map(Design::pixels_per_clock).collect();
         (words, of(Organization::Pipelined).next().is_some())
@@ -329,7 +328,7 @@ mod tests {
     fn lanes_share_as_many_regions_as_may_be_cheapest_and_halvings_of_the_most() {
         let look = Config::from_toml("").unwrap();
         let bounds = Bounds { max_clocks: Some(210_623), planned: true, memory: None };
-        let ways = ways(&look, &look, bounds);
+        let ways = ways(&look.camera, &look.hardware, bounds);
         let raster = ways.iter().filter(|design| design.feed() == Feed::Raster);
         let folds = raster.filter(|design| design.organization().folds()).map(Design::fold);
         assert_eq!(folds.collect::<Vec<_>>(), [17, 16, 8, 4, 2, 1]);

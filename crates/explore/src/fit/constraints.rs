@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Limits that a design must meet, and how far it is from them.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
 use serde::Serialize;
@@ -90,7 +90,7 @@ pub(super) fn excess(held: &[Held]) -> f64 {
 impl Constraints {
     /// The constraints on what a camera sees and sends; `recall` is known where it is limited.
     #[must_use]
-    pub fn on_figures(&self, design: &Design, figures: &Figures, recall: Option<f64>) -> Vec<Held> {
+    pub fn on_figures(&self, camera: &Camera, figures: &Figures, recall: Option<f64>) -> Vec<Held> {
         let at_most =
             |name, limit: Option<f64>, value| limit.map(|l| Held::at_most(name, value, l));
         // Screens that are identical are as near as can be.
@@ -104,7 +104,7 @@ impl Constraints {
                 self.max_stale_frames.map(real),
                 real(figures.staleness.longest),
             ),
-            at_most("max-bytes", self.max_bytes, bytes_per_frame(design, figures.active)),
+            at_most("max-bytes", self.max_bytes, bytes_per_frame(camera, figures.active)),
             self.min_recall.zip(recall).map(|(limit, r)| Held::at_least("min-recall", r, limit)),
         ]
         .into_iter()

@@ -3,9 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use foveate_design::{
-    Config, Decimal, DesignError, FeatureKind, Filter, HardwareConfig, Neighborhood, Reference,
-    SpatialConfig,
+use foveate_camera::{
+    CameraConfig, ConfigError, Decimal, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
 };
 use foveate_fidelity::Figures;
 
@@ -29,8 +28,7 @@ const SLACK: f64 = 1.5;
 /// A camera and how it did on the first halves.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
-    /// Without a choice of hardware.
-    pub(super) config: Config,
+    pub(super) config: CameraConfig,
     pub(super) figures: Figures,
     pub(super) held: Vec<Held>,
 }
@@ -40,7 +38,7 @@ pub(super) struct Search<'a> {
     constraints: &'a Constraints,
     footage: &'a Footage<'a>,
     halves: &'a Halves,
-    task: Config,
+    task: CameraConfig,
     seen: BTreeMap<String, Look>,
 }
 
@@ -60,9 +58,8 @@ impl<'a> Search<'a> {
         constraints: &'a Constraints,
         footage: &'a Footage<'a>,
         halves: &'a Halves,
-        task: &Config,
+        task: &CameraConfig,
     ) -> Result<Self, ExploreError> {
-        let task = Config { hardware: HardwareConfig::default(), ..task.clone() };
         let (width, height) = footage.size;
         let task = task.for_frames(width, height)?.config().clone();
         Ok(Self { constraints, footage, halves, task, seen: BTreeMap::new() })
@@ -74,11 +71,11 @@ impl<'a> Search<'a> {
     }
 
     /// A camera, if it was examined.
-    pub(super) fn get(&self, config: &Config) -> Option<&Look> {
+    pub(super) fn get(&self, config: &CameraConfig) -> Option<&Look> {
         self.seen.get(&config.to_toml())
     }
 
-    pub(super) fn task(&self) -> &Config {
+    pub(super) fn task(&self) -> &CameraConfig {
         &self.task
     }
 
@@ -117,7 +114,7 @@ impl<'a> Search<'a> {
     }
 
     /// As exact as can be built, with every threshold worth trying.
-    fn with_thresholds(&self, side: u32, features: &[SpatialConfig]) -> Vec<Config> {
+    fn with_thresholds(&self, side: u32, features: &[SpatialConfig]) -> Vec<CameraConfig> {
         let mut exact = self.task.clone();
         exact.region.size = side;
         exact.region.neighborhood = Neighborhood::Shared;
@@ -144,7 +141,7 @@ impl<'a> Search<'a> {
 
     /// Every cheaper way to see the same: fewer bits, windows of their own, no filter, the other
     /// reference, a mean without fraction.
-    fn simpler(&self, base: &Config) -> Vec<Config> {
+    fn simpler(&self, base: &CameraConfig) -> Vec<CameraConfig> {
         let mut found = Vec::new();
         let depth = base.frame.pixel_bits;
         for bits in (FEWEST_BITS.min(depth)..=depth).rev() {
@@ -164,48 +161,48 @@ impl<'a> Search<'a> {
             let means = config.spatial.iter_mut().filter(|entry| entry.has_mean());
             means.map(|entry| entry.mean_fraction_bits = Some(0)).count().gt(&0).then_some(config)
         });
-        let coarse: Vec<Config> = coarse.collect();
+        let coarse: Vec<CameraConfig> = coarse.collect();
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Examines cameras on the first halves. Invalid designs are left out.
-    pub(super) fn look(&mut self, configs: &[Config]) -> Result<Vec<Look>, ExploreError> {
-        let designs: Vec<_> = configs.iter().filter_map(|config| config.validate().ok()).collect();
-        let new: BTreeMap<String, _> = designs
+    /// Examines cameras on the first halves. Invalid ones are left out.
+    pub(super) fn look(&mut self, configs: &[CameraConfig]) -> Result<Vec<Look>, ExploreError> {
+        let cameras: Vec<_> = configs.iter().filter_map(|config| config.validate().ok()).collect();
+        let new: BTreeMap<String, _> = cameras
             .iter()
-            .map(|design| (design.config().to_toml(), design.clone()))
+            .map(|camera| (camera.config().to_toml(), camera.clone()))
             .filter(|(text, _)| !self.seen.contains_key(text))
             .collect();
-        let designs_new: Vec<_> = new.values().cloned().collect();
+        let cameras_new: Vec<_> = new.values().cloned().collect();
         let figures =
-            self.footage.first_halves(&designs_new, &self.halves.frames, self.seen.len())?;
-        for ((text, design), (figures, objects)) in new.iter().zip(figures) {
+            self.footage.first_halves(&cameras_new, &self.halves.frames, self.seen.len())?;
+        for ((text, camera), (figures, objects)) in new.iter().zip(figures) {
             let recall = self.recall(objects, "first")?;
-            let held = self.constraints.on_figures(design, &figures, recall);
-            let look = Look { config: design.config().clone(), figures, held };
+            let held = self.constraints.on_figures(camera, &figures, recall);
+            let look = Look { config: camera.config().clone(), figures, held };
             self.seen.insert(text.clone(), look);
         }
-        let looks = designs.iter().filter_map(|design| self.get(design.config()).cloned());
+        let looks = cameras.iter().filter_map(|camera| self.get(camera.config()).cloned());
         Ok(looks.collect())
     }
 
     /// The figures of a camera on the second halves, which influenced no choice.
     pub(super) fn second_half(&self, look: &Look) -> Result<(Figures, Vec<Held>), ExploreError> {
-        let design = look.config.validate()?;
+        let camera = look.config.validate()?;
         let mut measured = Vec::new();
         for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
             let tell = || Progress::Measuring { done: 0, all: 1 };
-            let designs = std::slice::from_ref(&design);
-            let mut parts = self.footage.parts(clip, designs, &[0..half, half..all], &tell)?;
+            let cameras = std::slice::from_ref(&camera);
+            let mut parts = self.footage.parts(clip, cameras, &[0..half, half..all], &tell)?;
             measured.extend(parts.pop().and_then(|mut parts| parts.pop()));
         }
         let all: Vec<_> = measured.iter().collect();
         let figures = together(&all).map(|tally| tally.figures());
-        let figures = figures.ok_or(DesignError::Syntax("no clip".to_owned()))?;
+        let figures = figures.ok_or(ConfigError::Syntax("no clip".to_owned()))?;
         let mut objects = Objects::default();
         measured.iter().for_each(|part| objects.merge(part.objects));
         let recall = self.recall(objects, "second")?;
-        let held = self.constraints.on_figures(&design, &figures, recall);
+        let held = self.constraints.on_figures(&camera, &figures, recall);
         Ok((figures, held))
     }
 
@@ -272,7 +269,8 @@ fn exact_fraction(side: u32) -> u32 {
 
 /// Thresholds of a feature that the task does not have, those of 8 bits at another depth.
 fn ladder(feature: FeatureKind, bits: u32) -> Vec<Vec<SpatialConfig>> {
-    let scaled = |spatial| Config { spatial, ..Config::default() }.at_depth(bits).spatial;
+    let scaled =
+        |spatial| CameraConfig { spatial, ..CameraConfig::default() }.at_depth(bits).spatial;
     ladder_of_8_bits(feature).into_iter().map(scaled).collect()
 }
 

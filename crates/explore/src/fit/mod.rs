@@ -77,7 +77,7 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let input = InputOptions { numbered: !request.boxes.is_empty(), ..request.input.clone() };
     let request = &FitRequest { task: &task, input: &input, ..request.clone() };
     let (lengths, boxes, (task, target)) = {
-        let footage = Footage::new(request.inputs, request.input, request.task, hooks)?;
+        let footage = Footage::new(request.inputs, request.input, &request.task.camera, hooks)?;
         let footage = footage.with_boxes(request.boxes)?;
         let lengths = halves(&footage, hooks)?;
         let aimed = target::aim(request, &footage, &lengths)?;

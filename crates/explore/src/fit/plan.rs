@@ -24,7 +24,7 @@ pub(super) fn max_clocks(request: &FitRequest<'_>) -> Option<u64> {
 pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design> {
     let most = most_clocks(speed.low_clock_mhz * 1e6, min_fps);
     if !design.organization().folds() {
-        let mut config = design.config().clone();
+        let mut config = design.config();
         config.hardware.pixels_per_clock = Some(design.pixels_per_clock() / 2);
         let half = config.validate().ok();
         return half.filter(|half| half.timing().clocks_per_frame() <= most).into_iter().collect();

@@ -91,11 +91,11 @@ pub(super) fn fit(
 ) -> Fit {
     held.extend(request.constraints.on_speed(chosen.speed.as_ref()));
     held.extend(request.constraints.on_silicon(&chosen.silicon));
-    let config = chosen.design.config().clone();
+    let config = chosen.design.config();
     Fit {
         format_version: 2,
         frames: frames(halves),
-        task: search.task().to_toml(),
+        task: Config { camera: search.task().clone(), ..Config::default() }.to_toml(),
         target,
         clock_hz: request.clock_hz,
         considered: (search.all().count(), built.all().len(), built.left_out),
@@ -106,7 +106,7 @@ pub(super) fn fit(
         problems: halves.problems.clone(),
         design: Design {
             toml: config.to_toml(),
-            summary: why::summary(&config),
+            summary: why::summary(&chosen.design),
             clocks_per_frame: chosen.clocks_per_frame,
             speed: chosen.speed,
             silicon: chosen.silicon.clone(),

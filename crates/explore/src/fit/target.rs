@@ -5,7 +5,8 @@
 //! that goes from nearly all regions to none in small steps. Then `temporal.min_count` is set for what
 //! whole grey levels cannot say.
 
-use foveate_design::{Config, Decimal, Neighborhood};
+use foveate_camera::{CameraConfig, Decimal, Neighborhood};
+use foveate_design::Config;
 
 use super::FitRequest;
 use super::held_out::Halves;
@@ -21,9 +22,10 @@ pub(super) fn aim(
     request: &FitRequest<'_>,
     footage: &Footage<'_>,
     halves: &Halves,
-) -> Result<(Config, Option<Target>), ExploreError> {
-    let Some(wanted) = request.target_active else { return Ok((request.task.clone(), None)) };
-    let scaled = STEPS.map(|step| scaled(request.task, f64::from(step) / 4.0)).collect();
+) -> Result<(CameraConfig, Option<Target>), ExploreError> {
+    let Config { camera: own, hardware } = request.task;
+    let Some(wanted) = request.target_active else { return Ok((own.clone(), None)) };
+    let scaled = STEPS.map(|step| scaled(own, f64::from(step) / 4.0)).collect();
     let (task, _) = nearest(footage, halves, scaled, wanted)?;
     let n = task.region.size * task.region.size;
     let counts = (1..=n).filter(|count| *count <= 16 || count % (n / 16).max(1) == 0);
@@ -35,7 +37,8 @@ pub(super) fn aim(
     // The best so far is among them, so that it cannot get worse.
     let all = std::iter::once(task.clone()).chain(counted).collect();
     let (task, found) = nearest(footage, halves, all, wanted)?;
-    let target = Target { wanted, found, task: task.to_toml() };
+    let whole = Config { camera: task.clone(), hardware: hardware.clone() };
+    let target = Target { wanted, found, task: whole.to_toml() };
     Ok((task, Some(target)))
 }
 
@@ -43,19 +46,19 @@ pub(super) fn aim(
 fn nearest(
     footage: &Footage<'_>,
     halves: &Halves,
-    tasks: Vec<Config>,
+    tasks: Vec<CameraConfig>,
     wanted: f64,
-) -> Result<(Config, f64), ExploreError> {
+) -> Result<(CameraConfig, f64), ExploreError> {
     let (width, height) = footage.size;
-    let design = |task: &Config| {
+    let camera = |task: &CameraConfig| {
         let mut exact = task.clone();
         exact.region.neighborhood = Neighborhood::Shared;
         exact.for_frames(width, height)
     };
     // A scaled threshold can be out of range; that is no task.
-    let (tasks, designs): (Vec<Config>, Vec<_>) =
-        tasks.into_iter().filter_map(|task| Some((task.clone(), design(&task).ok()?))).unzip();
-    let shares = footage.first_halves(&designs, &halves.frames, 0)?;
+    let (tasks, cameras): (Vec<CameraConfig>, Vec<_>) =
+        tasks.into_iter().filter_map(|task| Some((task.clone(), camera(&task).ok()?))).unzip();
+    let shares = footage.first_halves(&cameras, &halves.frames, 0)?;
     let found = tasks.into_iter().zip(shares.iter().map(|(figures, _)| figures.active));
     let best = found
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
@@ -66,7 +69,7 @@ fn nearest(
 }
 
 /// The task with every threshold in grey levels times `2^octaves`.
-fn scaled(task: &Config, octaves: f64) -> Config {
+fn scaled(task: &CameraConfig, octaves: f64) -> CameraConfig {
     let factor = octaves.exp2();
     let level = |level: u32| rounded(f64::from(level) * factor);
     let mut config = task.clone();
@@ -133,12 +136,13 @@ mod tests {
                 most: 1,
             };
             let footage =
-                Footage::new(request.inputs, request.input, request.task, &Quiet).unwrap();
+                Footage::new(request.inputs, request.input, &request.task.camera, &Quiet).unwrap();
             let halves = Halves { frames: vec![(8, 16)], ..Halves::default() };
             let (task, target) = aim(&request, &footage, &halves).unwrap();
             let target = target.unwrap();
             assert!((target.found - wanted).abs() < 0.05, "{wanted}: {}", target.found);
-            assert_eq!(target.task, task.to_toml());
+            let whole = Config { camera: task, ..request.task.clone() };
+            assert_eq!(target.task, whole.to_toml());
             target.found
         };
         assert!(share(0.1) < share(0.25) && share(0.25) < share(0.6));
@@ -147,7 +151,7 @@ mod tests {
     #[test]
     fn scaling_is_of_grey_levels_and_of_their_squares() {
         let text = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
-        let twice = scaled(&Config::from_toml(text).unwrap(), 1.0);
+        let twice = scaled(&CameraConfig::from_toml(text).unwrap(), 1.0);
         assert_eq!((twice.temporal.level, twice.temporal.min_count), (Some(16), 5));
         assert_eq!(twice.spatial[0].level, Some(200));
         let scores: Vec<String> =

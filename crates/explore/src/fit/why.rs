@@ -3,7 +3,8 @@
 
 use std::iter;
 
-use foveate_design::{Config, Filter, Neighborhood, Organization, Reference};
+use foveate_camera::{CameraConfig, Filter, Neighborhood, Reference};
+use foveate_design::{Design, Organization};
 use foveate_estimate::{Speed, ramb36};
 
 use super::FitRequest;
@@ -12,20 +13,21 @@ use super::constraints::Held;
 use super::looks::{Look, Search};
 
 /// The design in a few words.
-pub(super) fn summary(config: &Config) -> String {
-    let features: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
+pub(super) fn summary(design: &Design) -> String {
+    let features: Vec<&str> =
+        design.features().iter().map(|feature| feature.kind().name()).collect();
     format!(
         "{hardware}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}",
         features.join(" and "),
-        config.frame.pixel_bits,
-        match config.denoise.filter {
+        design.pixel_bits(),
+        match design.filter() {
             Filter::None => "no denoising",
             Filter::Median3x3 => "median",
         },
-        config.temporal.reference,
-        hardware = config.hardware.in_words(),
-        size = config.region.size,
-        neighborhood = config.region.neighborhood,
+        design.temporal().reference,
+        hardware = design.hardware().in_words(),
+        size = design.region_size(),
+        neighborhood = design.neighborhood(),
     )
 }
 
@@ -45,17 +47,17 @@ pub(super) fn why(
     }
     lines.extend(other_features(search, built, chosen));
     let next = built.all().iter().skip(1).find(|other| other.holds() && chosen.holds());
-    let is_next = |config| next.is_some_and(|next| next.design.config() == config);
+    let is_next = |design: &Design| next.is_some_and(|next| next.design == *design);
     let others = other_organizations(built, chosen);
     lines.extend(
         others
-            .filter(|other| !is_next(other.design.config()))
-            .map(|other| format!("{}: {}", summary(other.design.config()), costs(other))),
+            .filter(|other| !is_next(&other.design))
+            .map(|other| format!("{}: {}", summary(&other.design), costs(other))),
     );
     lines.extend(slower(chosen, request));
     lines.extend(next.map(|next| {
         let (own, its) = (price(chosen), price(next));
-        format!("next cheapest: {}: {its}, instead of {own}", summary(next.design.config()))
+        format!("next cheapest: {}: {its}, instead of {own}", summary(&next.design))
     }));
     lines
 }
@@ -78,9 +80,9 @@ pub(super) fn binding(built: &Built) -> Vec<&'static str> {
 }
 
 /// One thing simpler than the chosen camera.
-fn steps(chosen: &Config) -> Vec<(String, Config)> {
+fn steps(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
     let mut found = Vec::new();
-    let mut step = |what: String, change: &dyn Fn(&mut Config)| {
+    let mut step = |what: String, change: &dyn Fn(&mut CameraConfig)| {
         let mut config = chosen.clone();
         change(&mut config);
         if config != *chosen {
@@ -119,7 +121,7 @@ fn verdict(look: &Look, built: &Built) -> String {
 
 /// The best of every other feature and region size.
 fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec<String> {
-    let of = |config: &Config| {
+    let of = |config: &CameraConfig| {
         let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
         (names.join(" and "), config.region.size)
     };

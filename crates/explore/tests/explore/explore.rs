@@ -243,7 +243,7 @@ fn a_camera_of_any_depth_sees_about_as_much() {
     for row in &found.rows {
         let share = row.figures.active;
         // With 4 bits and fewer a level is as large as the changes of the scene.
-        if row.config.frame.pixel_bits >= 5 {
+        if row.config.camera.frame.pixel_bits >= 5 {
             assert!((share / active("8") - 1.0).abs() < 0.05, "{} bits: {share}", row.settings[0]);
         }
         assert!((0.05..0.5).contains(&share), "{} bits: {share}", row.settings[0]);

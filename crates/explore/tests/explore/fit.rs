@@ -152,7 +152,7 @@ const BOXES: [[u32; 2]; 2] = [[0, 16], [24, 16]];
 /// Their recall by a design, counted in frames of the clip, the first of which does not count.
 fn counted(design: &Design, frames: std::ops::Range<usize>) -> f64 {
     let options = InputOptions { frames: Some(8), ..InputOptions::default() };
-    let mut source = open(&["scene:street"], design.config(), &options).unwrap();
+    let mut source = open(&["scene:street"], design.camera().config(), &options).unwrap();
     let mut engine = Engine::new(design);
     let (mut all, mut sent) = (0.0, 0.0);
     for number in 0..frames.end {

@@ -26,7 +26,7 @@ fn a_grid_has_every_combination_that_is_a_design() {
     assert_eq!(refused.len(), 1);
     let of = "hardware.organization = pipelined, hardware.fold = 2, region.size = 8: ";
     assert!(refused[0].starts_with(of), "{refused:?}");
-    assert!(configs.iter().all(|config| config.frame.width == Some(64)));
+    assert!(configs.iter().all(|config| config.camera.frame.width == Some(64)));
 }
 
 /// 1,200 regions of 8x8 in a frame of 320x240, where the default frame has 784.
@@ -58,11 +58,13 @@ fn thresholds_are_in_grey_levels_of_the_start() {
                 temporal.level = 9\n[vary]\nframe.pixel_bits = [8, 5, 10]\n";
     let (configs, _) = points(text);
     let of = |config: &Config| {
-        let [edge, mad, variance] = config.spatial.as_slice() else { panic!("three features") };
+        let [edge, mad, variance] = config.camera.spatial.as_slice() else {
+            panic!("three features")
+        };
         let score = |entry: &foveate_design::SpatialConfig| entry.min_score.unwrap();
         (
             edge.level.unwrap(),
-            config.temporal.level.unwrap(),
+            config.camera.temporal.level.unwrap(),
             score(edge),
             score(mad),
             score(variance),
@@ -76,7 +78,7 @@ fn thresholds_are_in_grey_levels_of_the_start() {
     // Those that vary, too; and the ideal follows its own depth.
     let text = "[design]\nframe.pixel_bits = 6\ntemporal.level = 3\n[ideal]\nframe.pixel_bits = 8\n[vary]\nframe.pixel_bits = [6, 5]\ntemporal.level = [2, 10]\n";
     let levels: Vec<u32> =
-        points(text).0.iter().map(|config| config.temporal.level.unwrap()).collect();
+        points(text).0.iter().map(|config| config.camera.temporal.level.unwrap()).collect();
     assert_eq!(levels, [2, 10, 1, 5]);
     assert_eq!(Space::from_toml(text).unwrap().ideal.temporal.level, Some(12));
 }

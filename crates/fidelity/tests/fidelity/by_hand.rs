@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Real cameras on scenes, tallies that add up, units of scores, and what is refused.
 
-use foveate_design::{Config, Decimal, Design, FeatureKind, Neighborhood, SpatialConfig};
+use foveate_camera::{Camera, CameraConfig, Decimal, FeatureKind, Neighborhood, SpatialConfig};
 use foveate_fidelity::{Fidelity, FidelityError, Tally};
 use foveate_frame::{Plane, Raster};
 use foveate_scenes::{Scene, SceneSize};
 
 use crate::made::{blank, blank_ideal, config, pixels, raster, run, tally};
 
-fn scene(scene: Scene, design: &Design, frames: u32) -> Vec<Raster> {
-    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
-    let size = SceneSize { width, height, bits, region_size: design.region_size(), frames };
+fn scene(scene: Scene, camera: &Camera, frames: u32) -> Vec<Raster> {
+    let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
+    let size = SceneSize { width, height, bits, region_size: camera.region_size(), frames };
     scene.frames(size).map(|frame| Raster::from(&frame)).collect()
 }
 
 /// All four features, windows over the whole frame, an exact mean.
-fn exact() -> Config {
+fn exact() -> CameraConfig {
     let mut config = config((90, 45), 8, 8);
     config.region.neighborhood = Neighborhood::Shared;
     config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
@@ -25,8 +25,8 @@ fn exact() -> Config {
 
 #[test]
 fn the_engine_of_the_same_design_is_the_ideal() {
-    let design = exact().validate().unwrap();
-    let figures = tally(&design, &design, &scene(Scene::Street, &design, 12)).figures();
+    let camera = exact().validate().unwrap();
+    let figures = tally(&camera, &camera, &scene(Scene::Street, &camera, 12)).figures();
     assert_eq!(figures.frames, 12);
     assert_eq!([figures.srs_flips, figures.trs_flips, figures.action_flips], [0.0; 3]);
     assert_eq!([figures.missed, figures.false_alarms, figures.active_iou], [0.0, 0.0, 1.0]);
@@ -49,7 +49,7 @@ fn a_cheaper_candidate_differs_where_it_is_cheaper() {
     candidate.region.neighborhood = Neighborhood::Isolated;
     let isolated = candidate.validate().unwrap();
     let frames = scene(Scene::NightRain, &ideal, 4);
-    let errors = |candidate: &Design| -> Vec<f64> {
+    let errors = |candidate: &Camera| -> Vec<f64> {
         tally(&ideal, candidate, &frames).figures().scores.iter().map(|score| score.max).collect()
     };
     let [edge, corner, mad, variance, temporal] = errors(&rounded)[..] else { panic!("five") };
@@ -63,7 +63,7 @@ fn tallies_add_up_in_any_order() {
     let ideal = exact().validate().unwrap();
     let candidate = config((90, 45), 5, 6).validate().unwrap();
     let clips = [Scene::Street, Scene::NightRain, Scene::Shake].map(|clip| {
-        let frames = |design| scene(clip, design, 5);
+        let frames = |camera| scene(clip, camera, 5);
         frames(&ideal).into_iter().zip(frames(&candidate)).collect::<Vec<_>>()
     });
     let mut whole = Fidelity::new(&ideal, &candidate).unwrap();
@@ -125,14 +125,14 @@ fn scores_of_fewer_bits_are_scaled_up() {
 
 #[test]
 fn what_does_not_belong_together_is_refused() {
-    let design = config((16, 8), 8, 8).validate().unwrap();
+    let camera = config((16, 8), 8, 8).validate().unwrap();
     let other = config((16, 9), 8, 8).validate().unwrap();
-    let text = Fidelity::new(&design, &other).unwrap_err().to_string();
+    let text = Fidelity::new(&camera, &other).unwrap_err().to_string();
     assert!(text.contains("16x8") && text.contains("16x9"), "{text}");
 
-    let mut fidelity = Fidelity::new(&design, &design).unwrap();
-    let (ideal, candidate) = (blank_ideal(&design), blank(&design));
-    let (input, black) = (raster(&design, vec![0; pixels(&design)]), vec![0_u8; 128]);
+    let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
+    let (ideal, candidate) = (blank_ideal(&camera), blank(&camera));
+    let (input, black) = (raster(&camera, vec![0; pixels(&camera)]), vec![0_u8; 128]);
     let mut refused = |input: &Raster, screen: Plane<'_>| {
         fidelity.add(input, &ideal, &candidate, screen).unwrap_err()
     };

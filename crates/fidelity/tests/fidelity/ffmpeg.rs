@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_fidelity::{Fidelity, FidelityError, Figures, Likeness};
 use foveate_frame::{Plane, Raster};
 use foveate_scenes::{Scene, SceneSize};
@@ -16,8 +16,8 @@ use crate::made::{blank, blank_ideal, config, greys};
 
 const FRAMES: u32 = 6;
 
-fn scene(scene: Scene, design: &Design) -> Vec<Raster> {
-    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
+fn scene(scene: Scene, camera: &Camera) -> Vec<Raster> {
+    let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
     let size = SceneSize { width, height, bits, region_size: 8, frames: FRAMES };
     scene.frames(size).map(|frame| Raster::from(&frame)).collect()
 }
@@ -35,9 +35,9 @@ fn write(path: &Path, frames: &[Raster]) {
 }
 
 /// The lines of statistics of a filter, and what ffmpeg says at the end.
-fn filtered(folder: &Path, filter: &str, design: &Design) -> (Vec<String>, String) {
-    let size = format!("{}x{}", design.width(), design.height());
-    let format = match design.pixel_bits() {
+fn filtered(folder: &Path, filter: &str, camera: &Camera) -> (Vec<String>, String) {
+    let size = format!("{}x{}", camera.width(), camera.height());
+    let format = match camera.pixel_bits() {
         8 => "gray".to_owned(),
         bits => format!("gray{bits}le"),
     };
@@ -76,9 +76,9 @@ fn assert_ssim(own: f64, theirs: &str, context: &str) {
     assert_eq!(format!("{own:.6}"), theirs, "{own}, {context}");
 }
 
-/// PSNR and SSIM without designs.
-fn likeness(design: &Design, input: &[Raster], shown: &[Raster]) -> (Option<f64>, f64) {
-    let mut likeness = Likeness::new(design.width(), design.height());
+/// PSNR and SSIM without cameras.
+fn likeness(camera: &Camera, input: &[Raster], shown: &[Raster]) -> (Option<f64>, f64) {
+    let mut likeness = Likeness::new(camera.width(), camera.height());
     for (input, shown) in input.iter().zip(shown) {
         let (Plane::Bytes(input), Plane::Bytes(shown)) = (input.plane(), shown.plane()) else {
             unreachable!("8 bits are bytes");
@@ -91,21 +91,21 @@ fn likeness(design: &Design, input: &[Raster], shown: &[Raster]) -> (Option<f64>
     (likeness.psnr(), likeness.ssim())
 }
 
-fn compare(design: &Design, input: &[Raster], ideal: &[Raster], shown: &[Raster]) {
-    let mut whole = Fidelity::new(design, design).unwrap();
+fn compare(camera: &Camera, input: &[Raster], ideal: &[Raster], shown: &[Raster]) {
+    let mut whole = Fidelity::new(camera, camera).unwrap();
     let mut single: Vec<Figures> = Vec::new();
     for ((input, ideal), shown) in input.iter().zip(ideal).zip(shown) {
-        let mut seen = blank_ideal(design);
+        let mut seen = blank_ideal(camera);
         seen.rendered = greys(&ideal.plane().to_words());
-        let mut alone = Fidelity::new(design, design).unwrap();
+        let mut alone = Fidelity::new(camera, camera).unwrap();
         for fidelity in [&mut whole, &mut alone] {
-            fidelity.add(input, &seen, &blank(design), shown.plane()).unwrap();
+            fidelity.add(input, &seen, &blank(camera), shown.plane()).unwrap();
         }
         single.push(alone.tally().figures());
     }
     let all = whole.tally().figures();
-    if design.pixel_bits() == 8 {
-        assert_eq!(likeness(design, input, shown), (all.psnr_input, all.ssim_input));
+    if camera.pixel_bits() == 8 {
+        assert_eq!(likeness(camera, input, shown), (all.psnr_input, all.ssim_input));
     }
     let folder = tempfile::tempdir().unwrap();
     write(&folder.path().join("screen"), shown);
@@ -115,14 +115,14 @@ fn compare(design: &Design, input: &[Raster], ideal: &[Raster], shown: &[Raster]
             "ideal" => (figures.psnr_ideal, figures.ssim_ideal),
             _ => (figures.psnr_input, figures.ssim_input),
         };
-        let context = format!("{}x{} {name}", design.width(), design.height());
-        let (stats, said) = filtered(folder.path(), "psnr", design);
+        let context = format!("{}x{} {name}", camera.width(), camera.height());
+        let (stats, said) = filtered(folder.path(), "psnr", camera);
         assert_eq!(stats.len(), single.len());
         for (figures, line) in single.iter().zip(&stats) {
             assert_eq!(printed(own(figures).0, 2), value(line, "psnr_y:"), "{line} {context}");
         }
         assert_eq!(printed(own(&all).0, 6), value(&said, "average:"), "{context}");
-        let (stats, said) = filtered(folder.path(), "ssim", design);
+        let (stats, said) = filtered(folder.path(), "ssim", camera);
         for (figures, line) in single.iter().zip(&stats) {
             assert_ssim(own(figures).1, &value(line, "Y:"), &format!("{line} {context}"));
         }
@@ -138,14 +138,14 @@ fn figures_are_those_of_ffmpeg() {
     for (size, bits) in
         [((96, 64), 8), ((37, 29), 8), ((8, 8), 8), ((200, 9), 8), ((70, 50), 10), ((68, 44), 12)]
     {
-        let design = config(size, 8, bits).validate().unwrap();
-        let street = scene(Scene::Street, &design);
-        let night = scene(Scene::NightRain, &design);
-        let random = scene(Scene::Random, &design);
+        let camera = config(size, 8, bits).validate().unwrap();
+        let street = scene(Scene::Street, &camera);
+        let night = scene(Scene::NightRain, &camera);
+        let random = scene(Scene::Random, &camera);
         // The first two of them equal, so that there is an identical frame.
-        let mut mixed = scene(Scene::Shake, &design);
+        let mut mixed = scene(Scene::Shake, &camera);
         mixed[0] = street[0].clone();
-        compare(&design, &night, &mixed, &street);
-        compare(&design, &street, &random, &mixed);
+        compare(&camera, &night, &mixed, &street);
+        compare(&camera, &street, &random, &mixed);
     }
 }

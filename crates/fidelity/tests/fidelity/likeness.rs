@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! PSNR and SSIM from their definitions, pixel by pixel.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_fidelity::Figures;
 
 use crate::made::greys;
@@ -26,9 +26,9 @@ fn alike(a: &[f64], b: &[f64], peak: f64) -> f64 {
     if all == 0.0 { 1.0 } else { (2.0 * ma * mb + c1) * (2.0 * covariance + c2) / all }
 }
 
-fn ssim(a: &[f64], b: &[f64], design: &Design) -> f64 {
-    let (width, height) = (design.width() as usize, design.height() as usize);
-    let peak = f64::from(design.pixel_max());
+fn ssim(a: &[f64], b: &[f64], camera: &Camera) -> f64 {
+    let (width, height) = (camera.width() as usize, camera.height() as usize);
+    let peak = f64::from(camera.pixel_max());
     if width < 8 || height < 8 {
         return alike(a, b, peak);
     }
@@ -49,7 +49,7 @@ pub(crate) fn check_pictures(
     figures: &Figures,
     frames: &[Frame],
     shown: &[Vec<u16>],
-    own: &Design,
+    own: &Camera,
 ) {
     let rendered = |frame: &Frame| frame.ideal.rendered.clone();
     let input = |frame: &Frame| greys(&frame.input);
@@ -59,7 +59,7 @@ pub(crate) fn check_pictures(
     check(figures.psnr_input, figures.ssim_input, (&input, shown), own);
 }
 
-fn check(psnr: Option<f64>, found: f64, (other, shown): (&[Vec<f64>], &[Vec<u16>]), own: &Design) {
+fn check(psnr: Option<f64>, found: f64, (other, shown): (&[Vec<f64>], &[Vec<u16>]), own: &Camera) {
     let peak = f64::from(own.pixel_max());
     let (mut squares, mut likeness) = (Vec::new(), Vec::new());
     for (other, shown) in other.iter().zip(shown) {

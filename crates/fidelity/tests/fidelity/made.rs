@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Results as cameras would give them, real or made up.
 
-use foveate_design::Action;
-use foveate_design::{Config, Design};
+use foveate_camera::Action;
+use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::{Engine, Outcome};
 use foveate_fidelity::{Fidelity, Tally};
 use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealOutcome};
 
-/// A design for frames of some size with regions of some side and pixels of some bits; otherwise the
+/// A camera for frames of some size with regions of some side and pixels of some bits; otherwise the
 /// defaults, with a minimum that fits into the smallest regions.
-pub(crate) fn config((width, height): (u32, u32), side: u32, bits: u32) -> Config {
-    let mut config = Config::default();
+pub(crate) fn config((width, height): (u32, u32), side: u32, bits: u32) -> CameraConfig {
+    let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
     (config.region.size, config.frame.pixel_bits) = (side, bits);
     config.spatial[0].level = Some(1 << (bits - 1));
-    config.spatial[0].min_score = Some(foveate_design::Decimal::whole(2));
+    config.spatial[0].min_score = Some(foveate_camera::Decimal::whole(2));
     (config.temporal.level, config.temporal.min_count) = (Some((1 << bits) / 32), 2);
     config
 }
 
 /// The same frames through the ideal camera and the engine; the ideal sees `own`, the candidate `other`.
 pub(crate) fn run(
-    ideal: &Design,
-    candidate: &Design,
+    ideal: &Camera,
+    candidate: &Camera,
     frames: &[(Raster, Raster)],
     fidelity: &mut Fidelity,
 ) {
@@ -37,7 +37,7 @@ pub(crate) fn run(
 }
 
 /// The tally of one clip that both see alike.
-pub(crate) fn tally(ideal: &Design, candidate: &Design, frames: &[Raster]) -> Tally {
+pub(crate) fn tally(ideal: &Camera, candidate: &Camera, frames: &[Raster]) -> Tally {
     let mut fidelity = Fidelity::new(ideal, candidate).unwrap();
     let frames: Vec<_> = frames.iter().map(|frame| (frame.clone(), frame.clone())).collect();
     run(ideal, candidate, &frames, &mut fidelity);
@@ -45,14 +45,14 @@ pub(crate) fn tally(ideal: &Design, candidate: &Design, frames: &[Raster]) -> Ta
 }
 
 /// Results in which nothing is relevant and everything black.
-pub(crate) fn blank_ideal(design: &Design) -> IdealOutcome {
-    let (regions, pixels) = (design.regions() as usize, pixels(design));
+pub(crate) fn blank_ideal(camera: &Camera) -> IdealOutcome {
+    let (regions, pixels) = (camera.regions() as usize, pixels(camera));
     IdealOutcome {
         srs: vec![false; regions],
         trs: vec![false; regions],
         active: vec![false; regions],
         actions: vec![Action::Blank; regions],
-        scores: vec![vec![0.0; regions]; design.features().len()],
+        scores: vec![vec![0.0; regions]; camera.features().len()],
         changed: vec![0.0; regions],
         denoised: vec![0.0; pixels],
         rendered: vec![0.0; pixels],
@@ -60,26 +60,26 @@ pub(crate) fn blank_ideal(design: &Design) -> IdealOutcome {
 }
 
 /// The same for an engine.
-pub(crate) fn blank(design: &Design) -> Outcome {
-    let regions = design.regions() as usize;
+pub(crate) fn blank(camera: &Camera) -> Outcome {
+    let regions = camera.regions() as usize;
     Outcome {
         srs: vec![false; regions],
         trs: vec![false; regions],
         active: vec![false; regions],
         actions: vec![Action::Blank; regions],
         temporal_count: vec![0; regions],
-        scores: vec![vec![0; regions]; design.features().len()],
+        scores: vec![vec![0; regions]; camera.features().len()],
         skipped: 0,
     }
 }
 
-pub(crate) fn pixels(design: &Design) -> usize {
-    design.width() as usize * design.height() as usize
+pub(crate) fn pixels(camera: &Camera) -> usize {
+    camera.width() as usize * camera.height() as usize
 }
 
 /// A frame of words in whatever type its bits need.
-pub(crate) fn raster(design: &Design, pixels: Vec<u16>) -> Raster {
-    Raster::from_words(design.width(), design.height(), design.pixel_bits(), pixels).unwrap()
+pub(crate) fn raster(camera: &Camera, pixels: Vec<u16>) -> Raster {
+    Raster::from_words(camera.width(), camera.height(), camera.pixel_bits(), pixels).unwrap()
 }
 
 pub(crate) fn greys(pixels: &[u16]) -> Vec<f64> {

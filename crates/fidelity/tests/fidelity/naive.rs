@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every figure against a count pixel by pixel, for made-up results of any two designs.
+//! Every figure against a count pixel by pixel, for made-up results of any two cameras.
 
-use foveate_design::Action;
-use foveate_design::Design;
+use foveate_camera::Action;
+use foveate_camera::Camera;
 use foveate_engine::Outcome;
 use foveate_fidelity::{Fidelity, Figures};
 use foveate_frame::{Raster, convert_depth};
@@ -32,7 +32,7 @@ fn near(random: &mut Random, base: &[u16], from: u32, to: u32) -> Vec<u16> {
         .collect()
 }
 
-fn made_up(random: &mut Random, own: &Design, other: &Design) -> Frame {
+fn made_up(random: &mut Random, own: &Camera, other: &Camera) -> Frame {
     let (bits, max) = (own.pixel_bits(), own.pixel_max());
     let input: Vec<u16> = (0..pixels(own)).map(|_| random.pixel(max)).collect();
     let actions = [Action::Forward, Action::Hold, Action::Blank];
@@ -57,9 +57,9 @@ fn made_up(random: &mut Random, own: &Design, other: &Design) -> Frame {
 }
 
 /// Number of the region of a pixel.
-fn region(design: &Design, x: u32, y: u32) -> usize {
-    let side = design.region_size();
-    (y / side * design.columns() + x / side) as usize
+fn region(camera: &Camera, x: u32, y: u32) -> usize {
+    let side = camera.region_size();
+    (y / side * camera.columns() + x / side) as usize
 }
 
 fn share(part: f64, whole: f64, empty: f64) -> f64 {
@@ -67,7 +67,7 @@ fn share(part: f64, whole: f64, empty: f64) -> f64 {
 }
 
 /// Decisions, pixel by pixel.
-fn check_decisions(figures: &Figures, frames: &[Frame], own: &Design, other: &Design) {
+fn check_decisions(figures: &Figures, frames: &[Frame], own: &Camera, other: &Camera) {
     let mut counts = [0.0; 8];
     let [all, srs, trs, action, mine, theirs, both, either] = &mut counts;
     for Frame { ideal, candidate, .. } in frames {
@@ -102,7 +102,7 @@ fn check_decisions(figures: &Figures, frames: &[Frame], own: &Design, other: &De
 }
 
 /// Staleness, pixel by pixel; `shown` are the screens at the depth of the ideal.
-fn check_staleness(figures: &Figures, frames: &[Frame], shown: &[Vec<u16>], own: &Design) {
+fn check_staleness(figures: &Figures, frames: &[Frame], shown: &[Vec<u16>], own: &Camera) {
     let (mut max, mut sum, mut seen) = (0.0_f64, 0.0, 0.0);
     let (mut relevant, mut stale, mut longest) = (0.0, 0.0, 0);
     let mut runs = vec![0_u64; own.regions() as usize];
@@ -136,7 +136,7 @@ fn check_staleness(figures: &Figures, frames: &[Frame], shown: &[Vec<u16>], own:
     assert_eq!((staleness.longest, staleness.share), (longest, share(stale, relevant, 0.0)));
 }
 
-fn check_scores(figures: &Figures, frames: &[Frame], own: &Design, other: &Design) {
+fn check_scores(figures: &Figures, frames: &[Frame], own: &Camera, other: &Camera) {
     if own.region_size() != other.region_size() {
         assert!(figures.scores.is_empty());
         return;
@@ -166,7 +166,7 @@ fn check_scores(figures: &Figures, frames: &[Frame], own: &Design, other: &Desig
     }
 }
 
-fn check(own: &Design, other: &Design, seed: u64, count: usize) {
+fn check(own: &Camera, other: &Camera, seed: u64, count: usize) {
     let mut random = Random(seed);
     let frames: Vec<Frame> = (0..count).map(|_| made_up(&mut random, own, other)).collect();
     let mut fidelity = Fidelity::new(own, other).unwrap();

@@ -2,8 +2,8 @@
 //! A candidate that is the ideal, and then one fault at a time: the figure it is for sees it, with the
 //! number that follows.
 
-use foveate_design::Action;
-use foveate_design::Design;
+use foveate_camera::Action;
+use foveate_camera::Camera;
 use foveate_engine::Outcome;
 use foveate_fidelity::{Fidelity, Figures};
 use foveate_frame::Raster;
@@ -17,16 +17,16 @@ struct Results {
     screen: Vec<u16>,
 }
 
-fn design() -> Design {
+fn camera() -> Camera {
     config((32, 16), 8, 8).validate().unwrap()
 }
 
 /// Both see a ramp; all eight regions are relevant, the first four active.
 fn alike() -> Results {
-    let design = design();
+    let camera = camera();
     let screen: Vec<u16> = (0..512).map(|at| at % 200).collect();
-    let mut ideal = blank_ideal(&design);
-    let mut candidate = blank(&design);
+    let mut ideal = blank_ideal(&camera);
+    let mut candidate = blank(&camera);
     for region in 0..8 {
         let active = region < 4;
         (ideal.srs[region], candidate.srs[region]) = (true, true);
@@ -42,15 +42,15 @@ fn alike() -> Results {
 }
 
 fn figures(fault: impl FnOnce(&mut Results)) -> Figures {
-    let design = design();
+    let camera = camera();
     let mut results = alike();
-    let input = raster(&design, results.screen.clone());
+    let input = raster(&camera, results.screen.clone());
     fault(&mut results);
     let Results { ideal, candidate, screen } = results;
-    let mut fidelity = Fidelity::new(&design, &design).unwrap();
-    let screen: Raster = raster(&design, screen);
+    let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
+    let screen: Raster = raster(&camera, screen);
     fidelity.add(&input, &ideal, &candidate, screen.plane()).unwrap();
-    assert_eq!(pixels(&design), 512);
+    assert_eq!(pixels(&camera), 512);
     fidelity.tally().figures()
 }
 

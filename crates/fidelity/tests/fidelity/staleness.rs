@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How old a screen is: exact numbers by hand.
 
-use foveate_design::{Config, Decimal, Design, Reference};
+use foveate_camera::{Camera, CameraConfig, Decimal, Reference};
 use foveate_fidelity::{Fidelity, Staleness};
 use foveate_frame::Raster;
 
 use crate::made::{blank, blank_ideal, config, pixels, raster, tally};
 
 /// Every region is relevant; a pixel has changed when it differs by more than 2.
-fn fading(reference: Reference) -> Design {
+fn fading(reference: Reference) -> Camera {
     let mut config = config((16, 8), 8, 8);
     config.spatial[0].min_score = Some(Decimal::whole(0));
     config.temporal.level = Some(2);
@@ -16,8 +16,8 @@ fn fading(reference: Reference) -> Design {
     config.validate().unwrap()
 }
 
-fn fade(design: &Design, frames: u16) -> Vec<Raster> {
-    (0..frames).map(|level| raster(design, vec![10 + level; pixels(design)])).collect()
+fn fade(camera: &Camera, frames: u16) -> Vec<Raster> {
+    (0..frames).map(|level| raster(camera, vec![10 + level; pixels(camera)])).collect()
 }
 
 /// `previous` sends the first of eight frames and never sees one level per frame: its screen stays at 10
@@ -38,26 +38,26 @@ fn a_fade_is_stale_once_it_has_left_the_level_behind() {
 
 #[test]
 fn what_was_sent_is_never_stale() {
-    let design = fading(Reference::LastSent);
-    let figures = tally(&design, &design, &fade(&design, 8)).figures();
+    let camera = fading(Reference::LastSent);
+    let figures = tally(&camera, &camera, &fade(&camera, 8)).figures();
     // 0 1 2 0 1 2 0 1
     let expected = Staleness { max: 2.0, mean: 7.0 / 8.0, longest: 0, share: 0.0 };
     assert_eq!(figures.staleness, expected);
 }
 
 /// One region, made up: relevant or not, and how many of its pixels the screen is 9 away from.
-fn watched(config: &Config, frames: &[(bool, usize)], cut: Option<usize>) -> Staleness {
-    let design = config.validate().unwrap();
-    let mut fidelity = Fidelity::new(&design, &design).unwrap();
-    let input = raster(&design, vec![0; pixels(&design)]);
+fn watched(config: &CameraConfig, frames: &[(bool, usize)], cut: Option<usize>) -> Staleness {
+    let camera = config.validate().unwrap();
+    let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
+    let input = raster(&camera, vec![0; pixels(&camera)]);
     for (number, &(srs, away)) in frames.iter().enumerate() {
         if cut == Some(number) {
             fidelity.next_clip();
         }
-        let mut ideal = blank_ideal(&design);
+        let mut ideal = blank_ideal(&camera);
         ideal.srs = vec![srs];
         ideal.denoised[..away].fill(9.0);
-        fidelity.add(&input, &ideal, &blank(&design), input.plane()).unwrap();
+        fidelity.add(&input, &ideal, &blank(&camera), input.plane()).unwrap();
     }
     fidelity.tally().figures().staleness
 }

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use foveate_design::Config;
+use foveate_camera::CameraConfig;
 use foveate_footage::FootageError;
 use foveate_footage::{InputOptions, Source, SourceFrame, open};
 use foveate_toolchain::Tool;
@@ -34,7 +34,7 @@ pub(crate) fn opened(
 ) -> Result<Box<dyn Source>, FootageError> {
     let bits = format!("frame.pixel_bits={bits}");
     let overrides = [bits.as_str(), "spatial.0.level=0"];
-    open(&[path], &Config::from_toml_with("", &overrides).unwrap(), options)
+    open(&[path], &CameraConfig::from_toml_with("", &overrides).unwrap(), options)
 }
 
 pub(crate) fn frames(

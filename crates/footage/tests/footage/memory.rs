@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use foveate_design::Config;
+use foveate_camera::CameraConfig;
 use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, Kind, Source, in_memory, open};
 use foveate_frame::Raster;
 
@@ -42,7 +42,7 @@ fn options_are_those_of_files() {
         ..plain.clone()
     };
     for (options, count) in [(plain, 6), (late, 4), (few, 2), (part, 6)] {
-        let expected = all(open(&[&path], &Config::default(), &options).unwrap());
+        let expected = all(open(&[&path], &CameraConfig::default(), &options).unwrap());
         let found = all(in_memory("array", frames(), &options).unwrap());
         assert_eq!((found.len(), found), (count, expected));
     }

@@ -6,7 +6,7 @@ mod edge;
 mod mad;
 mod variance;
 
-use foveate_design::FeatureKind;
+use foveate_camera::FeatureKind;
 
 use crate::grid::Grid;
 use crate::plane::Plane;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scores that a person can check.
 
-use foveate_design::Action;
-use foveate_design::{
-    Config, Decimal, Design, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
+use foveate_camera::Action;
+use foveate_camera::{
+    Camera, CameraConfig, Decimal, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
 };
 use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealError, IdealOutcome};
 
 /// All four features without a filter, in the order of the list of features.
-fn config(width: u32, height: u32, side: u32) -> Config {
-    let mut config = Config::default();
+fn config(width: u32, height: u32, side: u32) -> CameraConfig {
+    let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
     config.region.size = side;
     config.denoise.filter = Filter::None;
@@ -18,16 +18,16 @@ fn config(width: u32, height: u32, side: u32) -> Config {
     config
 }
 
-fn frame(design: &Design, pixel: impl Fn(u32, u32) -> u8) -> Raster {
-    let (width, height) = (design.width(), design.height());
+fn frame(camera: &Camera, pixel: impl Fn(u32, u32) -> u8) -> Raster {
+    let (width, height) = (camera.width(), camera.height());
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let pixels = pixels.map(|(x, y)| pixel(x, y)).collect();
     Raster::from_bytes(width, height, 8, pixels).unwrap()
 }
 
-fn seen(config: &Config, pixel: impl Fn(u32, u32) -> u8) -> IdealOutcome {
-    let design = config.validate().unwrap();
-    IdealCamera::new(&design).step(&frame(&design, pixel)).unwrap().clone()
+fn seen(config: &CameraConfig, pixel: impl Fn(u32, u32) -> u8) -> IdealOutcome {
+    let camera = config.validate().unwrap();
+    IdealCamera::new(&camera).step(&frame(&camera, pixel)).unwrap().clone()
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn a_step_is_an_edge_two_pixels_wide() {
     assert_eq!(scores, [16.0, 0.0, 15.0, 225.0]);
 }
 
-/// Whatever the neighborhood and the fraction bits of the design say.
+/// Whatever the neighborhood and the fraction bits of the camera say.
 #[test]
 fn hardware_does_not_matter() {
     let mut isolated = config(24, 16, 8);
@@ -116,11 +116,11 @@ fn a_fade_is_sent_once_it_has_gone_far_enough() {
     config.spatial[0].min_score = Some(Decimal::whole(0));
     config.temporal.reference = Reference::LastSent;
     config.temporal.level = Some(2);
-    let design = config.validate().unwrap();
-    let mut camera = IdealCamera::new(&design);
+    let camera = config.validate().unwrap();
+    let mut ideal = IdealCamera::new(&camera);
     let mut sent = Vec::new();
     for level in 0..7 {
-        let outcome = camera.step(&frame(&design, |_, _| 10 + level)).unwrap();
+        let outcome = ideal.step(&frame(&camera, |_, _| 10 + level)).unwrap();
         sent.push(outcome.actions[0] == Action::Forward);
         assert!((outcome.rendered[0] - f64::from(10 + level)).abs() <= 2.0);
     }
@@ -129,12 +129,12 @@ fn a_fade_is_sent_once_it_has_gone_far_enough() {
 
 #[test]
 fn other_frames_are_refused_and_change_nothing() {
-    let design = config(8, 8, 8).validate().unwrap();
-    let mut camera = IdealCamera::new(&design);
-    let before = camera.step(&frame(&design, |_, _| 9)).unwrap().clone();
+    let camera = config(8, 8, 8).validate().unwrap();
+    let mut ideal = IdealCamera::new(&camera);
+    let before = ideal.step(&frame(&camera, |_, _| 9)).unwrap().clone();
     let other = Raster::from_bytes(8, 7, 8, vec![0; 56]).unwrap();
-    let error = camera.step(&other).unwrap_err();
+    let error = ideal.step(&other).unwrap_err();
     let [given, expected] = ["8x7 pixels of 8 bits", "8x8 pixels of 8 bits"].map(str::to_owned);
     assert_eq!(error, IdealError::FrameKind { given, expected });
-    assert_eq!(camera.outcome(), &before);
+    assert_eq!(ideal.outcome(), &before);
 }

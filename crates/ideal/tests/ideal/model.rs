@@ -3,18 +3,18 @@
 #![allow(clippy::cast_precision_loss, reason = "scores are below 2^53, or compared within 1e-12")]
 
 use crate::recipe;
-use crate::recipe::{Script, designs, film};
-use foveate_design::{Design, FeatureKind};
+use crate::recipe::{Script, cameras, film};
+use foveate_camera::{Camera, FeatureKind};
 use foveate_frame::Frame;
 use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_model::{Camera, Outcome};
+use foveate_model::{FunctionalCamera, Outcome};
 use proptest::prelude::*;
 
 /// A score of the model in the unit of the ideal camera.
-fn natural(design: &Design, feature: usize, score: u64) -> f64 {
-    let n = f64::from(design.region_pixels());
-    let feature = &design.features()[feature];
+fn natural(camera: &Camera, feature: usize, score: u64) -> f64 {
+    let n = f64::from(camera.region_pixels());
+    let feature = &camera.features()[feature];
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner => score as f64,
         FeatureKind::Mad => {
@@ -25,34 +25,34 @@ fn natural(design: &Design, feature: usize, score: u64) -> f64 {
     }
 }
 
-fn crop(design: &Design, padded: &Frame) -> Vec<f64> {
-    let positions = (0..design.height()).flat_map(|y| (0..design.width()).map(move |x| (x, y)));
+fn crop(camera: &Camera, padded: &Frame) -> Vec<f64> {
+    let positions = (0..camera.height()).flat_map(|y| (0..camera.width()).map(move |x| (x, y)));
     positions.map(|(x, y)| f64::from(padded.get(x, y))).collect()
 }
 
-fn assert_decisions(ideal: &IdealOutcome, model: &Outcome, design: &Design, context: &str) {
+fn assert_decisions(ideal: &IdealOutcome, model: &Outcome, camera: &Camera, context: &str) {
     assert_eq!(ideal.srs, model.srs, "srs, {context}");
     assert_eq!(ideal.trs, model.trs, "trs, {context}");
     assert_eq!(ideal.active, model.active, "active, {context}");
     assert_eq!(ideal.actions, model.actions, "actions, {context}");
     let changed: Vec<f64> = model.temporal_count.iter().map(|&count| count.into()).collect();
     assert_eq!(ideal.changed, changed, "changed, {context}");
-    assert_eq!(ideal.denoised, crop(design, &model.denoised), "denoised, {context}");
-    assert_eq!(ideal.rendered, crop(design, &model.rendered), "rendered, {context}");
+    assert_eq!(ideal.denoised, crop(camera, &model.denoised), "denoised, {context}");
+    assert_eq!(ideal.rendered, crop(camera, &model.rendered), "rendered, {context}");
 }
 
-fn check_exact(design: &Design, frames: &[Frame]) {
-    let mut ideal = IdealCamera::new(design);
-    let mut model = Camera::new(design);
+fn check_exact(camera: &Camera, frames: &[Frame]) {
+    let mut ideal = IdealCamera::new(camera);
+    let mut model = FunctionalCamera::new(camera);
     for round in 0..2 {
         for (number, frame) in frames.iter().enumerate() {
-            let context = format!("round {round}, frame {number}, {:?}", design.config());
+            let context = format!("round {round}, frame {number}, {:?}", camera.config());
             let model = model.step(frame).unwrap();
             let ideal = ideal.step(&Raster::from(frame)).unwrap();
-            assert_decisions(ideal, model, design, &context);
+            assert_decisions(ideal, model, camera, &context);
             for (feature, (own, other)) in ideal.scores.iter().zip(&model.scores).enumerate() {
                 for (&own, &score) in own.iter().zip(other) {
-                    let expected = natural(design, feature, score);
+                    let expected = natural(camera, feature, score);
                     // Above 2^53 the yardstick itself has to round.
                     let near = score >= 1 << 53 && (own - expected).abs() <= expected * 1e-12;
                     assert!(own == expected || near, "{own} for {expected}, {context}");
@@ -72,9 +72,9 @@ proptest! {
     /// Without `mad` any side does.
     #[test]
     fn it_equals_the_model_where_nothing_is_rounded(
-        (design, seed, script) in designs(false).prop_flat_map(with_script),
+        (camera, seed, script) in cameras(false).prop_flat_map(with_script),
     ) {
-        check_exact(&design, &film(&design, seed, &script));
+        check_exact(&camera, &film(&camera, seed, &script));
     }
 
     /// The model's mean is `floor(v + h)` quanta of 2^-f for the real mean v, a multiple of 1/n, and
@@ -82,20 +82,20 @@ proptest! {
     /// and with that their mean by at most e.
     #[test]
     fn mad_is_off_by_no_more_than_its_mean(
-        (design, seed, script) in designs(true).prop_flat_map(with_script),
+        (camera, seed, script) in cameras(true).prop_flat_map(with_script),
     ) {
-        let mut ideal = IdealCamera::new(&design);
-        let mut model = Camera::new(&design);
-        for frame in film(&design, seed, &script) {
+        let mut ideal = IdealCamera::new(&camera);
+        let mut model = FunctionalCamera::new(&camera);
+        for frame in film(&camera, seed, &script) {
             let model = model.step(&frame).unwrap();
             let ideal = ideal.step(&Raster::from(&frame)).unwrap();
-            for (feature, kind) in design.features().iter().enumerate() {
+            for (feature, kind) in camera.features().iter().enumerate() {
                 let Some(mean) = kind.mean() else { continue };
-                let n = design.region_pixels();
+                let n = camera.region_pixels();
                 let quantum = 1.0 / f64::from(1_u32 << mean.fraction_bits);
                 let bound = f64::from(n / 2) / f64::from(n) * quantum;
                 for (&own, &score) in ideal.scores[feature].iter().zip(&model.scores[feature]) {
-                    let other = natural(&design, feature, score);
+                    let other = natural(&camera, feature, score);
                     prop_assert!((own - other).abs() <= bound * (1.0 + 1e-9), "{own} {other}");
                 }
             }
@@ -103,6 +103,6 @@ proptest! {
     }
 }
 
-fn with_script(design: Design) -> impl Strategy<Value = (Design, u64, Script)> {
-    (Just(design), any::<u64>(), recipe::scripts())
+fn with_script(camera: Camera) -> impl Strategy<Value = (Camera, u64, Script)> {
+    (Just(camera), any::<u64>(), recipe::scripts())
 }

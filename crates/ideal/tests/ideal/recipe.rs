@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random designs and films.
+//! Random cameras and films.
 
-use foveate_design::{
-    Combine, Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
+use foveate_camera::{
+    Camera, CameraConfig, Combine, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
     Reference, SpatialConfig,
 };
 use foveate_frame::Frame;
@@ -37,7 +37,7 @@ pub(crate) fn scripts() -> impl Strategy<Value = Script> {
 
 /// Designs with shared windows. Rounded ones have `mad` with any fraction bits and odd sides too; of the
 /// others, those with `mad` have sides that are powers of two and a mean that is exact.
-pub(crate) fn designs(rounded: bool) -> impl Strategy<Value = Design> {
+pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
     let sides =
         if rounded { vec![2, 3, 4, 5, 7, 8, 9] } else { vec![2, 3, 4, 6, 7, 8, 16, 32, 64] };
     let bits = prop_oneof![4 => Just(8_u32), 2 => 1_u32..=7, 2 => 9_u32..=16];
@@ -58,7 +58,7 @@ pub(crate) fn designs(rounded: bool) -> impl Strategy<Value = Design> {
         let on = proptest::array::uniform5(any::<bool>());
         (size, features, small(max - 1), small(n), on).prop_map(
             move |(size, features, level, min_count, on)| {
-                let mut config = Config::default();
+                let mut config = CameraConfig::default();
                 (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
                 (config.frame.pixel_bits, config.region.size) = (bits, side);
                 config.region.neighborhood = Neighborhood::Shared;
@@ -106,19 +106,19 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrat
 }
 
 /// The frames of a script; the first is noise.
-pub(crate) fn film(design: &Design, seed: u64, script: &[Change]) -> Vec<Frame> {
+pub(crate) fn film(camera: &Camera, seed: u64, script: &[Change]) -> Vec<Frame> {
     let mut state = seed | 1;
-    let max = u16::try_from(design.pixel_max()).unwrap();
+    let max = u16::try_from(camera.pixel_max()).unwrap();
     let mut below = move |max: u16| {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
         u16::try_from((state >> 20) % (u64::from(max) + 1)).unwrap()
     };
-    let (width, height) = (design.width(), design.height());
+    let (width, height) = (camera.width(), camera.height());
     let mut pixels: Vec<u16> = (0..width * height).map(|_| below(max)).collect();
     let frame =
-        |pixels: &[u16]| Frame::new(width, height, design.pixel_bits(), pixels.to_vec()).unwrap();
+        |pixels: &[u16]| Frame::new(width, height, camera.pixel_bits(), pixels.to_vec()).unwrap();
     let mut frames = vec![frame(&pixels)];
     for &change in script {
         match change {

@@ -49,7 +49,7 @@ impl Run<'_> {
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
         let mut config = Config::default();
-        (config.frame.width, config.frame.height) = (Some(64), Some(48));
+        (config.camera.frame.width, config.camera.frame.height) = (Some(64), Some(48));
         let input = InputOptions { frames: Some(self.frames), ..InputOptions::default() };
         let inputs: Vec<PathBuf> = self.inputs.iter().map(PathBuf::from).collect();
         let options = Options {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `corner`: FAST 5/8, pixels with five contiguous neighbors all brighter or all darker.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::window::{CENTER, RegionView, Window};
 use foveate_frame::Frame;
@@ -33,10 +33,10 @@ pub fn strength(window: &Window) -> Option<u32> {
 /// The strength of every pixel of a region of a denoised padded frame, row by row.
 ///
 /// # Panics
-/// When the frame is not as large as the design's padded frame, or has no such region.
+/// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
-pub fn corner_strengths(design: &Design, denoised: &Frame, region: u32) -> Vec<Option<u32>> {
-    RegionView::new(design, denoised, region).windows().map(|window| strength(&window)).collect()
+pub fn corner_strengths(camera: &Camera, denoised: &Frame, region: u32) -> Vec<Option<u32>> {
+    RegionView::new(camera, denoised, region).windows().map(|window| strength(&window)).collect()
 }
 
 #[cfg(test)]

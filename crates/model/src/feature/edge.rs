@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `edge`: pixels whose 3x3 Sobel magnitude `|Gx| + |Gy|` is above a level.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use crate::window::{RegionView, Window};
 use foveate_frame::Frame;
@@ -26,10 +26,10 @@ pub fn magnitude(window: &Window) -> u32 {
 /// hit when its magnitude is above the level.
 ///
 /// # Panics
-/// When the frame is not as large as the design's padded frame, or has no such region.
+/// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
-pub fn edge_magnitudes(design: &Design, denoised: &Frame, region: u32) -> Vec<u32> {
-    RegionView::new(design, denoised, region).windows().map(|window| magnitude(&window)).collect()
+pub fn edge_magnitudes(camera: &Camera, denoised: &Frame, region: u32) -> Vec<u32> {
+    RegionView::new(camera, denoised, region).windows().map(|window| magnitude(&window)).collect()
 }
 
 #[cfg(test)]

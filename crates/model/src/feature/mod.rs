@@ -6,7 +6,7 @@ pub mod edge;
 pub mod mad;
 pub mod variance;
 
-use foveate_design::{Design, FeatureKind, SpatialFeature};
+use foveate_camera::{Camera, FeatureKind, SpatialFeature};
 
 use crate::window::{RegionView, Window};
 use foveate_frame::Frame;
@@ -39,13 +39,13 @@ pub fn score<P: Iterator<Item = u16>>(
 
 /// The score of one region of a denoised padded frame.
 pub(crate) fn of_region(
-    design: &Design,
+    camera: &Camera,
     feature: &SpatialFeature,
     denoised: &Frame,
     region: u32,
 ) -> u64 {
-    let view = RegionView::new(design, denoised, region);
-    let n = u64::from(design.region_pixels());
+    let view = RegionView::new(camera, denoised, region);
+    let n = u64::from(camera.region_pixels());
     // A feature without a level does not ask for one.
     score(feature, feature.level().unwrap_or(0), n, || view.pixels(), view.windows())
 }
@@ -54,16 +54,16 @@ pub(crate) fn of_region(
 /// no hits.
 ///
 /// # Panics
-/// When the frame is not as large as the design's padded frame, or has no such region.
+/// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn hits(
-    design: &Design,
+    camera: &Camera,
     feature: &SpatialFeature,
     denoised: &Frame,
     region: u32,
 ) -> Option<Vec<bool>> {
     let level = feature.level()?;
-    let windows = RegionView::new(design, denoised, region).windows();
+    let windows = RegionView::new(camera, denoised, region).windows();
     Some(windows.map(|window| is_hit(feature.kind(), &window, level)).collect())
 }
 

@@ -2,7 +2,7 @@
 //! The functional model equals the oracle, for every kind of design.
 
 use foveate_frame::Frame;
-use foveate_model::{Camera, Outcome};
+use foveate_model::{FunctionalCamera, Outcome};
 use proptest::prelude::*;
 
 use crate::frames::{film, scripts};
@@ -33,7 +33,7 @@ pub(crate) fn assert_same(recipe: &Recipe, outcome: &Outcome, seen: &Seen) {
 
 pub(crate) fn check(recipe: &Recipe, frames: &[Frame]) {
     let history = watch(recipe, frames);
-    let mut camera = Camera::new(&recipe.design());
+    let mut camera = FunctionalCamera::new(&recipe.design());
     for (frame, seen) in frames.iter().zip(&history) {
         assert_same(recipe, camera.step(frame).unwrap(), seen);
     }

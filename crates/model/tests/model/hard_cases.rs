@@ -5,8 +5,8 @@ use foveate_design::{Config, Design};
 use foveate_frame::Frame;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
-    Camera, ModelError, PipelinedRcm, denoise::denoise, pad, region_border, region_stream,
-    temporal_differences,
+    FunctionalCamera, ModelError, PipelinedRcm, denoise::denoise, pad, region_border,
+    region_stream, temporal_differences,
 };
 
 use crate::recipe::{FeatureRecipe, Recipe};
@@ -23,7 +23,7 @@ fn score(toml: &str, frame: &Frame) -> u64 {
         frame.height(),
         frame.bits()
     );
-    Camera::new(&design(&format!("{size}{toml}"))).step(frame).unwrap().scores[0][0]
+    FunctionalCamera::new(&design(&format!("{size}{toml}"))).step(frame).unwrap().scores[0][0]
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn streams_and_borders_of_a_ragged_shared_frame() {
 
 #[test]
 fn a_frame_of_another_kind_is_refused_and_changes_nothing() {
-    let mut camera = Camera::new(&design("[frame]\nwidth = 8\nheight = 8"));
+    let mut camera = FunctionalCamera::new(&design("[frame]\nwidth = 8\nheight = 8"));
     let error = camera.step(&Frame::filled(8, 9, 8, 0).unwrap()).unwrap_err();
     assert!(matches!(error, ModelError::FrameKind { .. }));
     assert_eq!(

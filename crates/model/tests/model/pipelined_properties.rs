@@ -5,7 +5,7 @@
 use foveate_design::PipelinedTiming;
 use foveate_frame::Frame;
 use foveate_model::{
-    Camera, PipelinedRcm, RcmInput, RpuOutput, Thresholds, region_pixels, region_stream,
+    FunctionalCamera, PipelinedRcm, RcmInput, RpuOutput, Thresholds, region_pixels, region_stream,
 };
 use proptest::prelude::*;
 
@@ -150,7 +150,7 @@ fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>
         let ports = || shown.iter().map(|outputs| outputs[at]);
         let mut decisions = ports().filter(|output| output.decision_valid);
         let mut leaving = Vec::new();
-        let mut camera = Camera::new(&design);
+        let mut camera = FunctionalCamera::new(&design);
         let decided = film.len().saturating_sub(timing.decision_frames as usize);
         let left = film.len().saturating_sub(timing.forward_frames as usize);
         for (index, frame) in film.iter().take(decided).enumerate() {
@@ -188,7 +188,7 @@ fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOu
     // The last pixel of an active region leaves when `Departure` says so.
     let design = recipe.design();
     let departure = design.timing().departure();
-    let mut camera = Camera::new(&design);
+    let mut camera = FunctionalCamera::new(&design);
     let last = film.len().saturating_sub(departure.forward_frames as usize);
     for (index, frame) in film.iter().enumerate().take(last) {
         let later = index + departure.forward_frames as usize;

@@ -3,7 +3,7 @@
 
 use foveate_design::{Config, Design};
 use foveate_frame::Frame;
-use foveate_model::{Camera, Outcome, PipelinedRpu, RpuInput, Thresholds};
+use foveate_model::{FunctionalCamera, Outcome, PipelinedRpu, RpuInput, Thresholds};
 
 use crate::frames::Random;
 
@@ -29,7 +29,7 @@ fn every_region_of_the_first_frame_is_new() {
     for reference in ["previous", "last-sent"] {
         let toml =
             format!("[temporal]\nlevel = 254\nmin_count = 64\nreference = \"{reference}\"\n");
-        let mut camera = Camera::new(&design(&toml));
+        let mut camera = FunctionalCamera::new(&design(&toml));
         let outcome = camera.step(&scene(0, 0, || 0)).unwrap();
         assert!(outcome.trs.iter().all(|&trs| trs));
         assert!(outcome.temporal_count.iter().all(|&count| count == 64));
@@ -44,7 +44,7 @@ fn previous_never_sees_a_slow_fade_and_last_sent_does() {
     let fade = |reference: &str| {
         let toml =
             format!("[temporal]\nreference = \"{reference}\"\n[render]\nirrelevant = \"hold\"\n");
-        let mut camera = Camera::new(&design(&toml));
+        let mut camera = FunctionalCamera::new(&design(&toml));
         let mut worst = 0;
         for step in 0..80 {
             let outcome = camera.step(&scene(0, step, || 0)).unwrap();
@@ -104,7 +104,7 @@ fn last_sent_never_drifts() {
             let mut drifted = 0;
             for (name, frames) in &cases {
                 let design = rendering("last-sent");
-                let mut camera = Camera::new(&design);
+                let mut camera = FunctionalCamera::new(&design);
                 let mut all_held = 0;
                 for (index, frame) in frames.iter().enumerate() {
                     let (stale, held) = stale_regions(&design, camera.step(frame).unwrap());
@@ -114,7 +114,7 @@ fn last_sent_never_drifts() {
                 assert!(all_held > 0 || *name == "shake", "{name}: nothing was ever held");
                 // The same scenes do make the other reference drift.
                 let design = rendering("previous");
-                let mut camera = Camera::new(&design);
+                let mut camera = FunctionalCamera::new(&design);
                 for frame in frames {
                     drifted += stale_regions(&design, camera.step(frame).unwrap()).0;
                 }
@@ -146,7 +146,7 @@ fn a_static_region_that_was_blanked_once() {
         Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| 90 + 160 * u16::from(x % 8 == 4 && y % 8 == 4));
     let (bright, flat) = (bright.unwrap(), Frame::filled(WIDTH, HEIGHT, 8, 90).unwrap());
     let films = |reference: &str, irrelevant: &str| {
-        let mut camera = Camera::new(&design(&format!(
+        let mut camera = FunctionalCamera::new(&design(&format!(
             "[denoise]\nfilter = \"none\"\n[temporal]\nreference = \"{reference}\"\n\
              [render]\nirrelevant = \"{irrelevant}\"\n"
         )));
@@ -183,7 +183,7 @@ fn ten_thousand_identical_frames_then_a_change() {
              [temporal]\nlevel = 8\nmin_count = 4\nreference = \"{reference}\"\n"
         ));
         let design = design.unwrap().validate().unwrap();
-        let mut camera = Camera::new(&design);
+        let mut camera = FunctionalCamera::new(&design);
         let mut rpu = PipelinedRpu::new(&design);
         let thresholds = Thresholds::of(&design);
         let mut decisions = Vec::new();

@@ -3,7 +3,7 @@
 
 use foveate_design::Config;
 use foveate_frame::Frame;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 
 use crate::frames::Random;
 
@@ -14,7 +14,7 @@ fn scores(side: u32, bits: u32, fraction_bits: u32, pixels: &[u16]) -> (f64, f64
          [[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = {fraction_bits}\nmin_score = 0\n\
          [[spatial]]\nfeature = \"variance\"\nmin_score = 0\n"
     ));
-    let mut camera = Camera::new(&design.unwrap().validate().unwrap());
+    let mut camera = FunctionalCamera::new(&design.unwrap().validate().unwrap());
     let outcome = camera.step(&Frame::new(side, side, bits, pixels.to_vec()).unwrap()).unwrap();
     let n = f64::from(side * side);
     let mad = outcome.scores[0][0] as f64 / n / f64::from(1 << fraction_bits);

@@ -2,7 +2,8 @@
 //! Takes an explanation from the outcome of a frame, and the hits of single pixels from the model's
 //! arithmetic.
 
-use foveate_design::{Design, Irrelevant, SpatialFeature};
+use foveate_camera::{Camera, Irrelevant, SpatialFeature};
+use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::feature::{hits, mad};
 use foveate_model::{Outcome, region_pixels};
@@ -22,34 +23,34 @@ pub(super) fn explanation(
     reference: Option<Vec<u16>>,
     outcome: &Outcome,
 ) -> Explanation {
-    let at = region as usize;
-    let scores = design.features().iter().zip(&outcome.scores);
+    let (camera, at) = (design.camera(), region as usize);
+    let scores = camera.features().iter().zip(&outcome.scores);
     Explanation {
         format_version: FORMAT_VERSION,
         design_fingerprint: design.fingerprint(),
         frame,
         name: source.name.clone(),
         t_us: source.time_us,
-        region: Place::of(design, region),
-        pixel_bits: design.pixel_bits(),
-        raw: rows(design, &pixels(design, &outcome.padded, region)),
-        denoised: rows(design, &pixels(design, &outcome.denoised, region)),
-        filter: design.filter(),
+        region: Place::of(camera, region),
+        pixel_bits: camera.pixel_bits(),
+        raw: rows(camera, &pixels(camera, &outcome.padded, region)),
+        denoised: rows(camera, &pixels(camera, &outcome.denoised, region)),
+        filter: camera.filter(),
         spatial: scores
-            .map(|(feature, scores)| Spatial::of(design, feature, outcome, region, scores[at]))
+            .map(|(feature, scores)| Spatial::of(camera, feature, outcome, region, scores[at]))
             .collect(),
-        combine: design.combine().name(),
+        combine: camera.combine().name(),
         srs: outcome.srs[at],
-        temporal: Change::of(design, reference, outcome, region),
+        temporal: Change::of(camera, reference, outcome, region),
         trs: outcome.trs[at],
         action: outcome.actions[at].name(),
-        rule: rule(design, outcome.srs[at], outcome.trs[at]),
+        rule: rule(camera, outcome.srs[at], outcome.trs[at]),
     }
 }
 
 impl Place {
-    fn of(design: &Design, region: u32) -> Self {
-        let (size, columns) = (design.region_size(), design.columns());
+    fn of(camera: &Camera, region: u32) -> Self {
+        let (size, columns) = (camera.region_size(), camera.columns());
         let (x, y) = (region % columns, region / columns);
         Self {
             x,
@@ -58,32 +59,32 @@ impl Place {
             y0: y * size,
             size,
             columns,
-            rows: design.rows(),
-            padding_right: ((x + 1) * size).saturating_sub(design.width()),
-            padding_below: ((y + 1) * size).saturating_sub(design.height()),
+            rows: camera.rows(),
+            padding_right: ((x + 1) * size).saturating_sub(camera.width()),
+            padding_below: ((y + 1) * size).saturating_sub(camera.height()),
         }
     }
 }
 
 impl Spatial {
     fn of(
-        design: &Design,
+        camera: &Camera,
         feature: &SpatialFeature,
         outcome: &Outcome,
         region: u32,
         score: u64,
     ) -> Self {
-        let n = u64::from(design.region_pixels());
+        let n = u64::from(camera.region_pixels());
         let denoised = &outcome.denoised;
-        let hits = hits(design, feature, denoised, region);
+        let hits = hits(camera, feature, denoised, region);
         let mean = feature.mean().map(|mean| {
-            let sum = pixels(design, denoised, region).into_iter().map(u64::from).sum();
+            let sum = pixels(camera, denoised, region).into_iter().map(u64::from).sum();
             mad::mean(sum, n, mean.fraction_bits)
         });
         Self {
             feature: feature.kind(),
             level: feature.level(),
-            hits: hits.map(|hits| rows(design, &hits)),
+            hits: hits.map(|hits| rows(camera, &hits)),
             mean,
             score,
             min_score: feature.min_score(),
@@ -94,9 +95,9 @@ impl Spatial {
 }
 
 impl Change {
-    fn of(design: &Design, reference: Option<Vec<u16>>, outcome: &Outcome, region: u32) -> Self {
-        let temporal = design.temporal();
-        let now = pixels(design, &outcome.denoised, region);
+    fn of(camera: &Camera, reference: Option<Vec<u16>>, outcome: &Outcome, region: u32) -> Self {
+        let temporal = camera.temporal();
+        let now = pixels(camera, &outcome.denoised, region);
         let hits = match &reference {
             Some(then) => {
                 let pairs = now.iter().zip(then);
@@ -106,33 +107,33 @@ impl Change {
         };
         Self {
             against: temporal.reference.name(),
-            reference: reference.map(|pixels| rows(design, &pixels)),
+            reference: reference.map(|pixels| rows(camera, &pixels)),
             level: temporal.level,
-            hits: rows(design, &hits),
+            hits: rows(camera, &hits),
             count: outcome.temporal_count[region as usize],
             min_count: temporal.min_count,
         }
     }
 }
 
-fn pixels(design: &Design, padded: &Frame, region: u32) -> Vec<u16> {
+fn pixels(camera: &Camera, padded: &Frame, region: u32) -> Vec<u16> {
     let mut pixels = Vec::new();
-    region_pixels(design, padded, region, &mut pixels);
+    region_pixels(camera, padded, region, &mut pixels);
     pixels
 }
 
-fn rows<T: Copy>(design: &Design, items: &[T]) -> Rows<T> {
-    items.chunks(design.region_size() as usize).map(<[T]>::to_vec).collect()
+fn rows<T: Copy>(camera: &Camera, items: &[T]) -> Rows<T> {
+    items.chunks(camera.region_size() as usize).map(<[T]>::to_vec).collect()
 }
 
 /// The row of the decision table in words.
-fn rule(design: &Design, srs: bool, trs: bool) -> String {
-    let payload = design.payload().name();
+fn rule(camera: &Camera, srs: bool, trs: bool) -> String {
+    let payload = camera.payload().name();
     match (trs, srs) {
         (true, true) => format!("TRS 1, SRS 1: active, its {payload} pixels are sent and shown"),
         (false, true) => "TRS 0, SRS 1: inactive, the previous rendered pixels stay".to_owned(),
         (_, false) => {
-            let then = match design.irrelevant() {
+            let then = match camera.irrelevant() {
                 Irrelevant::Zero => "the region is rendered black (irrelevant = \"zero\")",
                 Irrelevant::Hold => "the previous rendered pixels stay (irrelevant = \"hold\")",
             };

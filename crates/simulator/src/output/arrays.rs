@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The NumPy arrays of a run: bits, counts and scores by frame, row and column, each in the smallest type
-//! that holds its range, which the design knows.
+//! that holds its range, which the camera knows.
 
 use std::path::Path;
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
@@ -20,12 +20,12 @@ pub(super) struct Arrays {
 }
 
 impl Arrays {
-    pub(super) fn create(folder: &Path, design: &Design) -> Result<Self, SimulatorError> {
-        let shape = [design.rows() as usize, design.columns() as usize];
+    pub(super) fn create(folder: &Path, camera: &Camera) -> Result<Self, SimulatorError> {
+        let shape = [camera.rows() as usize, camera.columns() as usize];
         let array = |name: &str, max: u64| {
             NpyWriter::create(&folder.join(name), Element::up_to(max), &shape)
         };
-        let scores = design
+        let scores = camera
             .features()
             .iter()
             .map(|feature| array(&format!("score_{}.npy", feature.kind()), feature.score_max()));
@@ -33,7 +33,7 @@ impl Arrays {
             srs: array("srs.npy", 1)?,
             trs: array("trs.npy", 1)?,
             active: array("active.npy", 1)?,
-            temporal_count: array("t_count.npy", design.region_pixels().into())?,
+            temporal_count: array("t_count.npy", camera.region_pixels().into())?,
             scores: scores.collect::<Result<_, _>>()?,
         })
     }

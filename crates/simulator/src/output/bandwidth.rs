@@ -10,7 +10,7 @@
 //! Bits are summed over the run and rounded up to bytes once. All that a receiver needs is counted:
 //! the two bits say what becomes of every region, so no addresses are sent.
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use serde::Serialize;
 
 /// Bytes of one event of a pixel.
@@ -58,12 +58,12 @@ pub(super) struct Sums {
 }
 
 impl Bandwidth {
-    pub(super) fn of(design: &Design, sums: &Sums) -> Self {
+    pub(super) fn of(camera: &Camera, sums: &Sums) -> Self {
         let duration_us = duration(sums);
-        let pixels = u64::from(design.width()) * u64::from(design.height());
-        let depth = u64::from(design.pixel_bits());
+        let pixels = u64::from(camera.width()) * u64::from(camera.height());
+        let depth = u64::from(camera.pixel_bits());
         let raw = (sums.frames * pixels * depth).div_ceil(8);
-        let region = region_bits(design, sums.frames, sums.pixels_forwarded).div_ceil(8);
+        let region = region_bits(camera, sums.frames, sums.pixels_forwarded).div_ceil(8);
         Self {
             raw: Traffic::of(None, raw, duration_us),
             region: Traffic::of(Some(sums.active), region, duration_us),
@@ -77,19 +77,19 @@ impl Bandwidth {
 
 /// Bits that the region camera sends for frames of which so many pixels are forwarded.
 #[must_use]
-pub fn region_bits(design: &Design, frames: u64, pixels_forwarded: u64) -> u64 {
-    let map = 2 * u64::from(design.regions()) * frames;
-    map + pixels_forwarded * u64::from(design.pixel_bits())
+pub fn region_bits(camera: &Camera, frames: u64, pixels_forwarded: u64) -> u64 {
+    let map = 2 * u64::from(camera.regions()) * frames;
+    map + pixels_forwarded * u64::from(camera.pixel_bits())
 }
 
 /// Pixels of the active regions of a frame, without padding.
 #[must_use]
-pub fn pixels_forwarded(design: &Design, active: &[bool]) -> u64 {
-    let side = design.region_size();
+pub fn pixels_forwarded(camera: &Camera, active: &[bool]) -> u64 {
+    let side = camera.region_size();
     let inside = |position: u32, size: u32| u64::from(side.min(size - position * side));
     let pixels = |region: u32| {
-        inside(region % design.columns(), design.width())
-            * inside(region / design.columns(), design.height())
+        inside(region % camera.columns(), camera.width())
+            * inside(region / camera.columns(), camera.height())
     };
     (0..).zip(active).filter(|(_, active)| **active).map(|(region, _)| pixels(region)).sum()
 }

@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_engine::Outcome;
 use foveate_tables::{Column, Kind, Value};
 
@@ -44,8 +44,8 @@ impl Field {
     }
 
     fn of(self, moment: &Moment<'_>, region: usize) -> Value<'static> {
-        let Moment { design, number, time_us, outcome } = *moment;
-        let (columns, side) = (design.columns() as usize, design.region_size() as usize);
+        let Moment { camera, number, time_us, outcome } = *moment;
+        let (columns, side) = (camera.columns() as usize, camera.region_size() as usize);
         let (column, row) = (region % columns, region / columns);
         match self {
             Self::Frame => long(number),
@@ -72,9 +72,9 @@ fn int(value: usize) -> Value<'static> {
     Value::Int(value.try_into().expect("coordinates are below 2^15 and counts below 2^13"))
 }
 
-/// The columns of a design's table, in order.
-fn columns(design: &Design) -> Vec<(Column, Field)> {
-    let scores = design.features().iter().enumerate();
+/// The columns of a camera's table, in order.
+fn columns(camera: &Camera) -> Vec<(Column, Field)> {
+    let scores = camera.features().iter().enumerate();
     let scores =
         scores.map(|(at, feature)| (format!("score_{}", feature.kind()), Field::Score(at)));
     let named = |(name, field): (&str, Field)| (name.to_owned(), field);
@@ -96,8 +96,8 @@ fn columns(design: &Design) -> Vec<(Column, Field)> {
 /// One frame of a run, with what came of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<'a> {
-    /// The design.
-    pub design: &'a Design,
+    /// The camera.
+    pub camera: &'a Camera,
     /// Number of the frame in the run.
     pub number: u64,
     /// Time since the first frame in microseconds.
@@ -106,7 +106,7 @@ pub struct Moment<'a> {
     pub outcome: &'a Outcome,
 }
 
-/// The table of regions of a design.
+/// The table of regions of a camera.
 #[derive(Clone, Debug)]
 pub struct EventTable {
     columns: Vec<Column>,
@@ -117,8 +117,8 @@ pub struct EventTable {
 impl EventTable {
     /// The table with a row per region and frame, or only with those of active regions.
     #[must_use]
-    pub fn new(design: &Design, only_active: bool) -> Self {
-        let (columns, fields) = columns(design).into_iter().unzip();
+    pub fn new(camera: &Camera, only_active: bool) -> Self {
+        let (columns, fields) = columns(camera).into_iter().unzip();
         Self { columns, fields, only_active }
     }
 
@@ -128,7 +128,7 @@ impl EventTable {
         &self.columns
     }
 
-    /// Gives the rows of a frame of this design, region by region, a value for each column.
+    /// Gives the rows of a frame of this camera, region by region, a value for each column.
     pub fn rows(
         &self,
         moment: &Moment<'_>,
@@ -151,10 +151,10 @@ struct EventFile {
 /// The files that are wanted.
 pub(super) fn sinks(
     folder: &Path,
-    design: &Design,
+    camera: &Camera,
     tables: EventTables,
 ) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
-    let table = EventTable::new(design, tables.only_active);
+    let table = EventTable::new(camera, tables.only_active);
     let columns = table.columns();
     let mut writers: Vec<Box<dyn RowWriter>> = Vec::new();
     if tables.csv {
@@ -170,8 +170,8 @@ pub(super) fn sinks(
 
 impl Sink for EventFile {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        let Step { design, number, outcome, .. } = *step;
-        let moment = Moment { design, number, time_us: step.source.time_us, outcome };
+        let Step { camera, number, outcome, .. } = *step;
+        let moment = Moment { camera, number, time_us: step.source.time_us, outcome };
         let Self { table, writer } = self;
         table.rows(&moment, |values| writer.row(values));
         Ok(())

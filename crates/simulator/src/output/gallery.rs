@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use super::Medium;
 use super::canvas::Canvas;
@@ -69,11 +69,11 @@ impl Sink for Gallery {
         }
     }
 
-    fn owed(&self, design: &Design) -> u64 {
+    fn owed(&self, camera: &Camera) -> u64 {
         // A painting has some lines below the frame, and is drawn larger where that is small.
         let (lines, samples) = if self.painter.is_some() { (256, 12) } else { (0, 2) };
         match &self.series {
-            Series::Folder(_) => Crew::owed(design.width(), design.height() + lines, samples),
+            Series::Folder(_) => Crew::owed(camera.width(), camera.height() + lines, samples),
             Series::Video(_) => 0,
         }
     }

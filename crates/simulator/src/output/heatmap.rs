@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Maps of one score: every region in the colour of its score, on the perceptually uniform scale
-//! viridis, dark for 0. The scale is that of the design, not of the frame, so that pictures can be
+//! viridis, dark for 0. The scale is that of the camera, not of the frame, so that pictures can be
 //! compared: 0 to the largest possible score, by its square root where it is in squares, which makes of a
 //! variance the standard deviation. The bar below has a tick at the threshold.
 
 use colorous::VIRIDIS;
-use foveate_design::{Design, Measure};
+use foveate_camera::{Camera, Measure};
 use foveate_palette::Colour;
 
 use super::canvas::{Canvas, Layout, TEXT};
@@ -34,10 +34,10 @@ enum Score {
 }
 
 impl Heatmap {
-    /// A map for every score of a design, with its name.
-    pub(super) fn all(design: &Design) -> Vec<(String, Self)> {
-        let n = u64::from(design.region_pixels());
-        let spatial = design.features().iter().enumerate().map(|(index, feature)| Self {
+    /// A map for every score of a camera, with its name.
+    pub(super) fn all(camera: &Camera) -> Vec<(String, Self)> {
+        let n = u64::from(camera.region_pixels());
+        let spatial = camera.features().iter().enumerate().map(|(index, feature)| Self {
             score: Score::Spatial(index, feature.kind().measure()),
             title: feature.kind().to_string(),
             max: feature.score_max(),
@@ -49,7 +49,7 @@ impl Heatmap {
             title: "temporal".to_owned(),
             max: n,
             label: n.to_string(),
-            threshold: design.temporal().min_count.into(),
+            threshold: camera.temporal().min_count.into(),
         };
         let all = spatial.chain([temporal]);
         all.map(|map| (format!("heatmap_{}", map.title), map)).collect()
@@ -96,13 +96,13 @@ impl Heatmap {
 
 impl Painter for Heatmap {
     fn paint(&mut self, step: &Step<'_>) -> Canvas {
-        let (design, frame) = (step.design, &step.source.frame);
+        let (camera, frame) = (step.camera, &step.source.frame);
         let layout = Layout::new(frame.width(), frame.height());
         let footer = (font::SIZE.1 + 4) * layout.dot;
         let mut canvas = Canvas::new(layout.width, layout.frame_height + footer);
-        let cell = design.region_size() * layout.scale;
-        for region in 0..design.regions() {
-            let (left, top) = (region % design.columns() * cell, region / design.columns() * cell);
+        let cell = camera.region_size() * layout.scale;
+        for region in 0..camera.regions() {
+            let (left, top) = (region % camera.columns() * cell, region / camera.columns() * cell);
             let width = cell.min(layout.frame_width - left);
             let height = cell.min(layout.frame_height - top);
             let colour = colour(self.place(self.value(step, region as usize)));

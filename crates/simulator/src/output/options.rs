@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a run is asked to write.
 
-use foveate_design::Decimal;
+use foveate_camera::Decimal;
 
 /// How a series of pictures is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub struct PixelEvents {
     /// `pixel_events.csv`.
     pub csv: bool,
     /// Change of a pixel that makes an event: grey levels, or natural logarithms with `log`. Without
-    /// one: the smallest change that the design's temporal score counts, or 0.2 with `log`.
+    /// one: the smallest change that the camera's temporal score counts, or 0.2 with `log`.
     pub contrast: Option<Decimal>,
     /// Whether changes are measured in logarithms.
     pub log: bool,

@@ -31,7 +31,7 @@ impl Painter for Overlay {
         let height = layout.frame_height + legend + Strip::DOTS * layout.dot;
         let mut canvas = Canvas::new(layout.width, height);
         draw_frame(&mut canvas, frame, step, layout);
-        let regions = step.design.regions();
+        let regions = step.camera.regions();
         let active = step.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, regions);
         self.strip.push(active.into(), (layout.width / Strip::bar(layout)) as usize);
@@ -41,11 +41,11 @@ impl Painter for Overlay {
 }
 
 fn draw_frame(canvas: &mut Canvas, frame: &Raster, step: &Step<'_>, layout: Layout) {
-    let side = step.design.region_size();
+    let side = step.camera.region_size();
     let cell = side * layout.scale;
     for y in 0..frame.height() {
         for x in 0..frame.width() {
-            let region = y / side * step.design.columns() + x / side;
+            let region = y / side * step.camera.columns() + x / side;
             let grey = u32::from(convert_depth(frame.get(x, y), frame.bits(), 8));
             let colour = shade(grey, tint(step, region));
             let scale = layout.scale;
@@ -55,15 +55,15 @@ fn draw_frame(canvas: &mut Canvas, frame: &Raster, step: &Step<'_>, layout: Layo
     if cell < SMALLEST_GRID {
         return;
     }
-    for (column, row) in (0..step.design.rows())
-        .flat_map(|row| (0..step.design.columns()).map(move |column| (column, row)))
+    for (column, row) in (0..step.camera.rows())
+        .flat_map(|row| (0..step.camera.columns()).map(move |column| (column, row)))
     {
         let (left, top) = (column * cell, row * cell);
         let width = cell.min(layout.frame_width - left);
         let height = cell.min(layout.frame_height - top);
         grid(canvas, [left, top, width, 1]);
         grid(canvas, [left, top, 1, height]);
-        let region = (row * step.design.columns() + column) as usize;
+        let region = (row * step.camera.columns() + column) as usize;
         if step.outcome.active[region] {
             canvas.frame([left, top, width, height], 1 + cell / 40, ACTIVE_BRIGHT);
         }

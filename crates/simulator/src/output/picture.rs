@@ -33,7 +33,7 @@ impl From<Canvas> for Picture {
 impl Picture {
     /// What is on the screen, at the depth that [`display_depth`] gives it, in the memory of `bytes`.
     pub(super) fn grey(step: &Step<'_>, mut bytes: Vec<u8>) -> Self {
-        let bits = step.design.pixel_bits();
+        let bits = step.camera.pixel_bits();
         let depth = display_depth(bits);
         let shown = |value: u16| convert_depth(value, bits, depth);
         bytes.clear();
@@ -51,7 +51,7 @@ impl Picture {
                 Samples::Grey16
             }
         };
-        Self { width: step.design.width(), height: step.design.height(), samples, bytes }
+        Self { width: step.camera.width(), height: step.camera.height(), samples, bytes }
     }
 }
 

@@ -7,7 +7,7 @@
 //! between frames, and nothing is made up. Without noise, in integers (millionths), so that the same
 //! frames give the same events everywhere.
 
-use foveate_design::{Decimal, Design};
+use foveate_camera::{Camera, Decimal};
 use foveate_frame::Frame;
 
 use super::PixelEvents;
@@ -49,17 +49,17 @@ impl PixelCamera {
     ///
     /// # Errors
     /// When the contrast is below 0.01.
-    pub fn new(design: &Design, options: PixelEvents) -> Result<Self, SimulatorError> {
+    pub fn new(camera: &Camera, options: PixelEvents) -> Result<Self, SimulatorError> {
         let contrast = match options.contrast {
             Some(contrast) => millionths(contrast),
             None if options.log => LOG_CONTRAST,
-            None => i64::from(design.temporal().level + 1) * 1_000_000,
+            None => i64::from(camera.temporal().level + 1) * 1_000_000,
         };
         if contrast < SMALLEST_CONTRAST {
             let contrast = options.contrast.expect("those that nobody asked for are larger");
             return Err(SimulatorError::Contrast { contrast: contrast.to_string() });
         }
-        let max = design.pixel_max();
+        let max = camera.pixel_max();
         let levels = (0..=max).map(|value| level(value, max, options.log)).collect();
         Ok(Self { contrast, levels, remembered: Vec::new() })
     }

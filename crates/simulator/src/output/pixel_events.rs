@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use super::csv::Csv;
 use super::npz::Npz;
@@ -38,12 +38,12 @@ struct NpzFile {
 impl PixelRecorder {
     pub(super) fn create(
         folder: &Path,
-        design: &Design,
+        camera: &Camera,
         options: PixelEvents,
     ) -> Result<Self, SimulatorError> {
         let csv = options.csv.then(|| Csv::create(&folder.join("pixel_events.csv"), "x,y,t,p"));
         Ok(Self {
-            camera: PixelCamera::new(design, options)?,
+            camera: PixelCamera::new(camera, options)?,
             npz: options.npz.then(|| NpzFile::create(folder)).transpose()?,
             csv: csv.transpose()?,
             events: 0,

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 use foveate_engine::{Engine, Outcome};
 use foveate_frame::Plane;
 
@@ -12,7 +12,7 @@ use foveate_footage::SourceFrame;
 
 /// One frame and what came of it.
 pub(super) struct Step<'a> {
-    pub(super) design: &'a Design,
+    pub(super) camera: &'a Camera,
     /// Number of the frame in the run.
     pub(super) number: u64,
     pub(super) source: &'a SourceFrame,
@@ -24,8 +24,8 @@ pub(super) struct Step<'a> {
 impl<'a> Step<'a> {
     /// The last step of `engine`, which took `source`.
     pub(super) fn new(engine: &'a Engine, number: u64, source: &'a SourceFrame) -> Self {
-        let (design, outcome) = (engine.design(), engine.outcome());
-        Self { design, number, source, outcome, screen: engine.rendered() }
+        let (camera, outcome) = (engine.camera(), engine.outcome());
+        Self { camera, number, source, outcome, screen: engine.rendered() }
     }
 }
 
@@ -41,7 +41,7 @@ pub(super) trait Sink: Send {
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
 
     /// At most how many bytes, beside some buffers, may have to be written after a full disk.
-    fn owed(&self, _design: &Design) -> u64 {
+    fn owed(&self, _design: &Camera) -> u64 {
         0
     }
 

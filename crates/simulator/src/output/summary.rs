@@ -148,7 +148,7 @@ impl Totals {
             pixels_forwarded: self.pixels_forwarded,
             bandwidth: Bandwidth::of(design, &sums),
             data_set: None,
-            configuration: design.config().clone(),
+            configuration: design.config(),
         }
     }
 }

@@ -84,7 +84,7 @@ impl Hooks for StopAfter {
 
 fn run_with(output: &Path, hooks: &mut dyn Hooks) -> Result<(), SimulatorError> {
     let config = Config::from_toml_with("", &SMALL).unwrap();
-    let source = open(&["scene:max"], &config, &InputOptions::default())?;
+    let source = open(&["scene:max"], &config.camera, &InputOptions::default())?;
     Simulation::new(&config, source)?.run(output, &plain(), hooks).map(drop)
 }
 

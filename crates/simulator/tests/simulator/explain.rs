@@ -5,7 +5,7 @@ use crate::support::{design, frames};
 use foveate_design::Config;
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
-use foveate_model::{Camera, region_pixels};
+use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_simulator::{Explanation, SimulatorError, explain};
 
 const FOUR: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90}]"#;
@@ -17,7 +17,7 @@ fn explained(
 ) -> Result<Explanation, SimulatorError> {
     let config = Config::from_toml_with("", overrides).unwrap();
     let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
-    explain(&config, open(&["scene:street"], &config, &limit).unwrap(), frame, region)
+    explain(&config, open(&["scene:street"], &config.camera, &limit).unwrap(), frame, region)
 }
 
 fn hits(rows: &[Vec<bool>]) -> u64 {
@@ -35,7 +35,7 @@ fn every_explanation_is_the_models_and_adds_up() {
         let overrides = [&["frame.width=30", "frame.height=20", FOUR], more].concat();
         let design = design(&overrides);
         let frames: Vec<Frame> = frames(&design).collect();
-        let mut camera = Camera::new(&design);
+        let mut camera = FunctionalCamera::new(&design);
         let mut sent: Vec<Option<Vec<u16>>> = vec![None; 12];
         for (number, frame) in (0..).zip(&frames) {
             let outcome = camera.step(frame).unwrap().clone();

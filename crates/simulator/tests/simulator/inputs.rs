@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::support::{grey, run};
+use foveate_camera::CameraConfig;
 use foveate_design::Config;
 use foveate_footage::{FootageError, InputOptions, open};
 use foveate_simulator::RunOptions;
@@ -15,7 +16,7 @@ fn level(frame: usize) -> u8 {
 
 /// The names and the first pixels of all frames, in order.
 fn read_all<P: AsRef<Path>>(inputs: &[P]) -> Result<Vec<(String, u16)>, FootageError> {
-    let mut source = open(inputs, &Config::default(), &InputOptions::default())?;
+    let mut source = open(inputs, &CameraConfig::default(), &InputOptions::default())?;
     let total = source.frames();
     let mut seen = Vec::new();
     while let Some(frame) = source.next_frame()? {
@@ -68,9 +69,9 @@ fn the_number_of_frames_can_be_limited() {
     }
     let limit = |frames| InputOptions { frames: Some(frames), ..InputOptions::default() };
     let config = Config::default();
-    assert_eq!(open(&[folder.path()], &config, &limit(3)).unwrap().frames(), Some(3));
-    assert_eq!(open(&["scene:fade"], &config, &limit(300)).unwrap().frames(), Some(300));
-    let error = open(&[folder.path()], &config, &limit(0)).err().unwrap();
+    assert_eq!(open(&[folder.path()], &config.camera, &limit(3)).unwrap().frames(), Some(3));
+    assert_eq!(open(&["scene:fade"], &config.camera, &limit(300)).unwrap().frames(), Some(300));
+    let error = open(&[folder.path()], &config.camera, &limit(0)).err().unwrap();
     assert!(error.to_string().contains("holds no frame"));
 }
 
@@ -78,13 +79,13 @@ fn the_number_of_frames_can_be_limited() {
 fn scenes_take_their_size_from_the_configuration() {
     let options = InputOptions::default();
     let config = Config::default();
-    assert_eq!(open(&["scene:street"], &config, &options).unwrap().size(), (224, 224));
+    assert_eq!(open(&["scene:street"], &config.camera, &options).unwrap().size(), (224, 224));
     let config = Config::from_toml("frame.width = 64\nframe.height = 20").unwrap();
-    let mut source = open(&["scene:street"], &config, &options).unwrap();
+    let mut source = open(&["scene:street"], &config.camera, &options).unwrap();
     assert_eq!((source.size(), source.frames()), ((64, 20), Some(90)));
     assert_eq!(source.next_frame().unwrap().unwrap().name, "scene:street");
     let config = Config::from_toml("frame.width = 99999").unwrap();
-    let message = open(&["scene:street"], &config, &options).err().unwrap().to_string();
+    let message = open(&["scene:street"], &config.camera, &options).err().unwrap().to_string();
     assert!(message.contains("frame.width") && message.contains("1..=16384"), "{message}");
 }
 

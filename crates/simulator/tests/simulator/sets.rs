@@ -8,6 +8,7 @@ use std::path::Path;
 use crate::support::{Npy, grey, run};
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use foveate_camera::CameraConfig;
 use foveate_design::Config;
 use foveate_footage::{
     FootageError, ImagesAs, InputOptions, Kind, Selection, SourceFrame, luma, open,
@@ -15,7 +16,7 @@ use foveate_footage::{
 use foveate_simulator::{RunOptions, Silent, Simulation};
 
 fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, FootageError> {
-    let mut source = open(&[path], &Config::default(), options)?;
+    let mut source = open(&[path], &CameraConfig::default(), options)?;
     assert_eq!(source.kind(), Kind::Set);
     let mut seen = Vec::new();
     while let Some(frame) = source.next_frame()? {
@@ -161,7 +162,7 @@ fn every_image_of_a_set_is_a_first_frame() {
     let trs = |images| {
         let output = dir.path().join(format!("{images:?}"));
         let options = InputOptions { images, ..InputOptions::default() };
-        let source = open(&[&frames], &Config::default(), &options).unwrap();
+        let source = open(&[&frames], &CameraConfig::default(), &options).unwrap();
         let simulation = Simulation::new(&Config::default(), source).unwrap();
         simulation.run(&output, &RunOptions::default(), &mut Silent).unwrap();
         Npy::read(&output.join("trs.npy")).data

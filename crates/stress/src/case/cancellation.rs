@@ -4,7 +4,7 @@
 
 use foveate_design::{FeatureKind, bits_for};
 use foveate_frame::Frame;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::Random;
@@ -18,7 +18,7 @@ pub(crate) fn variance(depth: Depth) -> Vec<Row> {
 
 fn pair((side, bits): (u32, u32), regions: u32) -> [Row; 2] {
     let mut config = config((side, side), side, bits, &[FeatureKind::Variance]);
-    config.denoise.filter = foveate_design::Filter::None;
+    config.camera.denoise.filter = foveate_design::Filter::None;
     let design = design(&config);
     let mut random = Random::new(u64::from(side));
     let base = design.pixel_max() - 4;
@@ -31,7 +31,7 @@ fn pair((side, bits): (u32, u32), regions: u32) -> [Row; 2] {
             move |x, y| base + spread[(y * side + x) as usize]
         });
         let exact = two_pass(&region);
-        let mut camera = Camera::new(&design);
+        let mut camera = FunctionalCamera::new(&design);
         let score = camera.step(&region).expect("the region is a frame of the design").scores[0][0];
         let n = f64::from(design.region_pixels());
         ours = ours.max((to_f64(score) / (n * n) - exact).abs() / exact);

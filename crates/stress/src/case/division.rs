@@ -43,7 +43,7 @@ fn fraction_limit(side: u32) -> u32 {
 
 fn exhaust(side: u32, bits: u32, fraction_bits: u32) -> (u64, u64, u64) {
     let mut config = config((side, side), side, bits, &[FeatureKind::Mad]);
-    config.spatial[0].mean_fraction_bits = Some(fraction_bits);
+    config.camera.spatial[0].mean_fraction_bits = Some(fraction_bits);
     let design = design(&config);
     let Some(reciprocal) = design.features()[0].mean().map(|mean| mean.reciprocal) else {
         return (1, 1, 1);

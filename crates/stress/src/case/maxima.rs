@@ -3,7 +3,7 @@
 
 use foveate_design::{FeatureKind, bits_for};
 use foveate_engine::Engine;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::frame;
@@ -18,7 +18,7 @@ pub(crate) fn largest_scores(_: Depth) -> Vec<Row> {
 
 fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> Row {
     let mut config = config((side, side), side, bits, &[kind]);
-    config.denoise.filter = foveate_design::Filter::None;
+    config.camera.denoise.filter = foveate_design::Filter::None;
     let design = design(&config);
     let max = design.pixel_max();
     let n = design.region_pixels();
@@ -27,7 +27,7 @@ fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> Row {
     // says, so both are tried.
     let scores = [n / 2, n.div_ceil(2)].map(|ones| {
         let half = frame((side, side), bits, |x, y| if y * side + x < ones { max } else { 0 });
-        let clear = Camera::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
+        let clear = FunctionalCamera::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
         let fast = Engine::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
         // What the two disagree on is no score at all.
         clear.ok().filter(|clear| fast.ok() == Some(*clear)).unwrap_or(0)
@@ -44,12 +44,12 @@ fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> Row {
 pub(crate) fn counts(_: Depth) -> Vec<Row> {
     let edge = |(side, bits): (u32, u32)| {
         let mut config = config((side, side), side, bits, &[FeatureKind::Edge]);
-        config.spatial[0].level = Some(0);
-        config.denoise.filter = foveate_design::Filter::None;
+        config.camera.spatial[0].level = Some(0);
+        config.camera.denoise.filter = foveate_design::Filter::None;
         let design = design(&config);
         // A slope has a gradient everywhere, in the clamped windows of the border too.
         let slope = frame((side, side), bits, |x, _| x * design.pixel_max() / (side - 1));
-        let outcome = Camera::new(&design)
+        let outcome = FunctionalCamera::new(&design)
             .step(&slope)
             .map(|outcome| (outcome.scores[0][0], u64::from(outcome.temporal_count[0])));
         let (hits, changed) = outcome.expect("the slope is a frame of the design");

@@ -2,7 +2,7 @@
 //! Means that end in exactly one half, one pixel less and one more.
 
 use foveate_design::FeatureKind;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::frame;
@@ -16,8 +16,8 @@ pub(crate) fn halves(_: Depth) -> Vec<Row> {
 
 fn around_halves(side: u32) -> Row {
     let mut config = config((side, side), side, 8, &[FeatureKind::Mad]);
-    config.denoise.filter = foveate_design::Filter::None;
-    config.spatial[0].mean_fraction_bits = Some(0);
+    config.camera.denoise.filter = foveate_design::Filter::None;
+    config.camera.spatial[0].mean_fraction_bits = Some(0);
     let design = design(&config);
     let n = design.region_pixels();
     let (mut wrong, mut tried, mut worst) = (0, 0, 0);
@@ -31,7 +31,7 @@ fn around_halves(side: u32) -> Row {
                 .iter()
                 .map(|&pixel| u64::from(u32::from(pixel).abs_diff(mean)))
                 .sum();
-            let mut camera = Camera::new(&design);
+            let mut camera = FunctionalCamera::new(&design);
             let score =
                 camera.step(&region).expect("the region is a frame of the design").scores[0][0];
             let error = score.abs_diff(expected);

@@ -3,7 +3,7 @@
 
 use foveate_design::{Config, Design, FeatureKind, Filter, Reference};
 use foveate_frame::Frame;
-use foveate_model::{Camera, Outcome};
+use foveate_model::{FunctionalCamera, Outcome};
 use foveate_scenes::{Scene, SceneSize};
 
 use crate::designs::{config, design};
@@ -20,10 +20,10 @@ fn textured(light: u32) -> Frame {
 
 fn with(reference: Reference) -> Config {
     let mut config = config(SIZE, SIDE, 8, &[FeatureKind::Edge]);
-    config.denoise.filter = Filter::None;
-    config.temporal.level = Some(8);
-    config.temporal.min_count = 5;
-    config.temporal.reference = reference;
+    config.camera.denoise.filter = Filter::None;
+    config.camera.temporal.level = Some(8);
+    config.camera.temporal.min_count = 5;
+    config.camera.temporal.reference = reference;
     config
 }
 
@@ -66,7 +66,7 @@ impl Worst {
 
 fn watch(design: &Design, frames: impl Iterator<Item = Frame>) -> Worst {
     let mut worst = Worst::default();
-    let mut camera = Camera::new(design);
+    let mut camera = FunctionalCamera::new(design);
     for frame in frames {
         if let Ok(outcome) = camera.step(&frame) {
             worst.look(design, outcome);
@@ -125,7 +125,7 @@ pub(crate) fn blanked(_: Depth) -> Vec<Row> {
     let plain = || frame(SIZE, 8, |_, _| 50);
     let black = |reference| {
         let design = design(&with(reference));
-        let mut camera = Camera::new(&design);
+        let mut camera = FunctionalCamera::new(&design);
         let mut shown = 0;
         // Seen, gone, and back for two frames; at the second of them nothing changes any more.
         for frame in [textured(0), plain(), textured(0), textured(0)] {
@@ -140,9 +140,9 @@ pub(crate) fn blanked(_: Depth) -> Vec<Row> {
     // for the other half it is: both references see it. A return without any change needs SRS alone to move.
     let returned = |reference| {
         let mut config = with(reference);
-        config.spatial[0].level = Some(390);
+        config.camera.spatial[0].level = Some(390);
         let design = design(&config);
-        let mut camera = Camera::new(&design);
+        let mut camera = FunctionalCamera::new(&design);
         let mut shown = 0;
         // The contrast sinks below what counts as an edge by less than the temporal level, and returns.
         for contrast in [100, 95, 100] {
@@ -188,8 +188,8 @@ pub(crate) fn invariant_on_scenes(depth: Depth) -> Vec<Row> {
     for &scene in Scene::ALL {
         for filter in Filter::ALL {
             let mut config = with(Reference::LastSent);
-            (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
-            config.denoise.filter = *filter;
+            (config.camera.frame.width, config.camera.frame.height) = (Some(size.0), Some(size.1));
+            config.camera.denoise.filter = *filter;
             let design = design(&config);
             let (width, height) = size;
             let frames = scene.default_frames();

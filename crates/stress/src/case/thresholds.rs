@@ -4,7 +4,7 @@
 use foveate_design::{Config, Decimal, FeatureKind, Filter};
 use foveate_engine::Engine;
 use foveate_frame::Frame;
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::Random;
@@ -25,7 +25,7 @@ const SIDE: u32 = 8;
 
 fn bare(feature: FeatureKind) -> Config {
     let mut config = config((SIDE, SIDE), SIDE, 8, &[feature]);
-    config.denoise.filter = Filter::None;
+    config.camera.denoise.filter = Filter::None;
     config
 }
 
@@ -37,7 +37,7 @@ fn ask<A: PartialEq>(
     fast: impl Fn(&foveate_engine::Outcome) -> A,
 ) -> Option<A> {
     let design = design(config);
-    let (mut camera, mut engine) = (Camera::new(&design), Engine::new(&design));
+    let (mut camera, mut engine) = (FunctionalCamera::new(&design), Engine::new(&design));
     camera.step(frames[0]).ok()?;
     engine.step(frames[0]).ok()?;
     let clear = clear(camera.step(frames[1]).ok()?);
@@ -61,7 +61,7 @@ fn scores(kind: FeatureKind, rounds: u64) -> Row {
     for seed in 0..rounds {
         let frame = Random::new(seed).frame((SIDE, SIDE), 8);
         let mut config = bare(kind);
-        config.spatial[0].level = Some(40);
+        config.camera.spatial[0].level = Some(40);
         let score = ask(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
         let Some(score) = score else {
             answers.push(false);
@@ -69,7 +69,7 @@ fn scores(kind: FeatureKind, rounds: u64) -> Row {
         };
         let score = u32::try_from(score).expect("no more than the pixels of a region");
         for min in [score.saturating_sub(1), score, (score + 1).min(SIDE * SIDE)] {
-            config.spatial[0].min_score = Some(Decimal::whole(min.into()));
+            config.camera.spatial[0].min_score = Some(Decimal::whole(min.into()));
             let voted = ask(&config, [&frame, &frame], |o| o.srs[0], |o| o.srs[0]);
             answers.push(voted == Some(score >= min));
         }
@@ -86,7 +86,7 @@ fn levels(rounds: u64) -> Row {
         let frame = crate::pixels::frame((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
         for level in [4 * step - 1, 4 * step, 4 * step + 1] {
             let mut config = bare(FeatureKind::Edge);
-            config.spatial[0].level = Some(level);
+            config.camera.spatial[0].level = Some(level);
             let hits = ask(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
             let expected = if 4 * step > level { 2 * SIDE } else { 0 };
             answers.push(hits == Some(expected.into()));
@@ -110,7 +110,8 @@ fn counts(rounds: u64) -> Row {
         for level in [by - 1, by, by + 1] {
             for min in [changed.saturating_sub(1), changed, (changed + 1).min(SIDE * SIDE)] {
                 let mut config = bare(FeatureKind::Edge);
-                (config.temporal.level, config.temporal.min_count) = (Some(level), min);
+                (config.camera.temporal.level, config.camera.temporal.min_count) =
+                    (Some(level), min);
                 let trs = ask(&config, [&still, &moved], |o| o.trs[0], |o| o.trs[0]);
                 let count = if by > level { changed } else { 0 };
                 answers.push(trs == Some(count >= min));

@@ -3,7 +3,7 @@
 //! which is its largest value; at 8 bits a bin is one grey level.
 
 use foveate_chart::{Chart, Line, Shape};
-use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
+use foveate_design::{Design, FeatureKind, SpatialConfig};
 
 use super::Study;
 use crate::StudyError;
@@ -22,9 +22,10 @@ struct Histogram {
 }
 
 pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
-    let own = watcher.config.spatial.iter().find(|entry| entry.feature == FeatureKind::Mad);
+    let own = watcher.config.camera.spatial.iter().find(|entry| entry.feature == FeatureKind::Mad);
     let mad = own.cloned().unwrap_or_else(|| SpatialConfig::new(FeatureKind::Mad));
-    let config = Config { spatial: vec![mad], ..watcher.config.clone() };
+    let mut config = watcher.config.clone();
+    config.camera.spatial = vec![mad];
     let watched = watcher.watch(&[config], |histogram: &mut Histogram, design, seen| {
         histogram.bins.resize(usize::try_from(BINS).expect("BINS are few"), 0);
         for &score in seen.outcome.scores.iter().flatten() {

@@ -70,8 +70,10 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
 /// Every feature in the order of the columns, with the thresholds of the configuration or defaults.
 fn with_every_feature(config: &Config) -> Config {
     let entry = |&kind: &FeatureKind| {
-        let own = config.spatial.iter().find(|entry| entry.feature == kind);
+        let own = config.camera.spatial.iter().find(|entry| entry.feature == kind);
         own.cloned().unwrap_or_else(|| SpatialConfig::new(kind))
     };
-    Config { spatial: FeatureKind::ALL.iter().map(entry).collect(), ..config.clone() }
+    let mut all = config.clone();
+    all.camera.spatial = FeatureKind::ALL.iter().map(entry).collect();
+    all
 }

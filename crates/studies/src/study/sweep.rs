@@ -48,8 +48,8 @@ pub(super) fn thresholds(config: &Config) -> [Key; 3] {
 pub(super) fn region_size(config: &Config) -> Key {
     let point = |&size: &u32| {
         let mut other = config.clone();
-        other.region.size = size;
-        if size != config.region.size {
+        other.camera.region.size = size;
+        if size != config.camera.region.size {
             // Fewer regions may not fill the lanes, and how many share one changes no result.
             other.hardware.fold = 1;
         }
@@ -67,7 +67,7 @@ pub(super) fn region_size(config: &Config) -> Key {
 /// Of the first feature; the others keep theirs.
 fn min_score(config: &Config) -> Key {
     let n = pixels(config);
-    let kind = config.spatial.first().map_or(FeatureKind::default(), |entry| entry.feature);
+    let kind = config.camera.spatial.first().map_or(FeatureKind::default(), |entry| entry.feature);
     let values = match kind.measure() {
         Measure::Pixels => within(&COUNTS, n),
         Measure::Levels => scaled(&COUNTS, config),
@@ -76,7 +76,7 @@ fn min_score(config: &Config) -> Key {
     let axis = format!("min_score of {kind} [{}]", kind.measure().name());
     let point = |value| {
         let mut config = config.clone();
-        if let Some(entry) = config.spatial.first_mut() {
+        if let Some(entry) = config.camera.spatial.first_mut() {
             entry.min_score = Some(Decimal::whole(value));
         }
         (value, config)
@@ -89,11 +89,11 @@ fn min_score(config: &Config) -> Key {
 fn level(config: &Config) -> Key {
     let point = |value| {
         let mut config = config.clone();
-        config.temporal.level = Some(u32::try_from(value).expect("at most a pixel"));
+        config.camera.temporal.level = Some(u32::try_from(value).expect("at most a pixel"));
         (value, config)
     };
     // A level of the largest pixel or more is no design: nothing differs by more.
-    let max = (1_u64 << config.frame.pixel_bits.min(16)) - 1;
+    let max = (1_u64 << config.camera.frame.pixel_bits.min(16)) - 1;
     let reachable = scaled(&LEVELS, config).into_iter().filter(|&value| value < max);
     Key {
         name: "temporal.level".to_owned(),
@@ -107,7 +107,7 @@ fn level(config: &Config) -> Key {
 fn min_count(config: &Config) -> Key {
     let point = |value| {
         let mut config = config.clone();
-        config.temporal.min_count = u32::try_from(value).expect("one of COUNTS");
+        config.camera.temporal.min_count = u32::try_from(value).expect("one of COUNTS");
         (value, config)
     };
     Key {
@@ -120,7 +120,7 @@ fn min_count(config: &Config) -> Key {
 }
 
 fn pixels(config: &Config) -> u64 {
-    u64::from(config.region.size) * u64::from(config.region.size)
+    u64::from(config.camera.region.size) * u64::from(config.camera.region.size)
 }
 
 fn within(values: &[u64], most: u64) -> Vec<u64> {
@@ -129,7 +129,7 @@ fn within(values: &[u64], most: u64) -> Vec<u64> {
 
 /// Grey levels of 8 bits, in those of the design; few bits leave few of them.
 fn scaled(values: &[u64], config: &Config) -> Vec<u64> {
-    let bits = config.frame.pixel_bits;
+    let bits = config.camera.frame.pixel_bits;
     let max = (1_u64 << bits.min(16)) - 1;
     within(
         &values.iter().map(|value| value << bits.saturating_sub(8).min(8)).collect::<Vec<_>>(),

@@ -11,10 +11,10 @@ use crate::error::CliError;
 
 /// Everything that follows from a configuration.
 #[derive(Serialize)]
-pub(super) struct Card<'a> {
+pub(super) struct Card {
     pub(super) format_version: u32,
     pub(super) fingerprint: String,
-    pub(super) config: &'a Config,
+    pub(super) config: Config,
     pub(super) grid: Grid,
     pub(super) pixel_max: u32,
     pub(super) region_pixels: u32,
@@ -96,9 +96,9 @@ pub(super) struct PortRow {
     pub(super) doc: String,
 }
 
-impl<'a> Card<'a> {
+impl Card {
     pub(super) fn of(
-        design: &'a Design,
+        design: &Design,
         clock: Option<Clock>,
         wanted: Option<Rate>,
     ) -> Result<Self, CliError> {

@@ -9,7 +9,7 @@ use super::array::{Array, Memory};
 use super::card::{Card, Feature, PortRow};
 use crate::output;
 
-pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
+pub(super) fn text(design: &Design, card: &Card) -> String {
     let mut lines = vec![
         ("design", card.fingerprint.clone()),
         (
@@ -39,7 +39,7 @@ pub(super) fn text(design: &Design, card: &Card<'_>) -> String {
     }
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
-    let hardware = &design.config().hardware;
+    let hardware = &design.hardware();
     lines.push(("organization", hardware.in_words()));
     match hardware.pixels_per_clock {
         Some(pixels) => {
@@ -88,7 +88,7 @@ fn temporal_line(design: &Design) -> String {
     )
 }
 
-fn stream_line(design: &Design, card: &Card<'_>) -> String {
+fn stream_line(design: &Design, card: &Card) -> String {
     let halo = match design.neighborhood() {
         Neighborhood::Isolated => String::new(),
         Neighborhood::Shared => format!(", halo {} included", card.stream.halo),

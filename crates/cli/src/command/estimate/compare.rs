@@ -2,7 +2,7 @@
 //! `foveate estimate --compare`: which designs stand in the table.
 
 use foveate_design::{
-    Config, Design, DesignError, FeatureKind, Feed, Filter, Organization, SpatialConfig,
+    Config, ConfigError, Design, FeatureKind, Feed, Filter, Organization, SpatialConfig,
 };
 use foveate_estimate::{Comparison, FoldCost, Skipped, cheapest_fold};
 
@@ -21,7 +21,7 @@ struct Wanted {
     name: String,
     /// What is said together with others if the design is refused.
     family: String,
-    design: Result<Design, DesignError>,
+    design: Result<Design, ConfigError>,
 }
 
 pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
@@ -86,9 +86,9 @@ fn organizations(base: &Config) -> Vec<Wanted> {
 
 fn with_feature(base: &Config, kind: FeatureKind, filter: Filter) -> Config {
     let mut config = base.clone();
-    config.denoise.filter = filter;
-    let own = base.spatial.iter().find(|entry| entry.feature == kind).cloned();
-    config.spatial = vec![own.unwrap_or_else(|| SpatialConfig::new(kind))];
+    config.camera.denoise.filter = filter;
+    let own = base.camera.spatial.iter().find(|entry| entry.feature == kind).cloned();
+    config.camera.spatial = vec![own.unwrap_or_else(|| SpatialConfig::new(kind))];
     config
 }
 
@@ -109,7 +109,7 @@ fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<W
         Ok(single) => Ok(cheapest_fold(single, rate, synthesize)?),
         Err(error) => Err(error),
     };
-    let fold = design.as_ref().map_or(1, |design| design.config().hardware.fold);
+    let fold = design.as_ref().map_or(1, |design| design.hardware().fold);
     Ok(Wanted {
         name: format!("serial {feature} median raster fold {fold}"),
         family: "serial with raster feed".to_owned(),

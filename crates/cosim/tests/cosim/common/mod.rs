@@ -21,18 +21,18 @@ pub(crate) fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConf
 
 /// What tells a configuration from others, but for what is of one organization alone.
 pub(crate) fn name(config: &Config) -> String {
-    let kinds: Vec<_> = config.spatial.iter().map(|s| s.feature.name()).collect();
+    let kinds: Vec<_> = config.camera.spatial.iter().map(|s| s.feature.name()).collect();
     format!(
         "{} N={} P={} {} {} {} {} {} {} {}",
         kinds.join("+"),
-        config.region.size,
-        config.frame.pixel_bits,
-        config.denoise.filter,
-        config.region.neighborhood,
-        config.temporal.reference,
-        config.render.irrelevant,
-        config.render.payload,
-        config.decision.combine,
+        config.camera.region.size,
+        config.camera.frame.pixel_bits,
+        config.camera.denoise.filter,
+        config.camera.region.neighborhood,
+        config.camera.temporal.reference,
+        config.camera.render.irrelevant,
+        config.camera.render.payload,
+        config.camera.decision.combine,
         config.hardware.thresholds,
     )
 }
@@ -40,8 +40,9 @@ pub(crate) fn name(config: &Config) -> String {
 /// The design of a configuration for a frame of that many regions.
 pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
     let mut config = config.clone();
-    let side = config.region.size;
-    (config.frame.width, config.frame.height) = (Some(regions.0 * side), Some(regions.1 * side));
+    let side = config.camera.region.size;
+    (config.camera.frame.width, config.camera.frame.height) =
+        (Some(regions.0 * side), Some(regions.1 * side));
     config.validate().unwrap_or_else(|error| panic!("{error}"))
 }
 

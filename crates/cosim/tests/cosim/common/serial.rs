@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Configurations of serial designs.
 
-use foveate_design::{Config, Organization, SpatialConfig};
+use foveate_design::{CameraConfig, Config, Organization, SpatialConfig};
 
 /// A serial design with these features; everything else is the paper's.
 pub(crate) fn config(features: &[SpatialConfig]) -> Config {
-    let mut config = Config { spatial: features.to_vec(), ..Config::default() };
+    let mut config =
+        Config::from(CameraConfig { spatial: features.to_vec(), ..CameraConfig::default() });
     config.hardware.organization = Organization::Serial;
     config
 }

@@ -63,11 +63,11 @@ fn forwarding_is_the_default_and_changes_no_fingerprint() {
     let alone = design(&["hardware.forward=false", "hardware.store=external"]);
     assert!(!alone.forwards() && alone.store() == Store::External);
     assert_eq!(
-        alone.config().hardware.in_words(),
+        alone.hardware().in_words(),
         "raster, 1 pixel per clock, plain pipelining, external store, no forwarding"
     );
     let again = crate::Config::from_toml(&alone.config().to_toml()).unwrap();
-    assert_eq!(again, *alone.config());
+    assert_eq!(again, alone.config());
     let prints: std::collections::BTreeSet<String> = ["block", "ultra", "single-port", "external"]
         .iter()
         .flat_map(|store| ["true", "false"].map(|forward| (store, forward)))

@@ -4,7 +4,7 @@
 
 use foveate_design::{Design, Payload, Store};
 use foveate_frame::Frame;
-use foveate_model::{Camera, Outcome, RasterOutput};
+use foveate_model::{FunctionalCamera, Outcome, RasterOutput};
 
 use super::driver::{Driver, Job, Manner, Trace};
 use super::recipe::{Misread, RasterRecipe};
@@ -55,7 +55,8 @@ fn keep(screen: &mut Screen, driver: &Driver, frame: &Frame, region: u32) {
 fn check(recipe: &RasterRecipe, film: &[Frame]) {
     let design = recipe.design();
     let thresholds = foveate_model::Thresholds::of(&design);
-    let (mut camera, mut driver) = (Camera::new(&design), Driver::new(recipe, Manner::DENSE));
+    let (mut camera, mut driver) =
+        (FunctionalCamera::new(&design), Driver::new(recipe, Manner::DENSE));
     let mut screen = Screen::black(&design);
     let rest = 2 * recipe.words() + 100;
     for frame in film {

@@ -51,7 +51,7 @@ pub(crate) struct Misread {
 
 impl RasterRecipe {
     pub(crate) fn design(&self) -> Design {
-        let mut config = self.base.design().config().clone();
+        let mut config = self.base.design().config();
         config.hardware.organization = Organization::Raster;
         config.hardware.pixels_per_clock = Some(self.pixels as u32);
         config.hardware.pipelining =

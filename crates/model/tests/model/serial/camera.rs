@@ -5,7 +5,8 @@
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::{
-    Camera, Outcome, RegionScorer, SerialInput, SerialRcm, Thresholds, region_border, region_stream,
+    FunctionalCamera, Outcome, RegionScorer, SerialInput, SerialRcm, Thresholds, region_border,
+    region_stream,
 };
 
 use super::bench::applied;
@@ -97,7 +98,7 @@ fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &Outcome, design: &Design) {
 
 fn check(recipe: &SerialRecipe, film: &[Frame]) {
     let design = recipe.design();
-    let mut camera = Camera::new(&design);
+    let mut camera = FunctionalCamera::new(&design);
     let mut rcm = SerialRcm::new(&design);
     let side = design.region_size();
     let width = design.columns() * side;

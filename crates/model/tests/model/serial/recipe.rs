@@ -24,7 +24,7 @@ pub(crate) enum Phase {
 
 impl SerialRecipe {
     pub(crate) fn design(&self) -> Design {
-        let mut config = self.base.design().config().clone();
+        let mut config = self.base.design().config();
         config.hardware.organization = Organization::Serial;
         config.hardware.feed = Some(if self.raster { Feed::Raster } else { Feed::Parallel });
         config.hardware.fold = self.fold as u32;

@@ -6,7 +6,7 @@ use super::machine::{Decided, Machine, frame_of, shape};
 use super::oracle::{Cut, Edge, cut};
 use crate::frames::Random;
 use foveate_design::{Config, Design};
-use foveate_model::{Camera, Thresholds};
+use foveate_model::{FunctionalCamera, Thresholds};
 
 const BASE: &str = "frame.pixel_bits = 4\ntemporal = { level = 2, min_count = 3 }\nhardware.sync = true\n\
                     region.size = 4\nspatial = [{ feature = 'edge', level = 12, min_score = 6 }]\n";
@@ -158,7 +158,7 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
             assert_eq!(played.errors, found.errors, "{more:?} {seed}");
             (errors, completed) = (errors + found.errors.len(), completed + found.completed);
 
-            let mut camera = Camera::new(&design);
+            let mut camera = FunctionalCamera::new(&design);
             let regions = design.regions() as usize;
             let late = design.timing().departure().decision_frames as usize;
             let frames = found.frames.len();
@@ -189,7 +189,7 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
 fn without_it_a_lost_beat_leaves_the_array_out_of_step() {
     for more in DESIGNS {
         let with = design(more);
-        let mut config = with.config().clone();
+        let mut config = with.config();
         config.hardware.sync = None;
         let without = config.validate().unwrap();
         let (beats, width) = shape(&with);

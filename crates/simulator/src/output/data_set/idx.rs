@@ -48,13 +48,13 @@ struct Images {
 
 impl Sink for Images {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
-        let byte = |value: u16| low_byte(convert_depth(value, step.design.pixel_bits(), BITS));
+        let byte = |value: u16| low_byte(convert_depth(value, step.camera.pixel_bits(), BITS));
         self.bytes.clear();
         match step.screen {
             Plane::Bytes(pixels) => self.bytes.extend(pixels.iter().map(|&p| byte(p.into()))),
             Plane::Words(pixels) => self.bytes.extend(pixels.iter().map(|&p| byte(p))),
         }
-        self.size = (step.design.width(), step.design.height());
+        self.size = (step.camera.width(), step.camera.height());
         self.count += 1;
         self.file.write(&self.bytes);
         Ok(())

@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
-use foveate_design::Design;
+use foveate_camera::Camera;
 
 use super::super::cannot_write;
 use super::super::crew::Crew;
@@ -89,8 +89,8 @@ impl Sink for Tree {
         self.table.write_out(all)
     }
 
-    fn owed(&self, design: &Design) -> u64 {
-        Crew::owed(design.width(), design.height(), 2)
+    fn owed(&self, camera: &Camera) -> u64 {
+        Crew::owed(camera.width(), camera.height(), 2)
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {

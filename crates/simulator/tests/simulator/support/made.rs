@@ -11,7 +11,7 @@ use flate2::write::GzEncoder;
 use foveate_design::Config;
 use foveate_footage::{ImagesAs, InputOptions, open};
 use foveate_frame::{Frame, convert_depth};
-use foveate_model::Camera;
+use foveate_model::FunctionalCamera;
 use foveate_simulator::{Hooks, RunOptions, Simulation, SimulatorError, Summary};
 
 pub(crate) fn made<P: AsRef<Path>>(
@@ -22,7 +22,7 @@ pub(crate) fn made<P: AsRef<Path>>(
     hooks: &mut dyn Hooks,
 ) -> Result<Summary, Box<SimulatorError>> {
     let config = Config::from_toml_with("", overrides).unwrap();
-    let source = open(inputs, &config, input).map_err(SimulatorError::from)?;
+    let source = open(inputs, &config.camera, input).map_err(SimulatorError::from)?;
     let options = RunOptions { rendered: None, data_set: true, ..RunOptions::default() };
     Ok(Simulation::new(&config, source)?.run(output, &options, hooks)?)
 }
@@ -67,14 +67,14 @@ pub(crate) fn rendered(
     images: impl Iterator<Item = Vec<u8>>,
 ) -> [Vec<u8>; 3] {
     let mut config = Config::from_toml_with("", config).unwrap();
-    config.fit_frame(size.0, size.1).unwrap();
+    config.camera.fit_frame(size.0, size.1).unwrap();
     let design = config.validate().unwrap();
     let bits = design.pixel_bits();
     let mut result = [const { Vec::new() }; 3];
     for image in images {
         let pixels = image.iter().map(|&pixel| convert_depth(pixel.into(), 8, bits)).collect();
         let frame = Frame::new(size.0, size.1, bits, pixels).unwrap();
-        let mut camera = Camera::new(&design);
+        let mut camera = FunctionalCamera::new(&design);
         let outcome = camera.step(&frame).unwrap();
         let shown = outcome.rendered.pixels().iter();
         result[0].extend(shown.map(|&pixel| convert_depth(pixel, bits, 8).to_le_bytes()[0]));

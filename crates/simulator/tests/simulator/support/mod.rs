@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::{Config, Design};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
-use foveate_model::{Camera, Outcome};
+use foveate_model::{FunctionalCamera, Outcome};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_simulator::{RunOptions, Silent, Simulation, SimulatorError, Summary};
 
@@ -23,7 +23,7 @@ pub(crate) fn run<P: AsRef<Path>>(
     options: &RunOptions,
 ) -> Result<Summary, SimulatorError> {
     let config = Config::from_toml_with("", overrides).unwrap();
-    let source = open(inputs, &config, &InputOptions::default())?;
+    let source = open(inputs, &config.camera, &InputOptions::default())?;
     Simulation::new(&config, source)?.run(output, options, &mut Silent)
 }
 
@@ -39,7 +39,7 @@ pub(crate) const STREET: [&str; 4] = [
 pub(crate) fn street(output: &Path, overrides: &[&str], options: &RunOptions) -> Summary {
     let config = Config::from_toml_with("", overrides).unwrap();
     let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
-    let source = open(&["scene:street"], &config, &limit).unwrap();
+    let source = open(&["scene:street"], &config.camera, &limit).unwrap();
     Simulation::new(&config, source).unwrap().run(output, options, &mut Silent).unwrap()
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn design(overrides: &[&str]) -> Design {
 /// What the model says of them.
 pub(crate) fn outcomes(overrides: &[&str]) -> Vec<Outcome> {
     let design = design(overrides);
-    let mut camera = Camera::new(&design);
+    let mut camera = FunctionalCamera::new(&design);
     frames(&design).map(|frame| camera.step(&frame).unwrap().clone()).collect()
 }
 

@@ -14,7 +14,7 @@ use std::slice::from_ref;
 use std::sync::Arc;
 
 use foveate_boxes::{Clip, assign};
-use foveate_design::{Config, HardwareConfig};
+use foveate_design::Config;
 use foveate_footage::Kind;
 
 use super::Study;
@@ -81,10 +81,8 @@ pub(crate) fn run(watcher: &Watcher<'_>, files: &[PathBuf]) -> Result<Findings, 
 fn keys(config: &Config) -> Vec<Key> {
     let mut keys: Vec<Key> = thresholds(config).into_iter().chain([region_size(config)]).collect();
     for key in &mut keys {
-        // How the array is built depends on the size of the frame, which is not known yet.
-        let alone =
-            |config: &Config| Config { hardware: HardwareConfig::default(), ..config.clone() };
-        key.points.retain(|(_, config)| alone(config).validate().is_ok());
+        // What computes it depends on the size of the frame, which is not known yet.
+        key.points.retain(|(_, config)| config.camera.validate().is_ok());
     }
     keys
 }

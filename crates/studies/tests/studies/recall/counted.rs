@@ -124,7 +124,7 @@ fn a_naive_count_of_random_boxes_agrees() {
 
     let design = config.validate().unwrap();
     let mut engine = Engine::new(&design);
-    let mut source = open(&scene, &config, &input).unwrap();
+    let mut source = open(&scene, &config.camera, &input).unwrap();
     let (mut objects, mut sums) = (0, [0; 4]);
     for number in 1..=6 {
         let frame = source.next_frame().unwrap().unwrap();

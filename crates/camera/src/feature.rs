@@ -5,7 +5,7 @@
 use std::fmt::Display;
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::{Decimal, DesignError, FeatureKind, Reciprocal, SpatialConfig, bits_for};
+use crate::{ConfigError, Decimal, FeatureKind, Reciprocal, SpatialConfig, bits_for};
 
 /// One feature of a design.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,7 +51,7 @@ impl SpatialFeature {
         index: usize,
         n: u64,
         bits: u32,
-    ) -> Result<Self, DesignError> {
+    ) -> Result<Self, ConfigError> {
         let entry = Entry { config, index, bits };
         let pixel_max = (1 << bits) - 1;
         let max = u64::from(pixel_max);
@@ -171,7 +171,7 @@ impl Entry<'_> {
 
     /// The level, below `max`, the largest magnitude that it is compared with: it must be exceeded by some
     /// pixel, unless a region without one votes too.
-    fn level(&self, max: Option<u32>) -> Result<Option<u32>, DesignError> {
+    fn level(&self, max: Option<u32>) -> Result<Option<u32>, ConfigError> {
         let (level, max) = match (self.config.level, max) {
             (None, _) => return Ok(None),
             (Some(level), None) => return Err(self.does_not_apply("level", level)),
@@ -189,7 +189,7 @@ impl Entry<'_> {
         Err(self.out_of_range("level", &level, &valid, &hint))
     }
 
-    fn fraction_bits(&self, n: u64) -> Result<u32, DesignError> {
+    fn fraction_bits(&self, n: u64) -> Result<u32, ConfigError> {
         let max = crate::width::index_bits(n);
         let applies = self.config.feature.defaults().mean_fraction_bits.is_some();
         match self.config.mean_fraction_bits {
@@ -206,11 +206,11 @@ impl Entry<'_> {
     }
 
     /// The integer threshold; `unit` score units are one unit of the configuration.
-    fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, DesignError> {
+    fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, ConfigError> {
         let minimum = self.config.min_score.expect("the defaults are filled in before");
         let counts = self.config.feature.has_window();
         if counts && minimum.as_whole().is_none() {
-            return Err(DesignError::Type {
+            return Err(ConfigError::Type {
                 key: self.key("min_score"),
                 problem: format!("{minimum} is not a whole number; this key counts pixels"),
             });
@@ -227,17 +227,17 @@ impl Entry<'_> {
         })
     }
 
-    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str, hint: &str) -> DesignError {
+    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str, hint: &str) -> ConfigError {
         let feature = self.config.feature;
-        DesignError::Range {
+        ConfigError::Range {
             key: self.key(key),
             value: value.to_string(),
             valid: format!("{valid} for `{feature}`{hint}"),
         }
     }
 
-    fn does_not_apply(&self, key: &str, value: u32) -> DesignError {
-        DesignError::Combination {
+    fn does_not_apply(&self, key: &str, value: u32) -> ConfigError {
+        ConfigError::Combination {
             key: self.key(key),
             value: value.to_string(),
             with: format!("feature = \"{}\"", self.config.feature),

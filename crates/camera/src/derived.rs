@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The numbers of a design that follow from its configuration, for every organization.
+//! The numbers of a camera that follow from its configuration.
 
-use crate::validate::MAX_SIDE;
+use crate::ranges::MAX_SIDE;
 use crate::width::index_bits;
-use crate::{
-    Design, FeatureKind, Filter, Neighborhood, Payload, SpatialFeature, bits_for, fingerprint,
-};
+use crate::{Camera, FeatureKind, Filter, Neighborhood, Payload, SpatialFeature, bits_for};
 
-impl Design {
+impl Camera {
     /// Largest pixel, 2^P - 1.
     #[must_use]
     pub fn pixel_max(&self) -> u32 {
@@ -38,7 +36,7 @@ impl Design {
         self.columns() * self.rows()
     }
 
-    /// The feature of that kind, if the design has it.
+    /// The feature of that kind, if the camera has it.
     #[must_use]
     pub fn feature(&self, kind: FeatureKind) -> Option<&SpatialFeature> {
         self.features().iter().find(|feature| feature.kind() == kind)
@@ -123,11 +121,5 @@ impl Design {
     #[must_use]
     pub fn position_bits(&self) -> u32 {
         index_bits(self.region_pixels().into())
-    }
-
-    /// A short name: 16 hexadecimal digits, equal for equal configurations.
-    #[must_use]
-    pub fn fingerprint(&self) -> String {
-        fingerprint::of(self.config())
     }
 }

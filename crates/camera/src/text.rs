@@ -1,19 +1,60 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads a configuration from TOML text and `KEY=VALUE` overrides.
+//! Reads and writes a configuration as TOML text, with `KEY=VALUE` overrides: of a camera, or of more than that.
 
 use crate::depth::DEFAULT_BITS;
-use crate::{Config, DesignError, keys};
-use serde::Deserialize;
+use crate::{CAMERA_KEYS, CameraConfig, ConfigError, Key, keys};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use serde_path_to_error::{Path, Segment};
 use toml::{Table, Value};
 
-impl Config {
+/// What is written as TOML: a configuration of a camera, or of more than that.
+pub trait Written: Serialize + Sized {
+    /// Its keys.
+    fn keys() -> impl Iterator<Item = &'static Key>;
+
+    /// Reads it from a table that has no unknown key.
+    ///
+    /// # Errors
+    /// When a value is of the wrong type; [`read_table`] names it.
+    fn from_table(table: Table) -> Result<Self, ConfigError>;
+
+    /// The same at `bits` bits per pixel, as [`CameraConfig::at_depth`].
+    #[must_use]
+    fn at_depth(&self, bits: u32) -> Self;
+}
+
+/// Reads a configuration and applies `overrides`, as [`CameraConfig::from_toml_with`].
+///
+/// # Errors
+/// As [`CameraConfig::from_toml_with`].
+pub fn read<C: Written, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C, ConfigError> {
+    let mut table: Table =
+        text.parse().map_err(|e: toml::de::Error| ConfigError::Syntax(one_line(&e)))?;
+    let written = table.clone();
+    apply_all(&mut table, overrides)?;
+    if let (Some(own), Some(other)) = (depth(&written), depth(&table))
+        && own != other
+    {
+        let scaled = known::<C>(written)?.at_depth(other);
+        table = Table::try_from(scaled).map_err(|e| ConfigError::Syntax(e.to_string()))?;
+        apply_all(&mut table, overrides)?;
+    }
+    known(table)
+}
+
+/// A configuration as a TOML file.
+pub fn write<C: Written>(config: &C) -> String {
+    toml::to_string(config).expect("TOML has a form for every value of a configuration")
+}
+
+impl CameraConfig {
     /// Reads a configuration; keys that are left out have their defaults.
     ///
     /// # Errors
     /// When the text is no TOML, has an unknown key, or a value of the wrong type. Ranges are
-    /// checked by [`Config::validate`].
-    pub fn from_toml(text: &str) -> Result<Self, DesignError> {
+    /// checked by [`CameraConfig::validate`].
+    pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
         Self::from_toml_with(text, &[] as &[&str])
     }
 
@@ -25,44 +66,60 @@ impl Config {
     /// `frame.pixel_bits` scales those of the text, and other overrides are taken as they are.
     ///
     /// # Errors
-    /// As [`Config::from_toml`]; also for an override that is not of that form.
-    pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, DesignError> {
-        let mut table: Table =
-            text.parse().map_err(|e: toml::de::Error| DesignError::Syntax(one_line(&e)))?;
-        let written = table.clone();
-        apply_all(&mut table, overrides)?;
-        if let (Some(own), Some(other)) = (depth(&written), depth(&table))
-            && own != other
-        {
-            let scaled = Self::from_table(written)?.at_depth(other);
-            table = Table::try_from(scaled).map_err(|e| DesignError::Syntax(e.to_string()))?;
-            apply_all(&mut table, overrides)?;
-        }
-        Self::from_table(table)
-    }
-
-    fn from_table(table: Table) -> Result<Self, DesignError> {
-        keys::refuse_unknown(&table)?;
-        let value = Value::Table(table);
-        serde_path_to_error::deserialize(value.clone()).map_err(|e| {
-            let key = e.path().to_string();
-            let problem = problem(&key, at(&value, e.path()), e.inner().message());
-            DesignError::Type { key, problem }
-        })
+    /// As [`CameraConfig::from_toml`]; also for an override that is not of that form.
+    pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, ConfigError> {
+        read(text, overrides)
     }
 
     /// The configuration as a TOML file.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("TOML has a form for every value of a configuration")
+        write(self)
+    }
+}
+
+/// The configuration in a table, which may have unknown keys.
+fn known<C: Written>(table: Table) -> Result<C, ConfigError> {
+    keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &table)?;
+    C::from_table(table)
+}
+
+/// What a table holds, by serde; a message says which of the `keys` takes what.
+///
+/// # Errors
+/// [`ConfigError::Type`], with the key.
+pub fn read_table<T: DeserializeOwned>(
+    keys: impl Iterator<Item = &'static Key>,
+    table: Table,
+) -> Result<T, ConfigError> {
+    let value = Value::Table(table);
+    serde_path_to_error::deserialize(value.clone()).map_err(|e| {
+        let key = e.path().to_string();
+        let takes = || keys::takes(keys, &key);
+        let problem = problem(at(&value, e.path()), e.inner().message(), takes);
+        ConfigError::Type { key, problem }
+    })
+}
+
+impl Written for CameraConfig {
+    fn keys() -> impl Iterator<Item = &'static Key> {
+        CAMERA_KEYS.iter()
+    }
+
+    fn from_table(table: Table) -> Result<Self, ConfigError> {
+        read_table(Self::keys(), table)
+    }
+
+    fn at_depth(&self, bits: u32) -> Self {
+        Self::at_depth(self, bits)
     }
 }
 
 /// What is wrong with the value of a key, which serde says in words of its own.
-fn problem(key: &str, value: Option<&Value>, message: &str) -> String {
+fn problem(value: Option<&Value>, message: &str, takes: impl FnOnce() -> String) -> String {
     match value {
         _ if message.starts_with("missing field") => message.replace("missing field", "it lacks"),
-        Some(value) => format!("{} is not valid; it takes {}", short(value), keys::takes(key)),
+        Some(value) => format!("{} is not valid; it takes {}", short(value), takes()),
         None => message.to_owned(),
     }
 }
@@ -99,12 +156,12 @@ fn depth(table: &Table) -> Option<u32> {
     u32::try_from(bits).ok().filter(|bits| (1..=16).contains(bits))
 }
 
-fn apply_all<S: AsRef<str>>(table: &mut Table, overrides: &[S]) -> Result<(), DesignError> {
+fn apply_all<S: AsRef<str>>(table: &mut Table, overrides: &[S]) -> Result<(), ConfigError> {
     overrides.iter().try_for_each(|text| apply(table, text.as_ref()))
 }
 
-fn apply(table: &mut Table, text: &str) -> Result<(), DesignError> {
-    let problem = |problem: String| DesignError::Override { text: text.to_owned(), problem };
+fn apply(table: &mut Table, text: &str) -> Result<(), ConfigError> {
+    let problem = |problem: String| ConfigError::Override { text: text.to_owned(), problem };
     let (path, value) = text
         .split_once('=')
         .ok_or_else(|| problem("expected KEY=VALUE, for example region.size=16".to_owned()))?;
@@ -140,7 +197,7 @@ fn place<'a>(table: &'a mut Table, steps: &[&str]) -> Result<&'a mut Value, Stri
 }
 
 fn default_features() -> Value {
-    let features = Value::try_from(&Config::default().spatial);
+    let features = Value::try_from(&CameraConfig::default().spatial);
     features.expect("TOML has a form for every value of a configuration")
 }
 

@@ -4,10 +4,10 @@
 
 use thiserror::Error;
 
-/// A configuration that is no design.
+/// A configuration that is no camera or no design.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum DesignError {
+pub enum ConfigError {
     /// The text is not TOML.
     #[error("the configuration is not valid TOML: {}", printable(.0))]
     Syntax(String),

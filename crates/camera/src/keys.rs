@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The keys of a configuration, to refuse unknown ones by name and with the nearest known one.
+
+use crate::{
+    Combine, ConfigError, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+};
+use crate::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
+use Takes::{Names, Text, Whole};
+use std::{fmt, ops::RangeInclusive};
+use toml::{Table, Value};
+
+/// What a key takes.
+#[derive(Clone, Debug)]
+pub enum Takes {
+    /// A whole number of this range.
+    Whole(RangeInclusive<u32>),
+    /// In these words.
+    Text(&'static str),
+    /// One of the names that this lists.
+    Names(fn() -> String),
+}
+
+impl fmt::Display for Takes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Whole(range) => write!(f, "a whole number, {}..={}", range.start(), range.end()),
+            Text(text) => f.write_str(text),
+            Names(names) => f.write_str(&names()),
+        }
+    }
+}
+
+/// A key, dotted, and what it takes; `spatial` is an array of tables.
+pub type Key = (&'static str, Takes);
+
+/// Every key of a camera.
+pub const CAMERA_KEYS: &[Key] = &[
+    ("frame.width", Whole(1..=MAX_SIDE)),
+    ("frame.height", Whole(1..=MAX_SIDE)),
+    ("frame.pixel_bits", Whole(PIXEL_BITS)),
+    ("region.size", Whole(REGION_SIZES)),
+    ("region.neighborhood", Names(Neighborhood::one_of)),
+    ("denoise.filter", Names(Filter::one_of)),
+    ("spatial.feature", Names(FeatureKind::one_of)),
+    ("spatial.level", Text("a whole number >= 0, in grey levels")),
+    ("spatial.min_score", Text("a number >= 0 with at most nine digits after the point")),
+    ("spatial.mean_fraction_bits", Whole(MEAN_FRACTION_BITS)),
+    ("decision.combine", Names(Combine::one_of)),
+    ("temporal.level", Text("a whole number >= 0, in grey levels")),
+    ("temporal.min_count", Text("a whole number >= 0, in pixels")),
+    ("temporal.reference", Names(Reference::one_of)),
+    ("render.irrelevant", Names(Irrelevant::one_of)),
+    ("render.payload", Names(Payload::one_of)),
+];
+
+/// What the key at `path`, such as `spatial[0].level`, takes.
+pub(crate) fn takes(mut known: impl Iterator<Item = &'static Key>, path: &str) -> String {
+    let dotted: String = path
+        .split('[')
+        .enumerate()
+        .map(|(part, text)| match part {
+            0 => text,
+            _ => text.split_once(']').map_or("", |(_, rest)| rest),
+        })
+        .collect();
+    match known.find(|(key, _)| *key == dotted) {
+        Some((_, takes)) => takes.to_string(),
+        None if path == "spatial" => "an array of tables".to_owned(),
+        None => "a table".to_owned(),
+    }
+}
+
+/// Refuses the first key of `table` that is not one of those `known`.
+pub(crate) fn refuse_unknown(known: &[&Key], table: &Table) -> Result<(), ConfigError> {
+    for (section, value) in table {
+        if !sections(known).any(|one| one == section) {
+            return Err(unknown(section, section, sections(known).map(str::to_owned)));
+        }
+        match value {
+            Value::Table(keys) => refuse_unknown_in(known, section, section, keys)?,
+            Value::Array(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    if let Value::Table(keys) = item {
+                        let path = format!("{section}[{index}]");
+                        refuse_unknown_in(known, section, &path, keys)?;
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn refuse_unknown_in(
+    known: &[&Key],
+    section: &str,
+    path: &str,
+    keys: &Table,
+) -> Result<(), ConfigError> {
+    let is_known = |key: &&String| known.iter().any(|(one, _)| *one == format!("{section}.{key}"));
+    match keys.keys().find(|key| !is_known(key)) {
+        None => Ok(()),
+        Some(key) => {
+            let all = known.iter().map(|(key, _)| (*key).to_owned());
+            Err(unknown(&format!("{path}.{key}"), &format!("{section}.{key}"), all))
+        }
+    }
+}
+
+fn sections(known: &[&Key]) -> impl Iterator<Item = &'static str> {
+    known.iter().filter_map(|(key, _)| key.split_once('.')).map(|(section, _)| section)
+}
+
+/// The error for `shown`; the nearest key is looked for under the name `plain`.
+fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -> ConfigError {
+    /// Below this similarity a suggestion would only confuse.
+    const SIMILAR: f64 = 0.6;
+    let nearest = candidates
+        .map(|key| (strsim::jaro_winkler(&key, plain).max(same_leaf(&key, plain)), key))
+        .filter(|(similarity, _)| *similarity >= SIMILAR)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, key)| key);
+    ConfigError::UnknownKey { key: shown.to_owned(), nearest }
+}
+
+/// A key that stands in the wrong table is nearest to the key of that name.
+fn same_leaf(a: &str, b: &str) -> f64 {
+    let leaf = |key: &str| key.rsplit('.').next().map(str::to_owned);
+    if leaf(a) == leaf(b) { 0.95 } else { 0.0 }
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a Foveate camera computes, as one validated value: of which frames, by which scores and thresholds, against
+//! which reference, and what is shown. Knows nothing of what computes it.
+//!
+//! A [`CameraConfig`] is what a user writes; [`CameraConfig::validate`] turns it into a [`Camera`], which is
+//! immutable and answers every question about itself: grid, score widths, thresholds. Nothing downstream validates
+//! again or derives a width again. This crate does no I/O.
+
+mod action;
+mod camera;
+mod choice;
+mod config;
+mod decimal;
+mod depth;
+mod derived;
+mod error;
+mod feature;
+mod keys;
+mod kind;
+mod ranges;
+mod reciprocal;
+pub mod text;
+mod validate;
+mod width;
+
+pub use action::Action;
+pub use camera::{Camera, Temporal};
+pub use choice::{
+    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference, listed,
+};
+pub use config::{
+    CameraConfig, DecisionConfig, DenoiseConfig, FrameConfig, RegionConfig, RenderConfig,
+    SpatialConfig, TemporalConfig,
+};
+pub use decimal::Decimal;
+pub use error::ConfigError;
+pub use feature::{Mean, SpatialFeature, Variance};
+pub use keys::{CAMERA_KEYS, Key, Takes};
+pub use kind::Measure;
+pub use ranges::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
+pub use reciprocal::Reciprocal;
+pub use validate::in_range;
+pub use width::{bits_for, index_bits, mad_score_max};

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The ranges of keys that depend on no other key. Checks, messages and lists of keys take them from here.
+
+use std::ops::RangeInclusive;
+
+/// Largest frame side in pixels; keeps every count of regions and pixels far inside 32 bits.
+pub const MAX_SIDE: u32 = 16_384;
+/// Bits per pixel P.
+pub const PIXEL_BITS: RangeInclusive<u32> = 1..=16;
+/// Sides of a region N in pixels.
+pub const REGION_SIZES: RangeInclusive<u32> = 2..=64;
+/// Fraction bits of the mean of `mad`, for the largest region.
+pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;

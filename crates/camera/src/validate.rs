@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Checks every range and combination of a configuration, and makes it a camera.
+
+use std::ops::RangeInclusive;
+
+use crate::depth::{self, DEFAULT_BITS};
+use crate::{Camera, CameraConfig, ConfigError, FeatureKind, SpatialFeature, Temporal};
+use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES};
+
+/// Frame size where the configuration leaves it out.
+const DEFAULT_SIDE: u32 = 224;
+/// Most regions of a frame: those of the largest frame at 8x8 pixels. What a model keeps per region
+/// then stays within memory.
+const MAX_REGIONS: u32 = 1 << 22;
+
+impl CameraConfig {
+    /// Checks every range and combination.
+    ///
+    /// # Errors
+    /// Names the key, its value and what would be valid.
+    pub fn validate(&self) -> Result<Camera, ConfigError> {
+        self.validate_up_to(MAX_SIDE)
+    }
+
+    /// As [`CameraConfig::validate`], for frames with sides up to `max_side`.
+    ///
+    /// # Errors
+    /// As [`CameraConfig::validate`].
+    pub fn validate_up_to(&self, max_side: u32) -> Result<Camera, ConfigError> {
+        let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
+        let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
+        in_range("frame.width", width, 1..=max_side, "")?;
+        in_range("frame.height", height, 1..=max_side, "")?;
+        in_range("frame.pixel_bits", self.frame.pixel_bits, PIXEL_BITS, "")?;
+        in_range("region.size", self.region.size, REGION_SIZES, "")?;
+        self.check_regions(width, height)?;
+        let n = self.region.size * self.region.size;
+        let pixel_max = (1 << self.frame.pixel_bits) - 1;
+        let level = self.temporal_level(pixel_max)?;
+        let region = format!(" for regions of {n} pixels");
+        in_range("temporal.min_count", self.temporal.min_count, 0..=n, &region)?;
+        self.check_features()?;
+        let mut config = self.clone();
+        config.temporal.level = Some(level);
+        let bits = self.frame.pixel_bits;
+        config.spatial = self.spatial.iter().map(|entry| entry.with_defaults(bits)).collect();
+        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), bits);
+        let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
+        (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        let temporal = Temporal {
+            level,
+            min_count: self.temporal.min_count,
+            reference: self.temporal.reference,
+        };
+        Ok(Camera::new(config, (width, height), features, temporal))
+    }
+
+    /// The camera for inputs of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// As [`CameraConfig::fit_frame`] and [`CameraConfig::validate`].
+    pub fn for_frames(&self, width: u32, height: u32) -> Result<Camera, ConfigError> {
+        let mut config = self.clone();
+        config.fit_frame(width, height)?;
+        config.validate()
+    }
+
+    /// Takes the frame size from an input of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// When the configuration names another size.
+    pub fn fit_frame(&mut self, width: u32, height: u32) -> Result<(), ConfigError> {
+        let frame = &mut self.frame;
+        for (key, own, given) in
+            [("width", &mut frame.width, width), ("height", &mut frame.height, height)]
+        {
+            if let Some(own) = *own
+                && own != given
+            {
+                return Err(ConfigError::Combination {
+                    key: format!("frame.{key}"),
+                    value: own.to_string(),
+                    with: format!("an input of {width}x{height} pixels"),
+                    remedy: "leave the key out to take the size from the input".to_owned(),
+                });
+            }
+            *own = Some(given);
+        }
+        Ok(())
+    }
+
+    /// Refuses a frame of too many regions.
+    fn check_regions(&self, width: u32, height: u32) -> Result<(), ConfigError> {
+        let size = self.region.size;
+        let regions = width.div_ceil(size) * height.div_ceil(size);
+        if regions <= MAX_REGIONS {
+            return Ok(());
+        }
+        Err(ConfigError::Combination {
+            key: "region.size".to_owned(),
+            value: size.to_string(),
+            with: format!("a frame of {width}x{height} pixels, which has {regions} regions"),
+            remedy: format!(
+                "at most {MAX_REGIONS} regions are allowed; use larger regions or a smaller frame"
+            ),
+        })
+    }
+
+    /// The level of the temporal score: one that pixels can differ by more than, unless no pixel has to.
+    fn temporal_level(&self, pixel_max: u32) -> Result<u32, ConfigError> {
+        let bits = self.frame.pixel_bits;
+        let level = self.temporal.level_at(bits);
+        let largest = if self.temporal.min_count == 0 { pixel_max } else { pixel_max - 1 };
+        let scaled = depth::level(level, DEFAULT_BITS, bits);
+        let hint = depth::hint(&level, &scaled, scaled <= largest, bits);
+        let why = format!(" for pixels of {bits} bits, which differ by at most {pixel_max}{hint}");
+        in_range("temporal.level", level, 0..=largest, &why).map(|()| level)
+    }
+
+    fn check_features(&self) -> Result<(), ConfigError> {
+        if self.spatial.is_empty() {
+            return Err(ConfigError::Range {
+                key: "spatial".to_owned(),
+                value: "[]".to_owned(),
+                valid: format!("1..={} features", FeatureKind::COUNT),
+            });
+        }
+        for (index, entry) in self.spatial.iter().enumerate() {
+            if self.spatial.iter().take(index).any(|earlier| earlier.feature == entry.feature) {
+                return Err(ConfigError::Combination {
+                    key: format!("spatial[{index}].feature"),
+                    value: format!("\"{}\"", entry.feature),
+                    with: "another entry for the same feature".to_owned(),
+                    remedy: "list each feature once".to_owned(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Refuses the `value` of a `key` that is not in its range; `why` follows the range in the message.
+///
+/// # Errors
+/// [`ConfigError::Range`].
+pub fn in_range(
+    key: &str,
+    value: u32,
+    range: RangeInclusive<u32>,
+    why: &str,
+) -> Result<(), ConfigError> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    Err(ConfigError::Range {
+        key: key.to_owned(),
+        value: value.to_string(),
+        valid: format!("{}..={}{why}", range.start(), range.end()),
+    })
+}
