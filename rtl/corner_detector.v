@@ -52,7 +52,7 @@ module corner_detector #(
         left_q[0+:WIDTH]
     };
 
-    // What a neighbor must exceed, or stay below, on one side or the other. A bound out of the range of pixels has its
+    // The bounds that a neighbor must exceed, or stay below, on one side or the other. A bound out of the range of pixels has its
     // highest bit set: then no neighbor does.
     wire [WIDTH:0] high = {1'b0, center} + {1'b0, level_i};
     wire [WIDTH:0] low = {1'b0, center} - {1'b0, level_i};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The region as it was when it was last active, for a tail that compares a clock before it counts.
 //
-// What a pixel is compared with is read in the clock of the comparison. The decision that may replace
+// The reference of a pixel is read in the clock of the comparison. The decision that may replace
 // it comes a clock later, with the count, so the memory is written there: it has a port of each kind.
 `default_nettype none
 

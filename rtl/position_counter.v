@@ -10,7 +10,7 @@ module position_counter #(
     input  wire                    rst_i,      // synchronous reset, active high
     input  wire                    step_i,     // a pixel enters the store
     output wire [ADDRESS_BITS-1:0] address_o,  // number of the pixel that steps
-    output wire                    last_o      // it is the last of the frame
+    output wire                    last_o      // the pixel is the last of the frame
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.

@@ -15,9 +15,9 @@ module raster_banks #(
     input  wire                    rst_i,            // synchronous reset, active high
     input  wire                    write_i,          // write at this edge
     input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
-    input  wire [       WIDTH-1:0] data_i,           // what
+    input  wire [       WIDTH-1:0] data_i,           // the word that is written
     input  wire [ADDRESS_BITS-1:0] read_address_i,   // where to read
-    output wire [       WIDTH-1:0] data_o            // what was there, GROUPS + 6 clocks after its address
+    output wire [       WIDTH-1:0] data_o            // the word that was there, GROUPS + 6 clocks after its address
 );
 
     localparam GROUP_WORD_BITS = BANK_BITS + GROUP_BITS;
@@ -32,7 +32,7 @@ module raster_banks #(
         end
     endgenerate
 
-    // What enters the first group, and what leaves each.
+    // The word that enters the first group, and the one that leaves each.
     localparam SLOT_BITS = ADDRESS_BITS - BANK_BITS;  // bits of the number of a bank
     wire [ADDRESS_BITS-1:0] read_place[0:GROUPS];
     wire [ADDRESS_BITS-1:0] write_place[0:GROUPS];
@@ -72,7 +72,7 @@ module raster_banks #(
             reg [BANKS*WIDTH-1:0] bank_words_q;
             for (bank = 0; bank < BANKS; bank = bank + 1) begin : g_bank
                 localparam [SLOT_BITS-1:0] OWN = FIRST + bank;
-                reg asked_q, given_q, own_q;  // it is read; written; written at the next edge
+                reg asked_q, given_q, own_q;  // this bank is read; is written; is written at the next edge
                 reg [BANK_BITS-1:0] own_read_q, own_write_q;
                 reg [WIDTH-1:0] own_word_q;
                 wire comes;  // its word comes
@@ -102,7 +102,7 @@ module raster_banks #(
 
             integer number;
             wire [WIDTH-1:0] earlier = found[group];
-            reg [WIDTH-1:0] any;  // what comes from the groups before, or from a bank of this one
+            reg [WIDTH-1:0] any;  // the word of the groups before, or of a bank of this one
             always @* begin
                 any = earlier;
                 for (number = 0; number < BANKS; number = number + 1) any = any | bank_words_q[number*WIDTH+:WIDTH];

@@ -30,11 +30,11 @@ module raster_deviation #(
     input  wire                   rst_i,          // synchronous reset, active high
     input  wire                   store_i,        // a word is stored at this edge
     input  wire [ START_BITS-1:0] store_place_i,  // where in the buffer
-    input  wire [LANES*WIDTH-1:0] word_i,         // it
+    input  wire [LANES*WIDTH-1:0] word_i,         // the word
     input  wire                   done_i,         // the sum is that of a whole region
     input  wire [   SUM_BITS-1:0] sum_i,          // sum of its pixels
     input  wire                   settled_i,      // OTHER_CLOCKS later: its other scores are there
-    input  wire [ OTHER_BITS-1:0] other_i,        // they
+    input  wire [ OTHER_BITS-1:0] other_i,        // the other scores
     output wire                   judged_o,       // all scores of a region are there
     output wire [   MAD_BITS-1:0] mad_o,          // this one
     output wire [ OTHER_BITS-1:0] other_o         // the others

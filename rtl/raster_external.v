@@ -10,22 +10,22 @@ module raster_external #(
     input  wire                 rst_i,              // synchronous reset, active high
     input  wire                 first_frame_i,      // there are no references yet
     input  wire                 read_i,             // the next reference is asked for
-    output wire [WORD_BITS-1:0] reference_o,        // it
+    output wire [WORD_BITS-1:0] reference_o,        // that reference
     input  wire                 write_i,            // a word becomes a reference
     input  wire [WORD_BITS-1:0] word_i,             // that word
-    input  wire                 row_end_i,          // it is the last of a row
+    input  wire                 row_end_i,          // the word is the last of a row
     output wire                 reference_ready_o,  // the reference on the port is taken at the next edge
-    input  wire                 reference_valid_i,  // it is there
-    input  wire [WORD_BITS-1:0] reference_pixel_i,  // it
+    input  wire                 reference_valid_i,  // a reference is on the port
+    input  wire [WORD_BITS-1:0] reference_pixel_i,  // that reference
     output reg                  store_valid_o,      // a word is to be stored
     output reg  [WORD_BITS-1:0] store_pixel_o,      // that word
-    output reg                  store_last_o,       // it is the last of a row
+    output reg                  store_last_o,       // the word is the last of a row
     output reg                  underrun_o          // a reference was not there, since reset
 );
 
     assign reference_ready_o = read_i && !first_frame_i;
 
-    // What is on the port is taken at every edge; only that of the right one is used.
+    // The word on the port is taken at every edge; only that of the right one is used.
     raster_delay #(.WIDTH(WORD_BITS), .DEPTH(1 + DEEP)) u_reference (
         .clk_i(clk_i), .data_i(reference_pixel_i), .data_o(reference_o)
     );

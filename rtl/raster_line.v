@@ -10,7 +10,7 @@ module raster_line #(
     input  wire                 clk_i,   // clock, rising edge
     input  wire                 rst_i,   // synchronous reset, active high
     input  wire                 step_i,  // a word comes in
-    input  wire [WORD_BITS-1:0] word_i,  // it
+    input  wire [WORD_BITS-1:0] word_i,  // the word
     output wire [WORD_BITS-1:0] word_o   // the one of ROW_WORDS + 1 steps ago
 );
 

@@ -17,10 +17,10 @@ module raster_moments #(
     input  wire                     clk_i,            // clock, rising edge
     input  wire                     rst_i,            // synchronous reset, active high
     input  wire [  LANES*WIDTH-1:0] word_i,           // a word, two clocks before its step
-    input  wire                     step_i,           // it is summed at this edge
-    input  wire                     segment_end_i,    // it ends a row of a region
+    input  wire                     step_i,           // the word is summed at this edge
+    input  wire                     segment_end_i,    // the word ends a row of a region
     input  wire                     row_end_i,        // ... of the frame
-    input  wire                     region_top_i,     // it is in the first row of its region
+    input  wire                     region_top_i,     // the word is in the first row of its region
     output wire [     SUM_BITS-1:0] sum_o,            // of the region, if the word was its last
     output wire [VARIANCE_BITS-1:0] variance_o        // of that region, three clocks later (VARIANCE)
 );

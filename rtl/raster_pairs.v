@@ -12,9 +12,9 @@ module raster_pairs #(
     input  wire                 clk_i,        // clock, rising edge
     input  wire                 rst_i,        // synchronous reset, active high
     input  wire                 read_i,       // the next word is asked for
-    output reg  [WORD_BITS-1:0] reference_o,  // it, until the next one takes its place
+    output reg  [WORD_BITS-1:0] reference_o,  // that word, until the next one takes its place
     input  wire                 write_i,      // the next word to store is there
-    input  wire [WORD_BITS-1:0] word_i        // it
+    input  wire [WORD_BITS-1:0] word_i        // that word
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.
@@ -28,7 +28,7 @@ module raster_pairs #(
     localparam LAST_PAIR = PAIRS - 1;
     localparam BEFORE_LAST_PAIR = PAIRS - 2;
 
-    // What is asked for: the first or the second word of the pair that was read. The next pair is read with the second
+    // The word that is asked for: the first or the second word of the pair that was read. The next pair is read with the second
     // one; if the last pair of a frame has none, when no write waits, as the first pair after reset is.
     wire [PAIR_BITS-1:0] read_place;
     reg ask_second_q, last_pair_q, again_q;
@@ -38,7 +38,7 @@ module raster_pairs #(
     wire read = (read_i && ask_second_q) || again;
     wire write = waits_q && !read;
 
-    // What comes: the first or the second word of a pair.
+    // The word that comes: the first or the second word of a pair.
     wire [PAIR_BITS-1:0] write_place;
     reg come_second_q;
     reg [WORD_BITS-1:0] first_q;      // the first word of the pair that is coming
@@ -91,7 +91,7 @@ module raster_pairs #(
     );
 
     (* ram_style = "huge" *) reg [2*WORD_BITS-1:0] pairs_q[0:PAIRS-1];
-    reg [2*WORD_BITS-1:0] pair_q;  // what was read
+    reg [2*WORD_BITS-1:0] pair_q;  // the pair that was read
     always @(posedge clk_i) begin
         if (memory_write) pairs_q[memory_address] <= memory_word;
         else if (memory_read) pair_q <= pairs_q[memory_address];

@@ -26,13 +26,13 @@ module raster_pass #(
     input  wire                   enter_i,  // a region enters the queue
     input  wire [  MEAN_BITS-1:0] mean_i,   // its mean
     input  wire [ PLACE_BITS-1:0] start_i,  // where in the buffer its first word is
-    input  wire [ EXTRA_BITS-1:0] extra_i,  // what travels with it
+    input  wire [ EXTRA_BITS-1:0] extra_i,  // bits that travel with the region
     output wire                   read_o,   // a word is read at this edge
     output wire [ PLACE_BITS-1:0] place_o,  // where in the buffer
     input  wire [LANES*WIDTH-1:0] word_i,   // that word, a clock later (DEEP: two)
     output wire                   done_o,   // the sum is that of a whole region
     output wire [   SUM_BITS-1:0] sum_o,    // of its deviations
-    output wire [ EXTRA_BITS-1:0] extra_o   // what travelled with it
+    output wire [ EXTRA_BITS-1:0] extra_o   // the bits that came with the region
 );
 
     localparam ENTRY_BITS = MEAN_BITS + PLACE_BITS + EXTRA_BITS;

@@ -11,8 +11,8 @@ module raster_repeat #(
     input  wire                 clk_i,     // clock, rising edge
     input  wire                 rst_i,     // synchronous reset, active high
     input  wire                 step_i,    // a word comes in
-    input  wire                 repeat_i,  // it is the one above it
-    input  wire [WORD_BITS-1:0] word_i,    // it, otherwise
+    input  wire                 repeat_i,  // the word is the one above it
+    input  wire [WORD_BITS-1:0] word_i,    // the word, otherwise
     output wire [WORD_BITS-1:0] word_o     // the word
 );
 

@@ -13,10 +13,10 @@ module raster_sums #(
     input  wire                  clk_i,          // clock, rising edge
     input  wire                  rst_i,          // synchronous reset, active high
     input  wire                  step_i,         // the value of a word comes in
-    input  wire [VALUE_BITS-1:0] value_i,        // it
+    input  wire [VALUE_BITS-1:0] value_i,        // the value
     input  wire                  segment_end_i,  // the word is the last of a row of its region
     input  wire                  row_end_i,      // ... of its row
-    input  wire                  region_top_i,   // it is in the first row of its region
+    input  wire                  region_top_i,   // the word is in the first row of its region
     output reg  [  SUM_BITS-1:0] sum_o           // of the rows of a region so far
 );
 

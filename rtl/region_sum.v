@@ -9,7 +9,7 @@ module region_sum #(
     input  wire                clk_i,    // clock, rising edge
     input  wire                rst_i,    // synchronous reset, active high
     input  wire                step_i,   // a value comes in
-    input  wire                last_i,   // it is the last of the frame
+    input  wire                last_i,   // the value is the last of the frame
     input  wire [   WIDTH-1:0] value_i,  // that value
     output reg                 done_o,   // the sum is that of a whole frame
     output reg  [SUM_BITS-1:0] sum_o     // of the values so far

@@ -18,9 +18,9 @@ module serial_raster_feed #(
     input  wire                 rst_i,     // synchronous reset, active high
     input  wire                 valid_i,   // a pixel comes in
     input  wire                 reopen_i,  // the frame before is done
-    output wire                 ready_o,   // it would be taken
+    output wire                 ready_o,   // a pixel would be taken
     output wire                 take_o,    // a pixel is taken
-    output wire                 place_o,   // it goes to the place below
+    output wire                 place_o,   // the pixel goes to the place below
     output wire                 last_o,    // the last place of the last pixel
     output wire [LANE_BITS-1:0] lane_o,    // the place: lane
     output wire [SLOT_BITS-1:0] slot_o,    // ... slot

@@ -4,7 +4,7 @@
 use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Timing};
 use foveate_camera::{Camera, ConfigError};
 
-/// What an array is made of, as often as it needs: an RPU, a lane.
+/// The unit that an array repeats: an RPU, a lane; or the one core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
     /// What people call one.

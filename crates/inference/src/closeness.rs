@@ -195,7 +195,7 @@ pub enum Goal {
 }
 
 impl Goal {
-    /// Whether it is reached. What is no number reaches nothing.
+    /// Whether it is reached; NaN never does.
     pub(crate) fn holds(self, found: &Closeness) -> bool {
         match self {
             Self::Agreement(least) => found.agreement() >= least,

@@ -20,7 +20,7 @@ pub(crate) fn moved<T: Number>(
 ) -> Mask {
     if limit > 0.0 {
         let scale = form.encoding().scale;
-        // What is no number is neither more nor less. Both are asked, because a branch would keep values from the lanes.
+        // NaN is neither more nor less. Both are asked, because a branch would keep values from the lanes.
         let is_near =
             |kept: T, fresh: T| kept.is_same(fresh) | (kept.distance(fresh) * scale <= limit);
         differing(form, kept, fresh, at, is_near)

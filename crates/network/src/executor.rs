@@ -19,8 +19,8 @@ pub enum Mode {
     Exact,
     /// The same, but an output that came out equal has not changed. Equal to [`Mode::Dense`] bit for bit.
     Compare,
-    /// A position of which no value differs by more than this from the value that was last passed on keeps that value. Of an integer it is
-    /// the real number that it stands for that counts, if its scale is known, and if not the integer itself.
+    /// A position keeps what it last passed on while each of its values is within this of it. Integers are compared as
+    /// the real numbers that they stand for, if their scale is known, else as they are.
     Truncate(f32),
     /// In every tensor only the positions that lie under a changed part of the picture. Wrong at its borders.
     Fixed,

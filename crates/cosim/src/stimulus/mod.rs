@@ -90,7 +90,7 @@ impl Stimulus {
     /// Runs the model and records. `progress` hears how many sequences of how many are done.
     ///
     /// # Errors
-    /// When a frame is not of the design's kind, the array is too large, or there is no place for the files.
+    /// When a frame is not of the design's kind, the array is too large, or the files find no room.
     pub fn record(
         &self,
         design: &Design,

@@ -70,7 +70,7 @@ impl Outcome for f32 {
     }
 }
 
-/// The nearest step, an even one where two are as near, as far as there are steps. What is no number is 0.
+/// The nearest step, an even one where two are as near, as far as there are steps. NaN becomes 0.
 #[inline(always)]
 pub(crate) fn rounded<Y: Byte>(steps: f32, zero: i32) -> Y {
     // Further than any zero point reaches. From 2^23 to 2^24 floating-point values are integers, so that an addition rounds as is wanted: on
