@@ -63,7 +63,7 @@ module edge_detector #(
         end
     endgenerate
 
-    // What left and center contribute.
+    // The sums of the left and the center column.
     reg  [WIDTH:0] upper_pair_q;
     reg  [WIDTH:0] lower_pair_q;
     reg  [SUM_BITS-1:0] sum_q;   // to (Gx + Gy) / 2

@@ -6,7 +6,7 @@ module frame_progress (
     input  wire clk_i,     // clock, rising edge
     input  wire rst_i,     // synchronous reset, active high
     input  wire step_i,    // a pixel enters the store
-    input  wire last_i,    // it is the last of the frame
+    input  wire last_i,    // the pixel is the last of the frame
     output reg  done_o,    // for one clock: the counts are those of a whole frame
     output reg  stored_o,  // the store holds a whole frame
     output reg  second_o   // with done_o: it is not the first frame

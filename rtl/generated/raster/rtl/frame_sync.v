@@ -10,7 +10,7 @@ module frame_sync #(
     input  wire clk_i,    // clock, rising edge
     input  wire rst_i,    // synchronous reset, active high
     input  wire valid_i,  // a beat comes from outside
-    input  wire sof_i,    // it is the first of a frame; only with valid_i
+    input  wire sof_i,    // the beat is the first of a frame; only with valid_i
     input  wire open_i,   // the core takes a beat at this edge, if there is one
     output wire ready_o,  // a beat from outside would be taken
     output wire valid_o,  // a beat for the core
@@ -30,7 +30,7 @@ module frame_sync #(
     reg start_q;                 // a frame has just had all its beats
     reg error_q;
     reg [BEAT_BITS-1:0] beat_q;  // the next beat of the frame under way; 0 where there is none
-    reg last_q;                  // it is the last
+    reg last_q;                  // the next beat is the last
 
     // With a frame under way a beat must not be a first one, else it must.
     wire fits = inside_q != sof_i;

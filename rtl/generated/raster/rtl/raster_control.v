@@ -35,10 +35,10 @@ module raster_control #(
     output wire [1:0] top_o,      // ... above it
     output wire [1:0] bottom_o,   // ... below it
     output wire tail_o,           // a word of the frame reaches the tail
-    output wire segment_end_o,    // it is the last of a row of its region
-    output wire row_end_o,        // it is the last of its row
-    output wire region_top_o,     // it is in the first row of its region
-    output wire region_bottom_o,  // it is in the last row of its region
+    output wire segment_end_o,    // the word is the last of a row of its region
+    output wire row_end_o,        // ... of its row
+    output wire region_top_o,     // the word is in the first row of its region
+    output wire region_bottom_o,  // ... in the last row
     output wire frame_over_o      // at this edge a frame is over: the next may begin
 );
 

@@ -55,7 +55,7 @@ module raster_core #(
     input  wire                       clk_i,               // clock, rising edge
     input  wire                       rst_i,               // synchronous reset, active high
     input  wire                       valid_i,             // a word is taken at this edge, if ready_o
-    input  wire [    LANES*WIDTH-1:0] pixel_i,             // it, the left pixel in the lowest bits
+    input  wire [    LANES*WIDTH-1:0] pixel_i,             // the word, its left pixel in the lowest bits
     output wire                       ready_o,             // a word would be taken
     input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a pixel is an edge above this
     input  wire [          WIDTH-1:0] corner_level_i,      // ... a corner
@@ -76,11 +76,11 @@ module raster_core #(
     output wire [  VARIANCE_BITS-1:0] variance_score_o,    // variance, times the square of the pixels
     output wire [     COUNT_BITS-1:0] temporal_count_o,    // changed pixels
     output wire                       reference_ready_o,   // the reference on the port is taken at the next edge (STORE 3)
-    input  wire                       reference_valid_i,   // it is there
-    input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // it
+    input  wire                       reference_valid_i,   // a reference is on the port
+    input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // that reference
     output wire                       store_valid_o,       // a word is to be stored (STORE 3)
     output wire [    LANES*WIDTH-1:0] store_pixel_o,       // that word
-    output wire                       store_last_o,        // it is the last of a row
+    output wire                       store_last_o,        // the word is the last of a row
     output wire                       underrun_o,          // a reference was not there since reset (STORE 3)
     input  wire                       forward_ready_i,     // the word on the port is taken
     output wire                       forward_valid_o,     // a word of an active region leaves
@@ -203,7 +203,7 @@ module raster_core #(
     // ---- Denoise
     wire scored_step;              // the word of the last window
     wire [WORD-1:0] scored_word;
-    wire [WORD-1:0] scored_raw;    // what it was before (RAW)
+    wire [WORD-1:0] scored_raw;    // the same word before the filter (RAW)
     wire scored_repeated;
     generate
         if (MEDIAN) begin : g_median
@@ -338,7 +338,7 @@ module raster_core #(
     reg first_frame_q;
     wire [WORD-1:0] reference;
     wire [LANES-1:0] changes;
-    wire reference_write;  // what was sent becomes a reference (LAST_SENT)
+    wire reference_write;  // a word that was sent becomes a reference (LAST_SENT)
     wire [WORD-1:0] reference_word;
     wire [PLACE_BITS-1:0] reference_place;
 

@@ -18,11 +18,11 @@ module raster_counts #(
     input  wire                           clk_i,            // clock, rising edge
     input  wire                           rst_i,            // synchronous reset, active high
     input  wire                           step_i,           // hits of a word come in
-    input  wire [     FEATURES*LANES-1:0] hits_i,           // they
+    input  wire [     FEATURES*LANES-1:0] hits_i,           // the hits
     input  wire                           segment_end_i,    // the word is the last of a row of its region
     input  wire                           row_end_i,        // ... of its row
-    input  wire                           region_top_i,     // it is in the first row of its region
-    input  wire                           region_bottom_i,  // it is in the last row of its region
+    input  wire                           region_top_i,     // the word is in the first row of its region
+    input  wire                           region_bottom_i,  // ... in the last row
     output wire                           done_o,           // the counts are those of a whole region
     output wire [FEATURES*COUNT_BITS-1:0] counts_o          // of one region
 );

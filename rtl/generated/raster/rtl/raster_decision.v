@@ -84,7 +84,7 @@ module raster_decision #(
     wire [VARIANCE_BITS-1:0] decided_variance;
     wire [REGION_BITS-1:0] decided_region;
     wire decided_valid;  // its reference was valid
-    wire decided_last;   // it is the last of the frame
+    wire decided_last;   // the region is the last of the frame
     raster_pulse #(.DEPTH(DEEP)) u_decided (.clk_i(clk_i), .rst_i(rst_i), .bit_i(judged_i), .bit_o(decided_o));
     raster_delay #(.WIDTH(7 + REGION_BITS + 3 * COUNT_BITS + MAD_BITS + VARIANCE_BITS), .DEPTH(DEEP)) u_judged (
         .clk_i(clk_i),

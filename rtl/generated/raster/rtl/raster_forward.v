@@ -28,9 +28,9 @@ module raster_forward #(
     input  wire [    WORD_BITS-1:0] scored_i,                 // the word, as it was scored
     input  wire [    WORD_BITS-1:0] raw_i,                    // and raw (RAW)
     input  wire                     arriving_i,               // a word is stored at the next edge
-    input  wire                     rows_end_i,               // it is the last of a row of regions
+    input  wire                     rows_end_i,               // the word is the last of a row of regions
     input  wire                     decision_i,               // a region is decided, in the order of the regions
-    input  wire                     active_i,                 // it is active: its pixels leave
+    input  wire                     active_i,                 // the region is active: its pixels leave
     input  wire [  REGION_BITS-1:0] region_i,                 // which
     input  wire                     last_region_i,            // the last of its frame
     input  wire                     mark_i,                   // travels with it
@@ -51,10 +51,10 @@ module raster_forward #(
     output wire                     idle_o,                   // after this edge nothing waits, is held, fetched or on the port
     output wire                     reference_write_o,        // a word becomes a reference (LAST_SENT)
     output wire [   PLACE_BITS-1:0] reference_place_o,        // its number in the frame
-    output wire [    WORD_BITS-1:0] reference_word_o,         // it
+    output wire [    WORD_BITS-1:0] reference_word_o,         // that word
     output wire                     lost_reference_o,         // a region is lost at this edge (LAST_SENT)
     output wire [  REGION_BITS-1:0] lost_reference_region_o,  // which
-    output wire                     lost_mark_o               // what travelled with it
+    output wire                     lost_mark_o               // the mark that came with the region
 );
 
     localparam WORDS = BANKS * SIDE * ROW_WORDS;

@@ -17,10 +17,10 @@ module raster_memory #(
     input  wire                    clk_i,            // clock, rising edge
     input  wire                    write_i,          // write at this edge
     input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
-    input  wire [       WIDTH-1:0] data_i,           // what
+    input  wire [       WIDTH-1:0] data_i,           // the word that is written
     input  wire                    read_i,           // read at this edge; otherwise the memory's register stays
     input  wire [ADDRESS_BITS-1:0] read_address_i,   // where
-    output wire [       WIDTH-1:0] data_o            // what was read
+    output wire [       WIDTH-1:0] data_o            // the word that was read
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.

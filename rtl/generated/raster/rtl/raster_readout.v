@@ -27,10 +27,10 @@ module raster_readout #(
     input  wire [              2:0] row_i,           // its row of regions, modulo 8
     input  wire [  REGION_BITS-1:0] region_i,        // its number
     input  wire [   START_BITS-1:0] start_i,         // where in the buffer its first word is
-    input  wire [   EXTRA_BITS-1:0] extra_i,         // what travels with it
+    input  wire [   EXTRA_BITS-1:0] extra_i,         // bits that travel with the region
     input  wire [              2:0] stored_row_i,    // row of regions of the word that is stored at this edge, modulo 8
     input  wire [   FRAME_BITS-1:0] frame_i,         // number of the frame of the region that is held
-    input  wire                     ready_i,         // what is on the port is taken
+    input  wire                     ready_i,         // the sink takes the word on the port
     output wire                     fetch_o,         // a word is fetched at this edge
     output wire [   START_BITS-1:0] place_o,         // where in the buffer it is
     output wire                     step_o,          // the port takes what was fetched at the step before
@@ -43,9 +43,9 @@ module raster_readout #(
     output reg  [   FRAME_BITS-1:0] frame_o,         // number of the frame of its region
     output wire                     lost_o,          // a region is lost at this edge
     output wire [  REGION_BITS-1:0] lost_region_o,   // which
-    output wire [   EXTRA_BITS-1:0] lost_extra_o,    // what travelled with it
+    output wire [   EXTRA_BITS-1:0] lost_extra_o,    // the bits that came with the region
     output wire [  REGION_BITS-1:0] held_region_o,   // the region that is held, or that was held or lost last
-    output wire [   EXTRA_BITS-1:0] held_extra_o,    // what travels with that one
+    output wire [   EXTRA_BITS-1:0] held_extra_o,    // the bits that came with that region
     output wire                     first_o,         // the word that is fetched is the first of its region
     output wire                     segment_end_o,   // ... the last of a row of its region
     output wire                     idle_o           // after this edge nothing waits, is held, fetched or on the port
@@ -77,7 +77,7 @@ module raster_readout #(
 
     generate
         if (DEEP) begin : g_deep
-            // What was read moves on to a register of its own, where nothing else is.
+            // The word that was read moves on to a register of its own, where nothing else is.
             reg read_valid_q, oldest_valid_q;
             reg [ENTRY_BITS-1:0] oldest_q;
             wire move = read_valid_q && !oldest_valid_q;
@@ -155,7 +155,7 @@ module raster_readout #(
         if (rst_i) held_q <= 1'b0;
     end
 
-    // What was fetched, and what is on the port. While a region is held of which a word was fetched, the word that was
+    // The word that was fetched, and the one on the port. While a region is held of which a word was fetched, the word that was
     // fetched last is one of that region: so this word ends the region if the region is lost.
     wire abort = held_stale && !first_o;
     reg fetched_q, fetched_first_q, fetched_last_q;

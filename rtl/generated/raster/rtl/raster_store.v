@@ -20,7 +20,7 @@ module raster_store #(
     input  wire                    clk_i,        // clock, rising edge
     input  wire                    rst_i,        // synchronous reset, active high
     input  wire                    read_i,       // the next reference is asked for
-    output wire [   WORD_BITS-1:0] reference_o,  // it
+    output wire [   WORD_BITS-1:0] reference_o,  // that reference
     input  wire                    write_i,      // a word becomes a reference
     input  wire [ADDRESS_BITS-1:0] place_i,      // where (RANDOM)
     input  wire [   WORD_BITS-1:0] word_i        // that word

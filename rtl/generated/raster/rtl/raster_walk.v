@@ -16,9 +16,9 @@ module raster_walk #(
     input  wire                     step_i,         // on to the next word
     output wire [   PLACE_BITS-1:0] place_o,        // where the word is
     output wire [POSITION_BITS-1:0] position_o,     // number in the region of its first pixel
-    output wire                     first_o,        // it is the first of the region
-    output wire                     segment_end_o,  // it is the last of a row of the region
-    output wire                     last_o          // it is the last of the region
+    output wire                     first_o,        // the word is the first of the region
+    output wire                     segment_end_o,  // the word is the last of a row of the region
+    output wire                     last_o          // the word is the last of the region
 );
 
     localparam SEGMENT_BITS = SEGMENT > 1 ? $clog2(SEGMENT) : 1;

@@ -15,14 +15,14 @@ module raster_window #(
     input  wire                 clk_i,     // clock, rising edge
     input  wire                 rst_i,     // synchronous reset, active high
     input  wire                 step_i,    // a word comes in
-    input  wire [WORD_BITS-1:0] word_i,    // it
+    input  wire [WORD_BITS-1:0] word_i,    // the word
     input  wire                 top_i,     // there is no row above the middle
     input  wire                 bottom_i,  // there is no row below the middle
     input  wire                 repeat_i,  // the word above comes in again, instead of word_i (REPEATS)
     output wire                 step_o,    // a column comes out
     output wire                 top_o,     // there is no row above its middle
     output wire                 bottom_o,  // ... below it
-    output wire [WORD_BITS-1:0] upper_o,   // it, top: any word with top_o
+    output wire [WORD_BITS-1:0] upper_o,   // the column: top, any word with top_o
     output wire [WORD_BITS-1:0] middle_o,  // ... middle
     output wire [WORD_BITS-1:0] lower_o    // ... bottom: any word with bottom_o
 );

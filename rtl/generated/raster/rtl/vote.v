@@ -7,7 +7,7 @@ module vote #(
 ) (
     input  wire [WIDTH-1:0] score_i,    // of the feature
     input  wire [WIDTH-1:0] minimum_i,  // the feature votes from this score on
-    output wire             vote_o      // it is reached
+    output wire             vote_o      // the feature votes
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.

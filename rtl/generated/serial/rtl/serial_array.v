@@ -51,8 +51,8 @@ module serial_array #(
     input  wire                                       clk_i,              // clock, rising edge
     input  wire                                       rst_i,              // synchronous reset, active high
     input  wire                                       valid_i,            // a pixel comes in
-    output wire                                       ready_o,            // it would be taken at the next edge
-    input  wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] pixel_i,            // it; `parallel`: one per lane, lane 0 lowest
+    output wire                                       ready_o,            // a pixel would be taken at the next edge
+    input  wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] pixel_i,            // the pixel; `parallel`: one per lane, lane 0 lowest
     input  wire [                          WIDTH-1:0] temporal_level_i,   // a pixel has changed above this difference
     input  wire [                          WIDTH+1:0] edge_half_i,        // half the level of `edge`, rounded down
     input  wire [                          WIDTH-1:0] corner_level_i,     // level of `corner`
@@ -224,7 +224,7 @@ module serial_array #(
         working ? {slot, word} : {place_slot, place_word};
     wire unused_slot = |full_address;
 
-    // What goes with the scores and pixels at the ports.
+    // The numbers that go with the scores and pixels at the ports.
     localparam SHOWN_BITS = REGION_BITS + SLOT_BITS + POSITION_BITS + INDEX_BITS + 2;
     wire [SHOWN_BITS-1:0] shown;
     wire shown_rotate, shown_unload;

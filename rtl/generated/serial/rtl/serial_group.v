@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What the sequencer says, registered for a group of lanes, so that no net reaches all of them. Every
+// The controls of the sequencer, registered for a group of lanes, so that no net reaches all of them. Every
 // group has registers of its own, which synthesis is to keep.
 //
 // This is the table of all controls: what each is for, and which designs use it. Those that go with the

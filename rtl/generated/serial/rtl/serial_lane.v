@@ -293,7 +293,7 @@ module serial_lane #(
     wire scored;
     wire [CHAIN_BITS-1:0] counted;
 
-    // What moves is on the direct input of the carry chain, so a hit takes no second LUT of the lowest bit.
+    // The moving operand is on the direct input of the carry chain, so a hit takes no second LUT of the lowest bit.
     carry_adder #(.WIDTH(CHAIN_BITS)) u_score (
         .plain_i(moved), .other_i({{(CHAIN_BITS - 1) {1'b0}}, scored}), .carry_i(1'b0), .sum_o(counted)
     );

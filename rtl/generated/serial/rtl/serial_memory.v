@@ -13,7 +13,7 @@ module serial_memory #(
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    write_i,    // write data_i at this edge
     input  wire [ADDRESS_BITS-1:0] address_i,  // of the word, 0..WORDS-1
-    input  wire [       WIDTH-1:0] data_i,     // what is written
+    input  wire [       WIDTH-1:0] data_i,     // the word that is written
     output wire [       WIDTH-1:0] data_o      // before the write
 );
 

@@ -13,7 +13,7 @@ module serial_parallel_feed #(
     input  wire                 rst_i,     // synchronous reset, active high
     input  wire                 valid_i,   // a pixel comes in, on every lane
     input  wire                 reopen_i,  // the frame before is done
-    output wire                 ready_o,   // it would be taken
+    output wire                 ready_o,   // a pixel would be taken
     output wire                 open_o,    // ready after this edge
     output wire                 last_o,    // the last pixel is taken
     output wire [SLOT_BITS-1:0] slot_o,    // the place: slot

@@ -56,7 +56,7 @@ module serial_sequencer #(
     output wire                     write_active_o,    // write if the first flag is set
     output wire                     write_border_o,    // write if the side is on the frame's border
     output wire [              1:0] side_o,            // left, right, top, bottom
-    // What, as in serial_lane.
+    // Operations, as in serial_lane.
     output wire [     ACC_BITS-1:0] constant_o,        // the operand, unless from_memory
     output wire                     from_memory_o,     // the operand is the word read
     output wire                     subtract_o,        // invert the operand
@@ -78,7 +78,7 @@ module serial_sequencer #(
     output wire                     shift_o,           // scores move on by one lane
     output wire                     keep_o,            // the score becomes the accumulator
     output wire                     fetch_o,           // the score becomes the word read
-    // What the decision takes.
+    // The decision's inputs.
     output wire                     rotate_o,          // scores pass
     output wire                     unload_o,          // the word read leaves if its region is active
     output wire [   INDEX_BITS-1:0] index_o,           // of the score
@@ -204,7 +204,7 @@ module serial_sequencer #(
     wire last_slot;
     wire last_score = index_q == LAST_SCORE;
 
-    // What is under way.
+    // The step under way.
     wire testing = state_q == TEST;
     wire writing = state_q == WRITE;
     wire rotating = state_q == ROTATE;
@@ -559,7 +559,7 @@ module serial_sequencer #(
     assign write_border_o = writing && bordering;
     assign side_o = part_q;
 
-    // What the lanes do.
+    // The lanes' work.
     reg [ACC_BITS-1:0] constant;
     wire [ACC_BITS+SCALE_BITS-1:0] wide_scale = {{ACC_BITS{1'b0}}, scale_q};
     wire [ACC_BITS+WIDTH-1:0] wide_temporal = {{ACC_BITS{1'b0}}, temporal_level_i};

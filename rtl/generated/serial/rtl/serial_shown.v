@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What the ports say beside scores and pixels, as late as the lanes are.
+// The ports beside scores and pixels, as late as the lanes are.
 `default_nettype none
 
 module serial_shown #(
