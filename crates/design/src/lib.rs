@@ -28,7 +28,7 @@ pub use foveate_camera::{
     Action, Camera, CameraConfig, Combine, ConfigError, Decimal, DecisionConfig, DenoiseConfig,
     FeatureKind, Filter, FrameConfig, Irrelevant, Mean, Measure, Neighborhood, Payload, Reciprocal,
     Reference, RegionConfig, RenderConfig, SpatialConfig, SpatialFeature, Temporal, TemporalConfig,
-    Variance, bits_for, index_bits, mad_score_max,
+    Variance, Written, bits_for, index_bits, mad_score_max,
 };
 pub use pipelined::PipelinedTiming;
 pub use port::{Direction, Port, PortRole, Qualifier};

@@ -9,9 +9,8 @@
 //! parameter for unused whose only use is an instance of what is not there: it is told so.
 
 use crate::Leaf;
-use foveate_design::{
-    Design, Feed, Filter, MemoryKind, Pipelining, RasterTiming, Reference, Store,
-};
+use crate::camera::is_last_sent;
+use foveate_design::{Design, Feed, Filter, MemoryKind, Pipelining, RasterTiming, Store};
 
 /// Whether `leaf` has `part` inside, with the parameters that it has in `design`.
 pub(crate) fn is_taken(design: &Design, leaf: &str, part: &str) -> bool {
@@ -19,7 +18,7 @@ pub(crate) fn is_taken(design: &Design, leaf: &str, part: &str) -> bool {
     let variance = || design.features().iter().any(|feature| feature.variance().is_some());
     // A detector has the name of its feature.
     let detects = |name| design.features().iter().any(|feature| feature.kind().name() == name);
-    let last_sent = || design.temporal().reference == Reference::LastSent;
+    let last_sent = || is_last_sent(design);
     let median = || design.filter() == Filter::Median3x3;
     let window = || design.has_feature_window();
     let raw = || design.keeps_raw();
@@ -67,7 +66,7 @@ const BANK_WORDS: u64 = 1 << 14;
 fn is_in_banks(design: &Design) -> bool {
     design.pipelining() == Pipelining::Deep
         && design.store() == Store::Block
-        && design.temporal().reference == Reference::Previous
+        && !is_last_sent(design)
         && RasterTiming::of(design).words() > BANK_WORDS
         && (design.filter() != Filter::None || design.has_feature_window())
 }

@@ -2,7 +2,8 @@
 //! The hand-written leaf modules, and which of them a design needs.
 
 use crate::branch::is_taken;
-use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining, Reference};
+use crate::camera::is_last_sent;
+use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -156,7 +157,7 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
             FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
         }
     }
-    let last_sent = design.temporal().reference == Reference::LastSent;
+    let last_sent = is_last_sent(design);
     need(last_sent, &[if deep { "deep_last_sent" } else { "last_sent" }]);
     need(last_sent && design.has_second_pass(), &["candidate_count"]);
     names

@@ -6,6 +6,7 @@
 //! what the design needs.
 
 mod branch;
+mod camera;
 mod core;
 mod error;
 mod instance;

@@ -2,14 +2,15 @@
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
 use crate::branch::Values;
+use crate::camera::{blanks, is_last_sent};
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, FRAME_NUMBERS, FeatureKind, Filter, Irrelevant, Neighborhood, Pipelining,
-    Port, PortRole, RasterTiming, Reference, SpatialFeature, Store, bits_for, index_bits,
+    Combine, Design, FRAME_NUMBERS, FeatureKind, Filter, Neighborhood, Pipelining, Port, PortRole,
+    RasterTiming, SpatialFeature, Store, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -216,8 +217,8 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, Stri
         ("MAD", has(FeatureKind::Mad)),
         ("VARIANCE", has(FeatureKind::Variance)),
         ("ALL", flag(design.combine() == Combine::All)),
-        ("LAST_SENT", flag(design.temporal().reference == Reference::LastSent)),
-        ("BLANKS", flag(design.irrelevant() == Irrelevant::Zero)),
+        ("LAST_SENT", flag(is_last_sent(design))),
+        ("BLANKS", flag(blanks(design))),
         ("RAW", flag(design.keeps_raw())),
         ("FORWARD", flag(design.forwards())),
         ("STORE", store(design)),

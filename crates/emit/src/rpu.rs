@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `rpu.v`: every number and name of the template is worked out here, from the design.
 
+use crate::camera::{blanks, is_last_sent};
 use crate::text::{PortLine, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, Filter, Irrelevant, Neighborhood, PipelinedTiming, Pipelining, PortRole,
-    Reference, SpatialFeature, bits_for, index_bits,
+    Combine, Design, Filter, Neighborhood, PipelinedTiming, Pipelining, PortRole, SpatialFeature,
+    bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -109,7 +110,7 @@ pub(crate) fn render(design: &Design) -> String {
 
 fn view(design: &Design) -> Rpu {
     let second_pass = design.has_second_pass();
-    let last_sent = design.temporal().reference == Reference::LastSent;
+    let last_sent = is_last_sent(design);
     let keeps_raw = design.keeps_raw();
     let shared = design.neighborhood() == Neighborhood::Shared;
     let features = design.features();
@@ -145,7 +146,7 @@ fn view(design: &Design) -> Rpu {
         count: if deep { "count" } else { "tail" },
         second_pass,
         last_sent,
-        blanks: u32::from(design.irrelevant() == Irrelevant::Zero),
+        blanks: u32::from(blanks(design)),
         windowed: features.iter().filter_map(|f| windowed(design, f)).collect(),
         sums: features.iter().any(|f| f.mean().is_some() || f.variance().is_some()),
         sum_bits: design.pixel_sum_bits(),

@@ -2,14 +2,15 @@
 //! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
 
 use crate::branch::Values;
+use crate::camera::{blanks, is_last_sent};
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    AreaKind, Combine, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind, Neighborhood,
-    Pipelining, Port, PortRole, Reference, SerialTiming, SpatialFeature, Thresholds, index_bits,
+    AreaKind, Combine, Design, FeatureKind, Feed, Filter, MemoryKind, Neighborhood, Pipelining,
+    Port, PortRole, SerialTiming, SpatialFeature, Thresholds, index_bits,
 };
 
 #[derive(Template)]
@@ -198,8 +199,8 @@ fn parameters(design: &Design) -> Vec<(&'static str, String)> {
         ("DENOISED_SIDE", if median { design.denoised_side() } else { region }),
         ("MEDIAN", flag(median)),
         ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
-        ("LAST_SENT", flag(design.temporal().reference == Reference::LastSent)),
-        ("BLANKS", flag(design.irrelevant() == Irrelevant::Zero)),
+        ("LAST_SENT", flag(is_last_sent(design))),
+        ("BLANKS", flag(blanks(design))),
         ("RAW_PAYLOAD", flag(design.keeps_raw())),
         ("RASTER", flag(design.feed() == Feed::Raster)),
         ("BLOCK", flag(memory.kind == MemoryKind::Block)),

@@ -56,12 +56,10 @@ impl Rules {
 
     /// What becomes of a region on the screen.
     pub(crate) fn action(&self, srs: bool, trs: bool) -> Action {
-        if srs && trs {
-            Action::Forward
-        } else if srs || self.irrelevant == Irrelevant::Hold {
-            Action::Hold
-        } else {
-            Action::Blank
+        match (srs, trs, self.irrelevant) {
+            (true, true, _) => Action::Forward,
+            (true, false, _) | (false, _, Irrelevant::Hold) => Action::Hold,
+            (false, _, Irrelevant::Zero) => Action::Blank,
         }
     }
 }

@@ -3,8 +3,7 @@
 //! store of a single one.
 
 use super::RasterTiming;
-use crate::{Design, Filter, Reference, SpatialFeature, Store};
-use crate::{bits_for, index_bits};
+use crate::{Design, Filter, Reference, SpatialFeature, Store, Written, bits_for, index_bits};
 
 /// Bits of the row of regions that waits in a queue, modulo 8.
 const ROW_BITS: u32 = 3;
@@ -58,7 +57,7 @@ struct Sizes {
     buffer: u64,
     columns: u64,
     regions: u64,
-    last_sent: bool,
+    reference: Reference,
     /// Features that count hits, `edge` and `corner`.
     hits: u32,
 }
@@ -73,7 +72,7 @@ impl Sizes {
             buffer: rows * u64::from(timing.row_words),
             columns: design.columns().into(),
             regions: design.regions().into(),
-            last_sent: design.temporal().reference == Reference::LastSent,
+            reference: design.temporal().reference,
             hits: u32::try_from(hits).expect("no more than there are kinds"),
             timing,
         }
@@ -89,8 +88,12 @@ impl Sizes {
         if design.has_second_pass() {
             list.push(buffer("a copy for the second pass"));
         }
-        if self.last_sent && design.keeps_raw() {
-            list.push(buffer("denoised pixels, which become references when raw ones leave"));
+        match self.reference.written() {
+            Written::WithEveryFrame => {}
+            Written::WhenSent if design.keeps_raw() => {
+                list.push(buffer("denoised pixels, which become references when raw ones leave"));
+            }
+            Written::WhenSent => {}
         }
         list
     }
@@ -138,7 +141,11 @@ impl Sizes {
         let waiting = 1 << index_bits(u64::from(self.timing.buffer_rows) * self.columns);
         let queue = |holds, bits| RasterMemory { holds, words: waiting, bits };
         let start = index_bits(self.buffer);
-        let reference = if self.last_sent { index_bits(self.timing.words()) + 1 } else { 0 };
+        // Where it is written, and whether.
+        let reference = match self.reference.written() {
+            Written::WithEveryFrame => 0,
+            Written::WhenSent => index_bits(self.timing.words()) + 1,
+        };
         let mut list = Vec::new();
         if design.forwards() {
             list.push(queue(
@@ -156,12 +163,13 @@ impl Sizes {
                 mean.mean_bits + start + judged,
             ));
         }
-        if self.last_sent {
-            let bit = |holds| RasterMemory { holds, words: self.regions, bits: 1 };
-            list.extend([
-                bit("which regions have a reference, by decisions"),
-                bit("which regions have a reference, by losses"),
-            ]);
+        let bits = self.reference.bits_per_region();
+        if bits > 0 {
+            let mut all = |holds| list.push(RasterMemory { holds, words: self.regions, bits });
+            all("which regions have a reference, by decisions");
+            if self.reference.is_lost_with_its_region() {
+                all("which regions have a reference, by losses");
+            }
         }
         list
     }

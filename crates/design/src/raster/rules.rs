@@ -4,7 +4,7 @@
 use super::{RasterTiming, ports::ports};
 use crate::rules::{Rules, Unit};
 use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Store, Timing};
-use foveate_camera::{Camera, ConfigError, Reference, in_range};
+use foveate_camera::{Camera, ConfigError, Reference, Written, in_range};
 
 /// Pixels that a word may have.
 const WORDS: [u32; 3] = [1, 2, 4];
@@ -138,10 +138,11 @@ fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), Conf
     Err(asked.clash(key, pixels.to_string(), &remedy))
 }
 
-/// Refuses what cannot keep the references of `last-sent`.
+/// Refuses what cannot keep references that are written when regions are sent.
 fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), ConfigError> {
-    if reference == Reference::Previous {
-        return Ok(());
+    match reference.written() {
+        Written::WithEveryFrame => return Ok(()),
+        Written::WhenSent => {}
     }
     let clash = |key: &str, value: String, remedy: &str| {
         Err(ConfigError::Combination {

@@ -2,7 +2,7 @@
 //! When a raster core does what: the numbers of `docs/raster.md`.
 
 use crate::timing::Departure;
-use crate::{Design, Filter, Pipelining, Reference, Timing};
+use crate::{Design, Filter, Pipelining, Timing, Written};
 
 /// Clocks of a stalling sink that the readout needs for itself, without a second pass, beside those of the queue.
 const STALL_MARGIN: u32 = 1;
@@ -81,7 +81,11 @@ impl RasterTiming {
             (None, true) => 2,
             (None, false) => 0,
         };
-        let last_sent = design.temporal().reference == Reference::LastSent;
+        // What is sent of a frame is what the next one is compared with.
+        let waits_for_sent = match design.temporal().reference.written() {
+            Written::WithEveryFrame => false,
+            Written::WhenSent => design.rows() <= buffer_rows,
+        };
         Self {
             word_pixels,
             row_words: design.columns() * design.region_size() / word_pixels,
@@ -98,7 +102,7 @@ impl RasterTiming {
             queue_latency,
             forwards: design.forwards(),
             second_pass,
-            waits_for_pending: last_sent && design.rows() <= buffer_rows,
+            waits_for_pending: waits_for_sent,
         }
     }
 

@@ -2,12 +2,13 @@
 //! The README of a raster core: how long a source waits, and when a region is lost.
 
 use super::{PortRow, ThresholdRow, port_row, score_names, sync, threshold};
+use crate::camera::is_last_sent;
 use crate::instance::instance;
 use crate::text::text_of;
 use crate::{Prefix, banner};
 use askama::Template;
 use foveate_design::{
-    Design, FRAME_NUMBERS, Pipelining, RasterMemory, RasterTiming, Reference, Store, Thresholds,
+    Design, FRAME_NUMBERS, Pipelining, RasterMemory, RasterTiming, Store, Thresholds,
 };
 
 #[derive(Template)]
@@ -126,7 +127,7 @@ fn view(design: &Design, prefix: &Prefix, timing: &RasterTiming) -> Readme {
         forwards: design.forwards(),
         memories,
         deep: design.pipelining() == Pipelining::Deep,
-        last_sent: design.temporal().reference == Reference::LastSent,
+        last_sent: is_last_sent(design),
         store: design.store().name(),
         lone_width: lone.width(),
         lone_height: lone.height(),

@@ -97,7 +97,7 @@ fn said(sources: &[Source], top: &str) -> [(Tool, Option<String>); 3] {
     };
     let icarus = iverilog::compile(&toolchain, &cache, &job).err();
     let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
-    let script = format!("read_verilog {}\nhierarchy -check -top {top}\nproc\n", names.join(" "));
+    let script = format!("read_verilog {}\nhierarchy -check -top {top}\n", names.join(" "));
     let job = YosysJob { sources: sources.to_vec(), script, outputs: Vec::new() };
     let yosys = yosys::run(&toolchain, &cache, &job).err();
     [

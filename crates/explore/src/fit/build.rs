@@ -3,7 +3,7 @@
 
 use foveate_design::{
     CameraConfig, Config, Design, FeatureKind, Filter, HardwareConfig, MemoryKind, Neighborhood,
-    Organization, Reference,
+    Organization,
 };
 use foveate_estimate::{Device, Speed};
 
@@ -183,7 +183,7 @@ fn complexity(config: &CameraConfig) -> Complexity {
     let ordered = [
         config.frame.pixel_bits,
         u32::from(config.denoise.filter != Filter::None),
-        u32::from(config.temporal.reference != Reference::Previous),
+        config.temporal.reference.bits_per_region(),
         fraction,
     ];
     ((config.region.size, config.region.neighborhood, features), ordered)

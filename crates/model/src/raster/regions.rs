@@ -62,9 +62,12 @@ impl Regions {
         let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
         let verdict = Verdict::of(&self.design, &self.scorer, reference, thresholds);
         let scored: Vec<u16> = self.scorer.pixels().collect();
-        if self.design.temporal().reference == Reference::Previous {
-            self.remember(region, 0, &scored);
-            self.referenced[index(region)] = true;
+        match self.design.temporal().reference {
+            Reference::Previous => {
+                self.remember(region, 0, &scored);
+                self.referenced[index(region)] = true;
+            }
+            Reference::LastSent => {}
         }
         let payload = match self.design.payload() {
             Payload::Denoised => scored.clone(),
@@ -88,15 +91,17 @@ impl Regions {
     /// A word was fetched, and will leave. That it becomes the reference an edge later cannot be seen: the
     /// next frame of its region comes later still.
     pub(super) fn send(&mut self, word: &Word) {
-        if self.design.temporal().reference == Reference::LastSent {
-            self.remember(word.region, word.position, &word.scored);
+        match self.design.temporal().reference {
+            Reference::Previous => {}
+            Reference::LastSent => self.remember(word.region, word.position, &word.scored),
         }
     }
 
     /// A region was lost: what was sent of it is not known.
     pub(super) fn lose(&mut self, region: u32) {
-        if self.design.temporal().reference == Reference::LastSent {
-            self.referenced[index(region)] = false;
+        match self.design.temporal().reference {
+            Reference::Previous => {}
+            Reference::LastSent => self.referenced[index(region)] = false,
         }
     }
 
