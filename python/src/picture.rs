@@ -2,7 +2,7 @@
 //! Pictures that notebooks show.
 
 use foveate_frame::{convert_depth, display_depth};
-use foveate_palette::{ACTIVE, CHANGED, RELEVANT};
+use foveate_pictures::palette::{ACTIVE, CHANGED, RELEVANT};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use pyo3::exceptions::PyValueError;

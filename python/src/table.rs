@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
+use foveate_files::tables::{Kind, Value};
 use foveate_simulator::{EventTable, Moment};
-use foveate_tables::{Kind, Value};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;

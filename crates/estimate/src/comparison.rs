@@ -9,7 +9,7 @@ use crate::render::{heading, ramb36};
 use crate::report::Report;
 use crate::speed::Speed;
 use crate::table::{Table, wrap};
-use foveate_page::number::grouped;
+use foveate_pictures::page::number::grouped;
 
 /// Clocks per frame of the paper's array.
 const PAPER_CYCLES: u64 = 64;

@@ -7,7 +7,7 @@ use crate::area::Area;
 use crate::levels::LogicPath;
 use crate::report::{LeafArea, Paths, Report, ToolRecord};
 use crate::table::{Table, header, wrap};
-use foveate_page::number::grouped;
+use foveate_pictures::page::number::grouped;
 use paper::paper_table;
 
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];

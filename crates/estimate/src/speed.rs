@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames per second, which hold at a clock: one that was given, or the estimated one with its range.
 
-use foveate_page::number::real;
+use foveate_pictures::page::number::real;
 use serde::{Deserialize, Serialize};
 
 use crate::clock::ClockEstimate;

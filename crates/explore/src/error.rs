@@ -10,7 +10,7 @@ use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
 use foveate_footage::FootageError;
 use foveate_ideal::IdealError;
-use foveate_page::PageError;
+use foveate_pictures::page::PageError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 

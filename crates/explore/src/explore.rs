@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use foveate_design::Design;
+use foveate_files::tables::Table;
 use foveate_footage::InputOptions;
 use foveate_staging::write_file;
-use foveate_tables::Table;
 
 use crate::cost::Synthesized;
 use crate::folder::{UNFINISHED, claim, mark};

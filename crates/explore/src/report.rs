@@ -17,7 +17,9 @@ pub(crate) mod sample;
 mod tests;
 
 use askama::Template;
-use foveate_page::{COLOURS, Notice, Page, PageError, Plot, Row as Line, Table, Target, number};
+use foveate_pictures::page::{
+    COLOURS, Notice, Page, PageError, Plot, Row as Line, Table, Target, number,
+};
 
 use crate::{Exploration, ExploreError, Refused, Row};
 use card::Card;

@@ -4,7 +4,7 @@
 use foveate_design::FeatureKind;
 use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
-use foveate_tables::{Cell, Cells};
+use foveate_files::tables::{Cell, Cells};
 
 use crate::row::{Row, real};
 

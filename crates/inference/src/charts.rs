@@ -3,7 +3,7 @@
 
 use crate::Layer;
 use crate::summary::{Macs, Summary, Tried, Tuning};
-use foveate_chart::{Chart, Line, Look, Shape};
+use foveate_pictures::chart::{Chart, Line, Look, Shape};
 
 /// A counted frame.
 #[derive(Clone, Debug)]

@@ -7,9 +7,9 @@ use crate::InferenceError;
 use crate::cost::Costs;
 use crate::frame::{Frame, LayerFrame};
 use crate::summary::{mask_bytes, ratio};
+use foveate_files::tables::{Column, Kind, ParquetWriter, Value};
 use foveate_network::Network;
 use foveate_staging::StagedFolder;
-use foveate_tables::{Column, Kind, ParquetWriter, Value};
 
 /// The file.
 pub(crate) const NAME: &str = "layers_frames.parquet";

@@ -5,13 +5,13 @@ use std::io;
 use std::path::PathBuf;
 
 use foveate_accelerator::AcceleratorError;
-use foveate_chart::ChartError;
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_network::NetworkError;
-use foveate_page::PageError;
-use foveate_page::number::things;
+use foveate_pictures::chart::ChartError;
+use foveate_pictures::page::PageError;
+use foveate_pictures::page::number::things;
 use foveate_staging::StagingError;
 use thiserror::Error;
 

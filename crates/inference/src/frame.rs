@@ -7,8 +7,8 @@ use crate::summary::{Macs, macs};
 use crate::tally::Positions;
 use crate::traffic::Traffic;
 use foveate_accelerator::Cost;
+use foveate_files::tables::{Cell, Cells};
 use foveate_network::{Executor, Network, Work};
-use foveate_tables::{Cell, Cells};
 
 /// What a layer did for a frame.
 #[derive(Clone, Copy, Debug)]

@@ -14,7 +14,7 @@ use crate::Summary;
 use crate::charts::{Counted, charts};
 use askama::Template;
 use foveate_design::Design;
-use foveate_page::{Notice, Page, PageError, Plot, Table, Target};
+use foveate_pictures::page::{Notice, Page, PageError, Plot, Table, Target};
 use rows::Rows;
 
 /// Frames that a page shows; with more it would be too large to open.

@@ -2,8 +2,8 @@
 //! The network's outputs as files that grow frame by frame: an array of each, and pictures of those that are pictures.
 
 use crate::InferenceError;
+use foveate_files::npy::{Element, NpyWriter};
 use foveate_network::{Executor, Form, Network};
-use foveate_npy::{Element, NpyWriter};
 use foveate_staging::{StagedFolder, StagingError};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};

@@ -15,8 +15,8 @@ use crate::tally::{ClipSums, NotFinite, Positions, Reference};
 use crate::traffic::Traffic;
 use crate::{Goal, InferenceError, Mapping};
 use foveate_design::Design;
+use foveate_files::tables::{Cells, Table};
 use foveate_network::Network;
-use foveate_tables::{Cells, Table};
 use std::time::Instant;
 
 /// What a summary says that no frame says.

@@ -8,8 +8,8 @@ use crate::tally::{Positions, Reference};
 use crate::traffic::FrameTraffic;
 use crate::{Mapping, Recorded};
 use foveate_design::Config;
+use foveate_files::tables::{Cell, Cells, Table};
 use foveate_network::{Executor, Form, Mode, Network};
-use foveate_tables::{Cell, Cells, Table};
 use serde::Serialize;
 use std::ops::AddAssign;
 

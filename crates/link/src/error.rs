@@ -4,12 +4,12 @@
 use std::io;
 use std::path::PathBuf;
 
-use foveate_chart::ChartError;
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_fidelity::FidelityError;
 use foveate_footage::FootageError;
 use foveate_frame::FrameError;
+use foveate_pictures::chart::ChartError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The files of a comparison.
 
+use foveate_files::tables::{Cell, Cells, Table};
 use foveate_staging::StagedFolder;
-use foveate_tables::{Cell, Cells, Table};
 
 use crate::picture::charts;
 use crate::{ClipReport, LinkError, Point, Quality, Report, SenderReport};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bytes against quality as charts: the design's thresholds and the codecs' quantizers.
 
-use foveate_chart::{Chart, Line, Look, Shape};
+use foveate_pictures::chart::{Chart, Line, Look, Shape};
 
 use crate::report::QUANTIZER;
 use crate::{ClipReport, Point, Quality};

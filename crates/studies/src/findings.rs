@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a study makes of what was seen: a table and charts, with notes on where they come from.
 
-use foveate_chart::Chart;
+use foveate_pictures::chart::Chart;
 
 use crate::study::Study;
 use crate::table::Table;

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use foveate_tables::plain;
+use foveate_files::tables::plain;
 
 /// A table. Cells are text that is already rounded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

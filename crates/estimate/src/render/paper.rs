@@ -5,7 +5,7 @@ use crate::area::Area;
 use crate::paper::BesidePaper;
 use crate::report::Report;
 use crate::table::{Table, header};
-use foveate_page::number::grouped;
+use foveate_pictures::page::number::grouped;
 
 /// None where the paper has nothing like it.
 pub(super) fn paper_table(report: &Report) -> Option<Table> {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The placed design for people: text for a terminal, Markdown for a document.
 
-use foveate_page::number::grouped;
+use foveate_pictures::page::number::grouped;
 
 use super::critical::{CriticalPath, PathEnd};
 use super::report::{Placed, RouteReport, Routed, Used};

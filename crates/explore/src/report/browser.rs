@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The page in Chromium, where there is one; otherwise the tests say that they are skipped.
 
-use foveate_page::browser::{Tip, chromium, probe};
+use foveate_pictures::page::browser::{Tip, chromium, probe};
 
 use super::page;
 use super::sample::exploration;

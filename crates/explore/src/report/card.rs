@@ -2,7 +2,7 @@
 //! A point with all that is known of it.
 
 use foveate_estimate::ramb36;
-use foveate_page::number::{grouped, percent, real};
+use foveate_pictures::page::number::{grouped, percent, real};
 
 use super::setting::Settings;
 use super::table::decibels;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colours of points: one grouping for each axis, of which the page shows one at a time.
 
-use foveate_page::{COLOURS, look};
+use foveate_pictures::page::{COLOURS, look};
 
 use super::setting::{Settings, set};
 use crate::Row;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use foveate_page::{Axis, Field, Line, Mark, Plot, look, rings, staircase, text};
+use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, rings, staircase, text};
 
 use super::colour::Grouping;
 use crate::objective::{Better, Objective, speed, unbeaten};

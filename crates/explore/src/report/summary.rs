@@ -3,8 +3,8 @@
 
 use std::cmp::Ordering;
 
-use foveate_page::Fact;
-use foveate_page::number::{NONE, grouped, percent, real, things};
+use foveate_pictures::page::Fact;
+use foveate_pictures::page::number::{NONE, grouped, percent, real, things};
 
 use super::setting::Settings;
 use crate::{Exploration, Row, objective};

@@ -2,8 +2,8 @@
 //! Points as rows of a table.
 
 use foveate_estimate::ramb36;
-use foveate_page::number::real;
-use foveate_page::{Cell, Column, Row as Line};
+use foveate_pictures::page::number::real;
+use foveate_pictures::page::{Cell, Column, Row as Line};
 
 use super::setting::{Settings, set};
 use crate::row::real as number;

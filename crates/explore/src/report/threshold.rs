@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use foveate_page::number::percent;
-use foveate_page::{Axis, Field, Line, Mark, Plot, look, text, through};
+use foveate_pictures::page::number::percent;
+use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, text, through};
 
 use super::scatter::stack;
 use super::setting::{Settings, set};

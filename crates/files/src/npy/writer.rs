@@ -6,7 +6,7 @@ use std::path::Path;
 
 use foveate_staging::{GrowingFile, StagingError};
 
-use crate::Element;
+use super::Element;
 
 /// Least bytes of a header; it stands in steps of 64.
 const HEADER: usize = 128;

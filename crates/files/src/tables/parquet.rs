@@ -15,7 +15,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::parser::parse_message_type;
 
-use crate::{Column, Kind, Value};
+use super::{Column, Kind, Value};
 
 /// A Parquet file, open.
 pub struct ParquetWriter<W: Write + Send> {

@@ -3,7 +3,7 @@
 
 use std::io;
 
-use crate::{Column, Kind, ParquetWriter, Value};
+use super::{Column, Kind, ParquetWriter, Value};
 
 /// A value of the table. Numbers that are not there are empty in CSV and null in Parquet.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,7 @@ impl Table {
     #[must_use]
     pub fn csv(&self) -> String {
         let row = |row: &Vec<Cell>| row.iter().map(|cell| cell.value().to_string()).collect();
-        crate::csv(std::iter::once(self.columns.clone()).chain(self.rows.iter().map(row)))
+        super::csv(std::iter::once(self.columns.clone()).chain(self.rows.iter().map(row)))
     }
 
     /// Parquet: one group of rows called `message`.

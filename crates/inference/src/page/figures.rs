@@ -2,8 +2,8 @@
 //! Figures as the page writes them, and those of its heading.
 
 use crate::Summary;
-use foveate_page::Fact;
-use foveate_page::number::{NONE, grouped, percent, real};
+use foveate_pictures::page::Fact;
+use foveate_pictures::page::number::{NONE, grouped, percent, real};
 
 /// A share with its sign.
 pub(super) fn share(value: f64) -> String {

@@ -2,8 +2,8 @@
 //! The charts as plots of the page: the same lines, with a mark for every point that says its figures.
 
 use crate::charts::Drawn;
-use foveate_chart::Shape;
-use foveate_page::{Axis, Field, Line, Mark, Plot, look, rings, text, through};
+use foveate_pictures::chart::Shape;
+use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, rings, text, through};
 use std::collections::BTreeMap;
 
 /// Marks of a line beyond which they are smaller.

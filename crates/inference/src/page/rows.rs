@@ -6,8 +6,8 @@ mod clips;
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
 use crate::charts::{self, Counted, frame_id, layer_id};
 use crate::{FrameCost, Layer, Summary};
-use foveate_page::number::real;
-use foveate_page::{Cell, Column, Row, Table};
+use foveate_pictures::page::number::real;
+use foveate_pictures::page::{Cell, Column, Row, Table};
 use std::collections::BTreeMap;
 
 pub(super) use clips::clips;

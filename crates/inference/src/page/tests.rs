@@ -4,7 +4,7 @@ use crate::cost::{Accelerated, FrameCost};
 use crate::summary::{Clip, Error, Macs, Outputs, Tried, Tuning};
 use crate::{FrameTraffic, Layer, Mapping, Recorded};
 use foveate_design::Config;
-use foveate_page::browser::{Tip, chromium, probe};
+use foveate_pictures::page::browser::{Tip, chromium, probe};
 use roxmltree::{Document, Node, ParsingOptions};
 
 const BAD: &str = "\"><script>alert('&amp;')</script>";

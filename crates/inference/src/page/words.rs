@@ -4,7 +4,7 @@
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
 use crate::{Mapping, Summary, Tuning};
 use foveate_design::Design;
-use foveate_page::number::{grouped, things};
+use foveate_pictures::page::number::{grouped, things};
 use std::path::Path;
 
 /// Inputs that are named; of more the first.

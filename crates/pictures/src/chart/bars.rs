@@ -5,8 +5,8 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::draw::{GRID, GROUND, INK, Result, cut, plain, rgb, top};
-use crate::{Bars, Chart};
+use super::draw::{GRID, GROUND, INK, Result, cut, plain, rgb, top};
+use super::{Bars, Chart};
 
 /// Around the plot, and left of it, in pixels.
 const MARGIN: u32 = 12;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One drawing for every backend: axes, series, legend beside them, caption below.
 
-use foveate_palette::{Colour, LIGHT};
+use crate::palette::{Colour, LIGHT};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use crate::bars::draw_bars;
-use crate::chart::SIZE;
-use crate::legend::{LEGEND, names_of_bars, names_of_lines, names_of_points};
-use crate::{Chart, Line, Look, Shape};
+use super::bars::draw_bars;
+use super::figure::SIZE;
+use super::legend::{LEGEND, names_of_bars, names_of_lines, names_of_points};
+use super::{Chart, Line, Look, Shape};
 
 const CAPTION: u32 = 24;
 pub(crate) const GROUND: RGBColor = rgb(LIGHT.ground);

@@ -3,15 +3,15 @@
 
 use std::sync::OnceLock;
 
+use crate::palette::Colour;
 use ab_glyph::FontRef;
-use foveate_palette::Colour;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use plotters::prelude::*;
 use plotters::style::register_font;
 
-use crate::page::Page;
-use crate::{ChartError, draw};
+use super::sheet::Page;
+use super::{ChartError, draw};
 
 /// Width and height of a chart in pixels.
 pub(crate) const SIZE: (u32, u32) = (1000, 560);

@@ -5,8 +5,8 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::draw::{INK, Result, cut, numbered, rgb, target};
-use crate::{Bars, Line, Look};
+use super::draw::{INK, Result, cut, numbered, rgb, target};
+use super::{Bars, Line, Look};
 
 /// Columns of pixels for the legend, and letters of a name in it.
 pub(crate) const LEGEND: u32 = 210;

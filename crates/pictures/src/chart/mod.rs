@@ -4,11 +4,11 @@
 //! are dashed. Knows nothing of what is drawn.
 
 mod bars;
-mod chart;
 mod draw;
 mod error;
+mod figure;
 mod legend;
-mod page;
+mod sheet;
 
-pub use chart::{Bars, Chart, Line, Look, Shape};
 pub use error::ChartError;
+pub use figure::{Bars, Chart, Line, Look, Shape};

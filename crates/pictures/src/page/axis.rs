@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The axis of a plot: from numbers to places, and its ticks.
 
-use crate::number::tick;
+use super::number::tick;
 
 /// From this ratio of the largest to the smallest on, an axis of costs is logarithmic.
 const WIDE: f64 = 5.0;

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use foveate_palette::{Colour, SERIES, Style};
+use crate::palette::{Colour, SERIES, Style};
 
 /// Colours that can be told apart; after them come the same with square marks.
 pub const COLOURS: usize = SERIES.len();
@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn the_page_has_the_colours_of_the_palette() {
-        let dark = variables(&foveate_palette::DARK);
+        let dark = variables(&crate::palette::DARK);
         assert!(dark.starts_with("--card:#1b1e21;--ink:#e6e4df;"), "{dark}");
         assert!(dark.contains("--k4:#009e73;--k5:#e69f00;--k6:#56b4e9;--k7:#"), "{dark}");
     }

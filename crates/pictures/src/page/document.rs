@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A page around what it shows: heading, style and script.
 
+use crate::palette::{DARK, LIGHT};
 use askama::Template;
-use foveate_palette::{DARK, LIGHT};
 
-use crate::PageError;
-use crate::colour::variables;
+use super::PageError;
+use super::colour::variables;
 
 /// A figure of the heading.
 #[derive(Clone, Debug)]

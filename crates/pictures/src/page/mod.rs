@@ -6,15 +6,15 @@ mod axis;
 #[cfg(feature = "browser")]
 pub mod browser;
 mod colour;
+mod document;
 mod error;
 pub mod number;
-mod page;
 mod plot;
 mod table;
 
 pub use axis::Axis;
 pub use colour::{COLOURS, look};
+pub use document::{Fact, Notice, Page, Target};
 pub use error::PageError;
-pub use page::{Fact, Notice, Page, Target};
 pub use plot::{At, Field, Line, Mark, Plot, rings, staircase, text, through};
 pub use table::{Cell, Column, Row, Table};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use askama::Template;
 
-use crate::axis::{Axis, Tick};
+use super::axis::{Axis, Tick};
 
 /// The frame inside a picture of 560 by 380; the template has the same numbers.
 const LEFT: f64 = 78.0;

@@ -3,7 +3,7 @@
 
 use askama::Template;
 
-use crate::number::{NONE, grouped, percent};
+use super::number::{NONE, grouped, percent};
 
 /// A heading.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colours as they are seen without one kind of cone.
 
-use crate::Colour;
+use super::Colour;
 
 /// A colour vision as a matrix on linear RGB.
 pub type Vision = [[f64; 3]; 3];

@@ -3,8 +3,8 @@
 //! is known.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use foveate_chart::{Bars, Chart, Line, Look, Shape};
-use foveate_palette::{Colour, SERIES};
+use foveate_pictures::chart::{Bars, Chart, Line, Look, Shape};
+use foveate_pictures::palette::{Colour, SERIES};
 
 fn chart(shape: Shape) -> Chart {
     let [file, title, x, y, caption] =

@@ -8,7 +8,7 @@ use foveate_camera::Camera;
 
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
-use foveate_npy::{Element, NpyWriter};
+use foveate_files::npy::{Element, NpyWriter};
 
 /// Every array, open.
 pub(super) struct Arrays {

@@ -2,7 +2,7 @@
 //! A colour picture to draw on, and the common layout of pictures of regions: the frame, enlarged if
 //! it is small, above a footer for a legend.
 
-use foveate_palette::Colour;
+use foveate_pictures::palette::Colour;
 
 use super::font;
 

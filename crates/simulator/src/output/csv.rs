@@ -31,7 +31,7 @@ impl Csv {
 
     /// Appends a line of fields that may need quotes.
     pub(super) fn quoted<const N: usize>(&mut self, fields: [&str; N]) {
-        self.0.append(foveate_tables::csv([fields]).as_bytes());
+        self.0.append(foveate_files::tables::csv([fields]).as_bytes());
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {

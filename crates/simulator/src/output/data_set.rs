@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
+use foveate_files::npy::{Element, NpyWriter};
 use foveate_footage::{Labels, SetFiles, SetForm};
-use foveate_npy::{Element, NpyWriter};
 
 /// Where a data set is, below the folder of its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

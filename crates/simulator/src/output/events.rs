@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
 use foveate_engine::Outcome;
-use foveate_tables::{Column, Kind, Value};
+use foveate_files::tables::{Column, Kind, Value};
 
 use super::EventTables;
 use super::csv::Csv;

@@ -6,7 +6,7 @@
 
 use colorous::VIRIDIS;
 use foveate_camera::{Camera, Measure};
-use foveate_palette::Colour;
+use foveate_pictures::palette::Colour;
 
 use super::canvas::{Canvas, Layout, TEXT};
 use super::font;

@@ -83,7 +83,7 @@ impl Npz {
 
     /// Leaves room for the headers of the open entry.
     fn begin(&mut self) {
-        let header = stored(&foveate_npy::header(HEADER, self.open.descr, "0,"));
+        let header = stored(&foveate_files::npy::header(HEADER, self.open.descr, "0,"));
         self.open.packed_bytes = length(&header);
         let room = [self.open.local(), header].concat();
         self.at += length(&room);
@@ -91,7 +91,7 @@ impl Npz {
     }
 
     fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
-        let header = foveate_npy::header(HEADER, self.open.descr, &format!("{count},"));
+        let header = foveate_files::npy::header(HEADER, self.open.descr, &format!("{count},"));
         let packer = std::mem::replace(&mut self.packer, Packer::new(LEVEL));
         let (last, crc, bytes) = packer.finish(&header);
         self.file.append(&last);

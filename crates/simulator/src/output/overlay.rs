@@ -5,7 +5,7 @@
 //! Colours are those of the palette; active regions have an outline besides.
 
 use foveate_frame::{Raster, convert_depth};
-use foveate_palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
+use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
 
 use super::canvas::{Canvas, Layout};
 use super::font;
@@ -117,7 +117,7 @@ fn shade(grey: u32, tint: Option<Colour>) -> Colour {
 
 #[cfg(test)]
 mod tests {
-    use foveate_palette::vision::{VISIONS, distance};
+    use foveate_pictures::palette::vision::{VISIONS, distance};
 
     use super::*;
 

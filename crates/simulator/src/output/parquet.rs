@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use foveate_tables::{Column, ParquetWriter, Value};
+use foveate_files::tables::{Column, ParquetWriter, Value};
 
 use super::cannot_write;
 use super::row_writer::RowWriter;

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use foveate_tables::Value;
+use foveate_files::tables::Value;
 
 use super::csv::Csv;
 use crate::SimulatorError;

@@ -4,7 +4,7 @@
 //! A bar is a frame until the strip is full; then two bars become one, the mean of both, and so on. So
 //! the strip shows the whole clip in constant memory without knowing how long it will be.
 
-use foveate_palette::Colour;
+use foveate_pictures::palette::Colour;
 
 use super::canvas::{Canvas, Layout};
 

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use foveate_tables::plain;
+use foveate_files::tables::plain;
 
 use super::csv::Csv;
 use crate::SimulatorError;

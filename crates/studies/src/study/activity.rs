@@ -4,7 +4,7 @@
 use std::slice::from_ref;
 
 use super::{Study, clips_only};
-use foveate_chart::{Chart, Line, Shape};
+use foveate_pictures::chart::{Chart, Line, Shape};
 
 use crate::StudyError;
 use crate::findings::Findings;

@@ -2,8 +2,8 @@
 //! How the mean absolute deviation of regions is distributed, in 128 bins from 0 to half of full scale,
 //! which is its largest value; at 8 bits a bin is one grey level.
 
-use foveate_chart::{Chart, Line, Shape};
 use foveate_design::{Design, FeatureKind, SpatialConfig};
+use foveate_pictures::chart::{Chart, Line, Shape};
 
 use super::Study;
 use crate::StudyError;

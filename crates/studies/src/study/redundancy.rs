@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spatial redundancy: the share of regions that a feature by itself calls irrelevant.
 
-use foveate_chart::{Bars, Chart, Shape};
 use foveate_design::{Config, FeatureKind, SpatialConfig};
-use foveate_palette::SERIES;
+use foveate_pictures::chart::{Bars, Chart, Shape};
+use foveate_pictures::palette::SERIES;
 
 use super::Study;
 use crate::StudyError;

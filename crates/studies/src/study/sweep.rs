@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Active share against one number of the design: region size, and each threshold by itself.
 
-use foveate_chart::{Chart, Line, Shape};
 use foveate_design::{Config, Decimal, FeatureKind, Measure};
 use foveate_footage::Kind;
+use foveate_pictures::chart::{Chart, Line, Shape};
 
 use super::Study;
 use crate::StudyError;

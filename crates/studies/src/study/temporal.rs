@@ -3,8 +3,8 @@
 
 use std::slice::from_ref;
 
-use foveate_chart::{Bars, Chart, Shape};
-use foveate_palette::{ACTIVE, CHANGED, RELEVANT};
+use foveate_pictures::chart::{Bars, Chart, Shape};
+use foveate_pictures::palette::{ACTIVE, CHANGED, RELEVANT};
 
 use super::{Study, clips_only};
 use crate::StudyError;

@@ -3,7 +3,7 @@
 
 use super::Rows;
 use crate::Summary;
-use foveate_page::Cell;
+use foveate_pictures::page::Cell;
 
 /// A row per clip.
 pub(in crate::page) fn clips(summary: &Summary) -> Rows {

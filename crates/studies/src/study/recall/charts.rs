@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The charts of the study, of all clips together: recall against bytes, and recall by class.
 
-use foveate_chart::{Bars, Chart, Line, Shape};
-use foveate_palette::SERIES;
+use foveate_pictures::chart::{Bars, Chart, Line, Shape};
+use foveate_pictures::palette::SERIES;
 
 use super::class::{CLASSES, UNKNOWN};
 use super::{Key, Outcome};
