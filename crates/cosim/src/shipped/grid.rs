@@ -4,7 +4,7 @@
 use crate::error::CosimError;
 use crate::level::Level;
 use foveate_design::{Design, Neighborhood};
-use foveate_emit::{Parameter, Top};
+use foveate_emit::Top;
 
 /// Side of a region from which an array of nine is too slow in Icarus.
 const LARGE_SIDE: u32 = 32;
@@ -31,11 +31,6 @@ pub(super) fn part(design: &Design, top: Top) -> Result<Design, CosimError> {
             Ok(taken.map_or_else(|| part(design.columns()), Ok)?)
         }
     }
-}
-
-/// The parameters of `top` that make it the part.
-pub(super) fn parameters(part: &Design, top: Top) -> Vec<Parameter> {
-    top.parameters(part)
 }
 
 fn array(design: &Design) -> (u32, u32) {

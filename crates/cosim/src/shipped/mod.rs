@@ -113,7 +113,7 @@ impl ShippedBench {
         };
         let mut about = tally.about(design, &part, top);
         about.extend(remarks.iter().cloned());
-        let parameters = grid::parameters(&part, top);
+        let parameters = top.parameters(&part);
         let bench = told_bench(&module, &ports, &parameters, &about, shortcoming.as_deref());
         let file = |name: String, contents| SourceFile { path: format!("tb/{name}"), contents };
         Ok(Self {
