@@ -11,3 +11,14 @@ pub const PIXEL_BITS: RangeInclusive<u32> = 1..=16;
 pub const REGION_SIZES: RangeInclusive<u32> = 2..=64;
 /// Fraction bits of the mean of `mad`, for the largest region.
 pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_of_the_largest_region_can_be_exact() {
+        let largest = u64::from(*REGION_SIZES.end());
+        assert_eq!(*MEAN_FRACTION_BITS.end(), crate::index_bits(largest * largest));
+    }
+}

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use serde_path_to_error::{Path, Segment};
 use toml::{Table, Value};
 
-/// What is written as TOML: a configuration of a camera, or of more than that.
-pub trait Written: Serialize + Sized {
+/// A configuration that is a TOML file: of a camera, or of more than that.
+pub trait AsToml: Serialize + Sized {
     /// Its keys.
     fn keys() -> impl Iterator<Item = &'static Key>;
 
@@ -28,7 +28,7 @@ pub trait Written: Serialize + Sized {
 ///
 /// # Errors
 /// As [`CameraConfig::from_toml_with`].
-pub fn read<C: Written, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C, ConfigError> {
+pub fn read<C: AsToml, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C, ConfigError> {
     let mut table: Table =
         text.parse().map_err(|e: toml::de::Error| ConfigError::Syntax(one_line(&e)))?;
     let written = table.clone();
@@ -44,7 +44,7 @@ pub fn read<C: Written, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C,
 }
 
 /// A configuration as a TOML file.
-pub fn write<C: Written>(config: &C) -> String {
+pub fn write<C: AsToml>(config: &C) -> String {
     toml::to_string(config).expect("TOML has a form for every value of a configuration")
 }
 
@@ -79,7 +79,7 @@ impl CameraConfig {
 }
 
 /// The configuration in a table, which may have unknown keys.
-fn known<C: Written>(table: Table) -> Result<C, ConfigError> {
+fn known<C: AsToml>(table: Table) -> Result<C, ConfigError> {
     keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &table)?;
     C::from_table(table)
 }
@@ -101,7 +101,7 @@ pub fn read_table<T: DeserializeOwned>(
     })
 }
 
-impl Written for CameraConfig {
+impl AsToml for CameraConfig {
     fn keys() -> impl Iterator<Item = &'static Key> {
         CAMERA_KEYS.iter()
     }

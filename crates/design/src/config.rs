@@ -67,7 +67,7 @@ impl From<CameraConfig> for Config {
     }
 }
 
-impl text::Written for Config {
+impl text::AsToml for Config {
     fn keys() -> impl Iterator<Item = &'static Key> {
         CAMERA_KEYS.iter().chain(HARDWARE_KEYS)
     }

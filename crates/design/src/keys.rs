@@ -22,7 +22,7 @@ pub(crate) const HARDWARE_KEYS: &[Key] = &[
 #[cfg(test)]
 mod tests {
     use crate::Config;
-    use foveate_camera::text::Written;
+    use foveate_camera::text::AsToml;
 
     /// `docs/configuration.md` has one row per key, and every value that a key takes by name stands in it.
     #[test]

@@ -15,9 +15,8 @@ use crate::{IdealError, IdealOutcome};
 
 /// A camera that computes what the contract says in real numbers.
 ///
-/// Of its camera it takes frame, regions, filter, features, thresholds, combination, reference, payload
-/// and what is shown where nothing is relevant. It ignores neighborhood (windows always see the whole
-/// frame, `shared`), fraction bits of the mean (it is the real mean) and hardware.
+/// It ignores neighborhood (windows always see the whole frame, `shared`) and fraction bits of the mean
+/// (it is the real mean).
 #[derive(Clone, Debug)]
 pub struct IdealCamera {
     camera: Camera,
