@@ -5,7 +5,7 @@
 //! other, and compares each with one above it:
 //!
 //! ```text
-//! functional, clear   FunctionalCamera            frames          the reference
+//! functional, clear   FunctionalCamera  frames          the reference
 //! functional, fast    Engine            frames          every result of every region = FunctionalCamera
 //! cycle, clear        Pipelined-/SerialRcm   clocks     every score and decision = FunctionalCamera
 //! cycle, fast         PipelinedArray    clocks          every port at every clock = clear

@@ -38,7 +38,7 @@ pub(crate) struct Measured {
 pub(crate) struct Clip<'a> {
     pub(crate) subject: &'a Subject,
     pub(crate) input: &'a InputOptions,
-    /// The camera that cameras are compared with, for frames of the clip's size.
+    /// The ideal that cameras are compared with, for frames of the clip's size.
     pub(crate) ideal: &'a CameraConfig,
     /// Parts of the clip, by the numbers of their frames, that are measured apart.
     pub(crate) parts: &'a [Range<u64>],

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use foveate_design::{Config, Design};
+use foveate_design::Config;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
@@ -85,7 +85,7 @@ impl Space {
             .and_then(|config| config.for_frames(width, height))
             .map_err(|error| error.to_string())?;
         // With every default filled in, so that equal designs are equal texts.
-        Ok(Design::config(&design).clone())
+        Ok(design.config())
     }
 }
 

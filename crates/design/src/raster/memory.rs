@@ -30,7 +30,8 @@ impl RasterMemory {
     #[must_use]
     pub fn store_of(design: &Design) -> Option<Self> {
         let words = RasterTiming::of(design).words();
-        let word = design.pixels_per_clock() * design.pixel_bits();
+        let pixel = design.temporal().reference.bits_per_pixel(design.pixel_bits());
+        let word = design.pixels_per_clock() * pixel;
         let (words, bits) = match design.store() {
             Store::Block | Store::Ultra => (words, word),
             Store::SinglePort => (words.div_ceil(2), 2 * word),

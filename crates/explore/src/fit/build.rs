@@ -131,9 +131,7 @@ fn make_slower(
     while candidates.len() < most {
         let holding = || candidates.iter().filter(|candidate| candidate.holds());
         let Some(least) = holding().map(Candidate::cost).min_by(f64::total_cmp) else { break };
-        let is_new = |design: &Design| {
-            candidates.iter().all(|tried| tried.design.config() != design.config())
-        };
+        let is_new = |design: &Design| candidates.iter().all(|tried| tried.design != *design);
         let slower = holding().flat_map(|candidate| {
             let speed = candidate.speed.as_ref();
             let slower = speed.map(|speed| slower(&candidate.design, speed, min_fps));

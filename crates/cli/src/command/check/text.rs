@@ -39,7 +39,7 @@ pub(super) fn text(design: &Design, card: &Card) -> String {
     }
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
-    let hardware = &design.hardware();
+    let hardware = design.hardware();
     lines.push(("organization", hardware.in_words()));
     match hardware.pixels_per_clock {
         Some(pixels) => {
