@@ -6,7 +6,8 @@
 `default_nettype none
 
 module magnitude_above #(
-    parameter WIDTH = 9  // bits of the value, which is signed; the level has one less
+    parameter WIDTH = 9,  // bits of the value, which is signed; the level has one less
+    parameter BORROW = 0  // 1: a bit of the difference is the result, for a short path; 0: a comparison, for few LUTs
 ) (
     input  wire [WIDTH-1:0] value_i,  // signed
     input  wire [WIDTH-2:0] level_i,  // unsigned
@@ -21,7 +22,15 @@ module magnitude_above #(
     wire negative = value_i[WIDTH-1];
     wire [WIDTH-2:0] inverted = value_i[WIDTH-2:0] ^ {(WIDTH - 1) {negative}};
 
-    assign above_o = {inverted, 1'b1} > {level_i, !negative};
+    // Synthesis makes LUTs of the comparison where it can, and of the difference a carry chain with nothing behind it.
+    generate
+        if (BORROW) begin : g_borrow
+            wire [WIDTH:0] missing = {1'b0, level_i, !negative} - {1'b0, inverted, 1'b1};
+            assign above_o = missing[WIDTH];
+        end else begin : g_comparison
+            assign above_o = {inverted, 1'b1} > {level_i, !negative};
+        end
+    endgenerate
 
 endmodule
 

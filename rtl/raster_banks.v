@@ -78,7 +78,7 @@ module raster_banks #(
                 wire comes;  // its word comes
                 always @(posedge clk_i) begin
                     asked_q <= read_place[group][BANK_BITS+:SLOT_BITS] == OWN;
-                    given_q <= write[group] && write_place[group][BANK_BITS+:SLOT_BITS] == OWN && !rst_i;
+                    given_q <= write[group] && write_place[group][BANK_BITS+:SLOT_BITS] == OWN;
                     own_q   <= given_q;
                     if (asked_q) own_read_q <= read_q[BANK_BITS-1:0];
                     if (given_q) begin

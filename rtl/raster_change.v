@@ -5,7 +5,8 @@
 
 module raster_change #(
     parameter WIDTH = 8,  // bits of a pixel
-    parameter LANES = 1   // pixels of a word
+    parameter LANES = 1,  // pixels of a word
+    parameter DEEP = 0    // 1: for a faster clock
 ) (
     input  wire                   clk_i,        // clock, rising edge
     input  wire [LANES*WIDTH-1:0] word_i,       // of this frame
@@ -25,7 +26,7 @@ module raster_change #(
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_lane
             reg [WIDTH:0] difference_q;
             wire above;
-            magnitude_above #(.WIDTH(WIDTH + 1)) u_above (
+            magnitude_above #(.WIDTH(WIDTH + 1), .BORROW(DEEP)) u_above (
                 .value_i(difference_q), .level_i(level_i), .above_o(above)
             );
             always @(posedge clk_i) begin

@@ -69,7 +69,8 @@ module raster_control #(
     // Flags of earlier words and rows.
     reg [3:1] unit_end_q, old_segment_end_q, old_row_end_q;
     reg [2:1] old_top_q, old_bottom_q, old_real_q, old_region_top_q, old_region_bottom_q;
-    wire frame_last;
+    wire frame_last;  // an advance would be the frame's last
+    wire frame_ends;  // it is now
     wire unused_late = old_segment_end_q[3] || old_row_end_q[3] || old_top_q[2] || old_bottom_q[2] || old_real_q[2]
                        || old_region_top_q[2] || old_region_bottom_q[2];
     wire unit_end = (ISOLATED ? segment_end : row_end_q) || frame_last;
@@ -85,7 +86,7 @@ module raster_control #(
                     segment_q     <= segment_end_q ? {SEGMENT_BITS{1'b0}} : segment_q + 1'b1;
                     segment_end_q <= segment_q == BEFORE_LAST_IN_SEGMENT[SEGMENT_BITS-1:0];
                 end
-                if (rst_i || (step && frame_last)) begin
+                if (rst_i || frame_ends) begin
                     segment_q     <= {SEGMENT_BITS{1'b0}};
                     segment_end_q <= 1'b0;
                 end
@@ -97,8 +98,11 @@ module raster_control #(
 
         if (WINDOWS == 0) begin : g_no_window
             assign frame_last = row_end_q && bottom_row_q;
+            assign frame_ends = step && frame_last;
         end else begin : g_windows
+            // Behind the last row the core advances by itself, at every clock.
             assign frame_last = !real_q && !old_real_q[WINDOWS] && old_row_end_q[WINDOWS];
+            assign frame_ends = frame_last;
         end
     endgenerate
 
@@ -127,7 +131,7 @@ module raster_control #(
             old_region_top_q    <= {old_region_top_q[1], region_top_q};
             old_region_bottom_q <= {old_region_bottom_q[1], region_bottom_q};
         end
-        if (rst_i || (step && frame_last)) begin
+        if (rst_i || frame_ends) begin
             word_q          <= {WORD_BITS{1'b0}};
             row_q           <= {ROW_BITS{1'b0}};
             side_q          <= {SIDE_BITS{1'b0}};
@@ -158,7 +162,7 @@ module raster_control #(
             ready_o <= 1'b1;
             own_q   <= 1'b0;
         end
-        if (step && frame_last) begin
+        if (frame_ends) begin
             ready_o    <= 1'b0;
             own_q      <= 1'b0;
             settling_q <= 1'b1;

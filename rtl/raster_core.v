@@ -371,7 +371,7 @@ module raster_core #(
             );
         end
     endgenerate
-    raster_change #(.WIDTH(WIDTH), .LANES(LANES)) u_change (
+    raster_change #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_change (
         .clk_i(clk_i), .word_i(center), .reference_i(reference), .level_i(temporal_level_i), .hit_o(changes)
     );
 

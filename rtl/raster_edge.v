@@ -123,10 +123,10 @@ module raster_edge #(
             wire sum_above, diff_above;
             wire [WIDTH+1:0] half_level = {{(WIDTH + 3 - LEVEL_BITS) {1'b0}}, level_i[LEVEL_BITS-1:1]};
 
-            magnitude_above #(.WIDTH(SUM)) u_sum_above (
+            magnitude_above #(.WIDTH(SUM), .BORROW(DEEP)) u_sum_above (
                 .value_i(sum_3q), .level_i(half_level), .above_o(sum_above)
             );
-            magnitude_above #(.WIDTH(SUM)) u_diff_above (
+            magnitude_above #(.WIDTH(SUM), .BORROW(DEEP)) u_diff_above (
                 .value_i(diff_3q), .level_i(half_level), .above_o(diff_above)
             );
             always @(posedge clk_i) begin

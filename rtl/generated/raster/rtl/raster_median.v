@@ -82,18 +82,17 @@ module raster_median #(
             wire [COLUMN-1:0] sorted;  // {high, mid, low}
             if (DEEP) begin : g_deep
                 // If there is nothing at the top, a is not chosen; at the bottom, c; then b is the mid one.
-                wire ac = a > c;
-                reg [1:0] low_q, mid_q, high_q;
                 reg [WIDTH-1:0] a_q, b_q, c_q;
+                reg ab_q, bc_q, ac_q, top_q, bottom_q;
                 always @(posedge clk_i) begin
                     {a_q, b_q, c_q} <= {a, b, c};
-                    low_q  <= {!bottom_i && (top_i || ab ? bc : ac), top_i || ab};
-                    mid_q  <= {!top_i && !bottom_i && ab != bc && ab == ac, top_i || bottom_i || ab == bc};
-                    high_q <= {!bottom_i && (!top_i && ab ? !ac : !bc), top_i || !ab};
+                    {ab_q, bc_q, ac_q} <= {ab, bc, a > c};
+                    {top_q, bottom_q} <= {top_i, bottom_i};
                 end
-                assign sorted = {
-                    chosen(high_q, a_q, b_q, c_q), chosen(mid_q, a_q, b_q, c_q), chosen(low_q, a_q, b_q, c_q)
-                };
+                wire [1:0] low = {!bottom_q && (top_q || ab_q ? bc_q : ac_q), top_q || ab_q};
+                wire [1:0] mid = {!top_q && !bottom_q && ab_q != bc_q && ab_q == ac_q, top_q || bottom_q || ab_q == bc_q};
+                wire [1:0] high = {!bottom_q && (!top_q && ab_q ? !ac_q : !bc_q), top_q || !ab_q};
+                assign sorted = {chosen(high, a_q, b_q, c_q), chosen(mid, a_q, b_q, c_q), chosen(low, a_q, b_q, c_q)};
             end else begin : g_plain
                 wire [WIDTH-1:0] top = top_i ? b : a;
                 wire [WIDTH-1:0] bottom = bottom_i ? b : c;
@@ -125,9 +124,8 @@ module raster_median #(
     // border they are made to end so that the column that is not there is never chosen. The column on the
     // right of a border has nothing on its left, so what it finds in last_q is made at the step earlier.
     wire [3*LANES-1:0] left_above;
-    wire [3*LANES-1:0] right_above;
+    wire [3*LANES-1:0] next_above;
     wire [3*LANES-1:0] skip_above;
-    wire [3*LANES-1:0] next_above;  // as right_above, for the next column's left_above
     reg  [2:0] last_q;  // b > c of the last column, one step ago
 
     always @(posedge clk_i) begin
@@ -139,7 +137,8 @@ module raster_median #(
     end
 
     wire [(LANES+2)*COLUMN-1:0] merged;
-    wire [3*LANES-1:0] row_ab, row_bc, row_ac;
+    wire [3*LANES-1:0] row_ab, row_next, row_ac;
+    wire row_left, row_right;  // merge_left_q and merge_right_q of this row
 
     generate
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_lane
@@ -156,27 +155,22 @@ module raster_median #(
                 end
                 assign left_above[3*lane+level] = earlier;
                 if (level == 0) begin : g_low
-                    assign next_above[3*lane+level]  = {no_right, b} > {1'b0, c};
-                    assign right_above[3*lane+level] = next_above[3*lane+level];
-                    assign skip_above[3*lane+level]  = {no_right, a} > {1'b0, c};
+                    assign next_above[3*lane+level] = {no_right, b} > {1'b0, c};
+                    assign skip_above[3*lane+level] = {no_right, a} > {1'b0, c};
                 end else if (level == 1) begin : g_mid
-                    // The middle one of three is b if the comparisons of neighbors end alike, or in ab alone.
-                    assign next_above[3*lane+level]  = b > c;
-                    assign right_above[3*lane+level] =
-                        (lane == 0 && merge_left_q) || (no_right ? earlier : next_above[3*lane+level]);
-                    assign skip_above[3*lane+level]  = {1'b0, a} > {no_right, c};
+                    assign next_above[3*lane+level] = b > c;
+                    assign skip_above[3*lane+level] = {1'b0, a} > {no_right, c};
                 end else begin : g_high
-                    assign next_above[3*lane+level]  = {1'b0, b} > {no_right, c};
-                    assign right_above[3*lane+level] = next_above[3*lane+level];
-                    assign skip_above[3*lane+level]  = {1'b0, a} > {no_right, c};
+                    assign next_above[3*lane+level] = {1'b0, b} > {no_right, c};
+                    assign skip_above[3*lane+level] = {1'b0, a} > {no_right, c};
                 end
             end
         end
     endgenerate
 
-    raster_delay #(.WIDTH((LANES + 2) * COLUMN + 9 * LANES), .DEPTH(DEEP)) u_merge (
-        .clk_i(clk_i), .data_i({columns, left_above, right_above, skip_above}),
-        .data_o({merged, row_ab, row_bc, row_ac})
+    raster_delay #(.WIDTH((LANES + 2) * COLUMN + 9 * LANES + 2), .DEPTH(DEEP)) u_merge (
+        .clk_i(clk_i), .data_i({columns, left_above, next_above, skip_above, merge_left_q, merge_right_q}),
+        .data_o({merged, row_ab, row_next, row_ac, row_left, row_right})
     );
 
     generate
@@ -184,13 +178,16 @@ module raster_median #(
             wire [COLUMN-1:0] left = merged[lane*COLUMN+:COLUMN];
             wire [COLUMN-1:0] center = merged[(lane+1)*COLUMN+:COLUMN];
             wire [COLUMN-1:0] right = merged[(lane+2)*COLUMN+:COLUMN];
+            // The middle one of three is b if the comparisons of neighbors end alike, or in ab alone.
+            wire mid_bc = (lane == 0 && row_left)
+                          || (lane == LANES - 1 && row_right ? row_ab[3*lane+1] : row_next[3*lane+1]);
             reg [WIDTH-1:0] x_q, y_q, z_q;
             always @(posedge clk_i) begin
-                x_q <= high_of(row_ab[3*lane], row_bc[3*lane], row_ac[3*lane],
+                x_q <= high_of(row_ab[3*lane], row_next[3*lane], row_ac[3*lane],
                                left[WIDTH-1:0], center[WIDTH-1:0], right[WIDTH-1:0]);
-                y_q <= mid_of(row_ab[3*lane+1], row_bc[3*lane+1], row_ac[3*lane+1],
+                y_q <= mid_of(row_ab[3*lane+1], mid_bc, row_ac[3*lane+1],
                               left[WIDTH+:WIDTH], center[WIDTH+:WIDTH], right[WIDTH+:WIDTH]);
-                z_q <= low_of(row_ab[3*lane+2], row_bc[3*lane+2], row_ac[3*lane+2],
+                z_q <= low_of(row_ab[3*lane+2], row_next[3*lane+2], row_ac[3*lane+2],
                               left[2*WIDTH+:WIDTH], center[2*WIDTH+:WIDTH], right[2*WIDTH+:WIDTH]);
             end
             if (DEEP) begin : g_deep

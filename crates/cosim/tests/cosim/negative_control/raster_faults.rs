@@ -33,6 +33,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Sent, "raster_control", "&& !busy_i;", ";"),
     fault("constant", Paper, "raster_control", "settled_q  <= LAST_SETTLE == 0;", "settled_q  <= 1'b1;"),
     fault("reset", Paper, "raster_control", "            taken_row_q     <= 1'b1;\n", ""),
+    fault("operator", Paper, "raster_control", "frame_last = !real_q && !old_real_q[WINDOWS]", "frame_last = !old_real_q[WINDOWS]"),
 
     fault("operator", Paper, "raster_window", "assign top_o = top_q;", "assign top_o = 1'b0;"),
     fault("operator", Paper, "raster_window", "REPEATS && repeat_q ? middle : word_q", "word_q"),
@@ -43,15 +44,17 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Sent, "raster_line", ".WORDS(ROW_WORDS), .PLACE_BITS", ".WORDS(ROW_WORDS - 1), .PLACE_BITS"),
 
     fault("operator", Paper, "raster_median", "ab ? (bc ? c : b) : (ac ? c : a)", "ab ? (bc ? c : b) : (ac ? a : c)"),
-    fault("operator", Sent, "raster_median", "(top_i || ab ? bc : ac)", "(ab ? bc : ac)"),
-    fault("operator", Sent, "raster_median", "{!bottom_i && (top_i", "{(top_i"),
-    fault("operator", Sent, "raster_median", "top_i || bottom_i || ab == bc", "bottom_i || ab == bc"),
-    fault("operator", Sent, "raster_median", "ab != bc && ab == ac", "ab != bc && ab != ac"),
-    fault("operator", Sent, "raster_median", "(!top_i && ab ? !ac : !bc)", "(ab ? !ac : !bc)"),
+    fault("operator", Sent, "raster_median", "(top_q || ab_q ? bc_q : ac_q)", "(ab_q ? bc_q : ac_q)"),
+    fault("operator", Sent, "raster_median", "{!bottom_q && (top_q", "{(top_q"),
+    fault("operator", Sent, "raster_median", "top_q || bottom_q || ab_q == bc_q", "bottom_q || ab_q == bc_q"),
+    fault("operator", Sent, "raster_median", "ab_q != bc_q && ab_q == ac_q", "ab_q != bc_q && ab_q != ac_q"),
+    fault("operator", Sent, "raster_median", "(!top_q && ab_q ? !ac_q : !bc_q)", "(ab_q ? !ac_q : !bc_q)"),
     fault("index", Sent, "raster_median", "choice[1] ? c : choice[0] ? b : a", "choice[0] ? b : choice[1] ? c : a"),
     fault("constant", Paper, "raster_median", "top = top_i ? b : a;", "top = a;"),
     fault("constant", Pairs, "raster_median", "bottom = bottom_i ? b : c;", "bottom = c;"),
     fault("operator", Paper, "raster_median", "top > bottom", "a > c"),
+    fault("constant", Sent, "raster_median", "(lane == 0 && row_left)", "1'b0"),
+    fault("constant", Sent, "raster_median", "lane == LANES - 1 && row_right", "1'b0"),
     fault("constant", Paper, "raster_median", "next_above[3*LANES-2] || merge_right_q", "next_above[3*LANES-2]"),
     fault("width", Paper, "raster_median", "{no_right, b} > {1'b0, c}", "b > c"),
     fault("index", Sent, "raster_median", "earlier = next_above[3*(lane-1)+level]", "earlier = last_q[level]"),
@@ -71,6 +74,8 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Sent, "raster_corner", "on_left ? flags[1] : flags[0]", "flags[0]"),
 
     fault("operator", Paper, "raster_change", "word_i[lane*WIDTH+:WIDTH]} - {", "word_i[lane*WIDTH+:WIDTH]} + {"),
+    fault("width", Sent, "magnitude_above", "missing[WIDTH]", "missing[WIDTH-1]"),
+    fault("constant", Sent, "magnitude_above", "{1'b0, level_i, !negative}", "{1'b0, level_i, 1'b1}"),
     fault("width", Paper, "raster_change", "{1'b0, word_i[lane*WIDTH+:WIDTH]}", "{2'b0, word_i[lane*WIDTH+:WIDTH-1]}"),
 
     fault("operator", Paper, "raster_counts", "top ? {FEATURES * KEPT_BITS{1'b0}} : kept_above", "kept_above"),
@@ -81,7 +86,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("width", Paper, "raster_counts", "$clog2((SIDE - 1) * SIDE + 1);", "$clog2((SIDE - 1) * SIDE + 1) - 1;"),
 
     fault("constant", Banks, "raster_banks", ".DEPTH(4)", ".DEPTH(3)"),
-    fault("index", Banks, "raster_banks", "given_q <= write[group] && write_place[group][BANK_BITS+:SLOT_BITS] == OWN &&", "given_q <= write[group] &&"),
+    fault("index", Banks, "raster_banks", "given_q <= write[group] && write_place[group][BANK_BITS+:SLOT_BITS] == OWN;", "given_q <= write[group];"),
     fault("index", Banks, "raster_banks", "if (comes) bank_words_q", "if (asked_q) bank_words_q"),
     fault("constant", Banks, "raster_core", "CENTER_CLOCKS - 2 - GROUPS", "CENTER_CLOCKS - 1 - GROUPS"),
     fault("constant", Pairs, "raster_pairs", "again = again_q && !waits_q;", "again = again_q;"),
