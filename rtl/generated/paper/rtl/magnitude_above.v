@@ -23,14 +23,9 @@ module magnitude_above #(
     wire [WIDTH-2:0] inverted = value_i[WIDTH-2:0] ^ {(WIDTH - 1) {negative}};
 
     // Synthesis makes LUTs of the comparison where it can, and of the difference a carry chain with nothing behind it.
-    generate
-        if (BORROW) begin : g_borrow
-            wire [WIDTH:0] missing = {1'b0, level_i, !negative} - {1'b0, inverted, 1'b1};
-            assign above_o = missing[WIDTH];
-        end else begin : g_comparison
-            assign above_o = {inverted, 1'b1} > {level_i, !negative};
-        end
-    endgenerate
+    wire [WIDTH:0] missing = {1'b0, level_i, !negative} - {1'b0, inverted, 1'b1};
+
+    assign above_o = BORROW ? missing[WIDTH] : {inverted, 1'b1} > {level_i, !negative};
 
 endmodule
 
