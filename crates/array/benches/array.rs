@@ -50,7 +50,8 @@ fn on_level(bencher: Bencher, name: &str, level: Level) {
     let (_, features) = DESIGNS.into_iter().find(|(known, _)| *known == name).expect("a design");
     let design = design(features);
     let (pixels, thresholds) = (pixels(&design), Thresholds::of(&design));
-    let mut array = PipelinedArray::with_level(&design, level);
+    let mut array =
+        PipelinedArray::with_level(design.pipelined().expect("the preset is pipelined"), level);
     bencher.counter(ItemsCount::new(CLOCKS)).bench_local(|| {
         for pixels in &pixels {
             divan::black_box(array.step_u8(false, true, pixels, &thresholds));
@@ -67,7 +68,7 @@ fn model(bencher: Bencher, name: &str) {
         .map(|pixels| pixels.iter().map(|&pixel| pixel.into()).collect())
         .collect();
     let thresholds = Thresholds::of(&design);
-    let mut rcm = PipelinedRcm::new(&design);
+    let mut rcm = PipelinedRcm::new(design.pipelined().expect("the preset is pipelined"));
     bencher.counter(ItemsCount::new(CLOCKS)).bench_local(|| {
         for pixels in &pixels {
             divan::black_box(rcm.step(&RcmInput {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array as its callers see it.
 
-use foveate_design::{Design, bits_for};
+use foveate_design::{PipelinedDesign, bits_for};
 use foveate_lanes::Level;
 use foveate_model::Thresholds;
 
@@ -29,13 +29,13 @@ enum Cores {
 impl PipelinedArray {
     /// The array of the design, with the best vector instructions of this processor.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
+    pub fn new(design: PipelinedDesign<'_>) -> Self {
         Self::with_level(design, Level::detect())
     }
 
     /// The array of the design, with these instructions.
     #[must_use]
-    pub fn with_level(design: &Design, level: Level) -> Self {
+    pub fn with_level(design: PipelinedDesign<'_>, level: Level) -> Self {
         let core = match design.pixel_bits() {
             0..=8 if fits_narrow(design) => Cores::Narrow(Box::new(Core::new(design))),
             0..=8 => Cores::Bytes(Box::new(Core::new(design))),
@@ -106,7 +106,7 @@ impl PipelinedArray {
 }
 
 /// Whether counts fit into bytes, and sums and scores into 32 bits.
-fn fits_narrow(design: &Design) -> bool {
+fn fits_narrow(design: PipelinedDesign<'_>) -> bool {
     let n = u64::from(design.region_pixels());
     let max = u64::from(design.pixel_max());
     let widest = design

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! All RPUs of an array: the stages in a row, for one set of lane types.
 
-use foveate_design::{Design, FeatureKind};
+use foveate_design::{FeatureKind, PipelinedDesign};
 use foveate_lanes::{Lane, Task, threshold};
 use foveate_model::Thresholds;
 
@@ -37,7 +37,7 @@ struct Step<T: Lane> {
 }
 
 impl<Y: Types> Core<Y> {
-    pub(crate) fn new(design: &Design) -> Self {
+    pub(crate) fn new(design: PipelinedDesign<'_>) -> Self {
         let plan = Plan::of(design);
         let counts = |&kind: &FeatureKind| row(if kind.has_window() { plan.lanes } else { 0 });
         let step = || Step {
@@ -46,7 +46,7 @@ impl<Y: Types> Core<Y> {
             raw: plan.keeps_raw.then(|| row(plan.lanes)),
             hits: plan.features.iter().map(counts).collect(),
         };
-        let borders = plan.needs_border.then(|| Borders::of(design));
+        let borders = plan.needs_border.then(|| Borders::of(&design));
         let window =
             || WindowStage::new(&plan, plan.denoised_side, plan.keeps_raw, borders.clone());
         Self {

@@ -2,8 +2,8 @@
 //! What the blocks of an array need to know of the design, taken from it once.
 
 use foveate_design::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, PipelinedTiming,
-    Reference, Thresholds as Source,
+    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, PipelinedDesign,
+    PipelinedTiming, Reference, Thresholds as Source,
 };
 use foveate_model::Thresholds;
 
@@ -40,7 +40,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    pub(crate) fn of(design: &Design) -> Self {
+    pub(crate) fn of(design: PipelinedDesign<'_>) -> Self {
         let features: Vec<_> = design.features().iter().map(|feature| feature.kind()).collect();
         let timing = PipelinedTiming::of(design);
         let mean = design.features().iter().find_map(|feature| feature.mean());
@@ -64,7 +64,7 @@ impl Plan {
             irrelevant: design.irrelevant(),
             constants: match design.thresholds() {
                 Source::Runtime => None,
-                Source::Constant => Some(Thresholds::of(design)),
+                Source::Constant => Some(Thresholds::of(&design)),
             },
         }
     }

@@ -62,8 +62,8 @@ impl Stimulus {
 fn compare(design: &Design, level: Level, seed: u64, fault: Option<u64>) -> Result<(), String> {
     let mut stimulus =
         Stimulus { state: seed, design: design.clone(), calm: seed.is_multiple_of(2) };
-    let mut array = PipelinedArray::with_level(design, level);
-    let mut model = PipelinedRcm::new(design);
+    let mut array = PipelinedArray::with_level(design.pipelined().unwrap(), level);
+    let mut model = PipelinedRcm::new(design.pipelined().unwrap());
     let mut thresholds = stimulus.thresholds();
     let frames = 5;
     for clock in 0..u64::from(design.stream_pixels() * frames) + 40 {

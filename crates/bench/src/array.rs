@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use foveate_array::PipelinedArray;
 use foveate_cosim::{Agreement, PipelinedCodec, Recording};
-use foveate_design::Design;
+use foveate_design::PipelinedDesign;
 use foveate_model::{FrameSync, RpuOutput};
 
 use crate::error::BenchError;
@@ -19,14 +19,14 @@ pub(crate) const NAME: &str = "PipelinedArray";
 
 /// Compares every port at every clock, then times it.
 pub(crate) fn fast(
-    design: &Design,
+    design: PipelinedDesign<'_>,
     recording: &Recording,
     vectors: &Vectors,
     timer: Timer<'_>,
 ) -> Result<Row, BenchError> {
     let agreement = agreement(design, recording, vectors)?;
     let before = Before::now();
-    let (mut array, mut sync) = (PipelinedArray::new(design), FrameSync::new(design));
+    let (mut array, mut sync) = (PipelinedArray::new(design), FrameSync::new(&design));
     let time = timer.time(|| {
         match vectors.bytes() {
             Some(clocks) => {
@@ -45,18 +45,18 @@ pub(crate) fn fast(
         Ok(())
     })?;
     let peak_bytes = before.peak_bytes();
-    let measured = Measured { peak_bytes, ..per_clock(design, vectors, time) };
+    let measured = Measured { peak_bytes, ..per_clock(&design, vectors, time) };
     Ok(Row::of(Level::CycleFast, NAME, measured.agrees(Level::CycleClear, agreement)))
 }
 
 fn agreement(
-    design: &Design,
+    design: PipelinedDesign<'_>,
     recording: &Recording,
     vectors: &Vectors,
 ) -> Result<Agreement, BenchError> {
     let (mut array, codec) = (PipelinedArray::new(design), PipelinedCodec::new(design));
     let (mut words, mut bytes) = (vectors.words(), vectors.bytes());
-    let mut sync = FrameSync::new(design);
+    let mut sync = FrameSync::new(&design);
     let mut rpus: Vec<RpuOutput> = Vec::new();
     compare(recording, |record| {
         // The same calls as those that are timed.

@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use foveate_cosim::{Agreement, PipelinedCodec, RasterCodec, Recording, SerialCodec};
-use foveate_design::{Design, Organization};
+use foveate_design::{Design, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
 use foveate_frame::Frame;
 use foveate_model::{PipelinedRcm, RasterInput, RasterRcm, RcmInput, SerialInput, SerialRcm};
 
@@ -26,8 +26,9 @@ pub(crate) fn clear(
     timer: Timer<'_>,
 ) -> Result<Row, BenchError> {
     let decided = outcomes::agreement(design, recording, frames, vectors.streamed)?;
-    let (name, again, peak_bytes, time) = match design.organization() {
-        Organization::Pipelined => {
+    let (name, again, peak_bytes, time) = match design.hardware() {
+        Hardware::Pipelined(own) => {
+            let design = design.on(own);
             let again = pipelined_agreement(design, recording, vectors)?;
             let before = Before::now();
             let mut rcm = PipelinedRcm::new(design);
@@ -39,7 +40,8 @@ pub(crate) fn clear(
             })?;
             ("PipelinedRcm", again, before.peak_bytes(), time)
         }
-        Organization::Serial => {
+        Hardware::Serial(own) => {
+            let design = design.on(own);
             let again = serial_agreement(design, recording, vectors)?;
             let before = Before::now();
             let mut rcm = SerialRcm::new(design);
@@ -51,7 +53,8 @@ pub(crate) fn clear(
             })?;
             ("SerialRcm", again, before.peak_bytes(), time)
         }
-        Organization::Raster => {
+        Hardware::Raster(own) => {
+            let design = design.on(own);
             let again = raster_agreement(design, recording, vectors)?;
             let before = Before::now();
             let mut rcm = RasterRcm::new(design);
@@ -79,14 +82,14 @@ pub(crate) fn fast(
     vectors: &Vectors,
     timer: Timer<'_>,
 ) -> Result<Option<Row>, BenchError> {
-    match design.organization() {
-        Organization::Pipelined => array::fast(design, recording, vectors, timer).map(Some),
-        Organization::Serial | Organization::Raster => Ok(None),
+    match design.pipelined() {
+        Some(design) => array::fast(design, recording, vectors, timer).map(Some),
+        None => Ok(None),
     }
 }
 
 fn pipelined_agreement(
-    design: &Design,
+    design: PipelinedDesign<'_>,
     recording: &Recording,
     vectors: &Vectors,
 ) -> Result<Agreement, BenchError> {
@@ -107,7 +110,7 @@ fn array_input<'a>(control: &'a Control, pixels: &'a [u16]) -> RcmInput<'a> {
 }
 
 fn serial_agreement(
-    design: &Design,
+    design: SerialDesign<'_>,
     recording: &Recording,
     vectors: &Vectors,
 ) -> Result<Agreement, BenchError> {
@@ -126,7 +129,7 @@ fn input<'a>(control: &'a Control, pixels: &'a [u16]) -> SerialInput<'a> {
 }
 
 fn raster_agreement(
-    design: &Design,
+    design: RasterDesign<'_>,
     recording: &Recording,
     vectors: &Vectors,
 ) -> Result<Agreement, BenchError> {

@@ -69,7 +69,10 @@ impl Case {
     }
 
     fn array(&self, timer: Timer<'_>) -> u64 {
-        differing(&array::fast(&self.design, &self.recording, &self.vectors, timer).unwrap())
+        differing(
+            &array::fast(self.design.pipelined().unwrap(), &self.recording, &self.vectors, timer)
+                .unwrap(),
+        )
     }
 
     fn rtl(&self, timer: Timer<'_>) -> Option<u64> {

@@ -36,7 +36,7 @@ impl Level {
     #[must_use]
     pub fn sample(design: &Design) -> Self {
         let (all_columns, all_rows) = (design.columns(), design.rows());
-        let wanted = design.fold() + 1;
+        let wanted = design.slots() + 1;
         let rows_for = |columns: u32| wanted.div_ceil(columns).max(2).min(all_rows);
         let columns = (all_columns.min(3)..=all_columns)
             .find(|&columns| {

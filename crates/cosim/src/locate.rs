@@ -63,7 +63,7 @@ fn in_array(
             says(PortRole::ForwardRegion)
         }
         PortRole::ForwardValid | PortRole::ForwardPixel if has(PortRole::ForwardSlot) => {
-            Some(difference.lane * design.fold() + says(PortRole::ForwardSlot)?)
+            Some(difference.lane * design.slots() + says(PortRole::ForwardSlot)?)
         }
         PortRole::ForwardValid | PortRole::ForwardPixel => Some(difference.lane),
         _ if has(PortRole::Region) => says(PortRole::Region),

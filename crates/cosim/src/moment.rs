@@ -8,7 +8,10 @@ use crate::error::CosimError;
 use crate::field::Field;
 use crate::layout::Layout;
 use crate::recording::Recording;
-use foveate_design::{Design, Phase, PortRole, RasterTiming, SerialTiming};
+use foveate_design::{
+    Design, Feed, Hardware, Phase, PipelinedDesign, PortRole, RasterTiming, SerialDesign,
+    SerialTiming,
+};
 use foveate_model::FrameSync;
 use std::fmt;
 
@@ -59,14 +62,88 @@ impl Moment {
     }
 }
 
+/// How a frame comes in.
+enum Intake<'a> {
+    /// A pixel of every region at a time.
+    Regions(PipelinedDesign<'a>),
+    /// A pixel of every lane at a time, or one of the frame; then the lanes work on it.
+    Lanes(SerialDesign<'a>, SerialTiming),
+    /// A word of the frame at a time.
+    Words(RasterTiming),
+}
+
+impl<'a> Intake<'a> {
+    fn of(design: &'a Design) -> Self {
+        match design.hardware() {
+            Hardware::Pipelined(own) => Self::Regions(design.on(own)),
+            Hardware::Serial(own) => {
+                let array = design.on(own);
+                Self::Lanes(array, SerialTiming::of(array))
+            }
+            Hardware::Raster(own) => Self::Words(RasterTiming::of(design.on(own))),
+        }
+    }
+
+    /// What comes at a time.
+    fn unit(&self) -> &'static str {
+        match self {
+            Self::Regions(_) | Self::Lanes(..) => "pixel",
+            Self::Words(_) => "word",
+        }
+    }
+
+    /// When the lanes do what, where the frame is worked on after it has come.
+    fn work(&self) -> Option<&SerialTiming> {
+        match self {
+            Self::Lanes(_, timing) => Some(timing),
+            Self::Regions(_) | Self::Words(_) => None,
+        }
+    }
+
+    /// Clocks after a pixel or word, the column and row of which are given, in which none is taken inside of a frame.
+    fn pause_after(&self, number: u64, (x, y): (i64, i64)) -> u64 {
+        match self {
+            Self::Words(timing) if (number + 1).is_multiple_of(timing.taken_words.into()) => {
+                (timing.row_words - timing.taken_words).into()
+            }
+            Self::Lanes(array, _) if array.feed() == Feed::Raster => {
+                let at = |place: i64| u32::try_from(place).expect("a place in a frame");
+                u64::from(array.column_places(at(x)) * array.row_places(at(y)) - 1)
+            }
+            Self::Regions(_) | Self::Lanes(..) | Self::Words(_) => 0,
+        }
+    }
+
+    /// Column and row of a pixel of the stream, of the frame where it comes row by row, else of a region.
+    fn place(&self, number: u64) -> (i64, i64) {
+        let signed = |value: u64| i64::try_from(value).expect("a place in a frame");
+        let in_region = |design: &Design| {
+            let (width, halo) = (u64::from(design.stream_side()), i64::from(design.halo()));
+            // The slots of a lane follow each other.
+            let in_slot = number % (width * width);
+            (signed(in_slot % width) - halo, signed(in_slot / width) - halo)
+        };
+        match self {
+            Self::Regions(design) => in_region(design),
+            Self::Lanes(array, _) => match array.feed() {
+                Feed::Parallel => in_region(array),
+                Feed::Raster => {
+                    let width = u64::from(array.columns() * array.region_size());
+                    (signed(number % width), signed(number / width))
+                }
+            },
+            Self::Words(timing) => {
+                let (row, word) = (u64::from(timing.taken_words), u64::from(timing.word_pixels));
+                (signed(number % row * word), signed(number / row))
+            }
+        }
+    }
+}
+
 /// Follows a sequence clock by clock.
 pub(crate) struct Follower<'a> {
-    design: &'a Design,
-    serial: Option<SerialTiming>,
-    /// Whether the pixels are those of the frame, row by row.
-    is_raster: bool,
-    /// Of a raster core: words of a row and pixels of a word.
-    words: Option<(u64, u64)>,
+    intake: Intake<'a>,
+    /// Pixels or words of a frame.
     pixels: u64,
     /// Clocks that the last pixel of a frame goes on entering.
     lag: u64,
@@ -85,41 +162,14 @@ pub(crate) struct Follower<'a> {
 
 impl<'a> Follower<'a> {
     fn new(design: &'a Design, sync: Option<FrameSync>) -> Self {
-        let ports = design.rcm_ports();
-        let has = |role| ports.iter().any(|port| port.role == role);
-        // An array that says one score after the other takes a frame and then works on it.
-        let serial = has(PortRole::AnyScore).then(|| SerialTiming::of(design));
-        let is_raster = has(PortRole::ForwardRegion);
-        // A core that decides one region after the other with all its scores takes words.
-        let is_core = has(PortRole::Region) && serial.is_none();
-        let words = is_core.then(|| {
-            let timing = RasterTiming::of(design);
-            (timing.taken_words.into(), timing.word_pixels.into())
-        });
-        let side = design.region_size();
-        let (x, y) = (design.columns() * side - 1, design.rows() * side - 1);
-        let places = u64::from(design.column_places(x)) * u64::from(design.row_places(y));
-        let pixels = match &serial {
-            _ if words.is_some() => design.timing().pixels_per_frame(),
-            Some(timing) => timing.load_pixels(),
-            None => design.stream_pixels().into(),
+        let intake = Intake::of(design);
+        let pixels = design.timing().pixels_per_frame();
+        let lag = match &intake {
+            Intake::Lanes(..) => intake.pause_after(pixels - 1, intake.place(pixels - 1)),
+            Intake::Regions(_) | Intake::Words(_) => 0,
         };
-        let lag = if is_raster && words.is_none() { places - 1 } else { 0 };
         let (taken, frames, since, is_ready, busy) = (0, 0, None, true, 0);
-        Self {
-            design,
-            serial,
-            is_raster,
-            words,
-            pixels,
-            lag,
-            taken,
-            frames,
-            since,
-            is_ready,
-            sync,
-            busy,
-        }
+        Self { intake, pixels, lag, taken, frames, since, is_ready, sync, busy }
     }
 
     /// One clock: what goes in, and whether the array is ready after it.
@@ -132,7 +182,7 @@ impl<'a> Follower<'a> {
             }
             return Moment::Reset;
         }
-        if let (Some(timing), Some(since)) = (&self.serial, &mut self.since) {
+        if let (Some(timing), Some(since)) = (self.intake.work(), &mut self.since) {
             *since += 1;
             let first = self.lag + timing.edges_to_step(0);
             let step = since.saturating_sub(first);
@@ -142,7 +192,7 @@ impl<'a> Follower<'a> {
             self.since = None;
         }
         let (frame, of) = (self.frames, self.pixels);
-        let unit = if self.words.is_some() { "word" } else { "pixel" };
+        let unit = self.intake.unit();
         let completes = self.sync.as_ref().is_some_and(FrameSync::is_filling);
         let is_open = if completes { self.busy == 0 } else { was_ready };
         self.busy = self.busy.saturating_sub(1);
@@ -160,46 +210,14 @@ impl<'a> Follower<'a> {
         self.taken += 1;
         if self.taken == self.pixels {
             (self.taken, self.frames) = (0, self.frames + 1);
-            self.since = self.serial.is_some().then_some(0);
+            self.since = self.intake.work().map(|_| 0);
         }
-        let (x, y) = self.place(number);
+        let (x, y) = self.intake.place(number);
         if completes {
-            self.busy = self.pause_after(number, (x, y));
+            self.busy = self.intake.pause_after(number, (x, y));
             return Moment::Completing { unit, frame, taken: number + 1, of };
         }
         Moment::Pixel { unit, frame, number, of, x, y }
-    }
-
-    /// Clocks after a pixel or word in which the core itself takes none, inside of a frame.
-    fn pause_after(&self, number: u64, (x, y): (i64, i64)) -> u64 {
-        match self.words {
-            Some((row, _)) if (number + 1).is_multiple_of(row) => {
-                u64::from(RasterTiming::of(self.design).row_words) - row
-            }
-            None if self.is_raster => {
-                let at = |place: i64| u32::try_from(place).expect("a place in a frame");
-                let places = self.design.column_places(at(x)) * self.design.row_places(at(y));
-                u64::from(places - 1)
-            }
-            Some(_) | None => 0,
-        }
-    }
-
-    /// Column and row of a pixel of the stream, of the frame for a raster, else of a region.
-    fn place(&self, number: u64) -> (i64, i64) {
-        if let Some((row, word)) = self.words {
-            let signed = |value: u64| i64::try_from(value).expect("a place in a frame");
-            return (signed(number % row * word), signed(number / row));
-        }
-        let (width, halo) = if self.is_raster {
-            (u64::from(self.design.columns() * self.design.region_size()), 0)
-        } else {
-            (u64::from(self.design.stream_side()), i64::from(self.design.halo()))
-        };
-        // The slots of a lane follow each other.
-        let in_slot = if self.is_raster { number } else { number % (width * width) };
-        let signed = |value: u64| i64::try_from(value).expect("a place in a frame") - halo;
-        (signed(in_slot % width), signed(in_slot / width))
     }
 }
 

@@ -71,3 +71,13 @@ choice! {
         Constant = "constant",
     }
 }
+
+impl Pipelining {
+    /// The key where it is not the default.
+    pub(crate) fn if_deep(self) -> Option<Self> {
+        match self {
+            Self::Plain => None,
+            Self::Deep => Some(self),
+        }
+    }
+}

@@ -3,16 +3,16 @@
 
 use std::ops::Deref;
 
-use crate::{
-    Config, Feed, HardwareConfig, Organization, Pipelining, Store, Thresholds, fingerprint,
-};
+use crate::{Config, Hardware, HardwareConfig, Organization, Pipelining, Thresholds, fingerprint};
 use foveate_camera::Camera;
 
 /// A design: a camera and the hardware that computes it. It answers every question that its camera answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     camera: Camera,
-    hardware: HardwareConfig,
+    hardware: Hardware,
+    syncs: bool,
+    thresholds: Thresholds,
 }
 
 impl Deref for Design {
@@ -25,8 +25,13 @@ impl Deref for Design {
 
 impl Design {
     /// What [`Config::validate`] has found valid, every key filled in.
-    pub(crate) fn new(camera: Camera, hardware: HardwareConfig) -> Self {
-        Self { camera, hardware }
+    pub(crate) fn new(
+        camera: Camera,
+        hardware: Hardware,
+        syncs: bool,
+        thresholds: Thresholds,
+    ) -> Self {
+        Self { camera, hardware, syncs, thresholds }
     }
 
     /// What is computed.
@@ -38,12 +43,18 @@ impl Design {
     /// The configuration with every key filled in.
     #[must_use]
     pub fn config(&self) -> Config {
-        Config { camera: self.camera.config().clone(), hardware: self.hardware.clone() }
+        let hardware = HardwareConfig {
+            // A default is left out, so that designs have the fingerprints from before there was the key.
+            sync: self.syncs.then_some(true),
+            thresholds: self.thresholds,
+            ..self.hardware.config()
+        };
+        Config { camera: self.camera.config().clone(), hardware }
     }
 
-    /// `[hardware]` with every key filled in.
+    /// What computes it.
     #[must_use]
-    pub fn hardware(&self) -> &HardwareConfig {
+    pub fn hardware(&self) -> &Hardware {
         &self.hardware
     }
 
@@ -56,49 +67,25 @@ impl Design {
     /// The structure of the array.
     #[must_use]
     pub fn organization(&self) -> Organization {
-        self.hardware.organization
+        self.hardware.organization()
     }
 
-    /// Regions per lane K: 1 for `pipelined`, where an RPU has but one.
-    #[must_use]
-    pub fn fold(&self) -> u32 {
-        self.hardware.fold
-    }
-
-    /// How pixels enter; `pipelined` is always fed in parallel.
-    #[must_use]
-    pub fn feed(&self) -> Feed {
-        self.hardware.feed.unwrap_or_default()
-    }
-
-    /// Pixels of a word K of the raster organization; 1 in the others.
-    #[must_use]
-    pub fn pixels_per_clock(&self) -> u32 {
-        self.hardware.pixels_per_clock.unwrap_or(1)
-    }
-
-    /// How finely the arithmetic of the raster organization is cut by registers.
+    /// How finely the arithmetic is cut by registers.
     #[must_use]
     pub fn pipelining(&self) -> Pipelining {
-        self.hardware.pipelining.unwrap_or_default()
-    }
-
-    /// Where the frame store of the raster organization is, and of what it is built.
-    #[must_use]
-    pub fn store(&self) -> Store {
-        self.hardware.store.unwrap_or_default()
+        self.hardware.pipelining()
     }
 
     /// Whether the pixels of active regions leave the array or core.
     #[must_use]
     pub fn forwards(&self) -> bool {
-        self.hardware.forward.unwrap_or(true)
+        self.hardware.forwards()
     }
 
     /// Whether the array is told where frames start, and finds them again; see `docs/sync.md`.
     #[must_use]
     pub fn syncs(&self) -> bool {
-        self.hardware.sync.unwrap_or(false)
+        self.syncs
     }
 
     /// The configuration with every key that its organization takes, also those that it leaves out while they have
@@ -116,6 +103,6 @@ impl Design {
     /// Where the thresholds come from.
     #[must_use]
     pub fn thresholds(&self) -> Thresholds {
-        self.hardware.thresholds
+        self.thresholds
     }
 }

@@ -10,6 +10,7 @@ mod choice;
 mod config;
 mod design;
 mod fingerprint;
+mod hardware;
 mod keys;
 mod organization;
 mod pipelined;
@@ -30,12 +31,15 @@ pub use foveate_camera::{
     Reference, RegionConfig, RenderConfig, SpatialConfig, SpatialFeature, Temporal, TemporalConfig,
     Variance, Written, bits_for, index_bits, mad_score_max,
 };
-pub use pipelined::PipelinedTiming;
+pub use hardware::{DesignOn, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
+pub use pipelined::{Pipelined, PipelinedTiming};
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
 pub use raster::{
-    FRAME_NUMBERS, RasterMemory, RasterStream, RasterTiming, RowDeparture, SecondPass,
+    FRAME_NUMBERS, Raster, RasterMemory, RasterStream, RasterTiming, RowDeparture, SecondPass,
 };
 pub use rules::Unit;
-pub use serial::{Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, SerialTiming};
+pub use serial::{
+    Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, Serial, SerialTiming,
+};
 pub use timing::{Departure, Timing};

@@ -1,46 +1,48 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a design says of itself because of its organization: its unit, its timing, its ports.
+//! What an organization takes, and what a design says of itself because of its organization: its unit, its timing,
+//! its ports.
 //!
-//! Nobody asks *which* organization a design has, but what follows from it. Every organization answers
-//! all questions in a module of its own, as an implementation of [`Rules`]; [`Organization::rules`] is the
-//! only place that lists them.
+//! Each organization answers in a module of its own, as an implementation of [`crate::rules::Rules`].
 
-use crate::rules::{Rules, Unit};
+use crate::rules::Unit;
 use crate::{Design, Feed, HardwareConfig, MemoryKind, Organization, Port, Timing};
-use crate::{pipelined::Pipelined, raster::Raster, serial::Serial};
 
 impl Organization {
-    /// The answers of the organization.
-    pub(crate) fn rules(self) -> &'static dyn Rules {
-        match self {
-            Self::Pipelined => &Pipelined,
-            Self::Serial => &Serial,
-            Self::Raster => &Raster,
-        }
-    }
-
     /// What people call a unit of the array, such as "RPU".
     #[must_use]
     pub fn unit_name(self) -> &'static str {
-        self.rules().unit_name()
+        match self {
+            Self::Pipelined => "RPU",
+            Self::Serial => "lane",
+            Self::Raster => "core",
+        }
     }
 
     /// The values that `hardware.feed` may have, the default first; none where it may not be given.
     #[must_use]
     pub fn feeds(self) -> &'static [Feed] {
-        self.rules().feeds()
+        match self {
+            Self::Serial => Feed::ALL,
+            Self::Pipelined | Self::Raster => &[],
+        }
     }
 
     /// The values that `hardware.memory` may have; none where it may not be given.
     #[must_use]
     pub fn memories(self) -> &'static [MemoryKind] {
-        self.rules().memories()
+        match self {
+            Self::Serial => MemoryKind::ALL,
+            Self::Pipelined | Self::Raster => &[],
+        }
     }
 
     /// Whether regions may share a unit: `hardware.fold` may be more than 1.
     #[must_use]
     pub fn folds(self) -> bool {
-        self.rules().folds()
+        match self {
+            Self::Serial => true,
+            Self::Pipelined | Self::Raster => false,
+        }
     }
 }
 
@@ -48,32 +50,32 @@ impl Design {
     /// What the array is made of.
     #[must_use]
     pub fn unit(&self) -> Unit {
-        self.organization().rules().unit(self)
+        self.rules().unit()
     }
 
     /// The design whose array module `rpu` is: this one where that is a part of the array, else the design
     /// of an array of one unit, whose frame may be wider than what a configuration may ask for.
     #[must_use]
     pub fn lone_unit(&self) -> Self {
-        self.organization().rules().lone_unit(self)
+        self.rules().lone_unit()
     }
 
     /// When the design says what.
     #[must_use]
     pub fn timing(&self) -> Timing {
-        self.organization().rules().timing(self)
+        self.rules().timing()
     }
 
     /// The ports of module `rpu`, inputs first.
     #[must_use]
     pub fn rpu_ports(&self) -> Vec<Port> {
-        self.organization().rules().rpu_ports(self)
+        self.rules().rpu_ports()
     }
 
     /// The ports of module `rcm`, inputs first.
     #[must_use]
     pub fn rcm_ports(&self) -> Vec<Port> {
-        self.organization().rules().rcm_ports(self)
+        self.rules().rcm_ports()
     }
 }
 

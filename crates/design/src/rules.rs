@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The questions that every organization answers; [`crate::organization`] asks them.
+//! The questions that every organization answers of its designs; [`crate::organization`] asks them.
 
-use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Timing};
-use foveate_camera::{Camera, ConfigError};
+use crate::{Design, Port, Timing};
 
 /// The unit that an array repeats: an RPU, a lane; or the one core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,31 +21,16 @@ pub struct Unit {
     pub split: &'static str,
 }
 
-/// What an organization answers.
+/// What a [`crate::DesignOn`] some hardware answers.
 pub(crate) trait Rules {
-    /// The unit of a design.
-    fn unit(&self, design: &Design) -> Unit;
-    /// What people call a unit.
-    fn unit_name(&self) -> &'static str;
-    /// How pixels may enter, the default first; none where there is no choice.
-    fn feeds(&self) -> &'static [Feed];
-    /// Of what the memory of a unit may be built, `hardware.memory`; none where there is no choice.
-    fn memories(&self) -> &'static [MemoryKind];
-    /// Whether regions may share a unit, `hardware.fold`.
-    fn folds(&self) -> bool;
-    /// `[hardware]` of such a camera, its keys filled in. [`HardwareConfig::refuse_raster_keys`] is for all
-    /// but the raster organization.
-    fn hardware(
-        &self,
-        asked: &HardwareConfig,
-        camera: &Camera,
-    ) -> Result<HardwareConfig, ConfigError>;
+    /// What the array is made of.
+    fn unit(&self) -> Unit;
     /// The design whose ports module `rpu` has.
-    fn lone_unit(&self, design: &Design) -> Design;
-    /// When a design says what.
-    fn timing(&self, design: &Design) -> Timing;
+    fn lone_unit(&self) -> Design;
+    /// When it says what.
+    fn timing(&self) -> Timing;
     /// The ports of module `rpu`, inputs first.
-    fn rpu_ports(&self, design: &Design) -> Vec<Port>;
+    fn rpu_ports(&self) -> Vec<Port>;
     /// The ports of module `rcm`, inputs first.
-    fn rcm_ports(&self, design: &Design) -> Vec<Port>;
+    fn rcm_ports(&self) -> Vec<Port>;
 }

@@ -2,8 +2,6 @@
 //! When a design says what: what every organization answers. The numbers behind the answers are in the
 //! module of each, as [`crate::PipelinedTiming`] and [`crate::SerialTiming`].
 
-use crate::RasterTiming;
-
 /// When a design says what, in terms that every organization has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {
@@ -16,7 +14,9 @@ pub struct Timing {
 }
 
 /// When what a frame leads to leaves the array, if the frame is taken as fast as the array can. Clocks are counted
-/// from the edge that takes the last pixel of a frame. Regions that share a unit leave slot by slot.
+/// from the edge that takes the last pixel of a frame. Regions that share a unit leave slot by slot. A raster core takes
+/// pixels as a sensor reads them, and gives decisions and pixels of a row of regions while it takes others:
+/// [`crate::RasterStream`] says when.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Departure {
     /// Clocks that the array needs to take a frame whose pixels are all there.
@@ -36,10 +36,6 @@ pub struct Departure {
     pub kept_rows: Option<u32>,
     /// Whether a unit alone can work on its region while the others wait for theirs.
     pub alone: bool,
-    /// The numbers of an array that takes pixels as a sensor reads them, and gives decisions and pixels of a row of
-    /// regions while it takes others: [`crate::RasterStream`] says when. None where an array takes a frame that is
-    /// there.
-    pub stream: Option<RasterTiming>,
 }
 
 impl Timing {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Checks every range and combination of a configuration, and makes it a design.
 
-use crate::{Config, Design, HardwareConfig, Pipelining};
-use foveate_camera::{Camera, ConfigError, MAX_SIDE};
+use crate::pipelined::Pipelined;
+use crate::raster::Raster;
+use crate::serial::Serial;
+use crate::{Config, Design, Hardware, HardwareConfig, Organization};
+use foveate_camera::{ConfigError, MAX_SIDE};
 
 impl Config {
     /// Checks every range and combination.
@@ -16,20 +19,18 @@ impl Config {
     /// As [`Config::validate`], for frames with sides up to `max_side`.
     pub(crate) fn validate_up_to(&self, max_side: u32) -> Result<Design, ConfigError> {
         let camera = self.camera.validate_up_to(max_side)?;
-        let hardware = self.hardware.for_camera(&camera)?;
-        Ok(Design::new(camera, hardware))
+        let asked = &self.hardware;
+        let hardware = match asked.organization {
+            Organization::Pipelined => Hardware::Pipelined(Pipelined::validate(asked)?),
+            Organization::Serial => Hardware::Serial(Serial::validate(asked, &camera)?),
+            Organization::Raster => Hardware::Raster(Raster::validate(asked, &camera)?),
+        };
+        let syncs = asked.sync.unwrap_or_default();
+        Ok(Design::new(camera, hardware, syncs, asked.thresholds))
     }
 }
 
 impl HardwareConfig {
-    /// `[hardware]` of that camera, its keys filled in.
-    fn for_camera(&self, camera: &Camera) -> Result<Self, ConfigError> {
-        let mut hardware = self.organization.rules().hardware(self, camera)?;
-        // The default is left out, so that designs have the fingerprints from before there was this key.
-        hardware.sync = hardware.sync.filter(|&sync| sync);
-        Ok(hardware)
-    }
-
     /// Refuses the keys that only the raster organization has.
     pub(crate) fn refuse_raster_keys(&self) -> Result<(), ConfigError> {
         let given = [
@@ -44,12 +45,6 @@ impl HardwareConfig {
                 Err(self.clash(key, value, remedy))
             }
         }
-    }
-
-    /// The pipelining as a key of a design that may be without it. The default is left out, so that designs have the
-    /// fingerprints from before there was this key.
-    pub(crate) fn deep_pipelining(&self) -> Option<Pipelining> {
-        self.pipelining.filter(|&pipelining| pipelining != Pipelining::Plain)
     }
 
     /// The error for a `key` whose value the organization does not take.

@@ -10,28 +10,36 @@
 
 use crate::Leaf;
 use crate::camera::is_last_sent;
-use foveate_design::{Design, Feed, Filter, MemoryKind, Pipelining, RasterTiming, Store};
+use crate::organization::emitter;
+use foveate_design::{
+    Design, Feed, Filter, MemoryKind, Pipelining, RasterDesign, RasterTiming, SerialDesign, Store,
+};
 
-/// Whether `leaf` has `part` inside, with the parameters that it has in `design`.
-pub(crate) fn is_taken(design: &Design, leaf: &str, part: &str) -> bool {
-    let mean = || design.features().iter().any(|feature| feature.mean().is_some());
-    let variance = || design.features().iter().any(|feature| feature.variance().is_some());
-    // A detector has the name of its feature.
-    let detects = |name| design.features().iter().any(|feature| feature.kind().name() == name);
-    let last_sent = || is_last_sent(design);
-    let median = || design.filter() == Filter::Median3x3;
-    let window = || design.has_feature_window();
-    let raw = || design.keeps_raw();
+/// Whether a leaf of a serial array has `part` inside.
+pub(crate) fn of_serial(design: SerialDesign<'_>, leaf: &str, part: &str) -> bool {
     match (leaf, part) {
         ("serial_array", "serial_raster_feed") => design.feed() == Feed::Raster,
         ("serial_array", "serial_parallel_feed") => design.feed() == Feed::Parallel,
         ("serial_array", "serial_sides") => design.needs_border() && design.fold() > 1,
         ("serial_raster_feed", _) => design.halo() > 0,
         ("serial_memory", "frame_store") => design.lane_memory().kind == MemoryKind::Distributed,
-        ("serial_decision", "frame_store") => last_sent(),
+        ("serial_decision", "frame_store") => is_last_sent(&design),
+        _ => true,
+    }
+}
+
+/// Whether a leaf of a raster core has `part` inside.
+pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> bool {
+    let mean = || design.features().iter().any(|feature| feature.mean().is_some());
+    let variance = || design.features().iter().any(|feature| feature.variance().is_some());
+    // A detector has the name of its feature.
+    let detects = |name| design.features().iter().any(|feature| feature.kind().name() == name);
+    let median = || design.filter() == Filter::Median3x3;
+    let window = || design.has_feature_window();
+    match (leaf, part) {
         ("raster_core", "raster_window") => median() || window(),
         ("raster_core", "raster_median") => median(),
-        ("raster_core", "raster_repeat") => !median() && !window() && is_padded_below(design),
+        ("raster_core", "raster_repeat") => !median() && !window() && is_padded_below(&design),
         ("raster_core", "raster_edge") => detects("edge"),
         ("raster_core", "raster_corner") => detects("corner"),
         ("raster_core", "raster_external") => design.store() == Store::External,
@@ -41,8 +49,8 @@ pub(crate) fn is_taken(design: &Design, leaf: &str, part: &str) -> bool {
         ("raster_core", "raster_deviation") => mean(),
         ("raster_core", "raster_ring") => design.forwards() || mean(),
         ("raster_core", "raster_forward") => design.forwards(),
-        ("raster_core", "raster_line") => design.forwards() && raw() && window(),
-        ("raster_decision", "raster_valid") => last_sent(),
+        ("raster_core", "raster_line") => design.forwards() && design.keeps_raw() && window(),
+        ("raster_decision", "raster_valid") => is_last_sent(&design),
         ("raster_store", "raster_pairs") => design.store() == Store::SinglePort,
         ("raster_store", "raster_ring") => design.store() != Store::SinglePort,
         ("raster_store", "raster_banks") => is_in_banks(design),
@@ -63,10 +71,10 @@ const BANK_WORDS: u64 = 1 << 14;
 
 /// Whether the frame store is made of groups of banks: a large one that has to be fast, whose references come in
 /// order and can be asked for early enough.
-fn is_in_banks(design: &Design) -> bool {
+fn is_in_banks(design: RasterDesign<'_>) -> bool {
     design.pipelining() == Pipelining::Deep
         && design.store() == Store::Block
-        && !is_last_sent(design)
+        && !is_last_sent(&design)
         && RasterTiming::of(design).words() > BANK_WORDS
         && (design.filter() != Filter::None || design.has_feature_window())
 }
@@ -78,7 +86,8 @@ pub(crate) type Values = Vec<(&'static str, String)>;
 pub(crate) fn text(design: &Design, leaf: &Leaf, values: &[(&str, String)]) -> String {
     let plain = leaf.contents.to_owned();
     let text = values.iter().fold(plain, |text, (name, value)| with_default(&text, name, value));
-    if leaf.uses.iter().all(|part| is_taken(design, leaf.name, part)) {
+    let own = emitter(design);
+    if leaf.uses.iter().all(|part| own.is_taken(leaf.name, part)) {
         return text;
     }
     let parts = "// Parts that the design does not elaborate are left out, so some parameters have no use.\n\

@@ -2,7 +2,7 @@
 //! The files of a core beside its Verilog: file lists, FuseSoC, constraints, Vivado, the benches' script.
 //! Its README is in [`crate::readme`].
 
-use crate::organization::Emitter;
+use crate::organization::emitter;
 use crate::text::text_of;
 use crate::{Prefix, SourceFile, Top, banner, synth, verilog};
 use askama::Template;
@@ -63,7 +63,7 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         ("vivado_ooc.tcl".to_owned(), text_of(&vivado)),
         ("design.toml".to_owned(), design_toml(design)),
         ("tb/replay.sh".to_owned(), text_of(&replay(design, prefix))),
-        ("README.md".to_owned(), (Emitter::of(design).readme)(design, prefix)),
+        ("README.md".to_owned(), emitter(design).readme(prefix)),
     ];
     files.extend(synth::files(design, prefix));
     files.extend(beside.map(|(path, contents)| SourceFile { path, contents }));

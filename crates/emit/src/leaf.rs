@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
-use crate::branch::is_taken;
 use crate::camera::is_last_sent;
+use crate::organization::emitter;
 use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining};
 
 /// A hand-written module of `rtl/`.
@@ -113,10 +113,11 @@ pub(crate) fn with_parts(
     design: &Design,
     mut names: Vec<&'static str>,
 ) -> impl Iterator<Item = &'static Leaf> {
+    let own = emitter(design);
     // Every leaf stands after those that it instantiates.
     for leaf in LEAVES.iter().rev() {
         if names.contains(&leaf.name) {
-            let taken = leaf.uses.iter().filter(|part| is_taken(design, leaf.name, part));
+            let taken = leaf.uses.iter().filter(|part| own.is_taken(leaf.name, part));
             names.extend(taken);
         }
     }

@@ -32,7 +32,7 @@ pub use prefix::Prefix;
 pub use top::{Parameter, Top};
 pub use verilog::verilog;
 
-use foveate_design::{Design, PipelinedTiming};
+use foveate_design::{Design, PipelinedDesign, PipelinedTiming};
 
 /// One file of generated text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub struct SourceFile {
 }
 
 /// The latency of a decision of a pipelined design, in words.
-fn latency(design: &Design) -> String {
+fn latency(design: PipelinedDesign<'_>) -> String {
     let timing = PipelinedTiming::of(design);
     let last = if timing.decision_frames == 0 { "" } else { " of the following frame" };
     format!(

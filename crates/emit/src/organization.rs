@@ -2,44 +2,95 @@
 //! What the Verilog of an organization is made of; the only place that lists them here.
 
 use crate::branch::Values;
-use crate::{Prefix, SourceFile, Top, leaf, raster, rcm, readme, serial};
-use foveate_design::{Design, Organization};
+use crate::{Prefix, SourceFile, Top, branch, leaf, raster, rcm, readme, serial};
+use foveate_design::{Design, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
 
-/// What an organization brings.
-pub(crate) struct Emitter {
+/// What a design on some hardware brings.
+pub(crate) trait Emitter {
     /// The leaves that its generated modules instantiate themselves.
-    pub(crate) leaves: fn(&Design) -> Vec<&'static str>,
+    fn leaves(&self) -> Vec<&'static str>;
+    /// Whether `leaf` has `part` inside, with the parameters that it has in the design.
+    fn is_taken(&self, leaf: &str, part: &str) -> bool;
     /// The parameters of a leaf on which it depends what it elaborates, with their values in the design.
-    pub(crate) values: fn(&Design, &str) -> Values,
-    /// The generated modules that `Top` is made of, each after those it instantiates.
-    pub(crate) modules: fn(&Design, Top) -> Vec<SourceFile>,
+    fn values(&self, leaf: &str) -> Values;
+    /// The generated modules that `top` is made of, each after those it instantiates.
+    fn modules(&self, top: Top) -> Vec<SourceFile>;
     /// The README of the core.
-    pub(crate) readme: fn(&Design, &Prefix) -> String,
+    fn readme(&self, prefix: &Prefix) -> String;
 }
 
-impl Emitter {
-    /// What the organization of `design` brings.
-    pub(crate) fn of(design: &Design) -> Self {
-        match design.organization() {
-            Organization::Pipelined => Self {
-                leaves: leaf::pipelined,
-                values: |_, _| Vec::new(),
-                modules: rcm::modules,
-                readme: readme::pipelined_readme,
-            },
-            Organization::Serial => Self {
-                leaves: |design| with_sync(design, "serial_array"),
-                values: serial::values,
-                modules: serial::modules,
-                readme: readme::serial_readme,
-            },
-            Organization::Raster => Self {
-                leaves: |design| with_sync(design, "raster_core"),
-                values: raster::values,
-                modules: raster::modules,
-                readme: readme::raster_readme,
-            },
-        }
+/// What `design` brings.
+pub(crate) fn emitter(design: &Design) -> Box<dyn Emitter + '_> {
+    match design.hardware() {
+        Hardware::Pipelined(own) => Box::new(design.on(own)),
+        Hardware::Serial(own) => Box::new(design.on(own)),
+        Hardware::Raster(own) => Box::new(design.on(own)),
+    }
+}
+
+impl Emitter for PipelinedDesign<'_> {
+    fn leaves(&self) -> Vec<&'static str> {
+        leaf::pipelined(self)
+    }
+
+    fn is_taken(&self, _: &str, _: &str) -> bool {
+        true
+    }
+
+    fn values(&self, _: &str) -> Values {
+        Vec::new()
+    }
+
+    fn modules(&self, top: Top) -> Vec<SourceFile> {
+        rcm::modules(*self, top)
+    }
+
+    fn readme(&self, prefix: &Prefix) -> String {
+        readme::pipelined_readme(*self, prefix)
+    }
+}
+
+impl Emitter for SerialDesign<'_> {
+    fn leaves(&self) -> Vec<&'static str> {
+        with_sync(self, "serial_array")
+    }
+
+    fn is_taken(&self, leaf: &str, part: &str) -> bool {
+        branch::of_serial(*self, leaf, part)
+    }
+
+    fn values(&self, leaf: &str) -> Values {
+        serial::values(*self, leaf)
+    }
+
+    fn modules(&self, top: Top) -> Vec<SourceFile> {
+        serial::modules(*self, top)
+    }
+
+    fn readme(&self, prefix: &Prefix) -> String {
+        readme::serial_readme(*self, prefix)
+    }
+}
+
+impl Emitter for RasterDesign<'_> {
+    fn leaves(&self) -> Vec<&'static str> {
+        with_sync(self, "raster_core")
+    }
+
+    fn is_taken(&self, leaf: &str, part: &str) -> bool {
+        branch::of_raster(*self, leaf, part)
+    }
+
+    fn values(&self, leaf: &str) -> Values {
+        raster::values(*self, leaf)
+    }
+
+    fn modules(&self, top: Top) -> Vec<SourceFile> {
+        raster::modules(*self, top)
+    }
+
+    fn readme(&self, prefix: &Prefix) -> String {
+        readme::raster_readme(*self, prefix)
     }
 }
 

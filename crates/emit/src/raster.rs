@@ -10,7 +10,7 @@ use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     Combine, Design, FRAME_NUMBERS, FeatureKind, Filter, Neighborhood, Pipelining, Port, PortRole,
-    RasterTiming, SpatialFeature, Store, bits_for, index_bits,
+    RasterDesign, RasterTiming, SpatialFeature, Store, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -50,16 +50,17 @@ struct Unused {
 }
 
 /// The core, or the one for the smallest frame.
-pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
+pub(crate) fn modules(design: RasterDesign<'_>, top: Top) -> Vec<SourceFile> {
+    let lone = design.lone_unit();
     let view = match top {
-        Top::Rpu => view(&design.lone_unit(), design, top),
-        Top::Rcm => view(design, design, top),
+        Top::Rpu => view(lone.on(design.own()), &design, top),
+        Top::Rcm => view(design, &design, top),
     };
     vec![file(top.module(), text_of(&view))]
 }
 
 /// Parameters of a leaf that decide on its parts.
-pub(crate) fn values(design: &Design, leaf: &str) -> Values {
+pub(crate) fn values(design: RasterDesign<'_>, leaf: &str) -> Values {
     match leaf {
         "raster_core" => {
             let grid = [
@@ -84,7 +85,7 @@ fn range(port: &Port) -> Option<String> {
     of_region.then(|| "[$clog2(COLUMNS*ROWS)-1:0]".to_owned())
 }
 
-fn view(design: &Design, named: &Design, top: Top) -> Raster {
+fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> Raster {
     let timing = RasterTiming::of(design);
     let n = design.region_size();
     let mut unused = Vec::new();
@@ -108,7 +109,7 @@ fn view(design: &Design, named: &Design, top: Top) -> Raster {
             "The camera for frames that come row by row: COLUMNS x ROWS regions of {n}x{n} {}-bit pixels.",
             design.pixel_bits()
         ),
-        summary: summary(design),
+        summary: summary(&design),
         lanes: design.pixels_per_clock(),
         pipelining: design.pipelining().name(),
         clocks: format!("{} clocks, with the grid above", timing.clocks_per_frame()),
@@ -119,20 +120,20 @@ fn view(design: &Design, named: &Design, top: Top) -> Raster {
         pad_columns: design.columns() * n - design.width(),
         pad_rows: design.rows() * n - design.height(),
         ports: PortLine::all(&top.ports(named), range),
-        constants: constants(design),
+        constants: constants(&design),
         unused,
         parameters: parameters(design, &timing),
         thresholds: thresholds(design),
         scores,
         streams,
-        sync: Sync::with_ready(design, beats(design)),
-        valid: sync::valid(design),
-        ready: sync::ready(design),
+        sync: Sync::with_ready(&design, beats(design)),
+        valid: sync::valid(&design),
+        ready: sync::ready(&design),
     }
 }
 
 /// Beats of a frame in terms of the grid: words of a row that are taken, and rows.
-fn beats(design: &Design) -> String {
+fn beats(design: RasterDesign<'_>) -> String {
     let (n, pixels) = (design.region_size(), design.pixels_per_clock());
     let length = |regions: &str, beyond: u32| match beyond {
         0 => format!("{regions} * {n}"),
@@ -152,7 +153,7 @@ fn bits(width: u32) -> String {
 }
 
 /// Connects the streams of the core to those ports that the design has.
-fn streams(design: &Design, unused: &mut Vec<Unused>) -> Vec<(&'static str, String)> {
+fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static str, String)> {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let has: Vec<String> = design.rcm_ports().into_iter().map(|port| port.name).collect();
     let mut list = Vec::new();
@@ -198,11 +199,11 @@ fn streams(design: &Design, unused: &mut Vec<Unused>) -> Vec<(&'static str, Stri
 }
 
 /// Bits of a score of the core; of one that the design does not have, some.
-fn score_bits(design: &Design, kind: FeatureKind) -> u32 {
+fn score_bits(design: RasterDesign<'_>, kind: FeatureKind) -> u32 {
     design.feature(kind).map_or(design.count_bits(), SpatialFeature::score_bits)
 }
 
-fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, String)> {
+fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static str, String)> {
     let flag = |condition: bool| u32::from(condition);
     let has = |kind| flag(design.feature(kind).is_some());
     let edge_level = design.feature(FeatureKind::Edge);
@@ -217,8 +218,8 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, Stri
         ("MAD", has(FeatureKind::Mad)),
         ("VARIANCE", has(FeatureKind::Variance)),
         ("ALL", flag(design.combine() == Combine::All)),
-        ("LAST_SENT", flag(is_last_sent(design))),
-        ("BLANKS", flag(blanks(design))),
+        ("LAST_SENT", flag(is_last_sent(&design))),
+        ("BLANKS", flag(blanks(&design))),
         ("RAW", flag(design.keeps_raw())),
         ("FORWARD", flag(design.forwards())),
         ("STORE", store(design)),
@@ -257,7 +258,7 @@ fn parameters(design: &Design, timing: &RasterTiming) -> Vec<(&'static str, Stri
 }
 
 /// The number of its store in the core.
-fn store(design: &Design) -> u32 {
+fn store(design: RasterDesign<'_>) -> u32 {
     match design.store() {
         Store::Block => 0,
         Store::Ultra => 1,
@@ -267,13 +268,13 @@ fn store(design: &Design) -> u32 {
 }
 
 /// What is connected to the threshold inputs of the core.
-fn thresholds(design: &Design) -> Vec<(String, String)> {
+fn thresholds(design: RasterDesign<'_>) -> Vec<(String, String)> {
     let mut list = vec![
-        ("temporal_level_i".to_owned(), signal(design, PortRole::TemporalLevel)),
-        ("temporal_min_i".to_owned(), signal(design, PortRole::TemporalMinCount)),
+        ("temporal_level_i".to_owned(), signal(&design, PortRole::TemporalLevel)),
+        ("temporal_min_i".to_owned(), signal(&design, PortRole::TemporalMinCount)),
     ];
     let mut add = |name: String, role, kind, width: u32| {
-        let given = design.feature(kind).map(|_| signal(design, role));
+        let given = design.feature(kind).map(|_| signal(&design, role));
         list.push((name, given.unwrap_or_else(|| format!("{width}'d0"))));
     };
     for (kind, width) in

@@ -5,7 +5,7 @@ use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::{SourceFile, Top, banner, leaf, rpu};
 use askama::Template;
-use foveate_design::{Design, Port, PortRole};
+use foveate_design::{PipelinedDesign, Port, PortRole};
 
 #[derive(Template)]
 #[template(path = "rcm.v")]
@@ -28,14 +28,14 @@ struct Pin {
 }
 
 /// The array is made of RPUs.
-pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
+pub(crate) fn modules(design: PipelinedDesign<'_>, top: Top) -> Vec<SourceFile> {
     let rpu = file(Top::Rpu.module(), rpu::render(design));
     match top {
         Top::Rpu => vec![rpu],
         Top::Rcm => {
             // A part of the array alone, so it is none of the leaves of the RPU.
             let sync = design.syncs().then_some("frame_sync");
-            let leaves = leaf::with_parts(design, sync.into_iter().collect());
+            let leaves = leaf::with_parts(&design, sync.into_iter().collect());
             let leaves = leaves.map(|leaf| file(leaf.name, leaf.contents.to_owned()));
             let array = file(top.module(), render(design));
             leaves.chain([rpu, array]).collect()
@@ -52,27 +52,27 @@ fn range(port: &Port) -> Option<String> {
     }
 }
 
-fn render(design: &Design) -> String {
+fn render(design: PipelinedDesign<'_>) -> String {
     let ports = design.rcm_ports();
     let pins = design.rpu_ports().iter().map(|port| pin(design, port, &ports)).collect();
     let view = Rcm {
-        banner: banner(design),
+        banner: banner(&design),
         columns: design.columns(),
         rows: design.rows(),
         widest: design.most_in_line(),
         highest: design.most_in_line(),
         ports: PortLine::all(&ports, range),
         pins,
-        sync: Sync::always_open(design, design.stream_pixels().to_string()),
+        sync: Sync::always_open(&design, design.stream_pixels().to_string()),
     };
     text_of(&view)
 }
 
-fn pin(design: &Design, port: &Port, rcm_ports: &[Port]) -> Pin {
+fn pin(design: PipelinedDesign<'_>, port: &Port, rcm_ports: &[Port]) -> Pin {
     let name = port.name.clone();
     let per_lane = rcm_ports.iter().any(|outer| outer.name == name && outer.per_lane);
     let connection = match port.role {
-        PortRole::Valid => sync::valid(design).to_owned(),
+        PortRole::Valid => sync::valid(&design).to_owned(),
         PortRole::DecisionValid => "decision_valid[REGION]".to_owned(),
         PortRole::Border => {
             "{row == ROWS - 1, row == 0, column == COLUMNS - 1, column == 0}".to_owned()

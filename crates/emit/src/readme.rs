@@ -12,7 +12,8 @@ use crate::thresholds::threshold_value;
 use crate::{Prefix, banner, latency};
 use askama::Template;
 use foveate_design::{
-    Design, Direction, Feed, MemoryKind, PipelinedTiming, Port, SerialTiming, Thresholds,
+    Design, Direction, Feed, MemoryKind, PipelinedDesign, PipelinedTiming, Port, SerialDesign,
+    SerialTiming, Thresholds,
 };
 
 #[derive(Template)]
@@ -112,11 +113,11 @@ struct ThresholdRow {
     value: u64,
 }
 
-pub(crate) fn pipelined_readme(design: &Design, prefix: &Prefix) -> String {
+pub(crate) fn pipelined_readme(design: PipelinedDesign<'_>, prefix: &Prefix) -> String {
     text_of(&pipelined_view(design, prefix, PipelinedTiming::of(design)))
 }
 
-pub(crate) fn serial_readme(design: &Design, prefix: &Prefix) -> String {
+pub(crate) fn serial_readme(design: SerialDesign<'_>, prefix: &Prefix) -> String {
     text_of(&serial_view(design, prefix, &SerialTiming::of(design)))
 }
 
@@ -125,10 +126,10 @@ fn score_names(design: &Design) -> String {
     names.join(", ")
 }
 
-fn serial_view(design: &Design, prefix: &Prefix, timing: &SerialTiming) -> SerialReadme {
+fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming) -> SerialReadme {
     let memory = design.lane_memory();
     SerialReadme {
-        banner: banner(design),
+        banner: banner(&design),
         before: prefix.name(""),
         width: design.width(),
         height: design.height(),
@@ -139,7 +140,7 @@ fn serial_view(design: &Design, prefix: &Prefix, timing: &SerialTiming) -> Seria
         regions: design.regions(),
         lanes: design.lanes(),
         fold: design.fold(),
-        scores: score_names(design),
+        scores: score_names(&design),
         combine: design.combine().name(),
         reference: design.temporal().reference.name(),
         neighborhood: design.neighborhood().name(),
@@ -162,19 +163,19 @@ fn serial_view(design: &Design, prefix: &Prefix, timing: &SerialTiming) -> Seria
         pauses: timing.load_clocks() - timing.load_pixels(),
         longest_pause: longest_pause(design),
         empty: design.lanes() * design.fold() - design.regions(),
-        sync: sync::section(design, "pixel", fed(design)),
+        sync: sync::section(&design, "pixel", fed(design)),
         stream_pixels: design.stream_pixels(),
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
-        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
-        instance: instance(design, prefix),
-        synthesized: crate::synth::top(design).module(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
+        instance: instance(&design, prefix),
+        synthesized: crate::synth::top(&design).module(),
         compared: " at which it is valid",
     }
 }
 
 /// How often a pixel of the feed comes at an edge.
-fn fed(design: &Design) -> &'static str {
+fn fed(design: SerialDesign<'_>) -> &'static str {
     match design.feed() {
         Feed::Parallel => " of every lane",
         Feed::Raster => "",
@@ -182,23 +183,23 @@ fn fed(design: &Design) -> &'static str {
 }
 
 /// Most clocks for which a raster feed waits after one pixel, since several regions want it.
-fn longest_pause(design: &Design) -> u32 {
+fn longest_pause(design: SerialDesign<'_>) -> u32 {
     let side = design.region_size();
-    let most = |places: fn(&Design, u32) -> u32, regions: u32| {
-        (0..regions * side).map(|at| places(design, at)).max().expect("a frame has pixels")
+    let most = |places: &dyn Fn(u32) -> u32, regions: u32| {
+        (0..regions * side).map(places).max().expect("a frame has pixels")
     };
     match design.feed() {
         Feed::Parallel => 0,
         Feed::Raster => {
-            most(Design::column_places, design.columns()) * most(Design::row_places, design.rows())
-                - 1
+            let columns = most(&|x| design.column_places(x), design.columns());
+            columns * most(&|y| design.row_places(y), design.rows()) - 1
         }
     }
 }
 
-fn pipelined_view(design: &Design, prefix: &Prefix, timing: PipelinedTiming) -> Readme {
+fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: PipelinedTiming) -> Readme {
     Readme {
-        banner: banner(design),
+        banner: banner(&design),
         before: prefix.name(""),
         width: design.width(),
         height: design.height(),
@@ -207,7 +208,7 @@ fn pipelined_view(design: &Design, prefix: &Prefix, timing: PipelinedTiming) -> 
         columns: design.columns(),
         rows: design.rows(),
         regions: design.regions(),
-        scores: score_names(design),
+        scores: score_names(&design),
         combine: design.combine().name(),
         reference: design.temporal().reference.name(),
         neighborhood: design.neighborhood().name(),
@@ -222,13 +223,13 @@ fn pipelined_view(design: &Design, prefix: &Prefix, timing: PipelinedTiming) -> 
         } else {
             "the next frame but one"
         },
-        sync: sync::section(design, "pixel", " of every region"),
+        sync: sync::section(&design, "pixel", " of every region"),
         border: design.needs_border(),
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
-        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(design, port)).collect(),
-        instance: instance(design, prefix),
-        synthesized: crate::synth::top(design).module(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
+        instance: instance(&design, prefix),
+        synthesized: crate::synth::top(&design).module(),
         compared: "",
     }
 }

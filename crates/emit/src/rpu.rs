@@ -7,8 +7,8 @@ use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, Filter, Neighborhood, PipelinedTiming, Pipelining, PortRole, SpatialFeature,
-    bits_for, index_bits,
+    Combine, Filter, Neighborhood, PipelinedDesign, PipelinedTiming, Pipelining, PortRole,
+    SpatialFeature, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -104,13 +104,13 @@ struct Score {
     held: bool,
 }
 
-pub(crate) fn render(design: &Design) -> String {
+pub(crate) fn render(design: PipelinedDesign<'_>) -> String {
     text_of(&view(design))
 }
 
-fn view(design: &Design) -> Rpu {
+fn view(design: PipelinedDesign<'_>) -> Rpu {
     let second_pass = design.has_second_pass();
-    let last_sent = is_last_sent(design);
+    let last_sent = is_last_sent(&design);
     let keeps_raw = design.keeps_raw();
     let shared = design.neighborhood() == Neighborhood::Shared;
     let features = design.features();
@@ -118,11 +118,11 @@ fn view(design: &Design) -> Rpu {
     let timing = PipelinedTiming::of(design);
     let deep = design.pipelining() == Pipelining::Deep;
     Rpu {
-        banner: banner(design),
-        summary: summary(design),
+        banner: banner(&design),
+        summary: summary(&design),
         latency: latency(design),
         ports: PortLine::all(&design.rpu_ports(), |_| None),
-        constants: constants(design),
+        constants: constants(&design),
         n: design.region_size(),
         p: design.pixel_bits(),
         pixels: design.region_pixels(),
@@ -146,7 +146,7 @@ fn view(design: &Design) -> Rpu {
         count: if deep { "count" } else { "tail" },
         second_pass,
         last_sent,
-        blanks: u32::from(blanks(design)),
+        blanks: u32::from(blanks(&design)),
         windowed: features.iter().filter_map(|f| windowed(design, f)).collect(),
         sums: features.iter().any(|f| f.mean().is_some() || f.variance().is_some()),
         sum_bits: design.pixel_sum_bits(),
@@ -154,7 +154,7 @@ fn view(design: &Design) -> Rpu {
         variance: features.iter().find_map(variance),
         compared: compared(deep, last_sent, second_pass),
         references: candidates(deep, last_sent, second_pass),
-        temporal_level: signal(design, PortRole::TemporalLevel),
+        temporal_level: signal(&design, PortRole::TemporalLevel),
         scores: scores(design),
         votes: features.iter().map(|f| format!("{}_score", f.kind())).collect(),
         all: u32::from(design.combine() == Combine::All),
@@ -169,7 +169,7 @@ fn view(design: &Design) -> Rpu {
     }
 }
 
-fn windowed(design: &Design, feature: &SpatialFeature) -> Option<Windowed> {
+fn windowed(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Option<Windowed> {
     let kind = feature.kind();
     feature.level()?;
     // A level that is no pixel has a width of its own.
@@ -177,7 +177,7 @@ fn windowed(design: &Design, feature: &SpatialFeature) -> Option<Windowed> {
         bits if bits == design.pixel_bits() => String::new(),
         bits => format!(", .LEVEL_BITS({bits})"),
     };
-    let level = signal(design, PortRole::Level(kind));
+    let level = signal(&design, PortRole::Level(kind));
     Some(Windowed { name: kind.name(), level, parameters })
 }
 
@@ -231,7 +231,7 @@ fn compared(deep: bool, last_sent: bool, second_pass: bool) -> Vec<&'static str>
     }
 }
 
-fn scores(design: &Design) -> Vec<Score> {
+fn scores(design: PipelinedDesign<'_>) -> Vec<Score> {
     let second_pass = design.has_second_pass();
     let mut list: Vec<_> = design
         .features()
@@ -239,14 +239,14 @@ fn scores(design: &Design) -> Vec<Score> {
         .map(|feature| Score {
             name: format!("{}_score", feature.kind()),
             width: feature.score_bits(),
-            minimum: signal(design, PortRole::MinScore(feature.kind())),
+            minimum: signal(&design, PortRole::MinScore(feature.kind())),
             held: second_pass && !feature.kind().has_second_pass(),
         })
         .collect();
     list.push(Score {
         name: "temporal_count".to_owned(),
         width: design.count_bits(),
-        minimum: signal(design, PortRole::TemporalMinCount),
+        minimum: signal(&design, PortRole::TemporalMinCount),
         held: second_pass,
     });
     list

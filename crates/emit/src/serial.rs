@@ -9,8 +9,8 @@ use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    AreaKind, Combine, Design, FeatureKind, Feed, Filter, MemoryKind, Neighborhood, Pipelining,
-    Port, PortRole, SerialTiming, SpatialFeature, Thresholds, index_bits,
+    AreaKind, Combine, FeatureKind, Feed, Filter, MemoryKind, Neighborhood, Pipelining, Port,
+    PortRole, SerialDesign, SerialTiming, SpatialFeature, Thresholds, index_bits,
 };
 
 #[derive(Template)]
@@ -56,16 +56,17 @@ struct Serial {
 const REGION_RANGE: &str = "(COLUMNS*ROWS > 1 ? $clog2(COLUMNS*ROWS) : 1)-1";
 
 /// The array, or that of a lone lane beside it.
-pub(crate) fn modules(design: &Design, top: Top) -> Vec<SourceFile> {
+pub(crate) fn modules(design: SerialDesign<'_>, top: Top) -> Vec<SourceFile> {
+    let lane = design.one_lane();
     let view = match top {
-        Top::Rpu => view(&design.one_lane(), design, top),
+        Top::Rpu => view(lane.on(design.own()), design, top),
         Top::Rcm => view(design, design, top),
     };
     vec![file(top.module(), text_of(&view))]
 }
 
 /// Parameters of a leaf that decide on its parts.
-pub(crate) fn values(design: &Design, leaf: &str) -> Values {
+pub(crate) fn values(design: SerialDesign<'_>, leaf: &str) -> Values {
     match leaf {
         "serial_array" => {
             let slots = design.lanes() * design.fold();
@@ -89,7 +90,7 @@ pub(crate) fn values(design: &Design, leaf: &str) -> Values {
 }
 
 /// The range of a port whose width depends on the grid.
-fn range(port: &Port, design: &Design) -> Option<String> {
+fn range(port: &Port, design: SerialDesign<'_>) -> Option<String> {
     match (port.role, port.per_lane, port.width) {
         (PortRole::Region | PortRole::ForwardRegion, _, _) => Some(format!("[{REGION_RANGE}:0]")),
         (_, true, 1) => Some(format!("[{}-1:0]", lanes(design))),
@@ -99,7 +100,7 @@ fn range(port: &Port, design: &Design) -> Option<String> {
 }
 
 /// Lanes in terms of the grid.
-fn lanes(design: &Design) -> String {
+fn lanes(design: SerialDesign<'_>) -> String {
     match design.fold() {
         1 => "COLUMNS*ROWS".to_owned(),
         fold => format!("((COLUMNS*ROWS+{})/{fold})", fold - 1),
@@ -107,21 +108,21 @@ fn lanes(design: &Design) -> String {
 }
 
 /// Beats of a frame in terms of the grid.
-fn beats(design: &Design) -> String {
+fn beats(design: SerialDesign<'_>) -> String {
     match design.feed() {
         Feed::Parallel => (design.fold() * design.stream_pixels()).to_string(),
         Feed::Raster => format!("COLUMNS * ROWS * {}", design.region_pixels()),
     }
 }
 
-fn view(design: &Design, named: &Design, top: Top) -> Serial {
+fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> Serial {
     let memory = design.lane_memory();
     let edge = design.feature(FeatureKind::Edge);
     let runtime = design.thresholds() == Thresholds::Runtime;
     Serial {
-        banner: banner(named),
+        banner: banner(&named),
         what: what(design, top),
-        summary: summary(design),
+        summary: summary(&design),
         memory: match memory.kind {
             MemoryKind::Distributed => "distributed RAM",
             MemoryKind::Block => "block RAM",
@@ -133,8 +134,8 @@ fn view(design: &Design, named: &Design, top: Top) -> Serial {
         // A lone lane may have more.
         widest: design.most_in_line().max(design.columns()),
         highest: design.most_in_line(),
-        ports: PortLine::all(&top.ports(named), |port| range(port, named)),
-        constants: constants(design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
+        ports: PortLine::all(&top.ports(&named), |port| range(port, named)),
+        constants: constants(&design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
         parameters: parameters(design),
         fold: design.fold(),
         slot_bits: design.slot_bits(),
@@ -146,20 +147,20 @@ fn view(design: &Design, named: &Design, top: Top) -> Serial {
         slot_range: "(SLOTS > 1 ? $clog2(SLOTS) : 1)-1",
         region_range: REGION_RANGE,
         half_level: edge.is_some() && runtime,
-        temporal_level: signal(design, PortRole::TemporalLevel),
+        temporal_level: signal(&design, PortRole::TemporalLevel),
         edge_half: edge_half(design),
         corner_level: match design.feature(FeatureKind::Corner) {
-            Some(_) => signal(design, PortRole::Level(FeatureKind::Corner)),
+            Some(_) => signal(&design, PortRole::Level(FeatureKind::Corner)),
             None => format!("{}'d0", design.pixel_bits()),
         },
         minima: minima(design),
-        sync: Sync::with_ready(design, beats(design)),
-        valid: sync::valid(design),
-        ready: sync::ready(design),
+        sync: Sync::with_ready(&design, beats(design)),
+        valid: sync::valid(&design),
+        ready: sync::ready(&design),
     }
 }
 
-fn what(design: &Design, top: Top) -> String {
+fn what(design: SerialDesign<'_>, top: Top) -> String {
     let size = design.region_size();
     let p = design.pixel_bits();
     match top {
@@ -173,7 +174,7 @@ fn what(design: &Design, top: Top) -> String {
     }
 }
 
-fn clocks(design: &Design) -> String {
+fn clocks(design: SerialDesign<'_>) -> String {
     let timing = SerialTiming::of(design);
     format!(
         "{} clocks to take it and {} steps, with the grid above",
@@ -182,7 +183,7 @@ fn clocks(design: &Design) -> String {
     )
 }
 
-fn parameters(design: &Design) -> Vec<(&'static str, String)> {
+fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
     let memory = design.lane_memory();
     let widths = design.lane_widths();
     let median = design.filter() == Filter::Median3x3;
@@ -199,8 +200,8 @@ fn parameters(design: &Design) -> Vec<(&'static str, String)> {
         ("DENOISED_SIDE", if median { design.denoised_side() } else { region }),
         ("MEDIAN", flag(median)),
         ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
-        ("LAST_SENT", flag(is_last_sent(design))),
-        ("BLANKS", flag(blanks(design))),
+        ("LAST_SENT", flag(is_last_sent(&design))),
+        ("BLANKS", flag(blanks(&design))),
         ("RAW_PAYLOAD", flag(design.keeps_raw())),
         ("RASTER", flag(design.feed() == Feed::Raster)),
         ("BLOCK", flag(memory.kind == MemoryKind::Block)),
@@ -242,7 +243,7 @@ fn kind(kind: FeatureKind) -> u32 {
 }
 
 /// floor(level / 2) of `edge`, in two bits more than a pixel.
-fn edge_half(design: &Design) -> String {
+fn edge_half(design: SerialDesign<'_>) -> String {
     let width = design.pixel_bits() + 2;
     let Some(edge) = design.feature(FeatureKind::Edge) else { return format!("{width}'d0") };
     match design.thresholds() {
@@ -254,14 +255,14 @@ fn edge_half(design: &Design) -> String {
     }
 }
 
-fn minima(design: &Design) -> Vec<String> {
+fn minima(design: SerialDesign<'_>) -> Vec<String> {
     let width = design.any_score_bits();
     let minimum = |feature: &SpatialFeature| {
-        let name = signal(design, PortRole::MinScore(feature.kind()));
+        let name = signal(&design, PortRole::MinScore(feature.kind()));
         padded(&name, feature.score_bits(), width)
     };
     let mut list: Vec<_> = design.features().iter().rev().map(minimum).collect();
-    list.push(padded(&signal(design, PortRole::TemporalMinCount), design.count_bits(), width));
+    list.push(padded(&signal(&design, PortRole::TemporalMinCount), design.count_bits(), width));
     list
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The Verilog of a design, in compile order.
 
-use crate::organization::Emitter;
+use crate::organization::emitter;
 use crate::text::file;
 use crate::{SourceFile, Top, branch, leaf};
 use foveate_design::Design;
@@ -9,15 +9,16 @@ use foveate_design::Design;
 /// The modules that `top` elaborates, each after those it instantiates. Smaller grids need no others.
 #[must_use]
 pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
-    let emitter = Emitter::of(design);
+    let own = emitter(design);
     let lone = design.lone_unit();
+    let of_lone = emitter(&lone);
     let whole = match top {
         Top::Rpu => &lone,
         Top::Rcm => design,
     };
-    let leaves = leaf::with_parts(whole, (emitter.leaves)(design)).map(|leaf| {
+    let leaves = leaf::with_parts(whole, own.leaves()).map(|leaf| {
         // The same for both tops: what the smaller of them elaborates both have.
-        file(leaf.name, branch::text(&lone, leaf, &(emitter.values)(&lone, leaf.name)))
+        file(leaf.name, branch::text(&lone, leaf, &of_lone.values(leaf.name)))
     });
-    leaves.chain((emitter.modules)(design, top)).collect()
+    leaves.chain(own.modules(top)).collect()
 }

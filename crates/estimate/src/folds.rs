@@ -79,15 +79,16 @@ mod tests {
     fn chosen(clock: impl Fn(u32) -> f64, luts: impl Fn(u32) -> u64) -> (u32, Vec<u32>) {
         let tried = RefCell::new(Vec::new());
         let found = cheapest_fold(single(), 500, |design| {
-            let (fold, lanes) = (design.fold(), u64::from(design.lanes()));
+            let array = design.serial().unwrap();
+            let (fold, lanes) = (array.fold(), u64::from(array.lanes()));
             tried.borrow_mut().push(fold);
-            let blocks = if fold > 8 { design.lane_memory().blocks * lanes } else { 0 };
+            let blocks = if fold > 8 { array.lane_memory().blocks * lanes } else { 0 };
             let lut_total_packed = lanes * luts(fold);
             let area = Area { lut_total_packed, bram18: blocks, ..Area::default() };
             Ok::<_, Infallible>(FoldCost { clock_mhz: Some(clock(fold)), area })
         });
         let Ok(found) = found;
-        (found.fold(), tried.into_inner())
+        (found.slots(), tried.into_inner())
     }
 
     /// The clock at which a fold does 500 frames per second, and a little more.

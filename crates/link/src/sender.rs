@@ -39,14 +39,14 @@ impl Sent {
     pub fn of(design: &Design, active: &[bool], events: Vec<u64>) -> Self {
         let (columns, size) = (design.columns(), design.region_size());
         let mut rows = vec![0; design.rows() as usize];
-        let mut slots = vec![0; design.fold() as usize];
+        let mut slots = vec![0; design.slots() as usize];
         for (region, _) in (0..).zip(active).filter(|&(_, &active)| active) {
             let (row, column): (u32, u32) = (region / columns, region % columns);
             let wide = size.min(design.width() - column * size);
             let high = size.min(design.height() - row * size);
             let pixels = u64::from(wide) * u64::from(high);
             rows[row as usize] += pixels;
-            slots[(region % design.fold()) as usize] += pixels;
+            slots[(region % design.slots()) as usize] += pixels;
         }
         Self { rows, slots, active: active.to_vec(), events }
     }
@@ -92,12 +92,12 @@ impl<'a> Cameras<'a> {
     /// The most clocks that the array adds to a time, once what it waits for has been read.
     #[must_use]
     pub fn own_clocks(&self) -> u64 {
-        if let Some(timing) = self.departure.stream {
-            return own_clocks(timing, self.design.regions());
+        if let Some(core) = self.core() {
+            return own_clocks(core, self.design.regions());
         }
         let Departure { take_clocks, decision_clocks, forward_clocks, slot_clocks, alone, .. } =
             self.departure;
-        let last_slot = u64::from(self.design.fold() - 1) * slot_clocks;
+        let last_slot = u64::from(self.design.slots() - 1) * slot_clocks;
         let array = take_clocks + decision_clocks.max(forward_clocks) + last_slot;
         let row = if alone { self.row_clocks(self.design.rows() - 1).1 } else { 0 };
         array.max(row)
@@ -111,9 +111,14 @@ impl<'a> Cameras<'a> {
         u64::try_from(hertz).unwrap_or(u64::MAX)
     }
 
+    /// The numbers of a raster core: it takes pixels as they are read.
+    fn core(&self) -> Option<RasterTiming> {
+        self.design.raster().map(RasterTiming::of)
+    }
+
     /// The most clocks of a frame, whole or row by row.
     fn frame_clocks(&self) -> u64 {
-        if let Some(timing) = self.departure.stream {
+        if let Some(timing) = self.core() {
             return timing.most_clocks_per_frame();
         }
         let by_rows = match self.departure.alone {
@@ -164,7 +169,7 @@ impl<'a> Cameras<'a> {
     /// The generated array.
     #[must_use]
     pub fn region_array(&self, sent: &[Sent]) -> Vec<Unit> {
-        match self.departure.stream {
+        match self.core() {
             Some(timing) => self.streamed(timing, sent),
             None => self.slot_by_slot(sent),
         }
@@ -191,7 +196,7 @@ impl<'a> Cameras<'a> {
 
     /// An array that takes a frame when all of it has been read.
     fn slot_by_slot(&self, sent: &[Sent]) -> Vec<Unit> {
-        let (fold, regions) = (self.design.fold(), self.design.regions());
+        let (fold, regions) = (self.design.slots(), self.design.regions());
         let Departure { decision_frames, decision_clocks, .. } = self.departure;
         let Departure { forward_frames, forward_clocks, slot_clocks, .. } = self.departure;
         let mut units = Vec::new();

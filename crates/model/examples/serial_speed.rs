@@ -28,7 +28,7 @@ fn noise(state: &mut u64) -> u16 {
 fn measure(feed: &str, skips: bool) {
     let design = design(feed);
     let thresholds = Thresholds::of(&design);
-    let mut rcm = SerialRcm::new(&design);
+    let mut rcm = SerialRcm::new(design.serial().unwrap());
     let ports = rcm.output().forward_valid.len();
     let frame = 224 * 224 / ports;
     let mut state = 1;

@@ -2,7 +2,7 @@
 //! The same frames through the functional model, the engine and the cycle-level array.
 
 use foveate_array::PipelinedArray;
-use foveate_design::Design;
+use foveate_design::{Design, PipelinedDesign};
 use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, RpuOutput, Thresholds, region_stream};
@@ -39,7 +39,8 @@ pub(crate) fn compare(
     let mut tally = Tally::default();
     let mut camera = FunctionalCamera::new(design);
     let mut engine = Engine::new(design);
-    let mut clocks = Clocks::new(design, unrest);
+    let array = design.pipelined().expect("cases are of pipelined designs");
+    let mut clocks = Clocks::new(array, unrest);
     // A decision may come a frame late, and an interrupted run owes some for ever.
     let mut owed = std::collections::VecDeque::new();
     for (number, frame) in (0u64..).zip(frames) {
@@ -80,7 +81,7 @@ pub(crate) fn compare(
 
 /// The array, fed with whole frames.
 struct Clocks<'a> {
-    design: &'a Design,
+    design: PipelinedDesign<'a>,
     array: PipelinedArray,
     thresholds: Thresholds,
     random: Random,
@@ -88,11 +89,11 @@ struct Clocks<'a> {
 }
 
 impl<'a> Clocks<'a> {
-    fn new(design: &'a Design, unrest: bool) -> Self {
+    fn new(design: PipelinedDesign<'a>, unrest: bool) -> Self {
         Self {
             design,
             array: PipelinedArray::new(design),
-            thresholds: Thresholds::of(design),
+            thresholds: Thresholds::of(&design),
             random: Random::new(7),
             unrest,
         }
@@ -140,7 +141,7 @@ impl<'a> Clocks<'a> {
     fn streams(&self, frame: &Frame) -> Vec<Vec<u16>> {
         let stream = |region| {
             let mut stream = Vec::new();
-            region_stream(self.design, frame, region, &mut stream);
+            region_stream(&self.design, frame, region, &mut stream);
             stream
         };
         let streams: Vec<_> = (0..self.design.regions()).map(stream).collect();

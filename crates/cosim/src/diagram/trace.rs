@@ -51,7 +51,7 @@ impl Trace {
         let mut take = Take::new(&part, top, title, cancel);
         let frame = frame(&part);
         for _ in 0..=take.model.frames_behind() {
-            let beats = take.model.beats(&part, &frame);
+            let beats = take.model.beats(&frame);
             take.wait()?;
             take.trace.frames.push(take.edge);
             for (number, pixels) in beats.iter().enumerate() {
@@ -101,7 +101,7 @@ fn frame(part: &Design) -> Frame {
 
 /// A trace under way.
 struct Take<'a> {
-    model: Box<dyn Model>,
+    model: Box<dyn Model + 'a>,
     record: Record,
     thresholds: Thresholds,
     garbage: Vec<u16>,
@@ -111,10 +111,10 @@ struct Take<'a> {
 }
 
 impl<'a> Take<'a> {
-    fn new(part: &Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
+    fn new(part: &'a Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
         let ports = top.ports(part);
         let record = Record::of(&ports);
-        let model = model(part.organization())(part, top);
+        let model = model(part, top);
         let shown =
             record.inputs.fields().iter().chain(record.outputs.fields()).map(|field| &field.port);
         let signals = shown.filter(|port| is_shown(port)).map(signal).collect();

@@ -39,7 +39,7 @@ fn array(design: &Design) -> (u32, u32) {
         Neighborhood::Shared if design.region_size() < LARGE_SIDE => 9,
         Neighborhood::Shared | Neighborhood::Isolated => 4,
     };
-    let fold = design.fold();
+    let fold = design.slots();
     // Two full lanes and a third which is not, or one and some.
     let lanes = if fold <= MANY_SLOTS { 2 * fold + fold.div_ceil(2) } else { fold + least };
     let wanted = lanes.max(least).min(columns * rows);

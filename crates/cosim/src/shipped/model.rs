@@ -3,7 +3,7 @@
 
 use crate::layout::Layout;
 use crate::stimulus::Applied;
-use foveate_design::{Design, Port};
+use foveate_design::Port;
 use foveate_frame::Frame;
 
 /// A cycle-level model with its values in records.
@@ -11,7 +11,7 @@ pub(crate) trait Model {
     /// Pixels that the port takes at once.
     fn width(&self) -> usize;
     /// What the pixel port takes of a frame, one after the other.
-    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>>;
+    fn beats(&self, frame: &Frame) -> Vec<Vec<u16>>;
     /// One edge.
     fn clock(&mut self, applied: &Applied<'_>, record: &mut Record);
     /// As many edges without a pixel as [`Model::quiet_clocks`] says, at once. Where something may be seen

@@ -3,7 +3,7 @@
 
 use super::model::{Model, Record};
 use crate::stimulus::{Applied, Machine, PipelinedCodec};
-use foveate_design::{Design, PipelinedTiming};
+use foveate_design::{PipelinedDesign, PipelinedTiming};
 use foveate_emit::Top;
 use foveate_frame::Frame;
 use foveate_model::{PipelinedRcm, PipelinedRpu, RpuOutput, region_stream};
@@ -11,7 +11,7 @@ use foveate_model::{PipelinedRcm, PipelinedRpu, RpuOutput, region_stream};
 /// The only region of an array of one is at the frame's border on all sides.
 const ALL_SIDES: u8 = 0b1111;
 
-pub(super) fn model(part: &Design, top: Top) -> Box<dyn Model> {
+pub(super) fn model(part: PipelinedDesign<'_>, top: Top) -> Box<dyn Model + '_> {
     let machine = match top {
         Top::Rpu => Machine::Rpu(Box::new(PipelinedRpu::new(part))),
         Top::Rcm => Machine::Rcm(PipelinedRcm::new(part)),
@@ -20,28 +20,29 @@ pub(super) fn model(part: &Design, top: Top) -> Box<dyn Model> {
         machine,
         codec: PipelinedCodec::new(part),
         timing: PipelinedTiming::of(part),
-        lanes: part.regions() as usize,
+        part,
         shown: Vec::new(),
     })
 }
 
-struct Pipelined {
+struct Pipelined<'a> {
     machine: Machine,
     codec: PipelinedCodec,
     timing: PipelinedTiming,
-    lanes: usize,
+    part: PipelinedDesign<'a>,
     shown: Vec<RpuOutput>,
 }
 
-impl Model for Pipelined {
+impl Model for Pipelined<'_> {
     fn width(&self) -> usize {
-        self.lanes
+        self.part.regions() as usize
     }
 
-    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>> {
+    fn beats(&self, frame: &Frame) -> Vec<Vec<u16>> {
+        let part = self.part;
         let mut streams = Vec::new();
         for region in 0..part.regions() {
-            region_stream(part, frame, region, &mut streams);
+            region_stream(&part, frame, region, &mut streams);
         }
         let length = part.stream_pixels() as usize;
         let beat = |at| streams.iter().skip(at).step_by(length).copied().collect();

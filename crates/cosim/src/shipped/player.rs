@@ -8,7 +8,7 @@ use super::tape::Tape;
 use super::{pipelined, raster, serial};
 use crate::error::CosimError;
 use crate::stimulus::Applied;
-use foveate_design::{Design, Organization};
+use foveate_design::{Design, Hardware};
 use foveate_emit::Top;
 use foveate_model::Thresholds;
 use foveate_toolchain::ToolError;
@@ -23,19 +23,18 @@ const MANY_BEATS: usize = 20_000;
 /// Clocks after a frame at which pixels are offered that an array at work must not take.
 const REFUSED: usize = 3;
 
-/// The model of an organization; the only place that lists them here.
-pub(crate) fn model(organization: Organization) -> fn(&Design, Top) -> Box<dyn Model> {
-    match organization {
-        Organization::Pipelined => pipelined::model,
-        Organization::Serial => serial::model,
-        Organization::Raster => raster::model,
+/// The model of a part of a design; the only place that lists them here.
+pub(crate) fn model(part: &Design, top: Top) -> Box<dyn Model + '_> {
+    match part.hardware() {
+        Hardware::Pipelined(own) => pipelined::model(part.on(own), top),
+        Hardware::Serial(own) => serial::model(part.on(own)),
+        Hardware::Raster(own) => raster::model(part.on(own)),
     }
 }
 
 /// Plays scripts.
 pub(super) struct Player<'a> {
-    part: &'a Design,
-    model: Box<dyn Model>,
+    model: Box<dyn Model + 'a>,
     tape: &'a mut Tape,
     cancel: &'a AtomicBool,
     /// What is at the pixel port while it shows nothing of use.
@@ -53,10 +52,10 @@ impl<'a> Player<'a> {
         tape: &'a mut Tape,
         cancel: &'a AtomicBool,
     ) -> Self {
-        let model = model(part.organization())(part, top);
+        let model = model(part, top);
         let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
         let waits = part.timing().departure().kept_rows.is_none();
-        Self { part, garbage: vec![max; model.width()], model, tape, cancel, stalls: false, waits }
+        Self { garbage: vec![max; model.width()], model, tape, cancel, stalls: false, waits }
     }
 
     /// Plays all sequences. The first begins twice: a reset forgets what was under way.
@@ -65,7 +64,7 @@ impl<'a> Player<'a> {
             let Some(first) = sequence.first() else { continue };
             if number == 0 {
                 self.reset(first)?;
-                let beats = self.model.beats(self.part, &first.frame);
+                let beats = self.model.beats(&first.frame);
                 self.stream(&beats[..FORGOTTEN.min(beats.len())], &first.thresholds)?;
             }
             self.reset(first)?;
@@ -83,7 +82,7 @@ impl<'a> Player<'a> {
         self.stalls = false;
         self.reset(first)?;
         for (shot, delivery) in shots.iter().zip(Delivery::ALL) {
-            let beats = self.model.beats(self.part, &shot.frame);
+            let beats = self.model.beats(&shot.frame);
             for (sof, pixels) in delivery.of(&beats, &self.garbage.clone()) {
                 self.beat(pixels, sof, &shot.thresholds)?;
             }
@@ -108,7 +107,7 @@ impl<'a> Player<'a> {
                 let is_new = before.thresholds != shot.thresholds;
                 self.settle(&before.thresholds, is_new || number % 2 == 0)?;
             }
-            let beats = self.model.beats(self.part, &shot.frame);
+            let beats = self.model.beats(&shot.frame);
             self.stalls = shot.stalls;
             self.stream(&beats, &shot.thresholds)?;
             before = Some(shot);
@@ -161,7 +160,7 @@ impl<'a> Player<'a> {
     /// Lets everything leave.
     fn drain(&mut self, last: &Shot) -> Result<(), CosimError> {
         self.settle(&last.thresholds, true)?;
-        let beats = self.model.beats(self.part, &last.frame);
+        let beats = self.model.beats(&last.frame);
         for _ in 0..self.model.frames_behind() {
             self.stream(&beats, &last.thresholds)?;
             self.settle(&last.thresholds, true)?;

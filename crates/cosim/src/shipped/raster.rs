@@ -5,28 +5,27 @@
 use super::model::{Model, Record};
 use super::script::FRAMES;
 use crate::stimulus::{Applied, Queue, RasterCodec, words};
-use foveate_design::{Design, RasterTiming, Store};
-use foveate_emit::Top;
+use foveate_design::{RasterDesign, RasterTiming, Store};
 use foveate_frame::Frame;
 use foveate_model::RasterRcm;
 
-pub(super) fn model(part: &Design, _: Top) -> Box<dyn Model> {
+pub(super) fn model(part: RasterDesign<'_>) -> Box<dyn Model + '_> {
     let departure = part.timing().departure();
     Box::new(Raster {
         core: RasterRcm::new(part),
         codec: RasterCodec::new(part),
         outside: (part.store() == Store::External).then(|| Outside::new(part)),
-        word_pixels: part.pixels_per_clock() as usize,
+        part,
         sink: Stalling { is_ready: true, has_stalled: false, losses: 0 },
         settling: departure.decision_clocks.max(departure.forward_clocks),
     })
 }
 
-struct Raster {
+struct Raster<'a> {
     core: RasterRcm,
     codec: RasterCodec,
     outside: Option<Outside>,
-    word_pixels: usize,
+    part: RasterDesign<'a>,
     /// Clocks from the last word of a frame until all has left.
     settling: u64,
     sink: Stalling,
@@ -65,13 +64,13 @@ impl Stalling {
     }
 }
 
-impl Model for Raster {
+impl Model for Raster<'_> {
     fn width(&self) -> usize {
-        self.word_pixels
+        self.part.pixels_per_clock() as usize
     }
 
-    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>> {
-        words(part, frame, || 0)
+    fn beats(&self, frame: &Frame) -> Vec<Vec<u16>> {
+        words(self.part, frame, || 0)
     }
 
     fn clock(&mut self, applied: &Applied<'_>, record: &mut Record) {
@@ -127,7 +126,7 @@ struct Outside {
 }
 
 impl Outside {
-    fn new(part: &Design) -> Self {
+    fn new(part: RasterDesign<'_>) -> Self {
         Self {
             queue: Queue::default(),
             nothing: vec![0; part.pixels_per_clock() as usize],

@@ -3,27 +3,27 @@
 
 use super::model::{Model, Record};
 use crate::stimulus::{Applied, Feed, SerialCodec};
-use foveate_design::Design;
-use foveate_emit::Top;
+use foveate_design::SerialDesign;
 use foveate_frame::Frame;
 use foveate_model::SerialRcm;
 
-pub(super) fn model(part: &Design, _: Top) -> Box<dyn Model> {
-    Box::new(Serial { array: SerialRcm::new(part), codec: SerialCodec::new(part) })
+pub(super) fn model(part: SerialDesign<'_>) -> Box<dyn Model + '_> {
+    Box::new(Serial { part, array: SerialRcm::new(part), codec: SerialCodec::new(part) })
 }
 
-struct Serial {
+struct Serial<'a> {
+    part: SerialDesign<'a>,
     array: SerialRcm,
     codec: SerialCodec,
 }
 
-impl Model for Serial {
+impl Model for Serial<'_> {
     fn width(&self) -> usize {
         self.array.output().forward_valid.len()
     }
 
-    fn beats(&self, part: &Design, frame: &Frame) -> Vec<Vec<u16>> {
-        Feed::of(part, frame, || 0).beats().map(<[u16]>::to_vec).collect()
+    fn beats(&self, frame: &Frame) -> Vec<Vec<u16>> {
+        Feed::of(self.part, frame, || 0).beats().map(<[u16]>::to_vec).collect()
     }
 
     fn clock(&mut self, applied: &Applied<'_>, record: &mut Record) {

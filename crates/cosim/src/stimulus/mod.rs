@@ -29,7 +29,7 @@ use crate::error::CosimError;
 use crate::level::Level;
 use crate::recording::{Recorder, Recording};
 pub(crate) use applied::Applied;
-use foveate_design::{Design, Organization};
+use foveate_design::{Design, Hardware};
 use foveate_frame::Frame;
 pub(crate) use motif::{Artist, Motif};
 pub(crate) use pipelined::Machine;
@@ -71,12 +71,12 @@ const MOST_TELLING: usize = 3;
 /// Frame times that a directed sequence takes: some frames, with gaps.
 const FRAMES_OF_A_SEQUENCE: u64 = 6;
 
-/// Runs the model of an organization and records; the only place that lists them here.
-fn driver(organization: Organization) -> fn(Run<'_>) -> Result<(), CosimError> {
-    match organization {
-        Organization::Pipelined => pipelined::record,
-        Organization::Serial => serial::record,
-        Organization::Raster => raster::record,
+/// Runs the model of the simulated design and records; the only place that lists them here.
+fn record(simulated: &Design, run: Run<'_>) -> Result<(), CosimError> {
+    match simulated.hardware() {
+        Hardware::Pipelined(own) => pipelined::record(simulated.on(own), run),
+        Hardware::Serial(own) => serial::record(simulated.on(own), run),
+        Hardware::Raster(own) => raster::record(simulated.on(own), run),
     }
 }
 
@@ -119,12 +119,11 @@ impl Stimulus {
             extent: self.extent(&simulated),
             frames: &self.frames,
             design,
-            simulated: &simulated,
             recorder: &mut recorder,
             cancel,
             progress,
         };
-        driver(simulated.organization())(run)?;
+        record(&simulated, run)?;
         recorder.finish()
     }
 

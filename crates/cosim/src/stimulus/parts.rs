@@ -2,7 +2,7 @@
 //! The caller's frames, as the simulated array or core sees them.
 
 use crate::error::CosimError;
-use foveate_design::Design;
+use foveate_design::{Design, SerialDesign};
 use foveate_frame::Frame;
 
 /// Clocks of all the parts that go through a single lane or core, at most; they are spread over the frame.
@@ -10,7 +10,7 @@ pub(super) const MAX_CLOCKS: u64 = 1 << 21;
 
 /// The first regions of the lanes of a design whose frames go through one lane: all, or as many, evenly
 /// spread, as `clocks` per part allow.
-pub(super) fn first_regions(design: &Design, clocks: u64) -> Vec<u32> {
+pub(super) fn first_regions(design: SerialDesign<'_>, clocks: u64) -> Vec<u32> {
     let lanes = u64::from(design.lanes());
     let affordable = (MAX_CLOCKS / clocks.max(1)).clamp(1, lanes);
     let nth = |number: u64| u32::try_from(number * lanes / affordable).expect("it is a lane");
@@ -19,9 +19,13 @@ pub(super) fn first_regions(design: &Design, clocks: u64) -> Vec<u32> {
 
 /// What one lane sees of a frame: its regions, side by side. What is beyond them repeats their border, as at
 /// the border of a frame.
-pub(super) fn of_lane(design: &Design, frame: &Frame, first: u32) -> Result<Frame, CosimError> {
+pub(super) fn of_lane(
+    design: SerialDesign<'_>,
+    frame: &Frame,
+    first: u32,
+) -> Result<Frame, CosimError> {
     let (side, fold) = (design.region_size(), design.fold());
-    cut(design, frame, (fold * side, side), |x, y| {
+    cut(&design, frame, (fold * side, side), |x, y| {
         let region = (first + x / side).min(design.regions() - 1);
         let (column, row) = (region % design.columns(), region / design.columns());
         (column * side + x % side, row * side + y)

@@ -16,8 +16,6 @@ pub(super) struct Run<'a> {
     pub(super) frames: &'a [Frame],
     /// The design of the caller's frames.
     pub(super) design: &'a Design,
-    /// The design that is simulated, at the level of the stimulus.
-    pub(super) simulated: &'a Design,
     pub(super) recorder: &'a mut Recorder,
     pub(super) cancel: &'a AtomicBool,
     /// Hears how many sequences of how many are done.

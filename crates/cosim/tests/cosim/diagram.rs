@@ -70,7 +70,7 @@ fn a_pipelined_decision_comes_when_the_timing_says() {
         "spatial = [{ feature = 'variance', min_score = 5 }]\nregion.size = 20",
     ] {
         let design = design(toml);
-        let timing = PipelinedTiming::of(&design);
+        let timing = PipelinedTiming::of(design.pipelined().unwrap());
         let diagram = diagram(&design);
         let frame = u64::from(timing.cycles_per_frame);
         let behind = u64::from(timing.decision_frames);
@@ -91,7 +91,7 @@ fn a_pipelined_diagram_shows_what_the_model_says() {
     );
     let diagram = diagram(&design);
     // Regions so small that no clock is left out but in the end.
-    let mut rpu = PipelinedRpu::new(&design);
+    let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
     let mut checked = 0;
     for (at, &edge) in diagram.edges.iter().enumerate() {
         if edge != at as u64 {
@@ -128,7 +128,7 @@ fn a_serial_array_is_ready_and_shows_scores_when_the_timing_says() {
         "hardware = { organization = 'serial', feed = 'raster' }\nregion.neighborhood = 'shared'\nframe = { width = 24, height = 16 }",
     ] {
         let design = design(toml);
-        let timing = SerialTiming::of(&design);
+        let timing = SerialTiming::of(design.serial().unwrap());
         let diagram = diagram(&design);
         let start = timing.load_clocks() - 1;
         let ready = diagram.rises("ready_o");

@@ -45,8 +45,8 @@ const FAULTS: &[Fault] = &[
     Fault {
         what: "the first bank is written for all",
         file: "rtl/raster_banks.v",
-        from: "write_place[group][BANK_BITS+:SLOT_BITS] == OWN && !rst_i",
-        to: "OWN == 0 && !rst_i",
+        from: "write_place[group][BANK_BITS+:SLOT_BITS] == OWN",
+        to: "OWN == 0",
     },
     Fault {
         what: "a reference comes a clock early",

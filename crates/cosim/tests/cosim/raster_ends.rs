@@ -124,7 +124,8 @@ impl<'a> Receiver<'a> {
 
     /// A word is taken.
     fn take(&mut self, name: Name, position: u64, [first, last, abort]: [bool; 3]) {
-        let (pixels, word) = (self.design.region_pixels(), self.design.pixels_per_clock());
+        let (pixels, word) =
+            (self.design.region_pixels(), self.design.raster().unwrap().pixels_per_clock());
         assert_eq!(first, self.open.is_none(), "{name:?}");
         if first {
             // Those before it were lost as a whole.

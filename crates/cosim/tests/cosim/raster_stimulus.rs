@@ -53,7 +53,7 @@ struct Clock {
 
 fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let frame = RasterTiming::of(design).taken();
+    let frame = RasterTiming::of(design.raster().unwrap()).taken();
     let shows = |record: &[u8], role| value(outputs, role, record) == 1;
     let (mut before, mut story) = (outputs.record(), Vec::new());
     let (mut taken, mut undecided) = (0, 0);
@@ -150,11 +150,11 @@ fn regions_are_lost_and_small_frames_wait() {
         };
         let clocks = clocks(&recording);
         let longest = clocks.split(takes).map(<[_]>::len).max().unwrap();
-        let row = RasterTiming::of(design).words() / u64::from(design.rows());
+        let row = RasterTiming::of(design.raster().unwrap()).words() / u64::from(design.rows());
         assert!(longest as u64 > 2 * row, "{longest} clocks");
     }
     let recording = record(&small, 2);
-    let longest = RasterTiming::of(&small).edges_to_ready();
+    let longest = RasterTiming::of(small.raster().unwrap()).edges_to_ready();
     let (mut closed, mut waits) = (0, 0);
     for (_, output) in clocks(&recording) {
         assert_eq!(value(recording.outputs(), PortRole::Lost, &output), 0);

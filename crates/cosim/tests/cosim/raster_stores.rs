@@ -62,7 +62,7 @@ struct Story {
 /// Checks at every clock what the contract says about the ports, and tells every sequence.
 fn stories(design: &Design, recording: &Recording) -> Vec<Story> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let words = RasterTiming::of(design).words();
+    let words = RasterTiming::of(design.raster().unwrap()).words();
     let mut before = outputs.record();
     let (mut stories, mut stored) = (Vec::<Story>::new(), VecDeque::new());
     let (mut asked, mut underrun) = (0, false);
@@ -234,7 +234,7 @@ fn check_all(store: Store, forward: bool) {
     let output = tempfile::tempdir().unwrap();
     let failures = in_parallel(&matrix(store, forward), |design| {
         let folder = output.path().join(design.fingerprint());
-        let what = format!("{} {}", name(&design.config()), design.hardware().in_words());
+        let what = format!("{} {}", name(&design.config()), design.config().hardware.in_words());
         agrees(&what, design, Simulator::Iverilog, directed(Level::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));

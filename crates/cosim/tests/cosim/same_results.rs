@@ -119,9 +119,9 @@ fn serial(design: &Design, recording: &Recording) -> Results {
         }
         let valid = field(PortRole::ForwardValid);
         for lane in (0..valid.port.lanes).filter(|&lane| valid.get(&output, lane) == 1) {
-            let region = match design.feed() {
+            let region = match design.serial().unwrap().feed() {
                 Feed::Raster => says(PortRole::ForwardRegion),
-                Feed::Parallel => u64::from(lane * design.fold()) + says(PortRole::ForwardSlot),
+                Feed::Parallel => u64::from(lane * design.slots()) + says(PortRole::ForwardSlot),
             };
             let pixel = field(PortRole::ForwardPixel).get(&output, lane);
             let result = &mut results.last_mut().unwrap()[usize::try_from(region).unwrap()];
@@ -134,7 +134,7 @@ fn serial(design: &Design, recording: &Recording) -> Results {
 
 fn raster(design: &Design, recording: &Recording) -> Results {
     let (regions, outputs) = (design.regions() as usize, recording.outputs());
-    let word = design.pixels_per_clock() as usize;
+    let word = design.raster().unwrap().pixels_per_clock() as usize;
     let mut results: Results = Vec::new();
     let mut decided = vec![0; regions];
     for (_, output) in clocks(recording) {

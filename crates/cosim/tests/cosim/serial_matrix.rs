@@ -38,7 +38,9 @@ impl Case {
 
     fn simulator(&self) -> Simulator {
         let design = self.design();
-        if design.timing().clocks_per_frame() * u64::from(design.lanes()) >= COMPILED_FROM {
+        if design.timing().clocks_per_frame() * u64::from(design.serial().unwrap().lanes())
+            >= COMPILED_FROM
+        {
             Simulator::Verilator
         } else {
             Simulator::Iverilog
@@ -240,7 +242,7 @@ fn the_memory_that_is_named_agrees() {
                     config.hardware.fold = fold;
                     config.camera.region.size = size;
                     config.camera.region.neighborhood = Neighborhood::ALL[(turn / 4 + turn) % 2];
-                    let ruled = design(&config, (5, 2)).lane_memory().kind;
+                    let ruled = design(&config, (5, 2)).serial().unwrap().lane_memory().kind;
                     assert_ne!(ruled, memory, "the rule would choose it, too");
                     config.hardware.memory = Some(memory);
                     cases.push(Case::array(config, (5, 2)));

@@ -61,7 +61,7 @@ struct Clock {
 /// What happens in a recording; whether a pixel is taken follows from the expected `ready_o`.
 fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let timing = SerialTiming::of(design);
+    let timing = SerialTiming::of(design.serial().unwrap());
     let ready = |record: &[u8]| value(outputs, PortRole::Ready, record) == 1;
     let (mut before, mut taken, mut story) = (outputs.record(), 0, Vec::new());
     for (input, output) in clocks(recording) {
@@ -148,7 +148,7 @@ fn resets_come_everywhere() {
             let field = common::vectors::field(outputs, role);
             field.slice(&clock.before).iter().any(|&byte| byte != 0)
         };
-        let timing = SerialTiming::of(&design);
+        let timing = SerialTiming::of(design.serial().unwrap());
         let mut found = BTreeSet::new();
         let mut worked = 0;
         for clock in story(&design, &recording) {
@@ -323,7 +323,7 @@ fn frames_of_the_caller_are_streamed_lane_by_lane() {
     assert_eq!(recording.span(0).unwrap().region, Some(0));
     assert_eq!(recording.span(recording.clocks()).unwrap().region, Some(2));
     assert!(fields_of(recording.outputs()).contains(&"forward_slot_o"));
-    let lane = design.one_lane();
+    let lane = design.serial().unwrap().one_lane();
     let taken = story(&lane, &recording).into_iter().filter(|clock| clock.takes);
     let pixel = |clock: Clock| value(recording.inputs(), PortRole::Pixel, &clock.input);
     let pixels: Vec<u64> = taken.map(pixel).collect();

@@ -7,41 +7,21 @@ mod timing;
 pub use timing::PipelinedTiming;
 
 use crate::rules::{Rules, Unit};
-use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Timing};
-use foveate_camera::{Camera, ConfigError};
+use crate::{
+    Design, Feed, HardwareConfig, Organization, PipelinedDesign, Pipelining, Port, Timing,
+};
+use foveate_camera::ConfigError;
 
-/// The organization as the answers to [`Rules`].
-pub(crate) struct Pipelined;
+/// What a pipelined array has of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pipelined {
+    /// How finely the arithmetic is cut by registers.
+    pub pipelining: Pipelining,
+}
 
-impl Rules for Pipelined {
-    fn unit(&self, design: &Design) -> Unit {
-        Unit {
-            name: self.unit_name(),
-            module: "rpu",
-            count: design.regions(),
-            regions: 1,
-            rpu_in_rcm: true,
-            split: "rpu",
-        }
-    }
-
-    fn unit_name(&self) -> &'static str {
-        "RPU"
-    }
-
-    fn feeds(&self) -> &'static [Feed] {
-        &[]
-    }
-
-    fn memories(&self) -> &'static [MemoryKind] {
-        &[]
-    }
-
-    fn folds(&self) -> bool {
-        false
-    }
-
-    fn hardware(&self, asked: &HardwareConfig, _: &Camera) -> Result<HardwareConfig, ConfigError> {
+impl Pipelined {
+    /// What is asked for, if a pipelined array takes it.
+    pub(crate) fn validate(asked: &HardwareConfig) -> Result<Self, ConfigError> {
         asked.refuse_raster_keys()?;
         if asked.fold != 1 {
             let remedy = "only the serial organization shares lanes; use 1";
@@ -53,11 +33,9 @@ impl Rules for Pipelined {
             return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
         }
         match asked.feed {
-            None | Some(Feed::Parallel) => Ok(HardwareConfig {
-                feed: None,
-                pipelining: asked.deep_pipelining(),
-                ..asked.clone()
-            }),
+            None | Some(Feed::Parallel) => {
+                Ok(Self { pipelining: asked.pipelining.unwrap_or_default() })
+            }
             Some(Feed::Raster) => {
                 let remedy = "only the serial organization takes the frame row by row; \
                               leave the key out";
@@ -66,19 +44,41 @@ impl Rules for Pipelined {
         }
     }
 
-    fn lone_unit(&self, design: &Design) -> Design {
-        design.clone()
+    /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
+    pub(crate) fn config(&self) -> HardwareConfig {
+        HardwareConfig {
+            organization: Organization::Pipelined,
+            pipelining: self.pipelining.if_deep(),
+            ..HardwareConfig::default()
+        }
+    }
+}
+
+impl Rules for PipelinedDesign<'_> {
+    fn unit(&self) -> Unit {
+        Unit {
+            name: Organization::Pipelined.unit_name(),
+            module: "rpu",
+            count: self.regions(),
+            regions: 1,
+            rpu_in_rcm: true,
+            split: "rpu",
+        }
     }
 
-    fn timing(&self, design: &Design) -> Timing {
-        PipelinedTiming::of(design).answers()
+    fn lone_unit(&self) -> Design {
+        self.design().clone()
     }
 
-    fn rpu_ports(&self, design: &Design) -> Vec<Port> {
-        ports::rpu(design)
+    fn timing(&self) -> Timing {
+        PipelinedTiming::of(*self).answers()
     }
 
-    fn rcm_ports(&self, design: &Design) -> Vec<Port> {
-        ports::rcm(design)
+    fn rpu_ports(&self) -> Vec<Port> {
+        ports::rpu(self)
+    }
+
+    fn rcm_ports(&self) -> Vec<Port> {
+        ports::rcm(self)
     }
 }

@@ -2,7 +2,7 @@
 //! When a pipelined design says what: the numbers behind `docs/timing.md`.
 
 use crate::timing::Departure;
-use crate::{Design, Filter, Neighborhood, Pipelining, Timing};
+use crate::{Filter, Neighborhood, PipelinedDesign, Pipelining, Timing};
 
 /// Registers between a median window and the stream that follows it, plain: window, result.
 const MEDIAN_REGISTERS: u32 = 2;
@@ -33,9 +33,9 @@ pub struct PipelinedTiming {
 }
 
 impl PipelinedTiming {
-    /// The latencies of the design, as if it were pipelined, and deep only if it is.
+    /// The latencies of the design.
     #[must_use]
-    pub fn of(design: &Design) -> Self {
+    pub fn of(design: PipelinedDesign<'_>) -> Self {
         let flush = match design.neighborhood() {
             Neighborhood::Isolated => design.region_size() + 1,
             Neighborhood::Shared => 0,
@@ -94,7 +94,6 @@ impl PipelinedTiming {
                 slot_clocks: 0,
                 kept_rows: None,
                 alone: true,
-                stream: None,
             },
         }
     }

@@ -3,7 +3,9 @@
 //! store of a single one.
 
 use super::RasterTiming;
-use crate::{Design, Filter, Reference, SpatialFeature, Store, Written, bits_for, index_bits};
+use crate::{
+    Filter, RasterDesign, Reference, SpatialFeature, Store, Written, bits_for, index_bits,
+};
 
 /// Bits of the row of regions that waits in a queue, modulo 8.
 const ROW_BITS: u32 = 3;
@@ -26,9 +28,9 @@ impl RasterMemory {
         self.words * u64::from(self.bits)
     }
 
-    /// The frame store of the design, as if it were a raster design; none where it is outside of the core.
+    /// The frame store of the design; none where it is outside of the core.
     #[must_use]
-    pub fn store_of(design: &Design) -> Option<Self> {
+    pub fn store_of(design: RasterDesign<'_>) -> Option<Self> {
         let words = RasterTiming::of(design).words();
         let pixel = design.temporal().reference.bits_per_pixel(design.pixel_bits());
         let word = design.pixels_per_clock() * pixel;
@@ -40,9 +42,9 @@ impl RasterMemory {
         Some(Self { holds: "references: the frame store", words, bits })
     }
 
-    /// The memories of the design, as if it were a raster design; a frame store inside first.
+    /// The memories of the design; a frame store inside first.
     #[must_use]
-    pub fn all_of(design: &Design) -> Vec<Self> {
+    pub fn all_of(design: RasterDesign<'_>) -> Vec<Self> {
         let sizes = Sizes::of(design);
         [sizes.pixels(design), sizes.rows(design), sizes.scores(design), sizes.queues(design)]
             .concat()
@@ -64,7 +66,7 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn of(design: &Design) -> Self {
+    fn of(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
         let rows = u64::from(timing.buffer_rows * design.region_size());
         let hits = design.features().iter().filter(|feature| feature.kind().has_window()).count();
@@ -80,7 +82,7 @@ impl Sizes {
     }
 
     /// Frame store and buffers.
-    fn pixels(&self, design: &Design) -> Vec<RasterMemory> {
+    fn pixels(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let buffer = |holds| RasterMemory { holds, words: self.buffer, bits: self.word };
         let mut list: Vec<_> = RasterMemory::store_of(design).into_iter().collect();
         if design.forwards() {
@@ -100,7 +102,7 @@ impl Sizes {
     }
 
     /// Rows of pixels in front of the windows.
-    fn rows(&self, design: &Design) -> Vec<RasterMemory> {
+    fn rows(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let row = |holds, bits| RasterMemory { holds, words: self.timing.row_words.into(), bits };
         let mut list = Vec::new();
         if design.filter() != Filter::None {
@@ -119,7 +121,7 @@ impl Sizes {
     }
 
     /// Scores of the regions of a row.
-    fn scores(&self, design: &Design) -> Vec<RasterMemory> {
+    fn scores(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let side = u64::from(design.region_size());
         let column = |holds, bits| RasterMemory { holds, words: self.columns, bits };
         let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
@@ -133,12 +135,12 @@ impl Sizes {
 
     /// Bits of the number of a frame that wait with its region. The row of regions that is decided is up to B behind it,
     /// and the frame of that is known.
-    fn frame_bits(&self, design: &Design) -> u32 {
+    fn frame_bits(&self, design: RasterDesign<'_>) -> u32 {
         if design.rows() < self.timing.buffer_rows { 2 } else { 1 }
     }
 
     /// Regions that wait, and which regions have a reference.
-    fn queues(&self, design: &Design) -> Vec<RasterMemory> {
+    fn queues(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let waiting = 1 << index_bits(u64::from(self.timing.buffer_rows) * self.columns);
         let queue = |holds, bits| RasterMemory { holds, words: waiting, bits };
         let start = index_bits(self.buffer);

@@ -10,7 +10,7 @@ mod timing;
 
 pub use memory::RasterMemory;
 pub use ports::FRAME_NUMBERS;
-pub(crate) use rules::Raster;
+pub use rules::Raster;
 pub use stream::{RasterStream, RowDeparture};
 pub use timing::{RasterTiming, SecondPass};
 

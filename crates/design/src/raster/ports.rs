@@ -2,7 +2,7 @@
 //! The ports of a raster core: which there are depends on where the frame store is, and on whether pixels leave.
 
 use crate::port::{sync_input, sync_output, threshold_ports};
-use crate::{Design, Direction, Port, PortRole, Qualifier, Store};
+use crate::{Design, Direction, Port, PortRole, Qualifier, RasterDesign, Store};
 
 /// Bits of `lost_count_o`, which stays at its largest value.
 const LOST_COUNT_BITS: u32 = 16;
@@ -12,7 +12,7 @@ const LOST_COUNT_BITS: u32 = 16;
 pub const FRAME_NUMBERS: u32 = 256;
 
 /// The ports of the core, inputs first.
-pub(super) fn ports(design: &Design) -> Vec<Port> {
+pub(super) fn ports(design: RasterDesign<'_>) -> Vec<Port> {
     use Direction::{Input, Output};
     let single = Port::single;
     let word = design.pixels_per_clock() * design.pixel_bits();
@@ -23,7 +23,7 @@ pub(super) fn ports(design: &Design) -> Vec<Port> {
         single(Input, PortRole::Reset, 1, "synchronous reset, active high"),
         single(Input, PortRole::Valid, 1, "a word is taken at this edge, if ready_o"),
     ];
-    list.extend(sync_input(design));
+    list.extend(sync_input(&design));
     let doc = "word of pixels, the left one in the lowest bits";
     list.push(single(Input, PortRole::Pixel, word, doc));
     if is_outside {
@@ -36,15 +36,15 @@ pub(super) fn ports(design: &Design) -> Vec<Port> {
         let doc = "what is on the forward ports is taken";
         list.push(single(Input, PortRole::ForwardReady, 1, doc));
     }
-    list.extend(threshold_ports(design));
+    list.extend(threshold_ports(&design));
     list.push(single(Output, PortRole::Ready, 1, "a word would be taken at the next edge"));
-    list.extend(sync_output(design));
+    list.extend(sync_output(&design));
     if is_outside {
         list.extend(store_outputs(word));
     }
-    list.extend(decision_outputs(design));
+    list.extend(decision_outputs(&design));
     if design.forwards() {
-        list.extend(forward_outputs(design, word));
+        list.extend(forward_outputs(&design, word));
     }
     list
 }

@@ -3,7 +3,7 @@
 
 use super::{RasterTiming, ports::ports};
 use crate::rules::{Rules, Unit};
-use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Store, Timing};
+use crate::{Design, HardwareConfig, Organization, Pipelining, Port, RasterDesign, Store, Timing};
 use foveate_camera::{Camera, ConfigError, Reference, Written, in_range};
 
 /// Pixels that a word may have.
@@ -17,43 +17,22 @@ const MAX_WIDTH: u32 = 8192;
 /// Regions one below the other of the lone core.
 const LONE_ROWS: u32 = 3;
 
-/// The organization as the answers to [`Rules`].
-pub(crate) struct Raster;
+/// What a raster core has of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Raster {
+    /// Pixels that it takes at a clock, K: 1, 2 or 4.
+    pub pixels_per_clock: u32,
+    /// How finely the arithmetic is cut by registers.
+    pub pipelining: Pipelining,
+    /// Where the frame store is, and of what it is built.
+    pub store: Store,
+    /// Whether the pixels of active regions leave.
+    pub forwards: bool,
+}
 
-impl Rules for Raster {
-    fn unit(&self, design: &Design) -> Unit {
-        Unit {
-            name: self.unit_name(),
-            module: "raster_core",
-            count: 1,
-            regions: design.regions(),
-            rpu_in_rcm: false,
-            // The core by itself has the numbers of no design.
-            split: "rcm",
-        }
-    }
-
-    fn unit_name(&self) -> &'static str {
-        "core"
-    }
-
-    fn feeds(&self) -> &'static [Feed] {
-        &[]
-    }
-
-    fn memories(&self) -> &'static [MemoryKind] {
-        &[]
-    }
-
-    fn folds(&self) -> bool {
-        false
-    }
-
-    fn hardware(
-        &self,
-        asked: &HardwareConfig,
-        camera: &Camera,
-    ) -> Result<HardwareConfig, ConfigError> {
+impl Raster {
+    /// What is asked for, if a raster core takes it.
+    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
         refuse_lanes(asked)?;
         let pixels = asked.pixels_per_clock.unwrap_or(WORDS[0]);
         check_word(asked, pixels, camera.region_size())?;
@@ -70,36 +49,74 @@ impl Rules for Raster {
             );
             return Err(asked.clash("frame.width", camera.width().to_string(), &remedy));
         }
-        Ok(HardwareConfig {
-            pixels_per_clock: Some(pixels),
-            pipelining: Some(asked.pipelining.unwrap_or_default()),
-            store: Some(asked.store.unwrap_or_default()),
-            // The default is left out, so that designs have the fingerprints from before there was this key.
-            forward: asked.forward.filter(|forward| !forward),
-            ..asked.clone()
+        Ok(Self {
+            pixels_per_clock: pixels,
+            pipelining: asked.pipelining.unwrap_or_default(),
+            store: asked.store.unwrap_or_default(),
+            forwards: asked.forward.unwrap_or(true),
         })
     }
 
+    /// `[hardware]`. That pixels leave is left out, so that designs have the fingerprints from before there was the key.
+    pub(crate) fn config(&self) -> HardwareConfig {
+        HardwareConfig {
+            organization: Organization::Raster,
+            pixels_per_clock: Some(self.pixels_per_clock),
+            pipelining: Some(self.pipelining),
+            store: Some(self.store),
+            forward: (!self.forwards).then_some(false),
+            ..HardwareConfig::default()
+        }
+    }
+}
+
+impl RasterDesign<'_> {
+    /// Pixels of a word K.
+    #[must_use]
+    pub fn pixels_per_clock(&self) -> u32 {
+        self.own().pixels_per_clock
+    }
+
+    /// Where the frame store is, and of what it is built.
+    #[must_use]
+    pub fn store(&self) -> Store {
+        self.own().store
+    }
+}
+
+impl Rules for RasterDesign<'_> {
+    fn unit(&self) -> Unit {
+        Unit {
+            name: Organization::Raster.unit_name(),
+            module: "raster_core",
+            count: 1,
+            regions: self.regions(),
+            rpu_in_rcm: false,
+            // The core by itself has the numbers of no design.
+            split: "rcm",
+        }
+    }
+
     /// The core for the smallest frame that it takes.
-    fn lone_unit(&self, design: &Design) -> Design {
-        let size = design.region_size();
-        let columns = least_columns(size, design.pixels_per_clock());
-        let mut config = design.config();
+    fn lone_unit(&self) -> Design {
+        let size = self.region_size();
+        let columns = least_columns(size, self.pixels_per_clock());
+        let mut config = self.config();
         config.camera.frame.width = Some(columns * size);
         config.camera.frame.height = Some(LONE_ROWS * size);
         config.validate().expect("a raster design stays one with the smallest frame")
     }
 
-    fn timing(&self, design: &Design) -> Timing {
-        RasterTiming::of(design).answers()
+    fn timing(&self) -> Timing {
+        RasterTiming::of(*self).answers()
     }
 
-    fn rpu_ports(&self, design: &Design) -> Vec<Port> {
-        ports(&self.lone_unit(design))
+    fn rpu_ports(&self) -> Vec<Port> {
+        self.lone_unit().rcm_ports()
     }
 
-    fn rcm_ports(&self, design: &Design) -> Vec<Port> {
-        ports(design)
+    fn rcm_ports(&self) -> Vec<Port> {
+        ports(*self)
     }
 }
 

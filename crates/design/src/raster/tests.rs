@@ -22,7 +22,7 @@ fn refusal(overrides: &[&str]) -> String {
 #[test]
 fn a_frame_of_full_hd_takes_what_the_page_says() {
     let design = design(&["frame.width=1920", "frame.height=1080"]);
-    let timing = RasterTiming::of(&design);
+    let timing = RasterTiming::of(design.raster().unwrap());
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (1920, 1920, 2));
     assert_eq!((timing.region_row_words, timing.region_words), (8, 64));
     assert_eq!((timing.store_latency, timing.decision_latency), (7, 11));
@@ -53,7 +53,7 @@ fn the_second_pass_of_a_ragged_frame() {
         "denoise.filter=none",
         "spatial=[{feature=\"variance\"},{feature=\"mad\"}]",
     ]);
-    let timing = RasterTiming::of(&design);
+    let timing = RasterTiming::of(design.raster().unwrap());
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (16, 16, 0));
     assert_eq!((timing.store_latency, timing.decision_latency), (4, 13));
     assert_eq!(timing.second_pass, Some(SecondPass { after_store: 12, decision_latency: 6 }));
@@ -76,7 +76,7 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
         "hardware.pixels_per_clock=2",
         "spatial=[{feature=\"variance\"}]",
     ];
-    let timing = RasterTiming::of(&design(&overrides));
+    let timing = RasterTiming::of(design(&overrides).raster().unwrap());
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (28, 25, 1));
     assert_eq!((timing.store_latency, timing.decision_latency), (6, 13));
     assert_eq!((timing.advances(), timing.flush_clocks()), (24 * 28 + 29, 3 + 4 * 28 + 29));
@@ -90,20 +90,25 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
 /// frame below 157 clocks less the 3 of the last row are six of 28.
 #[test]
 fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row() {
-    let full_hd = RasterTiming::of(&design(&["frame.width=1920", "frame.height=1080"]));
+    let full_hd =
+        RasterTiming::of(design(&["frame.width=1920", "frame.height=1080"]).raster().unwrap());
     assert_eq!((full_hd.blank_rows(), full_hd.stall_clocks()), (3, 1920 - 8 - 4 - 3));
     assert_eq!(full_hd.decided_after(), 3_842 + 11);
-    let ragged = RasterTiming::of(&design(&[
-        "frame.width=50",
-        "frame.height=20",
-        "hardware.pixels_per_clock=2",
-        "spatial=[{feature=\"variance\"}]",
-    ]));
+    let ragged = RasterTiming::of(
+        design(&[
+            "frame.width=50",
+            "frame.height=20",
+            "hardware.pixels_per_clock=2",
+            "spatial=[{feature=\"variance\"}]",
+        ])
+        .raster()
+        .unwrap(),
+    );
     assert_eq!((ragged.blank_rows(), ragged.stall_clocks()), (6, 28 - 4 - 7 - 3));
     let mad = |more: &[&str]| {
         let features = "spatial=[{feature=\"mad\"},{feature=\"variance\"}]";
         let frame = ["frame.width=64", "frame.height=32", features];
-        RasterTiming::of(&design(&[&frame, more].concat())).stall_clocks()
+        RasterTiming::of(design(&[&frame, more].concat()).raster().unwrap()).stall_clocks()
     };
     assert_eq!(mad(&[]), 9 * 64 - 72 - 17);
     assert_eq!(mad(&["hardware.pipelining=deep"]), 9 * 64 - 72 - 21);
@@ -114,7 +119,7 @@ fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row(
 fn memories_of_the_paper_on_a_small_frame() {
     let of = |more: &[&str]| {
         let frame = ["frame.width=64", "frame.height=64"];
-        let memories = RasterMemory::all_of(&design(&[&frame, more].concat()));
+        let memories = RasterMemory::all_of(design(&[&frame, more].concat()).raster().unwrap());
         memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
     };
     // A queue entry: 3 bits of the row, 6 of the region, 10 of the place in the buffer, 1 of the frame.
@@ -126,25 +131,31 @@ fn memories_of_the_paper_on_a_small_frame() {
     assert_eq!(sent, [&raw[..], &[(16, 33), (64, 1), (64, 1)]].concat());
     // Frames of few rows of regions have more bits of the frame.
     for (height, bits) in [(24, 18 + 1), (16, 17 + 1), (8, 16 + 2)] {
-        let low =
-            RasterMemory::all_of(&design(&["frame.width=64", &format!("frame.height={height}")]));
+        let low = RasterMemory::all_of(
+            design(&["frame.width=64", &format!("frame.height={height}")]).raster().unwrap(),
+        );
         assert_eq!(low.last().map(|memory| memory.bits), Some(bits), "{height}");
     }
-    let total: u64 = RasterMemory::all_of(&design(&["frame.width=64", "frame.height=64"]))
-        .iter()
-        .map(RasterMemory::total_bits)
-        .sum();
+    let total: u64 =
+        RasterMemory::all_of(design(&["frame.width=64", "frame.height=64"]).raster().unwrap())
+            .iter()
+            .map(RasterMemory::total_bits)
+            .sum();
     assert_eq!(total, 32_768 + 8_192 + 2 * 1_024 + 96 + 320);
 }
 
 #[test]
 fn latencies_follow_filter_features_and_pipelining() {
     let latencies = |filter: &str, feature: &str, pipelining: &str| {
-        let timing = RasterTiming::of(&design(&[
-            &format!("denoise.filter={filter}"),
-            &format!("spatial=[{{feature=\"{feature}\"}}]"),
-            &format!("hardware.pipelining={pipelining}"),
-        ]));
+        let timing = RasterTiming::of(
+            design(&[
+                &format!("denoise.filter={filter}"),
+                &format!("spatial=[{{feature=\"{feature}\"}}]"),
+                &format!("hardware.pipelining={pipelining}"),
+            ])
+            .raster()
+            .unwrap(),
+        );
         (timing.store_latency, timing.decision_latency)
     };
     for (filter, feature, plain, deep) in [
@@ -167,7 +178,7 @@ fn only_small_frames_of_last_sent_wait() {
             &format!("temporal.reference={reference}"),
             &format!("spatial=[{{feature=\"{feature}\"}}]"),
         ]);
-        RasterTiming::of(&design).waits_for_pending
+        RasterTiming::of(design.raster().unwrap()).waits_for_pending
     };
     assert!(waits(2, "last-sent", "edge") && !waits(3, "last-sent", "edge"));
     assert!(waits(3, "last-sent", "mad") && !waits(4, "last-sent", "mad"));
@@ -177,7 +188,7 @@ fn only_small_frames_of_last_sent_wait() {
 #[test]
 fn keys_are_filled_in_and_only_here() {
     let plain = design(&[]);
-    let hardware = &plain.hardware();
+    let hardware = plain.config().hardware;
     assert_eq!(
         (hardware.pixels_per_clock, hardware.pipelining, hardware.store),
         (Some(1), Some(Pipelining::Plain), Some(Store::Block))
@@ -189,7 +200,7 @@ fn keys_are_filled_in_and_only_here() {
     let others = ["pixels_per_clock=2", "pipelining=deep", "store=ultra"]
         .map(|key| design(&[&format!("hardware.{key}")]));
     assert!(others.iter().all(|other| other.fingerprint() != plain.fingerprint()));
-    assert_eq!(others[2].store(), Store::Ultra);
+    assert_eq!(others[2].raster().unwrap().store(), Store::Ultra);
 
     for organization in ["pipelined", "serial"] {
         let other = [&format!("hardware.organization={organization}")];
@@ -355,7 +366,7 @@ fn one_core_serves_all_regions_and_the_lone_one_the_smallest_frame() {
         let lone = design.lone_unit();
         assert_eq!((lone.columns(), lone.rows()), (columns, 3), "{size} {pixels}");
         assert_eq!((lone.width(), lone.height()), (columns * size, 3 * size));
-        assert!(RasterTiming::of(&lone).row_words >= 16);
+        assert!(RasterTiming::of(lone.raster().unwrap()).row_words >= 16);
         assert_eq!(lone.lone_unit(), lone);
         assert_eq!(design.rpu_ports(), lone.rcm_ports());
     }

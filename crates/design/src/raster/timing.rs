@@ -2,7 +2,7 @@
 //! When a raster core does what: the numbers of `docs/raster.md`.
 
 use crate::timing::Departure;
-use crate::{Design, Filter, Pipelining, Timing, Written};
+use crate::{Filter, Pipelining, RasterDesign, Timing, Written};
 
 /// Clocks of a stalling sink that the readout needs for itself, without a second pass, beside those of the queue.
 const STALL_MARGIN: u32 = 1;
@@ -55,9 +55,9 @@ pub struct SecondPass {
 }
 
 impl RasterTiming {
-    /// The numbers of the design, as if it were a raster design.
+    /// The numbers of the design.
     #[must_use]
-    pub fn of(design: &Design) -> Self {
+    pub fn of(design: RasterDesign<'_>) -> Self {
         let word_pixels = design.pixels_per_clock();
         let median = u32::from(design.filter() == Filter::Median3x3);
         let feature = u32::from(design.has_feature_window());
@@ -254,7 +254,6 @@ impl RasterTiming {
                 slot_clocks: 0,
                 kept_rows: (!self.waits_for_pending).then_some(self.buffer_rows),
                 alone: false,
-                stream: Some(*self),
             },
         }
     }

@@ -2,7 +2,7 @@
 //! How far a serial design can be folded before it is too slow, and which folds may be the cheapest.
 
 use super::{Phase, SerialTiming};
-use crate::Design;
+use crate::{Design, SerialDesign};
 use foveate_camera::ConfigError;
 
 impl Design {
@@ -21,16 +21,13 @@ impl Design {
     /// organization that does not fold.
     #[must_use]
     pub fn largest_fold(&self, max_clocks: u64) -> Option<u32> {
-        if !self.organization().folds() {
-            return None;
-        }
-        let fastest = SerialTiming::of(&self.with_fold(1).ok()?);
+        let fastest = SerialTiming::of(self.with_fold(1).ok()?.serial()?);
         // What every slot takes at least, whatever the lanes.
         let least: u64 = fastest.phases().iter().map(least_steps).sum();
         let most = u32::try_from(max_clocks / least.max(1)).unwrap_or(u32::MAX);
         let reaches = |fold: &u32| {
             let folded = self.with_fold(*fold);
-            folded.is_ok_and(|d| SerialTiming::of(&d).clocks_per_frame() <= max_clocks)
+            folded.is_ok_and(|design| design.timing().clocks_per_frame() <= max_clocks)
         };
         (1..=most.min(self.regions())).rev().find(reaches)
     }
@@ -49,7 +46,7 @@ impl Design {
                 continue;
             }
             let Ok(folded) = self.with_fold(fold) else { continue };
-            let blocks = folded.lane_blocks();
+            let Some(blocks) = folded.serial().map(lane_blocks) else { continue };
             // Fewer slots take fewer clocks, so it is fast enough.
             if blocks < fewest_blocks {
                 folds.push(fold);
@@ -61,12 +58,12 @@ impl Design {
         }
         folds
     }
+}
 
-    /// RAMB18 of the memories of all lanes.
-    fn lane_blocks(&self) -> u64 {
-        let (_, blocks) = self.lane_memory().taken();
-        blocks * u64::from(self.lanes())
-    }
+/// RAMB18 of the memories of all lanes.
+fn lane_blocks(design: SerialDesign<'_>) -> u64 {
+    let (_, blocks) = design.lane_memory().taken();
+    blocks * u64::from(design.lanes())
 }
 
 fn least_steps((phase, steps): &(Phase, u64)) -> u64 {

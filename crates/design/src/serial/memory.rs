@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::{Design, Filter, MemoryKind, Reference, index_bits};
+use crate::{Filter, MemoryKind, Reference, SerialDesign, index_bits};
 
 /// Memory LUTs up to which a lane's memory is distributed, unless the configuration says otherwise. A
 /// RAMB18 is to the VU9P's block RAM what 137 memory LUTs are to its distributed RAM.
@@ -95,7 +95,7 @@ pub enum MemoryChoice {
 }
 
 impl LaneMemory {
-    fn of(design: &Design) -> Self {
+    fn of(design: SerialDesign<'_>) -> Self {
         let denoises = match design.filter() {
             Filter::None => false,
             Filter::Median3x3 => true,
@@ -121,7 +121,7 @@ impl LaneMemory {
         let luts = bits * depth.div_ceil(LUT_WORDS);
         let blocks = RAMB18.map(|(wide, words)| bits.div_ceil(wide) * depth.div_ceil(words));
         let blocks = blocks.into_iter().min().expect("a block has words");
-        let (kind, why) = match design.hardware().memory {
+        let (kind, why) = match design.own().memory {
             Some(kind) => (kind, MemoryChoice::Configured),
             None if luts <= MAX_MEMORY_LUTS => {
                 (MemoryKind::Distributed, MemoryChoice::Limit(MAX_MEMORY_LUTS))
@@ -147,10 +147,10 @@ impl LaneMemory {
     }
 }
 
-impl Design {
+impl SerialDesign<'_> {
     /// The memory of one lane.
     #[must_use]
     pub fn lane_memory(&self) -> LaneMemory {
-        LaneMemory::of(self)
+        LaneMemory::of(*self)
     }
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The serial organization: the numbers behind `docs/serial.md`.
 //!
-//! K regions share a lane; L lanes work in step. Every number of this module is defined for every
-//! design; for a pipelined one it is that of the design whose lanes are its RPUs.
+//! K regions share a lane; L lanes work in step.
 
 mod feature;
 mod folds;
@@ -13,11 +12,11 @@ mod timing;
 mod widths;
 
 pub use memory::{Area, AreaKind, LaneMemory, MemoryChoice};
-pub(crate) use rules::Serial;
+pub use rules::Serial;
 pub use timing::{Phase, SerialTiming};
 pub use widths::LaneWidths;
 
-use crate::{Design, index_bits};
+use crate::{Design, Feed, SerialDesign, index_bits};
 
 /// Bits of a port or register that numbers `n` things from 0; at least one.
 fn number_bits(n: u32) -> u32 {
@@ -25,7 +24,27 @@ fn number_bits(n: u32) -> u32 {
 }
 
 impl Design {
-    /// Lanes L = ceil(M / K); one per region for `pipelined`.
+    /// Bits of the number of a region, 0..M; at least one.
+    #[must_use]
+    pub fn region_bits(&self) -> u32 {
+        number_bits(self.regions())
+    }
+}
+
+impl SerialDesign<'_> {
+    /// Regions per lane K.
+    #[must_use]
+    pub fn fold(&self) -> u32 {
+        self.own().fold
+    }
+
+    /// How pixels enter.
+    #[must_use]
+    pub fn feed(&self) -> Feed {
+        self.own().feed
+    }
+
+    /// Lanes L = ceil(M / K).
     #[must_use]
     pub fn lanes(&self) -> u32 {
         self.regions().div_ceil(self.fold())
@@ -36,12 +55,6 @@ impl Design {
     pub fn region_of(&self, lane: u32, slot: u32) -> Option<u32> {
         let region = u64::from(lane) * u64::from(self.fold()) + u64::from(slot);
         u32::try_from(region).ok().filter(|&region| region < self.regions())
-    }
-
-    /// Bits of the number of a region, 0..M; at least one.
-    #[must_use]
-    pub fn region_bits(&self) -> u32 {
-        number_bits(self.regions())
     }
 
     /// Bits of the number of a lane, 0..L; at least one.
@@ -82,7 +95,7 @@ impl Design {
         self.places(x, self.columns())
     }
 
-    /// As [`Design::column_places`] for rows, `y` = 0..R*N: c(y).
+    /// As [`Self::column_places`] for rows, `y` = 0..R*N: c(y).
     #[must_use]
     pub fn row_places(&self, y: u32) -> u32 {
         self.places(y, self.rows())
@@ -102,7 +115,7 @@ impl Design {
     /// The array of that grid is the RPU of a serial design. Its frame may be wider than what a
     /// configuration may ask for.
     #[must_use]
-    pub fn one_lane(&self) -> Self {
+    pub fn one_lane(&self) -> Design {
         let (width, height) = (self.fold() * self.region_size(), self.region_size());
         let mut config = self.config();
         (config.camera.frame.width, config.camera.frame.height) = (Some(width), Some(height));

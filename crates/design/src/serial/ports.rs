@@ -2,10 +2,10 @@
 //! The ports of a serial array.
 
 use crate::port::{sync_input, sync_output, threshold_ports};
-use crate::{Design, Direction, Feed, Port, PortRole, Qualifier};
+use crate::{Direction, Feed, Port, PortRole, Qualifier, SerialDesign};
 
 /// The ports of the array, inputs first.
-pub(crate) fn ports(design: &Design) -> Vec<Port> {
+pub(crate) fn ports(design: SerialDesign<'_>) -> Vec<Port> {
     use Direction::{Input, Output};
     let pixel = design.pixel_bits();
     // What there is one of per lane with parallel feed, and one of with raster feed.
@@ -29,11 +29,11 @@ pub(crate) fn ports(design: &Design) -> Vec<Port> {
         single(Input, PortRole::Reset, 1, "synchronous reset, active high"),
         single(Input, PortRole::Valid, 1, "a pixel is taken at this edge, if ready_o"),
     ];
-    list.extend(sync_input(design));
+    list.extend(sync_input(&design));
     list.push(fed(single(Input, PortRole::Pixel, pixel, "pixel, row by row")));
-    list.extend(threshold_ports(design));
+    list.extend(threshold_ports(&design));
     list.push(single(Output, PortRole::Ready, 1, "a pixel would be taken at the next edge"));
-    list.extend(sync_output(design));
+    list.extend(sync_output(&design));
 
     let score = |role, width, doc| with(PortRole::ScoreValid, single(Output, role, width, doc));
     list.push(single(Output, PortRole::ScoreValid, 1, "a score of one region"));

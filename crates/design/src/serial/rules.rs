@@ -3,49 +3,30 @@
 
 use super::{SerialTiming, ports::ports};
 use crate::rules::{Rules, Unit};
-use crate::{Design, Feed, HardwareConfig, MemoryKind, Port, Timing};
+use crate::{
+    Design, Feed, HardwareConfig, MemoryKind, Organization, Pipelining, Port, SerialDesign, Timing,
+};
 use foveate_camera::{Camera, ConfigError, in_range};
 
 /// Smallest side of a region.
 const MIN_SIDE: u32 = 4;
 
-/// The organization as the answers to [`Rules`].
-pub(crate) struct Serial;
+/// What a serial array has of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Serial {
+    /// Regions per lane K.
+    pub fold: u32,
+    /// How pixels enter.
+    pub feed: Feed,
+    /// Of what the memories of the lanes are to be built, where the configuration says so; see [`super::LaneMemory`].
+    pub memory: Option<MemoryKind>,
+    /// How finely the arithmetic is cut by registers.
+    pub pipelining: Pipelining,
+}
 
-impl Rules for Serial {
-    fn unit(&self, design: &Design) -> Unit {
-        Unit {
-            name: self.unit_name(),
-            module: "serial_lane",
-            count: design.lanes(),
-            regions: design.fold(),
-            rpu_in_rcm: false,
-            // The sequencer is as much of an array as its lanes.
-            split: "rcm",
-        }
-    }
-
-    fn unit_name(&self) -> &'static str {
-        "lane"
-    }
-
-    fn feeds(&self) -> &'static [Feed] {
-        Feed::ALL
-    }
-
-    fn memories(&self) -> &'static [MemoryKind] {
-        MemoryKind::ALL
-    }
-
-    fn folds(&self) -> bool {
-        true
-    }
-
-    fn hardware(
-        &self,
-        asked: &HardwareConfig,
-        camera: &Camera,
-    ) -> Result<HardwareConfig, ConfigError> {
+impl Serial {
+    /// What is asked for, if a serial array takes it.
+    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
         asked.refuse_raster_keys()?;
         let (size, regions) = (camera.region_size(), camera.regions());
         if size < MIN_SIDE {
@@ -54,26 +35,53 @@ impl Rules for Serial {
         }
         let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
         in_range("hardware.fold", asked.fold, 1..=regions, &why)?;
-        Ok(HardwareConfig {
-            feed: Some(asked.feed.unwrap_or_default()),
-            pipelining: asked.deep_pipelining(),
-            ..asked.clone()
+        Ok(Self {
+            fold: asked.fold,
+            feed: asked.feed.unwrap_or_default(),
+            memory: asked.memory,
+            pipelining: asked.pipelining.unwrap_or_default(),
         })
     }
 
-    fn lone_unit(&self, design: &Design) -> Design {
-        design.one_lane()
+    /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
+    pub(crate) fn config(&self) -> HardwareConfig {
+        HardwareConfig {
+            organization: Organization::Serial,
+            fold: self.fold,
+            feed: Some(self.feed),
+            memory: self.memory,
+            pipelining: self.pipelining.if_deep(),
+            ..HardwareConfig::default()
+        }
+    }
+}
+
+impl Rules for SerialDesign<'_> {
+    fn unit(&self) -> Unit {
+        Unit {
+            name: Organization::Serial.unit_name(),
+            module: "serial_lane",
+            count: self.lanes(),
+            regions: self.fold(),
+            rpu_in_rcm: false,
+            // The sequencer is as much of an array as its lanes.
+            split: "rcm",
+        }
     }
 
-    fn timing(&self, design: &Design) -> Timing {
-        SerialTiming::of(design).answers()
+    fn lone_unit(&self) -> Design {
+        self.one_lane()
     }
 
-    fn rpu_ports(&self, design: &Design) -> Vec<Port> {
-        ports(&design.one_lane())
+    fn timing(&self) -> Timing {
+        SerialTiming::of(*self).answers()
     }
 
-    fn rcm_ports(&self, design: &Design) -> Vec<Port> {
-        ports(design)
+    fn rpu_ports(&self) -> Vec<Port> {
+        self.one_lane().rcm_ports()
+    }
+
+    fn rcm_ports(&self) -> Vec<Port> {
+        ports(*self)
     }
 }

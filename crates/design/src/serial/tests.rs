@@ -14,14 +14,17 @@ fn design(overrides: &[&str]) -> Design {
 }
 
 fn timing(design: &Design) -> SerialTiming {
-    SerialTiming::of(design)
+    SerialTiming::of(design.serial().unwrap())
 }
 
 #[test]
 fn the_papers_frame_takes_7905_clocks() {
     let design = design(&[]);
     let timing = timing(&design);
-    assert_eq!((design.lanes(), design.fold(), design.feed()), (784, 1, Feed::Parallel));
+    assert_eq!(
+        (design.serial().unwrap().lanes(), design.slots(), design.serial().unwrap().feed()),
+        (784, 1, Feed::Parallel)
+    );
     let edge = FeatureKind::Edge;
     let phases = [
         (DenoiseTemporal, 64 * 83),
@@ -77,7 +80,7 @@ fn every_phase_of_a_raster_fold_with_all_features() {
     assert_eq!((timing.load_pixels(), timing.load_clocks()), (384, 6 * 144));
     assert_eq!((timing.read_latency(), timing.edges_to_step(5)), (1, 7));
     assert_eq!(timing.clocks_per_frame(), 864 + 36_264 + 1);
-    let memory = design.lane_memory();
+    let memory = design.serial().unwrap().lane_memory();
     let area = |kind| memory.area(kind).map(|area| (area.base, area.side));
     assert_eq!(area(AreaKind::Raw), Some((0, 12)));
     assert_eq!(area(AreaKind::Denoised), Some((144, 10)));
@@ -91,7 +94,7 @@ fn without_denoising_the_reference_is_compared_by_itself() {
     let steps = |reference: &str, fold: &str| {
         let design =
             design(&["denoise.filter=none", reference, fold, "frame.width=8", "frame.height=80"]);
-        (timing(&design).phases().to_vec(), design.lane_memory())
+        (timing(&design).phases().to_vec(), design.serial().unwrap().lane_memory())
     };
     let edge = (Pass(FeatureKind::Edge), 14 * 64);
     let rotation = (RotateScore(FeatureKind::Edge), 10);
@@ -136,7 +139,7 @@ fn a_deep_array_waits_for_its_registers() {
 fn the_configuration_may_name_the_memory() {
     let of = |overrides: &[&str]| {
         let design = design(overrides);
-        (design.lane_memory(), timing(&design))
+        (design.serial().unwrap().lane_memory(), timing(&design))
     };
     let (ruled, plain) = of(&[]);
     assert_eq!((ruled.kind, ruled.why), (MemoryKind::Distributed, MemoryChoice::Limit(128)));
@@ -156,23 +159,43 @@ fn the_configuration_may_name_the_memory() {
     assert_eq!((ruled.luts, named.luts), (144, 144));
     assert_eq!(steps.steps(), slow.steps() - 9 * 64);
     let design = design(&["hardware.memory=block"]);
-    let folded = design.with_fold(2).unwrap().lane_memory();
-    assert_eq!((folded.kind, design.one_lane().lane_memory().kind), (block.kind, block.kind));
+    let folded = design.with_fold(2).unwrap().serial().unwrap().lane_memory();
+    assert_eq!(
+        (folded.kind, design.serial().unwrap().one_lane().serial().unwrap().lane_memory().kind),
+        (block.kind, block.kind)
+    );
 }
 
 #[test]
 fn the_widths_of_the_ports_hold_their_numbers() {
     let wide = design(&["hardware.fold=3", "spatial=[{feature=\"edge\"},{feature=\"variance\"}]"]);
     assert_eq!(
-        (wide.lanes(), wide.region_bits(), wide.lane_bits(), wide.slot_bits()),
+        (
+            wide.serial().unwrap().lanes(),
+            wide.region_bits(),
+            wide.serial().unwrap().lane_bits(),
+            wide.serial().unwrap().slot_bits()
+        ),
         (262, 10, 9, 2)
     );
-    assert_eq!((wide.score_count(), wide.score_index_bits()), (3, 2));
-    assert_eq!(wide.any_score_bits(), wide.features()[1].score_bits());
-    assert_eq!((wide.region_of(261, 0), wide.region_of(261, 1)), (Some(783), None));
+    assert_eq!(
+        (wide.serial().unwrap().score_count(), wide.serial().unwrap().score_index_bits()),
+        (3, 2)
+    );
+    assert_eq!(wide.serial().unwrap().any_score_bits(), wide.features()[1].score_bits());
+    assert_eq!(
+        (wide.serial().unwrap().region_of(261, 0), wide.serial().unwrap().region_of(261, 1)),
+        (Some(783), None)
+    );
     let one = design(&["frame.width=8", "frame.height=8"]);
-    assert_eq!((one.region_bits(), one.lane_bits(), one.slot_bits()), (1, 1, 1));
-    assert_eq!((one.score_index_bits(), one.any_score_bits()), (1, 7));
+    assert_eq!(
+        (one.region_bits(), one.serial().unwrap().lane_bits(), one.serial().unwrap().slot_bits()),
+        (1, 1, 1)
+    );
+    assert_eq!(
+        (one.serial().unwrap().score_index_bits(), one.serial().unwrap().any_score_bits()),
+        (1, 7)
+    );
 }
 
 /// Name, width, lanes, and whether there is a value per lane.
@@ -240,8 +263,11 @@ fn ports_follow_feed_and_fold() {
 #[test]
 fn one_rpu_is_the_array_of_one_lane() {
     let design = design(&["hardware.fold=3", "region.neighborhood=shared"]);
-    let one = design.one_lane();
-    assert_eq!((one.width(), one.height(), one.regions(), one.lanes()), (24, 8, 3, 1));
+    let one = design.serial().unwrap().one_lane();
+    assert_eq!(
+        (one.width(), one.height(), one.regions(), one.serial().unwrap().lanes()),
+        (24, 8, 3, 1)
+    );
     assert_eq!(one.config().validate().unwrap(), one);
     assert_eq!(design.rpu_ports(), one.rcm_ports());
     assert_eq!(one.rpu_ports(), one.rcm_ports());
@@ -276,10 +302,19 @@ fn every_window_is_filled_once() {
                     ]);
                     let mut places = 0;
                     for y in 0..rows * side {
-                        assert_eq!(design.row_places(y), counted(&design, y, rows));
+                        assert_eq!(
+                            design.serial().unwrap().row_places(y),
+                            counted(&design, y, rows)
+                        );
                         for x in 0..columns * side {
-                            assert_eq!(design.column_places(x), counted(&design, x, columns));
-                            places += u64::from(design.column_places(x) * design.row_places(y));
+                            assert_eq!(
+                                design.serial().unwrap().column_places(x),
+                                counted(&design, x, columns)
+                            );
+                            places += u64::from(
+                                design.serial().unwrap().column_places(x)
+                                    * design.serial().unwrap().row_places(y),
+                            );
                         }
                     }
                     let windows = u64::from(design.regions() * design.stream_pixels());
@@ -332,10 +367,11 @@ fn frugal_folds_have_fewer_lanes_or_fewer_block_rams() {
     assert_eq!(single.frugal_folds(clocks(784)), [784, 8]);
     assert_eq!(single.frugal_folds(clocks(1)), [1]);
     assert!(single.frugal_folds(clocks(1) - 1).is_empty());
-    let blocks = |fold: u32| single.with_fold(fold).unwrap().lane_memory().blocks;
+    let blocks = |fold: u32| single.with_fold(fold).unwrap().serial().unwrap().lane_memory().blocks;
     assert_eq!([16, 17, 32, 33, 392, 784].map(blocks), [1, 2, 2, 3, 25, 49]);
     // Four bits have twice the words of nine; twelve take words of 18 or of 9 and 4.
-    let of_bits = |bits: &str, fold: &str| design(&[bits, fold]).lane_memory().blocks;
+    let of_bits =
+        |bits: &str, fold: &str| design(&[bits, fold]).serial().unwrap().lane_memory().blocks;
     assert_eq!(of_bits("frame.pixel_bits=4", "hardware.fold=32"), 1);
     assert_eq!(of_bits("frame.pixel_bits=12", "hardware.fold=16"), 2);
     assert!(Config::default().validate().unwrap().frugal_folds(u64::MAX).is_empty());
@@ -348,8 +384,8 @@ fn no_fold_beats_the_frugal() {
     let single = design(&["frame.width=100", "frame.height=40", "hardware.memory=block"]);
     let all: Vec<_> = (1..=single.regions()).map(|fold| single.with_fold(fold).unwrap()).collect();
     let cost = |design: &Design| {
-        let lanes = u64::from(design.lanes());
-        (lanes, lanes * design.lane_memory().blocks)
+        let lanes = u64::from(design.serial().unwrap().lanes());
+        (lanes, lanes * design.serial().unwrap().lane_memory().blocks)
     };
     for limit in all.iter().map(|design| timing(design).clocks_per_frame()) {
         let frugal = single.frugal_folds(limit);
@@ -383,7 +419,10 @@ fn a_pipelined_design_has_no_other_fold() {
 fn one_lane_may_have_more_regions_than_a_row() {
     let design = design(&["frame.width=8192", "frame.height=8192", "hardware.fold=1048576"]);
     let lane = design.lone_unit();
-    assert_eq!((lane.width(), lane.lanes(), lane.regions()), (8 << 20, 1, 1 << 20));
+    assert_eq!(
+        (lane.width(), lane.serial().unwrap().lanes(), lane.regions()),
+        (8 << 20, 1, 1 << 20)
+    );
     assert_eq!(lane.features(), design.features());
     assert!(lane.config().validate().is_err());
 }

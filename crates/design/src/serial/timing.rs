@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::feature;
 use crate::timing::Departure;
-use crate::{Design, FeatureKind, Feed, Filter, Pipelining, Reference, Timing};
+use crate::{FeatureKind, Feed, Filter, Pipelining, Reference, SerialDesign, Timing};
 
 /// What the lanes do for one slot, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -55,9 +55,9 @@ pub struct SerialTiming {
 }
 
 impl SerialTiming {
-    /// The timing of the design, as if it were serial.
+    /// The timing of the design.
     #[must_use]
-    pub fn of(design: &Design) -> Self {
+    pub fn of(design: SerialDesign<'_>) -> Self {
         let stream = u64::from(design.stream_pixels());
         let (load_pixels, load_clocks) = match design.feed() {
             Feed::Parallel => {
@@ -181,7 +181,6 @@ impl SerialTiming {
                 slot_clocks: slot,
                 kept_rows: None,
                 alone: false,
-                stream: None,
             },
         }
     }
@@ -195,7 +194,7 @@ impl SerialTiming {
 }
 
 /// A deep lane has a register for the word, and one for the operand if a feature makes it of the word.
-fn read_latency(design: &Design) -> u32 {
+fn read_latency(design: SerialDesign<'_>) -> u32 {
     let word = match design.pipelining() {
         Pipelining::Plain => 0,
         Pipelining::Deep => 1 + u32::from(design.features().iter().any(feature::makes_operand)),
@@ -204,14 +203,14 @@ fn read_latency(design: &Design) -> u32 {
 }
 
 /// A deep lane has a register behind the hit.
-fn settling(design: &Design) -> u32 {
+fn settling(design: SerialDesign<'_>) -> u32 {
     match design.pipelining() {
         Pipelining::Plain => 0,
         Pipelining::Deep => 1,
     }
 }
 
-fn phases(design: &Design) -> Vec<(Phase, u64)> {
+fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
     let n = u64::from(design.region_pixels());
     let lanes = u64::from(design.lanes());
     let read = u64::from(read_latency(design));
@@ -236,7 +235,7 @@ fn phases(design: &Design) -> Vec<(Phase, u64)> {
     }
     list.push((Phase::RotateCount, rotation));
     for feature in design.features() {
-        list.push((Phase::Pass(feature.kind()), feature::pass_steps(design, feature)));
+        list.push((Phase::Pass(feature.kind()), feature::pass_steps(&design, feature)));
         list.push((Phase::RotateScore(feature.kind()), rotation));
     }
     if last_sent {

@@ -2,7 +2,7 @@
 //! Bits of the registers of a serial lane and of the sequencer.
 
 use super::feature::needs;
-use crate::{Design, Feed, Filter, index_bits};
+use crate::{Feed, Filter, SerialDesign, index_bits};
 
 /// Bits of the registers of a serial array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub struct LaneWidths {
 }
 
 impl LaneWidths {
-    fn of(design: &Design) -> Self {
+    fn of(design: SerialDesign<'_>) -> Self {
         let pixel = design.pixel_bits();
         let raster = match design.feed() {
             Feed::Parallel => 0,
@@ -39,7 +39,7 @@ impl LaneWidths {
             }),
         };
         for feature in design.features() {
-            let needs = needs(design, feature, chain);
+            let needs = needs(&design, feature, chain);
             widths.accumulator = widths.accumulator.max(needs.accumulator);
             widths.second = widths.second.max(needs.second);
             widths.scale = widths.scale.max(needs.scale);
@@ -48,10 +48,10 @@ impl LaneWidths {
     }
 }
 
-impl Design {
+impl SerialDesign<'_> {
     /// Bits of the registers of a serial array.
     #[must_use]
     pub fn lane_widths(&self) -> LaneWidths {
-        LaneWidths::of(self)
+        LaneWidths::of(*self)
     }
 }

@@ -18,7 +18,7 @@ fn the_default_is_the_paper() {
     assert_eq!((paper.region_pixels(), paper.stream_pixels(), paper.pixel_max()), (64, 64, 255));
     assert_eq!((paper.count_bits(), paper.position_bits()), (7, 6));
     assert_eq!(paper.timing().clocks_per_frame(), 64);
-    assert_eq!(PipelinedTiming::of(&paper).decision_latency, 20);
+    assert_eq!(PipelinedTiming::of(paper.pipelined().unwrap()).decision_latency, 20);
 }
 
 #[test]
@@ -56,9 +56,8 @@ fn fingerprints_tell_designs_apart() {
 fn deep_pipelining_adds_registers_and_takes_none_of_the_clocks_of_a_frame() {
     let latencies = |keys: &str| {
         let of = |pipelining: &str| {
-            let timing = PipelinedTiming::of(&design(&format!(
-                "{keys}[hardware]\npipelining = \"{pipelining}\"\n"
-            )));
+            let design = design(&format!("{keys}[hardware]\npipelining = \"{pipelining}\"\n"));
+            let timing = PipelinedTiming::of(design.pipelined().unwrap());
             assert_eq!((timing.cycles_per_frame, timing.decision_frames), (64, 0), "{keys}");
             timing.decision_latency
         };
@@ -73,7 +72,7 @@ fn deep_pipelining_adds_registers_and_takes_none_of_the_clocks_of_a_frame() {
         let keys = "[region]\nneighborhood = \"shared\"\n[[spatial]]\nfeature = \"edge\"\n\
                     [[spatial]]\nfeature = \"mad\"\n";
         let keys = format!("{keys}[hardware]\npipelining = \"{pipelining}\"\n");
-        let timing = PipelinedTiming::of(&design(&keys));
+        let timing = PipelinedTiming::of(design(&keys).pipelined().unwrap());
         (timing.cycles_per_frame, timing.decision_latency, timing.decision_frames)
     };
     assert_eq!((shared("plain"), shared("deep")), ((144, 2 + 1, 1), (144, 3 + 2, 1)));
@@ -86,13 +85,13 @@ fn plain_pipelining_is_the_default() {
     assert_eq!(design(&pipelining("plain")).fingerprint(), paper);
     let deep = design(&pipelining("deep"));
     assert_ne!(deep.fingerprint(), paper);
-    assert_eq!(deep.hardware().in_words(), "pipelined, deep pipelining");
+    assert_eq!(deep.config().hardware.in_words(), "pipelined, deep pipelining");
     let serial = |keys: &str| design(&format!("{keys}organization = \"serial\"\n"));
     let plain = serial("[hardware]\n");
     assert_eq!(serial(&pipelining("plain")).fingerprint(), plain.fingerprint());
     let deep = serial(&pipelining("deep"));
     assert_ne!(deep.fingerprint(), plain.fingerprint());
-    assert!(deep.hardware().in_words().contains("deep pipelining"));
+    assert!(deep.config().hardware.in_words().contains("deep pipelining"));
 }
 
 #[test]

@@ -49,8 +49,8 @@ fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
 
         assert!(with.syncs() && !without.syncs());
         assert_eq!(with.timing(), without.timing(), "no clock changes");
-        assert!(with.hardware().in_words().ends_with("frame sync"));
-        assert!(!without.hardware().in_words().contains("frame sync"));
+        assert!(with.config().hardware.in_words().ends_with("frame sync"));
+        assert!(!without.config().hardware.in_words().contains("frame sync"));
     }
 }
 

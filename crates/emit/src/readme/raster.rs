@@ -8,7 +8,7 @@ use crate::text::text_of;
 use crate::{Prefix, banner};
 use askama::Template;
 use foveate_design::{
-    Design, FRAME_NUMBERS, Pipelining, RasterMemory, RasterTiming, Store, Thresholds,
+    FRAME_NUMBERS, Pipelining, RasterDesign, RasterMemory, RasterTiming, Store, Thresholds,
 };
 
 #[derive(Template)]
@@ -78,16 +78,16 @@ struct Readme {
     compared: &'static str,
 }
 
-pub(crate) fn raster_readme(design: &Design, prefix: &Prefix) -> String {
+pub(crate) fn raster_readme(design: RasterDesign<'_>, prefix: &Prefix) -> String {
     text_of(&view(design, prefix, &RasterTiming::of(design)))
 }
 
-fn view(design: &Design, prefix: &Prefix, timing: &RasterTiming) -> Readme {
+fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Readme {
     let n = design.region_size();
     let lone = design.lone_unit();
     let memories = RasterMemory::all_of(design);
     Readme {
-        banner: banner(design),
+        banner: banner(&design),
         before: prefix.name(""),
         width: design.width(),
         height: design.height(),
@@ -96,7 +96,7 @@ fn view(design: &Design, prefix: &Prefix, timing: &RasterTiming) -> Readme {
         columns: design.columns(),
         rows: design.rows(),
         regions: design.regions(),
-        scores: score_names(design),
+        scores: score_names(&design),
         combine: design.combine().name(),
         reference: design.temporal().reference.name(),
         neighborhood: design.neighborhood().name(),
@@ -127,16 +127,16 @@ fn view(design: &Design, prefix: &Prefix, timing: &RasterTiming) -> Readme {
         forwards: design.forwards(),
         memories,
         deep: design.pipelining() == Pipelining::Deep,
-        last_sent: is_last_sent(design),
+        last_sent: is_last_sent(&design),
         store: design.store().name(),
         lone_width: lone.width(),
         lone_height: lone.height(),
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
-        thresholds: design.rcm_ports().iter().filter_map(|port| threshold(design, port)).collect(),
-        instance: instance(design, prefix),
-        synthesized: crate::synth::top(design).module(),
-        sync: sync::section(design, "word", ""),
+        thresholds: design.rcm_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
+        instance: instance(&design, prefix),
+        synthesized: crate::synth::top(&design).module(),
+        sync: sync::section(&design, "word", ""),
         compared: " at which it is valid",
     }
 }

@@ -149,7 +149,7 @@ fn the_readme_of_a_folded_core_says_where_regions_are_and_how_long_a_stream_wait
         let design = design(&format!("{hardware}feed = '{feed}'\n"));
         let files = core(&design);
         let readme = contents(&files, "README.md");
-        let stall = SerialTiming::of(&design).edges_to_ready();
+        let stall = SerialTiming::of(design.serial().unwrap()).edges_to_ready();
         for part in [
             "**region = lane * 5 + slot**, lane = 0..156, slot = 0..4",
             "The last 1 slots of lane 156 are empty",
@@ -158,8 +158,8 @@ fn the_readme_of_a_folded_core_says_where_regions_are_and_how_long_a_stream_wait
         ] {
             assert!(readme.contains(part), "{part}: {readme}");
         }
-        assert_eq!(design.region_of(156, 3), Some(783));
-        assert_eq!(design.region_of(156, 4), None);
+        assert_eq!(design.serial().unwrap().region_of(156, 3), Some(783));
+        assert_eq!(design.serial().unwrap().region_of(156, 4), None);
     }
 }
 
@@ -184,7 +184,7 @@ fn the_readme_of_a_raster_core_says_how_long_a_source_waits_and_a_sink_may_stall
     let readme = readme.contents;
     // 3 words of the last row, 4 rows, 2 * 29 for the windows, and 11 clocks to the decision.
     let stall = 3 + 4 * 28 + 2 * 29 + 11;
-    assert_eq!(RasterTiming::of(&design).edges_to_ready(), stall);
+    assert_eq!(RasterTiming::of(design.raster().unwrap()).edges_to_ready(), stall);
     for part in [
         &format!("`ready_o` is 0 for **{stall} clocks**"),
         "7 blank rows of 28 clocks are enough",

@@ -104,7 +104,7 @@ fn the_memories_of_a_raster_core_are_those_that_it_says() {
             named.collect()
         };
         let mut found: Vec<_> = numbers("SIZE").into_iter().zip(numbers("WIDTH")).collect();
-        let mut said: Vec<_> = RasterMemory::all_of(&design)
+        let mut said: Vec<_> = RasterMemory::all_of(design.raster().unwrap())
             .iter()
             .map(|memory| (memory.words, u64::from(memory.bits)))
             .collect();

@@ -2,8 +2,8 @@
 //! Builds looks: which arrays are possible, what each costs, and which is the cheapest.
 
 use foveate_design::{
-    CameraConfig, Config, Design, FeatureKind, Filter, HardwareConfig, MemoryKind, Neighborhood,
-    Organization,
+    CameraConfig, Config, Design, FeatureKind, Feed, Filter, HardwareConfig, MemoryKind,
+    Neighborhood, Organization,
 };
 use foveate_estimate::{Device, Speed};
 
@@ -136,7 +136,7 @@ fn make_slower(
             let speed = candidate.speed.as_ref();
             let slower = speed.map(|speed| slower(&candidate.design, speed, min_fps));
             let expected = |design| {
-                let cost = expected(&design, &candidate.design, &candidate.silicon);
+                let cost = expected(&design, &candidate.silicon);
                 (cost, &candidate.look, design)
             };
             slower.unwrap_or_default().into_iter().filter(is_new).map(expected)
@@ -251,63 +251,61 @@ fn synthesize(
     Ok(designs.iter().zip(found).map(candidate).collect())
 }
 
-/// Ways to build a camera. If regions may share a unit, these are, for each feed, the folds that are fast enough and
-/// may be the cheapest, and halvings of the deepest, because only a synthesis says which one is. If no fold is fast
-/// enough, these are the organizations with a unit for each region, and at a planned clock also fold 1. An
-/// organization with one unit for all regions comes with the fewest pixels per clock that are fast enough; at a
-/// planned clock with the most, if none is.
+/// Ways to build a camera. Of serial arrays these are, for each feed, the folds that are fast enough and may be the
+/// cheapest, and halvings of the deepest, because only a synthesis says which one is. If no fold is fast enough, the
+/// pipelined array is a way, and at a planned clock also fold 1. Raster cores come with the fewest pixels per clock that
+/// are fast enough; at a planned clock with the most, if none is.
 fn ways(look: &CameraConfig, asked: &HardwareConfig, bounds: Bounds) -> Vec<Design> {
-    let Bounds { max_clocks, planned, memory } = bounds;
-    let with = |organization: Organization, feed, pixels_per_clock| {
-        let hardware = HardwareConfig {
-            organization,
-            feed,
-            memory: memory.filter(|kind| organization.memories().contains(kind)),
-            thresholds: asked.thresholds,
-            sync: asked.sync,
-            pixels_per_clock,
-            ..HardwareConfig::default()
-        };
+    let with = |organization: Organization, own: HardwareConfig| {
+        let (thresholds, sync) = (asked.thresholds, asked.sync);
+        let hardware = HardwareConfig { organization, thresholds, sync, ..own };
         Config { camera: look.clone(), hardware }.validate().ok()
     };
-    let (folding, others): (Vec<_>, Vec<_>) = Organization::ALL.iter().partition(|o| o.folds());
-    let (mut found, mut fast) = (Vec::new(), false);
-    let fed = |&organization: &Organization| {
-        let feeds = organization.feeds().iter();
-        feeds.filter_map(move |&feed| with(organization, Some(feed), None))
+    let fed = |&feed| {
+        let (feed, memory) = (Some(feed), bounds.memory);
+        let own = HardwareConfig { feed, memory, ..HardwareConfig::default() };
+        with(Organization::Serial, own)
     };
-    for single in folding.into_iter().flat_map(fed) {
-        let folds = single.frugal_folds(max_clocks.unwrap_or(u64::MAX));
-        fast |= !folds.is_empty();
-        let folds = if folds.is_empty() && planned { vec![1] } else { folds };
-        let deepest = folds.first().map_or(0, |deepest| deepest / 2);
-        let halvings = std::iter::successors(Some(deepest), |fold| Some(fold / 2));
-        let halvings = halvings.take_while(|fold| *fold > 0).filter(|fold| !folds.contains(fold));
-        let all = folds.iter().copied().chain(halvings);
-        found.extend(all.filter_map(|fold| single.with_fold(fold).ok()));
+    let (mut found, mut is_fast) = (Vec::new(), false);
+    for single in Feed::ALL.iter().filter_map(fed) {
+        let (folds, enough) = folded(&single, bounds);
+        is_fast |= enough;
+        found.extend(folds);
     }
-    if !fast {
-        let each = others.iter().filter_map(|&&organization| with(organization, None, None));
-        found.extend(each.filter(|design| design.unit().count == design.regions()));
+    if !is_fast {
+        found.extend(with(Organization::Pipelined, HardwareConfig::default()));
     }
+    let words = [1, 2, 4].into_iter().filter_map(|pixels| {
+        let own = HardwareConfig { pixels_per_clock: Some(pixels), ..HardwareConfig::default() };
+        with(Organization::Raster, own)
+    });
+    found.extend(fewest_words(words.collect(), bounds));
+    found
+}
+
+/// The folds of a serial array, and whether one is fast enough.
+fn folded(single: &Design, bounds: Bounds) -> (Vec<Design>, bool) {
+    let folds = single.frugal_folds(bounds.max_clocks.unwrap_or(u64::MAX));
+    let is_fast = !folds.is_empty();
+    let folds = if folds.is_empty() && bounds.planned { vec![1] } else { folds };
+    let deepest = folds.first().map_or(0, |deepest| deepest / 2);
+    let halvings = std::iter::successors(Some(deepest), |fold| Some(fold / 2));
+    let halvings = halvings.take_while(|fold| *fold > 0).filter(|fold| !folds.contains(fold));
+    let all = folds.iter().copied().chain(halvings);
+    (all.filter_map(|fold| single.with_fold(fold).ok()).collect(), is_fast)
+}
+
+/// Of raster cores with more and more pixels per clock the first that is fast enough.
+fn fewest_words(cores: Vec<Design>, Bounds { max_clocks, planned, .. }: Bounds) -> Option<Design> {
     let is_fast = |design: &Design| {
         max_clocks.is_none_or(|clocks| design.timing().clocks_per_frame() <= clocks)
     };
-    found.extend(others.iter().filter_map(|&&organization| {
-        // An organization without words refuses all but the first.
-        let words = [None, Some(2), Some(4)].into_iter();
-        let ways = words.filter_map(|pixels| with(organization, None, pixels));
-        let ways: Vec<_> = ways.filter(|design| design.unit().count == 1).collect();
-        let most = ways.last().filter(|_| planned).cloned();
-        ways.into_iter().find(is_fast).or(most)
-    }));
-    found
+    let most = cores.last().filter(|_| planned).cloned();
+    cores.into_iter().find(is_fast).or(most)
 }
 
 #[cfg(test)]
 mod tests {
-    use foveate_design::Feed;
-
     use super::*;
 
     /// The raster designs among the ways to build a camera of 64x48 pixels, by their pixels per clock, and whether
@@ -317,7 +315,8 @@ mod tests {
         let bounds = Bounds { max_clocks: Some(max_clocks), planned, memory: None };
         let ways = ways(&look.camera, &look.hardware, bounds);
         let of = |organization| ways.iter().filter(move |d| d.organization() == organization);
-        let words = of(Organization::Raster).map(Design::pixels_per_clock).collect();
+        let words =
+            of(Organization::Raster).map(|d| d.raster().unwrap().pixels_per_clock()).collect();
         (words, of(Organization::Pipelined).next().is_some())
     }
 
@@ -327,8 +326,8 @@ mod tests {
         let look = Config::from_toml("").unwrap();
         let bounds = Bounds { max_clocks: Some(210_623), planned: true, memory: None };
         let ways = ways(&look.camera, &look.hardware, bounds);
-        let raster = ways.iter().filter(|design| design.feed() == Feed::Raster);
-        let folds = raster.filter(|design| design.organization().folds()).map(Design::fold);
+        let arrays = ways.iter().filter_map(Design::serial);
+        let folds = arrays.filter(|array| array.feed() == Feed::Raster).map(|array| array.fold());
         assert_eq!(folds.collect::<Vec<_>>(), [17, 16, 8, 4, 2, 1]);
     }
 

@@ -2,7 +2,7 @@
 //! Folds before and after a design's clock is known. A clock is estimated from a netlist, and what is to be
 //! synthesized has none: so a planned clock says which folds are tried, and no rate is told at it.
 
-use foveate_design::Design;
+use foveate_design::{Design, Hardware};
 use foveate_estimate::{Area, Device, Speed, most_clocks};
 
 use super::FitRequest;
@@ -19,38 +19,46 @@ pub(super) fn max_clocks(request: &FitRequest<'_>) -> Option<u64> {
     request.constraints.min_fps.map(|fps| most_clocks(hertz, fps))
 }
 
-/// The deeper folds of a design that are fast enough at the low end of its clock and may be the cheapest; of an
-/// organization without folds the design with half the pixels per clock, if that is fast enough.
+/// The deeper folds of a serial design that are fast enough at the low end of its clock and may be the cheapest; of a
+/// raster design that with half the pixels per clock, if that is fast enough.
 pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design> {
     let most = most_clocks(speed.low_clock_mhz * 1e6, min_fps);
-    if !design.organization().folds() {
-        let mut config = design.config();
-        config.hardware.pixels_per_clock = Some(design.pixels_per_clock() / 2);
-        let half = config.validate().ok();
-        return half.filter(|half| half.timing().clocks_per_frame() <= most).into_iter().collect();
+    match design.hardware() {
+        Hardware::Pipelined(_) => Vec::new(),
+        Hardware::Serial(own) => {
+            let deeper = design.frugal_folds(most).into_iter().filter(|fold| *fold > own.fold);
+            deeper.filter_map(|fold| design.with_fold(fold).ok()).collect()
+        }
+        Hardware::Raster(own) => {
+            let mut config = design.config();
+            config.hardware.pixels_per_clock = Some(own.pixels_per_clock / 2);
+            let half = config.validate().ok();
+            half.filter(|half| half.timing().clocks_per_frame() <= most).into_iter().collect()
+        }
     }
-    let folds = design.frugal_folds(most).into_iter().filter(|fold| *fold > design.fold());
-    folds.filter_map(|fold| design.with_fold(fold).ok()).collect()
 }
 
 /// What a slower design is expected to cost, after the synthesis of the one that it is made of. A lane has the logic of
 /// that design's lanes, and its memory follows from the fold. Half the pixels per clock are half the logic.
-pub(super) fn expected(design: &Design, of: &Design, silicon: &Silicon) -> f64 {
+pub(super) fn expected(design: &Design, silicon: &Silicon) -> f64 {
     let Silicon { unit, units, array, .. } = silicon;
-    if !of.organization().folds() {
-        let lut_total_packed = array.lut_total_packed / 2;
-        return Device::xcvu9p().cost(&Area { lut_total_packed, ..*array });
-    }
-    let (logic, lanes) =
-        (unit.lut_total_packed - unit.lut_memory_packed, u64::from(design.lanes()));
-    let shared = array.lut_total_packed.saturating_sub(units * unit.lut_total_packed);
-    let (luts, blocks) = design.lane_memory().taken();
-    let area = Area {
-        lut_total_packed: shared + lanes * (logic + luts),
-        bram18: lanes * blocks,
-        dsp: array.dsp * lanes / units.max(&1),
-        ff: array.ff * lanes / units.max(&1),
-        ..*array
+    let area = match design.hardware() {
+        Hardware::Pipelined(_) => *array,
+        Hardware::Serial(own) => {
+            let slower = design.on(own);
+            let logic = unit.lut_total_packed - unit.lut_memory_packed;
+            let lanes = u64::from(slower.lanes());
+            let shared = array.lut_total_packed.saturating_sub(units * unit.lut_total_packed);
+            let (luts, blocks) = slower.lane_memory().taken();
+            Area {
+                lut_total_packed: shared + lanes * (logic + luts),
+                bram18: lanes * blocks,
+                dsp: array.dsp * lanes / units.max(&1),
+                ff: array.ff * lanes / units.max(&1),
+                ..*array
+            }
+        }
+        Hardware::Raster(_) => Area { lut_total_packed: array.lut_total_packed / 2, ..*array },
     };
     Device::xcvu9p().cost(&area)
 }
@@ -68,11 +76,11 @@ mod tests {
         let (low, fps) = (60.0, 500.0);
         let fast = |design: &Design| low * 1e6 / real(design.timing().clocks_per_frame()) >= fps;
         let all = slower(&single, &speed(low), fps);
-        assert!(all.iter().all(|design| design.fold() > 1 && fast(design)));
+        assert!(all.iter().all(|design| design.slots() > 1 && fast(design)));
         let found = &all[0];
         // No fold with fewer lanes is fast enough.
-        let deeper = (found.fold() + 1..=64).map(|fold| single.with_fold(fold).unwrap());
-        assert!(deeper.filter(fast).all(|deeper| deeper.lanes() == found.lanes()));
+        let deeper = (found.slots() + 1..=64).map(|fold| single.with_fold(fold).unwrap());
+        assert!(deeper.filter(fast).all(|deeper| deeper.unit().count == found.unit().count));
         assert!(slower(found, &speed(low), fps).is_empty(), "it is as deep already");
         assert!(slower(found, &speed(low / 2.0), fps).is_empty(), "it is too deep already");
     }
@@ -85,7 +93,10 @@ mod tests {
         let double = Config::from_toml(text).unwrap().validate().unwrap();
         let speed = Speed { low_clock_mhz: 60.0, ..Speed::given(1000.0, 1) };
         let single = slower(&double, &speed, 15_000.0);
-        assert_eq!(single.iter().map(Design::pixels_per_clock).collect::<Vec<_>>(), [1]);
+        assert_eq!(
+            single.iter().map(|d| d.raster().unwrap().pixels_per_clock()).collect::<Vec<_>>(),
+            [1]
+        );
         assert!(slower(&double, &speed, 30_000.0).is_empty(), "one pixel at a clock is too slow");
         assert!(slower(&single[0], &speed, 1.0).is_empty(), "there are no fewer");
     }
@@ -99,7 +110,7 @@ mod tests {
         let unit = Area { lut_total_packed: 168, lut_memory_packed: 128, ..Area::default() };
         let array = Area { lut_total_packed: 300 + 8 * 168, ff: 80, ..Area::default() };
         let silicon = Silicon { unit, units: 8, array, levels: 7 };
-        let cost = |fold: u32| expected(&eight.with_fold(fold).unwrap(), &eight, &silicon);
+        let cost = |fold: u32| expected(&eight.with_fold(fold).unwrap(), &silicon);
         let area =
             |lut_total_packed, bram18, ff| Area { lut_total_packed, bram18, ff, ..Area::default() };
         let device = Device::xcvu9p();

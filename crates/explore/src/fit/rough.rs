@@ -2,7 +2,7 @@
 //! A rough cost of a design before it is synthesized, only to try the promising ones first. What is
 //! chosen is chosen by what Yosys counts.
 
-use foveate_design::{Design, FeatureKind, Filter, Organization, RasterMemory};
+use foveate_design::{Design, FeatureKind, Filter, Hardware, RasterMemory};
 use foveate_estimate::Device;
 
 use crate::row::real;
@@ -13,8 +13,8 @@ pub(super) fn rough(design: &Design) -> f64 {
     let bits = f64::from(design.pixel_bits());
     let kinds = design.features().iter().map(|feature| feature.kind());
     let median = design.filter() == Filter::Median3x3;
-    match design.organization() {
-        Organization::Pipelined => {
+    match design.hardware() {
+        Hardware::Pipelined(_) => {
             let features: f64 = kinds
                 .map(|kind| match kind {
                     FeatureKind::Corner => 30.0,
@@ -24,7 +24,8 @@ pub(super) fn rough(design: &Design) -> f64 {
             let unit = 8.0 + features + if median { 37.0 } else { 0.0 };
             f64::from(design.regions()) * unit * bits / real(device.lut)
         }
-        Organization::Serial => {
+        Hardware::Serial(own) => {
+            let array = design.on(own);
             let features: f64 = kinds
                 .map(|kind| match kind {
                     FeatureKind::Edge => 2.0,
@@ -32,14 +33,14 @@ pub(super) fn rough(design: &Design) -> f64 {
                     FeatureKind::Mad | FeatureKind::Variance => 6.0,
                 })
                 .sum();
-            let lanes = f64::from(design.lanes());
+            let lanes = f64::from(array.lanes());
             let logic = (2.5 + features + if median { 0.5 } else { 0.0 }) * bits;
-            let (luts, blocks) = design.lane_memory().taken();
+            let (luts, blocks) = array.lane_memory().taken();
             (300.0 + lanes * (logic + real(luts))) / real(device.lut)
                 + lanes * real(blocks) / real(device.bram18)
         }
         // Read off docs/organizations.md: a core with its store inside, and what each pixel of a word adds.
-        Organization::Raster => {
+        Hardware::Raster(own) => {
             let features: f64 = kinds
                 .map(|kind| match kind {
                     FeatureKind::Edge => 11.0,
@@ -47,10 +48,10 @@ pub(super) fn rough(design: &Design) -> f64 {
                     FeatureKind::Mad | FeatureKind::Variance => 6.0,
                 })
                 .sum();
-            let pixels = f64::from(design.pixels_per_clock());
+            let pixels = f64::from(own.pixels_per_clock);
             let logic = 380.0 + pixels * (2.0 + features + if median { 17.0 } else { 0.0 }) * bits;
             let blocks = |memory: &RasterMemory| memory.total_bits().div_ceil(18_432);
-            let blocks: u64 = RasterMemory::all_of(design).iter().map(blocks).sum();
+            let blocks: u64 = RasterMemory::all_of(design.on(own)).iter().map(blocks).sum();
             logic / real(device.lut) + real(blocks) / real(device.bram18)
         }
     }

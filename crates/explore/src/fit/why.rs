@@ -25,7 +25,7 @@ pub(super) fn summary(design: &Design) -> String {
             Filter::Median3x3 => "median",
         },
         design.temporal().reference,
-        hardware = design.hardware().in_words(),
+        hardware = design.config().hardware.in_words(),
         size = design.region_size(),
         neighborhood = design.neighborhood(),
     )
@@ -160,12 +160,13 @@ fn other_organizations<'a>(
 
 /// One fold more, if that is too slow.
 fn slower(chosen: &Candidate, request: &FitRequest<'_>) -> Option<String> {
-    let deeper = chosen.design.with_fold(chosen.design.fold() + 1).ok()?;
+    let fold = chosen.design.slots() + 1;
+    let deeper = chosen.design.with_fold(fold).ok()?;
     let speed = chosen.speed?;
     let at_low = Speed::given(speed.low_clock_mhz, deeper.timing().clocks_per_frame());
     let [held] = request.constraints.on_speed(Some(&at_low)).try_into().ok()?;
     let whose = if speed.estimated { ", if its clock is the same" } else { "" };
-    (!held.holds).then(|| format!("fold {}: {}{whose}", deeper.fold(), held.text()))
+    (!held.holds).then(|| format!("fold {fold}: {}{whose}", held.text()))
 }
 
 /// What a design takes, and which limits it misses.

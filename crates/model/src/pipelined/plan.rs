@@ -2,7 +2,7 @@
 //! The parameters of the blocks, taken from the design once.
 
 use foveate_design::{
-    Combine, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
+    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, PipelinedDesign,
     PipelinedTiming, Reference,
 };
 
@@ -44,15 +44,7 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// # Panics
-    /// When the design is not pipelined: no number below would mean anything.
-    pub(super) fn of(design: &Design) -> Self {
-        let organization = design.organization();
-        assert_eq!(
-            organization,
-            Organization::Pipelined,
-            "a pipelined model is made of a pipelined design"
-        );
+    pub(super) fn of(design: PipelinedDesign<'_>) -> Self {
         let mut features = [None; FEATURES];
         for (place, feature) in features.iter_mut().zip(design.features()) {
             *place = Some(feature.kind());
@@ -76,7 +68,7 @@ impl Plan {
             reference: design.temporal().reference,
             irrelevant: design.irrelevant(),
             payload: design.payload(),
-            constants: Thresholds::constants(design),
+            constants: Thresholds::constants(&design),
         }
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The RCM: one RPU per region, all in step.
 
-use foveate_design::Design;
+use foveate_design::PipelinedDesign;
 
 use super::{PipelinedRpu, RcmInput, RpuInput, RpuOutput};
 use crate::number::index;
@@ -27,11 +27,11 @@ impl PipelinedRcm {
     /// # Panics
     /// When the design is not pipelined.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
+    pub fn new(design: PipelinedDesign<'_>) -> Self {
         let rpu = PipelinedRpu::new(design);
-        let lane = |region| Lane { rpu: rpu.clone(), border: region_border(design, region) };
+        let lane = |region| Lane { rpu: rpu.clone(), border: region_border(&design, region) };
         Self {
-            sync: FrameSync::new(design),
+            sync: FrameSync::new(&design),
             lanes: (0..design.regions()).map(lane).collect(),
             outputs: vec![RpuOutput::default(); index(design.regions())],
         }

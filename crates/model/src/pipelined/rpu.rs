@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One RPU: the stages in a row.
 
-use foveate_design::Design;
+use foveate_design::PipelinedDesign;
 
 use super::center::Center;
 use super::line::Line;
@@ -31,7 +31,7 @@ impl PipelinedRpu {
     /// # Panics
     /// When the design is not pipelined.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
+    pub fn new(design: PipelinedDesign<'_>) -> Self {
         let plan = Plan::of(design);
         let denoises = match plan.filter {
             foveate_design::Filter::None => false,

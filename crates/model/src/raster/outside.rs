@@ -2,7 +2,7 @@
 //! The two streams of a core whose frame store is outside: when it takes the references of words, and when it
 //! gives words away to be stored. Both are a fixed number of clocks after a word has come to the tail.
 
-use foveate_design::{Design, RasterTiming};
+use foveate_design::{Camera, RasterDesign, RasterTiming};
 use foveate_frame::Frame;
 
 use super::advances::Place;
@@ -14,7 +14,7 @@ use crate::region::black_padded;
 /// The streams.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Outside {
-    design: Design,
+    camera: Camera,
     timing: RasterTiming,
     /// Words whose references have not been taken, in order, with the edges at which that is due.
     asking: Due<Asking>,
@@ -48,15 +48,15 @@ pub(super) struct Stored {
 }
 
 impl Outside {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: RasterDesign<'_>) -> Self {
         Self {
             timing: RasterTiming::of(design),
             asking: Due::new(),
             storing: Due::new(),
-            references: black_padded(design),
+            references: black_padded(&design),
             frames: 0,
             underrun: false,
-            design: design.clone(),
+            camera: design.camera().clone(),
         }
     }
 
@@ -123,10 +123,10 @@ impl Outside {
 
     /// A word of the frame as it is scored.
     fn scored(&self, place: Place, padded: &Frame) -> Vec<u16> {
-        let Self { design, timing, .. } = self;
-        let region = place.row / design.region_size() * design.columns()
+        let Self { camera, timing, .. } = self;
+        let region = place.row / camera.region_size() * camera.columns()
             + place.column / timing.region_row_words;
         let left = place.column * timing.word_pixels;
-        denoised_run(design, padded, region, left..left + timing.word_pixels, place.row)
+        denoised_run(camera, padded, region, left..left + timing.word_pixels, place.row)
     }
 }

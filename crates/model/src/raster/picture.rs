@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The padded frame as it comes in, word by word: what lies beyond the frame repeats its last column and row.
 
-use foveate_design::Design;
+use foveate_design::RasterDesign;
 use foveate_frame::Frame;
 
 use super::advances::Place;
@@ -20,9 +20,9 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: RasterDesign<'_>) -> Self {
         Self {
-            padded: black_padded(design),
+            padded: black_padded(&design),
             width: design.width(),
             height: design.height(),
             word_pixels: design.pixels_per_clock(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The core: what an edge does to each of its parts, and what its outputs show after it.
 
-use foveate_design::{Design, RasterTiming, Store};
+use foveate_design::{RasterDesign, RasterTiming, Store};
 
 use super::advances::{Advances, Place};
 use super::decisions::{Complete, Decisions, Judged};
@@ -47,14 +47,14 @@ pub struct RasterRcm {
 impl RasterRcm {
     /// The core of the design, which must be a raster design.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
+    pub fn new(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
         Self {
             timing,
             columns: design.columns(),
             side: design.region_size(),
-            constants: Thresholds::constants(design),
-            sync: FrameSync::new(design),
+            constants: Thresholds::constants(&design),
+            sync: FrameSync::new(&design),
             advances: Advances::new(timing),
             picture: Picture::new(design),
             staleness: Staleness::new(&timing),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the core keeps of every region from frame to frame, and what it thinks of it.
 
-use foveate_design::{Action, Design, Payload, Reference};
+use foveate_design::{Action, Camera, Payload, RasterDesign, Reference};
 use foveate_frame::Frame;
 
 use super::decisions::{Complete, Judged};
@@ -13,7 +13,7 @@ use crate::{RegionScorer, Thresholds, region_border, region_pixels, region_strea
 /// The references of all regions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Regions {
-    design: Design,
+    camera: Camera,
     scorer: RegionScorer,
     /// Pixels of a region n.
     pixels: usize,
@@ -24,14 +24,14 @@ pub(super) struct Regions {
 }
 
 impl Regions {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: RasterDesign<'_>) -> Self {
         let (regions, pixels) = (index(design.regions()), index(design.region_pixels()));
         Self {
-            scorer: RegionScorer::new(design),
+            scorer: RegionScorer::new(&design),
             pixels,
             references: vec![0; regions * pixels],
             referenced: vec![false; regions],
-            design: design.clone(),
+            camera: design.camera().clone(),
         }
     }
 
@@ -56,31 +56,31 @@ impl Regions {
         thresholds: &Thresholds,
     ) -> Judged {
         let mut stream = Vec::new();
-        region_stream(&self.design, padded, region, &mut stream);
-        self.scorer.take(stream.into_iter(), region_border(&self.design, region));
+        region_stream(&self.camera, padded, region, &mut stream);
+        self.scorer.take(stream.into_iter(), region_border(&self.camera, region));
         let taken = taken.map(|frame| self.pixels_of(frame, region));
         let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
-        let verdict = Verdict::of(&self.design, &self.scorer, reference, thresholds);
+        let verdict = Verdict::of(&self.camera, &self.scorer, reference, thresholds);
         let scored: Vec<u16> = self.scorer.pixels().collect();
-        match self.design.temporal().reference {
+        match self.camera.temporal().reference {
             Reference::Previous => {
                 self.remember(region, 0, &scored);
                 self.referenced[index(region)] = true;
             }
             Reference::LastSent => {}
         }
-        let payload = match self.design.payload() {
+        let payload = match self.camera.payload() {
             Payload::Denoised => scored.clone(),
             Payload::Raw => self.pixels_of(padded, region),
         };
-        let frame = row / u64::from(self.design.rows());
+        let frame = row / u64::from(self.camera.rows());
         Judged { region, row, frame, verdict, scored, payload }
     }
 
     /// A region is decided: whether it has a reference from now on.
     pub(super) fn decide(&mut self, judged: &Judged) {
         let referenced = &mut self.referenced[index(judged.region)];
-        match (self.design.temporal().reference, judged.verdict.action(&self.design)) {
+        match (self.camera.temporal().reference, judged.verdict.action(&self.camera)) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Hold) => {}
             (Reference::LastSent, Action::Forward) => *referenced = true,
             // What was sent is no longer on the screen.
@@ -91,7 +91,7 @@ impl Regions {
     /// A word was fetched, and will leave. That it becomes the reference an edge later cannot be seen: the
     /// next frame of its region comes later still.
     pub(super) fn send(&mut self, word: &Word) {
-        match self.design.temporal().reference {
+        match self.camera.temporal().reference {
             Reference::Previous => {}
             Reference::LastSent => self.remember(word.region, word.position, &word.scored),
         }
@@ -99,7 +99,7 @@ impl Regions {
 
     /// A region was lost: what was sent of it is not known.
     pub(super) fn lose(&mut self, region: u32) {
-        match self.design.temporal().reference {
+        match self.camera.temporal().reference {
             Reference::Previous => {}
             Reference::LastSent => self.referenced[index(region)] = false,
         }
@@ -108,7 +108,7 @@ impl Regions {
     /// The pixels of a region in a padded frame, row by row.
     fn pixels_of(&self, padded: &Frame, region: u32) -> Vec<u16> {
         let mut pixels = Vec::with_capacity(self.pixels);
-        region_pixels(&self.design, padded, region, &mut pixels);
+        region_pixels(&self.camera, padded, region, &mut pixels);
         pixels
     }
 

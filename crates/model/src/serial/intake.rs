@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The pixels of a frame as they come in, and the stream that each region makes of them.
 
-use foveate_design::{Design, Feed};
+use foveate_design::{Feed, SerialDesign};
 
 use super::raster::Raster;
 use super::streams::Streams;
@@ -21,7 +21,7 @@ enum Frame {
 }
 
 impl Intake {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let frame = match design.feed() {
             Feed::Parallel => Frame::Streams(Streams::new(design)),
             Feed::Raster => Frame::Raster(Raster::new(design)),

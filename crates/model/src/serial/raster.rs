@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `feed = "raster"`: the padded frame, pixel by pixel; the array finds the regions that want each.
 
-use foveate_design::Design;
+use foveate_design::SerialDesign;
 
 use crate::number::index;
 
@@ -27,7 +27,7 @@ struct Axis {
 }
 
 impl Axis {
-    fn new(design: &Design, regions: u32, shown: impl Fn(u32) -> u32) -> Self {
+    fn new(design: SerialDesign<'_>, regions: u32, shown: impl Fn(u32) -> u32) -> Self {
         let side = design.region_size();
         Self {
             regions: index(regions),
@@ -49,7 +49,7 @@ impl Axis {
 }
 
 impl Raster {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let columns = Axis::new(design, design.columns(), |x| design.column_places(x));
         let rows = Axis::new(design, design.rows(), |y| design.row_places(y));
         Self { pixels: vec![0; columns.size() * rows.size()], columns, rows }

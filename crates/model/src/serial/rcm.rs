@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array: where in a frame it is, and what its outputs show there.
 
-use foveate_design::{Design, Payload};
+use foveate_design::{Payload, SerialDesign};
 
 use super::intake::Intake;
 use super::ports::{SerialInput, SerialOutput};
@@ -45,21 +45,18 @@ impl Stage {
 impl SerialRcm {
     /// The array of the design. That of [`Design::one_lane`] is the core of one RPU.
     ///
-    /// # Panics
-    /// When the design is not serial.
-    #[must_use]
-    pub fn new(design: &Design) -> Self {
+    pub fn new(design: SerialDesign<'_>) -> Self {
         let intake = Intake::new(design);
         let output = SerialOutput { ready: true, ..SerialOutput::silent(intake.width()) };
         Self {
             schedule: Schedule::new(design),
-            constants: Thresholds::constants(design),
+            constants: Thresholds::constants(&design),
             payload: design.payload(),
-            borders: (0..design.regions()).map(|region| region_border(design, region)).collect(),
+            borders: (0..design.regions()).map(|region| region_border(&design, region)).collect(),
             regions: Regions::new(design),
             stage: Stage::EMPTY,
             is_forwarding: false,
-            sync: FrameSync::new(design),
+            sync: FrameSync::new(&design),
             intake,
             output,
         }

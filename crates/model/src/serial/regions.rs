@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the array keeps of every region from frame to frame, and what it thinks of it.
 
-use foveate_design::{Action, Design, Reference};
+use foveate_design::{Action, Camera, Reference, SerialDesign};
 
 use crate::number::index;
 use crate::verdict::Verdict;
@@ -10,7 +10,7 @@ use crate::{RegionScorer, Thresholds};
 /// The state of every region.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Regions {
-    design: Design,
+    camera: Camera,
     scorer: RegionScorer,
     /// Pixels of a region n.
     pixels: usize,
@@ -24,20 +24,20 @@ pub(super) struct Regions {
 }
 
 impl Regions {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let (regions, pixels) = (index(design.regions()), index(design.region_pixels()));
         let sent = match design.temporal().reference {
             Reference::Previous => Vec::new(),
             Reference::LastSent => vec![0; regions * pixels],
         };
         Self {
-            scorer: RegionScorer::new(design),
+            scorer: RegionScorer::new(&design),
             pixels,
             scored: vec![0; regions * pixels],
             sent,
             referenced: vec![false; regions],
             verdicts: vec![Verdict::default(); regions],
-            design: design.clone(),
+            camera: design.camera().clone(),
         }
     }
 
@@ -48,7 +48,7 @@ impl Regions {
 
     /// What the next frame of a region is compared with.
     pub(super) fn reference(&self, region: usize) -> Option<&[u16]> {
-        let from = match self.design.temporal().reference {
+        let from = match self.camera.temporal().reference {
             Reference::Previous => &self.scored,
             Reference::LastSent => &self.sent,
         };
@@ -73,13 +73,13 @@ impl Regions {
         thresholds: &Thresholds,
     ) {
         self.scorer.take(stream, border);
-        let verdict = Verdict::of(&self.design, &self.scorer, self.reference(region), thresholds);
+        let verdict = Verdict::of(&self.camera, &self.scorer, self.reference(region), thresholds);
         self.verdicts[region] = verdict;
         let own = region * self.pixels..(region + 1) * self.pixels;
         for (scored, pixel) in self.scored[own.clone()].iter_mut().zip(self.scorer.pixels()) {
             *scored = pixel;
         }
-        match (self.design.temporal().reference, verdict.action(&self.design)) {
+        match (self.camera.temporal().reference, verdict.action(&self.camera)) {
             (Reference::Previous, _) => self.referenced[region] = true,
             (Reference::LastSent, Action::Forward) => {
                 self.referenced[region] = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which step of its work the array is at, and what is seen of it.
 
-use foveate_design::{Design, Feed, Organization, Phase, SerialTiming};
+use foveate_design::{Feed, Phase, SerialDesign, SerialTiming};
 
 /// What the outputs show in a step, if anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,11 +48,7 @@ enum What {
 }
 
 impl Schedule {
-    /// # Panics
-    /// When the design is not serial.
-    pub(super) fn new(design: &Design) -> Self {
-        let organization = design.organization();
-        assert_eq!(organization, Organization::Serial, "a serial model is made of a serial design");
+    pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let timing = SerialTiming::of(design);
         Self {
             lanes: design.lanes(),
@@ -128,7 +124,7 @@ impl Schedule {
 
 /// The phases that show something. Scores are numbered in the order in which they pass the ports; the
 /// decision comes with the last.
-fn visible(design: &Design, phases: &[(Phase, u64)]) -> Vec<Visible> {
+fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
     let (mut visible, mut start, mut number) = (Vec::new(), 0, 0);
     for &(phase, steps) in phases {
         let what = match phase {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `feed = "parallel"`: every lane is given the streams of its regions, one after the other.
 
-use foveate_design::Design;
+use foveate_design::SerialDesign;
 
 use crate::number::index;
 
@@ -18,7 +18,7 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let (lanes, fold) = (index(design.lanes()), index(design.fold()));
         let stream_side = index(design.stream_side());
         Self {

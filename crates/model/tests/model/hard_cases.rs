@@ -189,7 +189,7 @@ pub(crate) fn hard_frames_at_the_ends_of_every_range() {
                     let recipe = everything(side, bits, size, shared, last_sent);
                     let frames = hard_frames(&recipe);
                     functional_properties::check(&recipe, &frames);
-                    let mut rcm = PipelinedRcm::new(&recipe.design());
+                    let mut rcm = PipelinedRcm::new(recipe.design().pipelined().unwrap());
                     pipelined_properties::check_dense(&recipe, &mut rcm, &frames);
                 }
             }
@@ -204,7 +204,7 @@ fn the_largest_region() {
         let frames = hard_frames(&recipe);
         functional_properties::check(&recipe, &frames[1..]);
         let recipe = everything(64, 16, (64, 64), shared, shared);
-        let mut rcm = PipelinedRcm::new(&recipe.design());
+        let mut rcm = PipelinedRcm::new(recipe.design().pipelined().unwrap());
         pipelined_properties::check_dense(&recipe, &mut rcm, &hard_frames(&recipe)[2..5]);
     }
 }

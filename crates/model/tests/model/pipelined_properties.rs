@@ -127,7 +127,8 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
     let edges = stream_edges(recipe, gaps, film.len());
     let steps = tail_steps(recipe, &edges);
     let last = edges.iter().flatten().max().unwrap();
-    let clocks = last + PipelinedTiming::of(&design).decision_latency as usize + 5;
+    let clocks =
+        last + PipelinedTiming::of(design.pipelined().unwrap()).decision_latency as usize + 5;
     let shown = run(recipe, rcm, film, &edges, clocks);
     let history = watch(recipe, film);
     for region in 0..design.regions() as usize {
@@ -144,7 +145,7 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
 /// Decisions in order are those of the functional model, and so are the pixels that leave.
 fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     let design = recipe.design();
-    let timing = PipelinedTiming::of(&design);
+    let timing = PipelinedTiming::of(design.pipelined().unwrap());
     for region in 0..design.regions() {
         let at = region as usize;
         let ports = || shown.iter().map(|outputs| outputs[at]);
@@ -177,7 +178,7 @@ fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOu
     if gaps.inside != 0 || gaps.between != 0 {
         return;
     }
-    let timing = PipelinedTiming::of(&recipe.design());
+    let timing = PipelinedTiming::of(recipe.design().pipelined().unwrap());
     let valid: Vec<usize> =
         (0..shown.len()).filter(|&edge| shown[edge][0].decision_valid).collect();
     let due = |frame: usize| {
@@ -204,7 +205,7 @@ proptest! {
 
     #[test]
     fn every_port_after_every_edge(recipe in recipes(), script in scripts(6), gaps in gaps()) {
-        let mut rcm = PipelinedRcm::new(&recipe.design());
+        let mut rcm = PipelinedRcm::new(recipe.design().pipelined().unwrap());
         check(&recipe, &mut rcm, &film(&recipe, &script), gaps);
     }
 
@@ -218,7 +219,7 @@ proptest! {
         held in 1usize..3,
     ) {
         let design = recipe.design();
-        let mut rcm = PipelinedRcm::new(&design);
+        let mut rcm = PipelinedRcm::new(design.pipelined().unwrap());
         let film_before = film(&recipe, &before);
         let edges = stream_edges(&recipe, gaps, before.len());
         let end = edges.iter().flatten().max().unwrap() + 20;

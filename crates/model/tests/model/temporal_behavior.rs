@@ -184,7 +184,7 @@ fn ten_thousand_identical_frames_then_a_change() {
         ));
         let design = design.unwrap().validate().unwrap();
         let mut camera = FunctionalCamera::new(&design);
-        let mut rpu = PipelinedRpu::new(&design);
+        let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
         let thresholds = Thresholds::of(&design);
         let mut decisions = Vec::new();
         for index in 0..10_002u32 {

@@ -112,7 +112,11 @@ fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError
         }
         stream.push(edges);
     }
-    inputs.extend(vec![None; PipelinedTiming::of(&design).decision_latency as usize + 3]);
+    inputs.extend(vec![
+        None;
+        PipelinedTiming::of(design.pipelined().unwrap()).decision_latency as usize
+            + 3
+    ]);
     let frames = Frames {
         recipe,
         denoised: film.iter().map(|f| denoise(&design, &pad(&design, f).unwrap())).collect(),
@@ -122,7 +126,7 @@ fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError
         design: design.clone(),
     };
 
-    let mut rpu = PipelinedRpu::new(&design);
+    let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
     let border = region_border(&design, 0);
     let mut decisions = Vec::new();
     let mut left = Vec::new();
@@ -179,7 +183,7 @@ proptest! {
     fn inputs_that_a_design_has_not_do_nothing(recipe in recipes(), script in scripts(4), seed in any::<u64>()) {
         let design = Recipe { constant: true, ..recipe.clone() }.design();
         let mut random = Random(seed);
-        let (mut plain, mut shaken) = (PipelinedRpu::new(&design), PipelinedRpu::new(&design));
+        let (mut plain, mut shaken) = (PipelinedRpu::new(design.pipelined().unwrap()), PipelinedRpu::new(design.pipelined().unwrap()));
         for frame in film(&recipe, &script) {
             let mut pixels = Vec::new();
             region_stream(&design, &frame, 0, &mut pixels);

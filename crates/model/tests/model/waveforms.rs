@@ -11,7 +11,7 @@ fn tiny(toml: &str) -> Design {
 
 /// One edge per item: a pixel, or none.
 fn run(design: &Design, pixels: &[Option<u16>]) -> Vec<RpuOutput> {
-    let mut rpu = PipelinedRpu::new(design);
+    let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
     let thresholds = Thresholds::of(design);
     let input = |pixel: Option<u16>| RpuInput {
         valid: pixel.is_some(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card that is about silicon against speed: lanes, memory, frames per second, folds.
 
-use foveate_design::{Area, Decimal, Design, LaneMemory, MemoryChoice};
+use foveate_design::{Area, Decimal, Design, LaneMemory, MemoryChoice, SerialDesign};
 use serde::Serialize;
 
 use crate::args::{Clock, Rate};
@@ -70,7 +70,7 @@ pub(super) struct Proposal {
 }
 
 impl Array {
-    pub(super) fn of(design: &Design) -> Self {
+    pub(super) fn of(design: SerialDesign<'_>) -> Self {
         let memory = design.lane_memory();
         let row = |area: &Area| AreaRow {
             area: area.kind.to_string(),
@@ -144,7 +144,7 @@ impl Proposal {
         let clocks = best.timing().clocks_per_frame();
         let reach =
             format!("{clocks} clocks per frame, {} frames/s at {clock}", shown(clock, clocks));
-        let lanes = best.lanes();
+        let lanes = best.regions().div_ceil(fold);
         let wanted = rate.0;
         let text = match found {
             Some(_) if !folds => format!("{wanted} frames/s are reached: {reach}"),

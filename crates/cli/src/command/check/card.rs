@@ -123,7 +123,7 @@ impl Card {
             features: design.features().iter().map(Feature::of).collect(),
             count_bits: design.count_bits(),
             timing: Clocks(design.timing()),
-            array: design.organization().folds().then(|| Array::of(design)),
+            array: design.serial().map(Array::of),
             rate: clock.map(|clock| FrameRate::of(clock, clocks)),
             needs: clock.is_none().then(|| Needed::of(wanted, clocks)),
             proposal: clock.zip(wanted).map(propose).transpose()?,

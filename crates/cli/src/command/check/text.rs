@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Design, Neighborhood, RasterMemory};
+use foveate_design::{Design, Neighborhood, RasterDesign, RasterMemory};
 
 use super::array::{Array, Memory};
 use super::card::{Card, Feature, PortRow};
@@ -39,12 +39,11 @@ pub(super) fn text(design: &Design, card: &Card) -> String {
     }
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
-    let hardware = design.hardware();
-    lines.push(("organization", hardware.in_words()));
-    match hardware.pixels_per_clock {
-        Some(pixels) => {
-            lines.push(("stream", word_line(pixels)));
-            lines.push(("memory", raster_memory_line(design)));
+    lines.push(("organization", design.config().hardware.in_words()));
+    match design.raster() {
+        Some(core) => {
+            lines.push(("stream", word_line(core.pixels_per_clock())));
+            lines.push(("memory", raster_memory_line(core)));
         }
         None => lines.push(("stream", stream_line(design, card))),
     }
@@ -102,7 +101,7 @@ fn word_line(pixels: u32) -> String {
     format!("the frame row by row, a {word} at every clock")
 }
 
-fn raster_memory_line(design: &Design) -> String {
+fn raster_memory_line(design: RasterDesign<'_>) -> String {
     let memories = RasterMemory::all_of(design);
     let bits = memories.iter().map(RasterMemory::total_bits).sum::<u64>();
     match RasterMemory::store_of(design) {

@@ -109,7 +109,7 @@ fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<W
         Ok(single) => Ok(cheapest_fold(single, rate, synthesize)?),
         Err(error) => Err(error),
     };
-    let fold = design.as_ref().map_or(1, |design| design.hardware().fold);
+    let fold = design.as_ref().map_or(1, |design| design.slots());
     Ok(Wanted {
         name: format!("serial {feature} median raster fold {fold}"),
         family: "serial with raster feed".to_owned(),

@@ -9,7 +9,7 @@ use super::super::sequence::{Aim, Gaps};
 use super::machine::{Machine, PipelinedCodec};
 use crate::error::CosimError;
 use crate::recording::Recorder;
-use foveate_design::{Design, Thresholds as Mode};
+use foveate_design::{PipelinedDesign, Thresholds as Mode};
 use foveate_model::{FrameSync, PipelinedRpu, RpuInput, RpuOutput, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -43,17 +43,17 @@ pub(crate) struct Driver<'a> {
 
 impl<'a> Driver<'a> {
     pub(crate) fn new(
-        design: &Design,
+        design: PipelinedDesign<'_>,
         machine: Machine,
         lanes: usize,
         recorder: &'a mut Recorder,
         random: Random,
         cancel: &'a AtomicBool,
     ) -> Self {
-        let configured = Thresholds::of(design);
+        let configured = Thresholds::of(&design);
         let sync = design.syncs() && matches!(machine, Machine::Rcm(_));
         Self {
-            sync: sync.then(|| FrameSync::new(design)),
+            sync: sync.then(|| FrameSync::new(&design)),
             machine,
             scout: PipelinedRpu::new(design),
             cancel,
@@ -61,7 +61,7 @@ impl<'a> Driver<'a> {
             expected: recorder.outputs().record(),
             recorder,
             codec: PipelinedCodec::new(design),
-            ranges: Ranges::of(design),
+            ranges: Ranges::of(&design),
             random,
             thresholds: configured,
             configured,

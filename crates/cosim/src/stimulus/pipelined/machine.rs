@@ -4,7 +4,7 @@
 use super::super::applied::Applied;
 use super::super::kinds::Kinds;
 use crate::layout::Layout;
-use foveate_design::{Design, PortRole};
+use foveate_design::{PipelinedDesign, PortRole};
 use foveate_model::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput};
 
 /// A model of one RPU or of an array of them.
@@ -46,8 +46,8 @@ pub struct PipelinedCodec {
 impl PipelinedCodec {
     /// The codec of a design.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
-        Self { kinds: Kinds::of(design) }
+    pub fn new(design: PipelinedDesign<'_>) -> Self {
+        Self { kinds: Kinds::of(&design) }
     }
 
     pub(crate) fn inputs(&self, layout: &Layout, applied: &Applied<'_>, record: &mut [u8]) {

@@ -11,14 +11,14 @@ use super::run::Run;
 use crate::error::CosimError;
 use crate::level::Level;
 use driver::Driver;
-use foveate_design::PipelinedTiming;
+use foveate_design::{PipelinedDesign, PipelinedTiming};
 use foveate_model::{PipelinedRcm, PipelinedRpu};
 pub(crate) use machine::Machine;
 pub use machine::PipelinedCodec;
 use session::Session;
 
-pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { level, seed, extent, frames, simulated, recorder, cancel, progress, .. } = run;
+pub(super) fn record(simulated: PipelinedDesign<'_>, run: Run<'_>) -> Result<(), CosimError> {
+    let Run { level, seed, extent, frames, recorder, cancel, progress, .. } = run;
     let mut random = Random::new(seed);
     let (machine, lanes) = match level {
         Level::Rpu => (Machine::Rpu(Box::new(PipelinedRpu::new(simulated))), 1),

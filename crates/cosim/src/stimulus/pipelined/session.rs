@@ -9,13 +9,13 @@ use super::super::turns::{Extent, Turns};
 use super::driver::Driver;
 use crate::error::CosimError;
 use crate::level::Level;
-use foveate_design::{Design, PipelinedTiming};
+use foveate_design::{PipelinedDesign, PipelinedTiming};
 use foveate_frame::Frame;
 use foveate_model::{region_border, region_stream};
 
 /// A recording under way.
 pub(super) struct Session<'a> {
-    design: &'a Design,
+    design: PipelinedDesign<'a>,
     timing: PipelinedTiming,
     level: Level,
     driver: Driver<'a>,
@@ -27,7 +27,7 @@ pub(super) struct Session<'a> {
 
 impl<'a> Session<'a> {
     pub(super) fn new(
-        design: &'a Design,
+        design: PipelinedDesign<'a>,
         timing: PipelinedTiming,
         level: Level,
         driver: Driver<'a>,
@@ -38,7 +38,7 @@ impl<'a> Session<'a> {
             Level::Rpu => (1, design.stream_side()),
             Level::Rcm { .. } | Level::Full => (design.regions(), design.region_size()),
         };
-        let artists = (0..squares).map(|_| Artist::new(design, side, random.fork())).collect();
+        let artists = (0..squares).map(|_| Artist::new(&design, side, random.fork())).collect();
         let drain = u64::from(timing.decision_latency) + 4;
         Self { design, timing, level, driver, random, artists, drain }
     }
@@ -155,7 +155,7 @@ impl<'a> Session<'a> {
     fn given(&mut self, region: u32, frames: &[Frame]) -> Result<(), CosimError> {
         let gaps = Gaps::ALL[region as usize % Gaps::ALL.len()];
         let (border, name) = match self.level {
-            Level::Rpu => (region_border(self.design, region), Some(region)),
+            Level::Rpu => (region_border(&self.design, region), Some(region)),
             Level::Rcm { .. } | Level::Full => (0, None),
         };
         self.driver.name("frames", 0, name);
@@ -169,7 +169,7 @@ impl<'a> Session<'a> {
             }
             streams.clear();
             match self.level {
-                Level::Rpu => region_stream(self.design, frame, region, &mut streams),
+                Level::Rpu => region_stream(&self.design, frame, region, &mut streams),
                 Level::Rcm { .. } | Level::Full => self.array_streams(frame, &mut streams)?,
             }
             self.driver.stream(&streams, usize::MAX, gaps)?;
@@ -216,7 +216,7 @@ impl<'a> Session<'a> {
             Frame::from_fn(width, height, frame.bits(), |x, y| frame.clamped(x.into(), y.into()));
         let part = part.map_err(|error| CosimError::Model { reason: error.to_string() })?;
         for region in 0..self.design.regions() {
-            region_stream(self.design, &part, region, streams);
+            region_stream(&self.design, &part, region, streams);
         }
         Ok(())
     }

@@ -4,7 +4,7 @@
 use super::super::applied::Applied;
 use super::super::kinds::Kinds;
 use crate::layout::Layout;
-use foveate_design::{Design, PortRole};
+use foveate_design::{PortRole, RasterDesign};
 use foveate_model::RasterOutput;
 
 /// Puts values of raster models into records.
@@ -16,8 +16,8 @@ pub struct RasterCodec {
 impl RasterCodec {
     /// The codec of a design.
     #[must_use]
-    pub fn new(design: &Design) -> Self {
-        Self { kinds: Kinds::of(design) }
+    pub fn new(design: RasterDesign<'_>) -> Self {
+        Self { kinds: Kinds::of(&design) }
     }
 
     pub(crate) fn inputs(&self, layout: &Layout, applied: &Applied<'_>, record: &mut [u8]) {

@@ -14,7 +14,7 @@ use super::sink::{Mood, Sink};
 use super::words::words;
 use crate::error::CosimError;
 use crate::recording::Recorder;
-use foveate_design::{Design, Thresholds as Mode};
+use foveate_design::{RasterDesign, Thresholds as Mode};
 use foveate_frame::Frame;
 use foveate_model::{RasterOutput, RasterRcm, Thresholds, region_stream};
 use foveate_toolchain::ToolError;
@@ -33,7 +33,7 @@ pub(super) enum Until {
 
 /// Offers frames to the model.
 pub(crate) struct Driver<'a> {
-    design: Design,
+    design: RasterDesign<'a>,
     model: RasterRcm,
     aimer: Aimer,
     cancel: &'a AtomicBool,
@@ -60,16 +60,16 @@ pub(crate) struct Driver<'a> {
 
 impl<'a> Driver<'a> {
     pub(crate) fn new(
-        design: &Design,
+        design: RasterDesign<'a>,
         recorder: &'a mut Recorder,
         mut random: Random,
         cancel: &'a AtomicBool,
     ) -> Self {
-        let configured = Thresholds::of(design);
+        let configured = Thresholds::of(&design);
         let max = u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits");
         Self {
             model: RasterRcm::new(design),
-            aimer: Aimer::new(design),
+            aimer: Aimer::new(&design),
             cancel,
             input: recorder.inputs().record(),
             expected: recorder.outputs().record(),
@@ -86,7 +86,7 @@ impl<'a> Driver<'a> {
             sink: Sink::new(Mood::Willing),
             max,
             garbage: vec![0; design.pixels_per_clock() as usize],
-            design: design.clone(),
+            design,
         }
     }
 
@@ -142,7 +142,7 @@ impl<'a> Driver<'a> {
     ) -> Result<(), CosimError> {
         self.manners = Manners::any(&mut self.random);
         let (max, random) = (self.max, &mut self.random);
-        let words = words(&self.design, frame, || random.pixel(max));
+        let words = words(self.design, frame, || random.pixel(max));
         self.wait(words.first().map(Vec::as_slice))?;
         self.settle();
         for (place, word) in words.iter().enumerate() {
@@ -175,7 +175,7 @@ impl<'a> Driver<'a> {
     ) -> Result<(), CosimError> {
         self.manners = Manners::any(&mut self.random);
         let (max, random) = (self.max, &mut self.random);
-        let words = words(&self.design, frame, || random.pixel(max));
+        let words = words(self.design, frame, || random.pixel(max));
         self.thresholds = self.configured;
         for (sof, place) in delivery.beats(words.len(), &mut self.random) {
             let word = place.map(|place| words[place].as_slice());

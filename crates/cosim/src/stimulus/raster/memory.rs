@@ -3,7 +3,7 @@
 
 use super::super::random::Random;
 use super::queue::Queue;
-use foveate_design::{Design, RasterTiming, Store};
+use foveate_design::{RasterDesign, RasterTiming, Store};
 use foveate_model::RasterOutput;
 
 /// A wrong word comes once in so many.
@@ -37,7 +37,7 @@ pub(super) struct Memory {
 
 impl Memory {
     /// None where the frame store is inside, so that nothing is drawn.
-    pub(super) fn of(design: &Design, max: u16, random: &mut Random) -> Option<Self> {
+    pub(super) fn of(design: RasterDesign<'_>, max: u16, random: &mut Random) -> Option<Self> {
         (design.store() == Store::External).then(|| Self {
             queue: Queue::default(),
             lapse: Lapse::None,

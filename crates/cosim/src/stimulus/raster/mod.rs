@@ -21,12 +21,13 @@ use super::run::Run;
 use crate::error::CosimError;
 pub use codec::RasterCodec;
 use driver::Driver;
+use foveate_design::RasterDesign;
 pub(crate) use queue::Queue;
 use session::Session;
 pub(crate) use words::words;
 
-pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { level, seed, extent, frames, design, simulated, recorder, cancel, progress } = run;
+pub(super) fn record(simulated: RasterDesign<'_>, run: Run<'_>) -> Result<(), CosimError> {
+    let Run { level, seed, extent, frames, design, recorder, cancel, progress } = run;
     let mut random = Random::new(seed);
     let driver = Driver::new(simulated, recorder, random.fork(), cancel);
     Session::new(design, simulated, level, driver, random).run(extent, frames, progress)

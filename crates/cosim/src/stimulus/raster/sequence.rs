@@ -5,7 +5,7 @@
 use super::super::ahead::Aim;
 use super::super::motif::Motif::{self, *};
 use super::memory::Lapse;
-use foveate_design::{Design, Store};
+use foveate_design::{RasterDesign, Store};
 
 /// A sequence of frames with one thing in common.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +58,7 @@ const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Sequence
 }
 
 /// The sequences of a design.
-pub(super) fn sequences(design: &Design) -> Vec<Sequence> {
+pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     let failing = if design.store() == Store::External { FAILING } else { &[] };
     SEQUENCES.iter().chain(failing).copied().collect()
 }

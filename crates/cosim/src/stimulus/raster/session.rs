@@ -15,7 +15,7 @@ use super::sequence::{End, Sequence, sequences};
 use super::sink::Mood;
 use crate::error::CosimError;
 use crate::level::Level;
-use foveate_design::{Design, RasterTiming};
+use foveate_design::{Design, RasterDesign, RasterTiming};
 use foveate_frame::Frame;
 
 /// The sink that loses most of those that stall: the one of a recording that has few sequences.
@@ -28,7 +28,7 @@ pub(crate) struct Session<'a> {
     /// The design whose frames the caller gives.
     whole: &'a Design,
     /// The design that is simulated.
-    design: &'a Design,
+    design: RasterDesign<'a>,
     level: Level,
     driver: Driver<'a>,
     random: Random,
@@ -41,12 +41,12 @@ pub(crate) struct Session<'a> {
 impl<'a> Session<'a> {
     pub(crate) fn new(
         whole: &'a Design,
-        design: &'a Design,
+        design: RasterDesign<'a>,
         level: Level,
         driver: Driver<'a>,
         mut random: Random,
     ) -> Self {
-        let gallery = Gallery::new(design, &mut random);
+        let gallery = Gallery::new(&design, &mut random);
         Self {
             whole,
             design,
@@ -243,7 +243,7 @@ impl<'a> Session<'a> {
             if number > 0 {
                 self.driver.name(&name, number);
             }
-            let part = parts::cut(self.design, frame, size, |x, y| (left + x, top + y))?;
+            let part = parts::cut(&self.design, frame, size, |x, y| (left + x, top + y))?;
             self.driver.take(&part, Until::End, gaps)?;
         }
         self.driver.drain()?;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame as the pixel port of a core takes it.
 
-use foveate_design::Design;
+use foveate_design::RasterDesign;
 use foveate_frame::Frame;
 
 /// The words of a frame, row by row. Pixels of the last word of a row that lie beyond the frame are `nothing`.
 pub(crate) fn words(
-    design: &Design,
+    design: RasterDesign<'_>,
     frame: &Frame,
     mut nothing: impl FnMut() -> u16,
 ) -> Vec<Vec<u16>> {

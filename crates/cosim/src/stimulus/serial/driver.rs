@@ -11,7 +11,7 @@ use super::codec::SerialCodec;
 use super::feed::Feed;
 use crate::error::CosimError;
 use crate::recording::Recorder;
-use foveate_design::{Design, Thresholds as Mode};
+use foveate_design::{SerialDesign, Thresholds as Mode};
 use foveate_model::{SerialOutput, SerialRcm, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,14 +44,14 @@ pub(crate) struct Driver<'a> {
 
 impl<'a> Driver<'a> {
     pub(crate) fn new(
-        design: &Design,
+        design: SerialDesign<'_>,
         recorder: &'a mut Recorder,
         random: Random,
         cancel: &'a AtomicBool,
     ) -> Self {
-        let (model, configured) = (SerialRcm::new(design), Thresholds::of(design));
+        let (model, configured) = (SerialRcm::new(design), Thresholds::of(&design));
         Self {
-            aimer: Aimer::new(design),
+            aimer: Aimer::new(&design),
             cancel,
             input: recorder.inputs().record(),
             expected: recorder.outputs().record(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame as the pixel port takes it.
 
-use foveate_design::{Design, Feed as Order};
+use foveate_design::{Feed as Order, SerialDesign};
 use foveate_frame::Frame;
 use foveate_model::region_stream;
 
@@ -17,10 +17,14 @@ pub(crate) struct Feed {
 
 impl Feed {
     /// The frame for a design of its size. What the port shows for empty slots is `nothing`.
-    pub(crate) fn of(design: &Design, frame: &Frame, nothing: impl FnMut() -> u16) -> Self {
+    pub(crate) fn of(
+        design: SerialDesign<'_>,
+        frame: &Frame,
+        nothing: impl FnMut() -> u16,
+    ) -> Self {
         let mut streams = Vec::new();
         for region in 0..design.regions() {
-            region_stream(design, frame, region, &mut streams);
+            region_stream(&design, frame, region, &mut streams);
         }
         let stream_pixels = design.stream_pixels() as usize;
         let (width, pixels) = match design.feed() {
@@ -50,7 +54,7 @@ impl Feed {
 }
 
 /// The padded frame, row by row.
-fn raster(design: &Design, frame: &Frame) -> Vec<u16> {
+fn raster(design: SerialDesign<'_>, frame: &Frame) -> Vec<u16> {
     let side = i64::from(design.region_size());
     let (width, height) = (i64::from(design.columns()) * side, i64::from(design.rows()) * side);
     let row = |y| (0..width).map(move |x| frame.clamped(x, y));
@@ -58,7 +62,11 @@ fn raster(design: &Design, frame: &Frame) -> Vec<u16> {
 }
 
 /// The stream of slot 0 of every lane, then that of slot 1, ...
-fn parallel(design: &Design, streams: &[u16], mut nothing: impl FnMut() -> u16) -> Vec<u16> {
+fn parallel(
+    design: SerialDesign<'_>,
+    streams: &[u16],
+    mut nothing: impl FnMut() -> u16,
+) -> Vec<u16> {
     let (lanes, fold) = (design.lanes() as usize, design.fold() as usize);
     let count = design.stream_pixels() as usize;
     let mut pixels = Vec::with_capacity(fold * count * lanes);

@@ -19,13 +19,14 @@ use crate::error::CosimError;
 pub use codec::SerialCodec;
 use driver::Driver;
 pub(crate) use feed::Feed;
-use foveate_design::SerialTiming;
+use foveate_design::{SerialDesign, SerialTiming};
 use session::Session;
 
-pub(super) fn record(run: Run<'_>) -> Result<(), CosimError> {
-    let Run { level, seed, extent, frames, design, simulated, recorder, cancel, progress } = run;
+pub(super) fn record(simulated: SerialDesign<'_>, run: Run<'_>) -> Result<(), CosimError> {
+    let Run { level, seed, extent, frames, design, recorder, cancel, progress } = run;
     let mut random = Random::new(seed);
     let driver = Driver::new(simulated, recorder, random.fork(), cancel);
     let timing = SerialTiming::of(simulated);
-    Session::new(design, simulated, level, &timing, driver, random).run(extent, frames, progress)
+    let whole = design.on(simulated.own());
+    Session::new(whole, simulated, level, &timing, driver, random).run(extent, frames, progress)
 }

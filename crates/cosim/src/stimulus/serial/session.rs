@@ -14,7 +14,7 @@ use super::feed::Feed;
 use super::sequence::{End, SEQUENCES, Sequence};
 use crate::error::CosimError;
 use crate::level::Level;
-use foveate_design::{Design, Phase, SerialTiming};
+use foveate_design::{Phase, SerialDesign, SerialTiming};
 use foveate_frame::Frame;
 
 /// Clocks that are simulated after the last frame of a sequence has left.
@@ -23,9 +23,9 @@ const SILENCE: u64 = 5;
 /// A recording under way.
 pub(crate) struct Session<'a> {
     /// The design whose frames the caller gives.
-    whole: &'a Design,
+    whole: SerialDesign<'a>,
     /// The design that is simulated.
-    design: &'a Design,
+    design: SerialDesign<'a>,
     level: Level,
     driver: Driver<'a>,
     random: Random,
@@ -39,14 +39,14 @@ pub(crate) struct Session<'a> {
 
 impl<'a> Session<'a> {
     pub(crate) fn new(
-        whole: &'a Design,
-        design: &'a Design,
+        whole: SerialDesign<'a>,
+        design: SerialDesign<'a>,
         level: Level,
         timing: &SerialTiming,
         driver: Driver<'a>,
         mut random: Random,
     ) -> Self {
-        let gallery = Gallery::new(design, &mut random);
+        let gallery = Gallery::new(&design, &mut random);
         let before = |&&(phase, _): &&(Phase, u64)| phase != Phase::RotateCount;
         let steps: u64 = timing.phases().iter().take_while(before).map(|&(_, steps)| steps).sum();
         Self {
@@ -216,7 +216,7 @@ impl<'a> Session<'a> {
             }
             let part = match self.level {
                 Level::Rpu => parts::of_lane(self.whole, frame, first)?,
-                Level::Rcm { .. } | Level::Full => parts::upper_left(self.design, frame)?,
+                Level::Rcm { .. } | Level::Full => parts::upper_left(&self.design, frame)?,
             };
             let feed = self.feed(&part);
             self.driver.take(&feed, feed.count(), gaps)?;

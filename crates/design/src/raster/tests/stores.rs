@@ -61,9 +61,9 @@ fn forwarding_is_the_default_and_changes_no_fingerprint() {
     assert_eq!((named.fingerprint(), named.config()), (plain.fingerprint(), plain.config()));
     assert!(plain.forwards() && !plain.config().to_toml().contains("forward"));
     let alone = design(&["hardware.forward=false", "hardware.store=external"]);
-    assert!(!alone.forwards() && alone.store() == Store::External);
+    assert!(!alone.forwards() && alone.raster().unwrap().store() == Store::External);
     assert_eq!(
-        alone.hardware().in_words(),
+        alone.config().hardware.in_words(),
         "raster, 1 pixel per clock, plain pipelining, external store, no forwarding"
     );
     let again = crate::Config::from_toml(&alone.config().to_toml()).unwrap();
@@ -171,7 +171,7 @@ fn without_forwarding_decisions_are_all_that_leaves() {
 /// Every number but those of the buffer and of the last word is that of the core that forwards.
 #[test]
 fn numbers_follow_the_store_and_forwarding() {
-    let timing = |more: &[&str]| RasterTiming::of(&design(more));
+    let timing = |more: &[&str]| RasterTiming::of(design(more).raster().unwrap());
     let plain = timing(&[]);
     for store in ["ultra", "single-port", "external"] {
         assert_eq!(timing(&[&format!("hardware.store={store}")]), plain);
@@ -197,5 +197,5 @@ fn numbers_follow_the_store_and_forwarding() {
 #[test]
 fn the_lone_core_keeps_its_store() {
     let lone = design(&["hardware.store=external", "hardware.forward=false"]).lone_unit();
-    assert!(!lone.forwards() && lone.store() == Store::External);
+    assert!(!lone.forwards() && lone.raster().unwrap().store() == Store::External);
 }

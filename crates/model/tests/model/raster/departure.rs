@@ -39,10 +39,10 @@ fn sensor(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> Sensor {
 /// What the core shows after every edge until nothing is under way.
 fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<RasterOutput> {
     let design = recipe.design();
-    let (mut rcm, thresholds) = (RasterRcm::new(&design), Thresholds::of(&design));
+    let (mut rcm, thresholds) = (RasterRcm::new(design.raster().unwrap()), Thresholds::of(&design));
     let nothing = vec![0; recipe.pixels as usize];
     let mut shown = vec![rcm.output().clone()];
-    let mut left = RasterTiming::of(&design).edges_to_ready() + 5;
+    let mut left = RasterTiming::of(design.raster().unwrap()).edges_to_ready() + 5;
     while left > 0 {
         let now = shown.len() as u64;
         let word = words.front().filter(|(read, _)| *read <= now).map(|(_, word)| word.clone());
@@ -105,7 +105,7 @@ fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> (usize, usize
     let sensor = sensor(recipe, film, paces);
     let seen = seen(recipe, &shown(recipe, sensor.words));
     assert_eq!(seen.len(), film.len());
-    let mut stream = RasterStream::new(RasterTiming::of(&recipe.design()), 1);
+    let mut stream = RasterStream::new(RasterTiming::of(recipe.design().raster().unwrap()), 1);
     let (mut rows, mut partly) = (0, 0);
     for (seen, (begin, (word, _))) in seen.iter().zip(sensor.begins) {
         let of_row = word * recipe.taken_of_row() as u64;

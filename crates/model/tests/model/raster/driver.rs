@@ -86,7 +86,7 @@ pub(crate) struct Driver {
 impl Driver {
     pub(crate) fn new(recipe: &RasterRecipe, manner: Manner) -> Self {
         let design = recipe.design();
-        let rcm = RasterRcm::new(&design);
+        let rcm = RasterRcm::new(design.raster().unwrap());
         let mut driver = Self {
             recipe: recipe.clone(),
             rcm,

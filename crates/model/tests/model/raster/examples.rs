@@ -21,8 +21,8 @@ fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
 /// The outputs after every edge up to `last` while one frame of ones is applied as fast as it is taken; `sink`
 /// says at which edges it is ready.
 fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<RasterOutput> {
-    let mut rcm = RasterRcm::new(design);
-    let ones = vec![1; design.pixels_per_clock() as usize];
+    let mut rcm = RasterRcm::new(design.raster().unwrap());
+    let ones = vec![1; design.raster().unwrap().pixels_per_clock() as usize];
     let thresholds = Thresholds::of(design);
     let mut left = design.timing().pixels_per_frame();
     let mut outputs = vec![rcm.output().clone()];
@@ -113,7 +113,7 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=278)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
     let most = |design| RasterTiming::of(design).most_clocks_per_frame();
-    assert_eq!((most(&previous), most(&last_sent)), (158, 279));
+    assert_eq!((most(previous.raster().unwrap()), most(last_sent.raster().unwrap())), (158, 279));
 }
 
 /// The first word of row of regions g is stored at edge 64 g + 21. The sink is not ready before edge 400: the
@@ -218,7 +218,7 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
 #[test]
 fn frames_have_numbers() {
     let design = design("edge", (16, 4), &[]);
-    let mut rcm = RasterRcm::new(&design);
+    let mut rcm = RasterRcm::new(design.raster().unwrap());
     let thresholds = Thresholds::of(&design);
     let (mut whole, mut lost, mut taken, mut decided) = (Vec::new(), Vec::new(), 0, 0);
     while taken < 600 * 64 {
@@ -256,7 +256,7 @@ fn frames_have_numbers() {
 #[test]
 fn after_a_reset_nothing_is_shown() {
     let design = design("edge", (16, 16), &[]);
-    let mut rcm = RasterRcm::new(&design);
+    let mut rcm = RasterRcm::new(design.raster().unwrap());
     let fresh = rcm.clone();
     let thresholds = Thresholds::of(&design);
     let input = RasterInput {

@@ -36,11 +36,12 @@ struct Play {
 
 impl Play {
     fn new(design: &Design) -> Self {
-        let rcm = RasterRcm::new(design);
+        let rcm = RasterRcm::new(design.raster().unwrap());
         Self {
             thresholds: Thresholds::of(design),
-            width: u64::from(design.width()).div_ceil(design.pixels_per_clock().into()),
-            pixels: design.pixels_per_clock() as usize,
+            width: u64::from(design.width())
+                .div_ceil(design.raster().unwrap().pixels_per_clock().into()),
+            pixels: design.raster().unwrap().pixels_per_clock() as usize,
             queue: VecDeque::new(),
             outputs: vec![rcm.output().clone()],
             rcm,
@@ -248,7 +249,7 @@ fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
     let shown = &play.outputs[200];
     assert!(shown.reference_ready && shown.store_valid && shown.underrun);
     play.reset();
-    let fresh = RasterRcm::new(&outside("edge", (16, 8), &[])).output().clone();
+    let fresh = RasterRcm::new(outside("edge", (16, 8), &[]).raster().unwrap()).output().clone();
     assert_eq!(play.outputs[0], fresh);
     assert!(!fresh.reference_ready && !fresh.store_valid && !fresh.underrun);
     // The frame after it is a first frame.

@@ -99,7 +99,7 @@ fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &Outcome, design: &Design) {
 fn check(recipe: &SerialRecipe, film: &[Frame]) {
     let design = recipe.design();
     let mut camera = FunctionalCamera::new(&design);
-    let mut rcm = SerialRcm::new(&design);
+    let mut rcm = SerialRcm::new(design.serial().unwrap());
     let side = design.region_size();
     let width = design.columns() * side;
     let mut screen = Screen::black(&design);

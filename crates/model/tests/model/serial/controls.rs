@@ -49,7 +49,8 @@ fn expect(built: &SerialRecipe, spoil: &Spoil) -> Check {
             job.facts = other.facts;
         }
     }
-    let mut bench = Bench::new(&expected, SerialRcm::new(&built.design()), Manner::DENSE);
+    let mut bench =
+        Bench::new(&expected, SerialRcm::new(built.design().serial().unwrap()), Manner::DENSE);
     match spoil {
         Spoil::Nothing | Spoil::Recipe(_) => {}
         Spoil::Clock => bench.late = 1,

@@ -14,7 +14,7 @@ fn design(toml: &str) -> Design {
 /// The outputs after every edge of a frame of ones, applied as fast as it is taken, from edge 1 to the
 /// one after which the array is ready again; and the edges that took a pixel.
 fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
-    let mut rcm = SerialRcm::new(design);
+    let mut rcm = SerialRcm::new(design.serial().unwrap());
     let ones = vec![1; rcm.output().forward_valid.len()];
     let thresholds = Thresholds::of(design);
     let (mut outputs, mut taken) = (vec![rcm.output().clone()], Vec::new());
@@ -159,7 +159,7 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
     // n = 16: 16 * 6 to compare, 1 + 1, 32 + 8 + 3 for the deviation, 1 + 1, 16 pixels.
     let steps = 96 + 2 + 43 + 2 + 16;
     let ready = 16 + 1 + steps;
-    let mut rcm = SerialRcm::new(&design);
+    let mut rcm = SerialRcm::new(design.serial().unwrap());
     let thresholds = Thresholds::of(&design);
     let mut leaves = Vec::new();
     for edge in 1..=2 * ready {
@@ -190,7 +190,7 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
 fn a_reset_takes_no_pixel_and_makes_ready() {
     let design = design("[frame]\nwidth = 8\nheight = 8\n[hardware]\norganization = \"serial\"\n");
     let thresholds = Thresholds::of(&design);
-    let mut rcm = SerialRcm::new(&design);
+    let mut rcm = SerialRcm::new(design.serial().unwrap());
     let mut step = |reset, valid| {
         let input = SerialInput { reset, valid, sof: false, pixels: &[9], thresholds: &thresholds };
         rcm.step(&input).ready
@@ -211,11 +211,14 @@ fn one_lane_is_a_row_of_its_slots() {
         "[frame]\nwidth = 40\nheight = 16\n[region]\nneighborhood = \"shared\"\n\
          [hardware]\norganization = \"serial\"\nfold = 3\n",
     );
-    let (outputs, taken) = play(&design.one_lane(), 3 * 144);
+    let (outputs, taken) = play(&design.serial().unwrap().one_lane(), 3 * 144);
     assert_eq!((outputs[0].forward_valid.len(), taken.len()), (1, 432));
     let regions: Vec<u32> = decisions(&outputs).into_iter().map(|(_, region)| region).collect();
     assert_eq!(regions, [0, 1, 2]);
-    assert_eq!(outputs.len() as u64 - 1, design.one_lane().timing().clocks_per_frame());
+    assert_eq!(
+        outputs.len() as u64 - 1,
+        design.serial().unwrap().one_lane().timing().clocks_per_frame()
+    );
 }
 
 /// While the array says that it is quiet, a step changes nothing of what is seen, and skipping it is the same.
@@ -225,7 +228,7 @@ fn quiet_clocks_are_quiet_and_can_be_skipped() {
         let hardware = format!("hardware = {{ organization = 'serial', fold = {fold} }}");
         let design =
             design(&format!("frame = {{ width = 12, height = 4 }}\nregion.size = 4\n{hardware}\n"));
-        let mut rcm = SerialRcm::new(&design);
+        let mut rcm = SerialRcm::new(design.serial().unwrap());
         let pixels = vec![1; rcm.output().forward_valid.len()];
         let thresholds = Thresholds::of(&design);
         while rcm.output().ready {
@@ -274,17 +277,18 @@ fn decisions_and_pixels_leave_when_the_design_says() {
         let departure = timing.departure();
         let (outputs, taken) = play(&design, timing.pixels_per_frame() as usize);
         let since = |edge: usize| (edge - taken.last().unwrap()) as u64;
-        for slot in 0..design.fold() {
+        for slot in 0..design.slots() {
             let wait = u64::from(slot) * departure.slot_clocks;
             let mut decided = decisions(&outputs).into_iter();
-            let last = decided.rfind(|(_, region)| region % design.fold() == slot);
+            let last = decided.rfind(|(_, region)| region % design.slots() == slot);
             let decided = since(last.unwrap().0);
             assert_eq!(decided, departure.decision_clocks + wait, "{hardware}, slot {slot}");
             let end = departure.forward_clocks + wait;
             let left = forwarding(&outputs).into_iter().map(since).filter(|&edge| edge <= end);
             assert_eq!(left.max(), Some(end), "{hardware}, slot {slot}");
         }
-        let after = departure.forward_clocks + u64::from(design.fold() - 1) * departure.slot_clocks;
+        let after =
+            departure.forward_clocks + u64::from(design.slots() - 1) * departure.slot_clocks;
         assert_eq!(forwarding(&outputs).into_iter().map(since).max(), Some(after), "{hardware}");
     }
 }

@@ -82,7 +82,7 @@ proptest! {
         script in scripts(4),
         manner in manners(),
     ) {
-        let rcm = SerialRcm::new(&recipe.design());
+        let rcm = SerialRcm::new(recipe.design().serial().unwrap());
         let check = Bench::new(&recipe, rcm, manner).run(&jobs(&recipe, &script));
         prop_assert_eq!(check, Ok(()));
     }
@@ -94,7 +94,7 @@ proptest! {
         manner in manners(),
         (cut, held) in (any::<u64>(), any::<bool>()),
     ) {
-        let mut bench = Bench::new(&recipe, SerialRcm::new(&recipe.design()), manner);
+        let mut bench = Bench::new(&recipe, SerialRcm::new(recipe.design().serial().unwrap()), manner);
         let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
         // Often while pixels are taken, though that is the smaller part of a frame.
         let whole = frame * before.len() as i64;
@@ -111,7 +111,7 @@ proptest! {
         clocks in prop_oneof![0u64..5, 0u64..100_000],
     ) {
         let jobs = jobs(&recipe, &script);
-        let mut bench = Bench::new(&recipe, SerialRcm::new(&recipe.design()), Manner::DENSE);
+        let mut bench = Bench::new(&recipe, SerialRcm::new(recipe.design().serial().unwrap()), Manner::DENSE);
         let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
         bench.stop_after(Random(cut).below(frame * jobs.len() as i64));
         prop_assert_eq!(bench.run(&jobs), Ok(()));

@@ -36,7 +36,7 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
     let (regions, places) = (design.regions() as usize, streams[0][0].len());
     let mut facts = vec![Vec::new(); regions];
     let mut leaving = vec![Vec::new(); regions];
-    let mut rcm = PipelinedRcm::new(&design);
+    let mut rcm = PipelinedRcm::new(design.pipelined().unwrap());
     // Black frames behind the last drive out what is still inside.
     for clock in 0..(streams.len() + 3) * places {
         let at = |region: usize| {
@@ -87,7 +87,7 @@ proptest! {
             facts,
         };
         let jobs: Vec<Job> = streams.iter().zip(pipelined(&recipe, &streams)).map(job).collect();
-        let rcm = SerialRcm::new(&recipe.design());
+        let rcm = SerialRcm::new(recipe.design().serial().unwrap());
         prop_assert_eq!(Bench::new(&recipe, rcm, Manner::DENSE).run(&jobs), Ok(()));
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An array of any organization at its ports: what it takes, and what it decides of which region.
 
-use foveate_design::{Design, Feed, Organization};
+use foveate_design::{Design, Feed, Hardware};
 use foveate_frame::Frame;
 use foveate_model::{
     PipelinedRcm, RasterInput, RasterRcm, RcmInput, SerialInput, SerialRcm, Thresholds,
@@ -35,10 +35,10 @@ pub(crate) struct Seen {
 
 impl Machine {
     pub(crate) fn new(design: &Design) -> Self {
-        match design.organization() {
-            Organization::Pipelined => Self::Pipelined(PipelinedRcm::new(design)),
-            Organization::Serial => Self::Serial(Box::new(SerialRcm::new(design))),
-            Organization::Raster => Self::Raster(Box::new(RasterRcm::new(design))),
+        match design.hardware() {
+            Hardware::Pipelined(own) => Self::Pipelined(PipelinedRcm::new(design.on(own))),
+            Hardware::Serial(own) => Self::Serial(Box::new(SerialRcm::new(design.on(own)))),
+            Hardware::Raster(own) => Self::Raster(Box::new(RasterRcm::new(design.on(own)))),
         }
     }
 
@@ -115,15 +115,17 @@ impl Machine {
 fn place(design: &Design, x: u32, y: u32) -> (u32, u32) {
     let (n, columns) = (design.region_size(), design.columns());
     let (region, position) = (y / n * columns + x / n, y % n * n + x % n);
-    match (design.organization(), design.feed()) {
-        (Organization::Pipelined, _) => (position, region),
-        (Organization::Serial, Feed::Raster) => (y * columns * n + x, 0),
-        (Organization::Serial, Feed::Parallel) => {
-            let (lane, slot) = (region / design.fold(), region % design.fold());
-            (slot * n * n + position, lane)
-        }
-        (Organization::Raster, _) => {
-            let word = design.pixels_per_clock();
+    match design.hardware() {
+        Hardware::Pipelined(_) => (position, region),
+        Hardware::Serial(own) => match own.feed {
+            Feed::Raster => (y * columns * n + x, 0),
+            Feed::Parallel => {
+                let (lane, slot) = (region / own.fold, region % own.fold);
+                (slot * n * n + position, lane)
+            }
+        },
+        Hardware::Raster(own) => {
+            let word = own.pixels_per_clock;
             (y * design.width().div_ceil(word) + x / word, x % word)
         }
     }
