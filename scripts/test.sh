@@ -28,8 +28,8 @@ scripts/python_tools.sh --package >"$packages" 2>&1 &
 installed=$!
 step "format"
 cargo fmt --all --check
-step "places that know which variant it is"
-scripts/variant_cost.py --check
+step "code that would take a new variant for another"
+scripts/variants.py
 step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "shell, Python, dependencies"

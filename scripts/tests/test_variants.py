@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What variants.py takes for code that would take a new variant for one that it knows."""
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
+
+from variants import open_tests  # noqa: E402
+
+
+class Variants(unittest.TestCase):
+    def lines(self, text, expected):
+        self.assertEqual(open_tests(text), expected, text)
+
+    def test_comparisons_are_found(self):
+        self.lines("let a = 1;\nif design.organization() == Organization::Raster {}", [2])
+        self.lines("if Organization::Serial != design.organization() {}", [1])
+        self.lines("if reference == foveate_design::Reference::LastSent {}", [1])
+        self.lines("let is = matches!(design.hardware(), Hardware::Serial(_));", [1])
+        self.lines("let is = matches!(\n    kind,\n    FeatureKind::Edge | FeatureKind::Corner\n);", [1])
+
+    def test_arms_that_catch_all_are_found(self):
+        self.lines("match design.hardware() {\n    Hardware::Raster(own) => own.words(),\n    _ => 1,\n}", [3])
+        self.lines("match kind {\n    FeatureKind::Edge => { a(b, c) }\n    other => d(other),\n}", [3])
+        self.lines("match (reference, is) {\n    (Reference::Previous, true) => 1,\n    _ => 2,\n}", [3])
+
+    def test_what_names_every_variant_is_not(self):
+        self.lines("match kind {\n    None => 0,\n    Some(FeatureKind::Edge | FeatureKind::Mad) => 1,\n}", [])
+        self.lines("match role {\n    PortRole::Region => 1,\n    _ => 2,\n}", [])
+        self.lines("match hardware {\n    Hardware::Serial(own) => match own.feed { Feed::Raster => 1, _ => 2 },\n}", [])
+        self.lines("config.organization = Organization::Raster;", [])
+        self.lines("let all = FeatureKind::ALL.len() == FeatureKind::COUNT;", [])
+
+    def test_comments_text_and_tests_are_not_looked_at(self):
+        self.lines("// a == Organization::Raster\n", [])
+        self.lines('let text = "a == Organization::Raster";', [])
+        self.lines("#[cfg(test)]\nmod tests { fn f() { a == Organization::Raster } }", [])
+
+
+if __name__ == "__main__":
+    unittest.main()

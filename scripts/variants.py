@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Finds code that would take a new organization, feature or reference for one that it knows.
+
+    scripts/variants.py
+
+Where code does something for one variant, the compiler has to name the place when another variant comes. So there is a
+`match` with every variant, or a method of the type. A comparison (`==`, `matches!`) and a catch-all arm (`_ =>`) compile
+with a new variant and take it for any other. This prints each of them outside of tests, and fails if there is one.
+
+Not looked at: folders `tests`, `benches` and `examples`, files tests.rs, what follows `#[cfg(test)]`, and comments.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+TYPES = ("Organization", "Hardware", "FeatureKind", "Reference", "Irrelevant")
+NAMES = rf"\b(?:{'|'.join(TYPES)})::[A-Z]\w*"
+TESTS = re.compile(r"(^|/)(tests|benches|examples)/|(^|/)tests\.rs$")
+COMPARISON = re.compile(rf"[!=]=\s*(?:\w+::)*{NAMES}|{NAMES}(?:\([^)]*\))?\s*[!=]=[^>]|matches!\([^;]*?{NAMES}")
+# Where code is about one variant by its purpose.
+OWN_PURPOSE = {"crates/studies/src/study/histogram.rs": "the study is about mad"}
+# A constant such as FeatureKind::ALL is no variant.
+CONSTANT = re.compile(r"::[A-Z][A-Z_]+\b")
+
+
+def code(text):
+    """The text without comments, strings and its tests; as many lines."""
+    text = text.split("#[cfg(test)]")[0]
+    text = re.sub(r"//.*", "", text)
+    text = re.sub(r'"(?:\\.|[^"\\])*"', lambda found: '""' + "\n" * found[0].count("\n"), text)
+    return CONSTANT.sub("", text)
+
+
+def arms(text, start):
+    """The patterns of the arms of the `match` whose `{` is at `start`, each with its place."""
+    depth, pattern, place, found = 0, "", start + 1, []
+    at = start
+    while at < len(text):
+        character = text[at]
+        if depth == 1 and text.startswith("=>", at):
+            blank = len(pattern) - len(pattern.lstrip())
+            found.append((pattern.strip(), place + blank))
+            at, pattern = past_arm(text, at + 2), ""
+            place = at
+            continue
+        if character in "{([":
+            depth += 1
+        elif character in "})]":
+            depth -= 1
+            if depth == 0:
+                return found
+        if at != start:
+            pattern += character
+        at += 1
+    return found
+
+
+def past_arm(text, at):
+    """Where the body of an arm ends that begins at `at`."""
+    depth = 0
+    while at < len(text):
+        character = text[at]
+        if character in "{([":
+            depth += 1
+        elif character in "})]":
+            depth -= 1
+            if depth < 0:
+                return at
+            if depth == 0 and character == "}" and not re.match(r"\s*(?:[,.?]|else\b)", text[at + 1 :]):
+                return at + 1
+        elif character == "," and depth == 0:
+            return at + 1
+        at += 1
+    return at
+
+
+def catch_alls(text):
+    """Places of `_ =>` in a match on one of the types."""
+    for found in re.finditer(r"\bmatch\b[^{};]*\{", text):
+        patterns = arms(text, found.end() - 1)
+        if any(re.search(NAMES, pattern) for pattern, _ in patterns):
+            yield from (place for pattern, place in patterns if re.fullmatch(r"[a-z_]\w*", pattern))
+
+
+def open_tests(text):
+    """Lines of what would take a new variant for another one."""
+    text = code(text)
+    places = [found.start() for found in COMPARISON.finditer(text)] + list(catch_alls(text))
+    return sorted(text.count("\n", 0, place) + 1 for place in places)
+
+
+def main():
+    """Prints each place; the exit code is 1 if there is one."""
+    count = 0
+    for file in sorted(ROOT.glob("crates/**/*.rs")) + sorted(ROOT.glob("python/src/**/*.rs")):
+        path = file.relative_to(ROOT).as_posix()
+        if TESTS.search(path) or path in OWN_PURPOSE:
+            continue
+        for line in open_tests(file.read_text(encoding="utf-8")):
+            print(f"{path}:{line}: takes a new variant for one that is known; match every variant, or ask the type")
+            count += 1
+    if count:
+        sys.exit(f"variants: {count} places")
+
+
+if __name__ == "__main__":
+    main()
