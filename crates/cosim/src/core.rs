@@ -23,7 +23,7 @@ const CORE: Kind = Kind {
 pub struct WrittenCore {
     /// Its files, relative to the folder.
     pub files: Vec<String>,
-    /// The bench of one RPU or lane, and that of the array.
+    /// The bench of each module on top: one RPU or lane, and the array; of a raster core the one.
     pub benches: Vec<ShippedBench>,
     /// What the names of its modules begin with.
     pub prefix: Prefix,
@@ -57,7 +57,8 @@ pub fn write_core(
     let staged = StagedFolder::new(folder, CORE, overwrite)?;
     let mut files = foveate_emit::core(design, prefix);
     let bench = |top| ShippedBench::new(design, top, prefix, cancel);
-    let benches = [Top::Rpu, Top::Rcm].into_iter().map(bench).collect::<Result<Vec<_>, _>>()?;
+    let benches =
+        Top::all_of(design).iter().map(|&top| bench(top)).collect::<Result<Vec<_>, _>>()?;
     files.extend(benches.iter().flat_map(|bench| bench.files.iter().cloned()));
     files.extend(timing_diagram(design, cancel)?);
     for file in &files {

@@ -15,6 +15,7 @@ struct FuseSoc<'a> {
     version: &'static str,
     name: String,
     before: String,
+    has_rpu: bool,
     columns: u32,
     rows: u32,
     n: u32,
@@ -30,6 +31,7 @@ struct Replay {
     banner: String,
     /// What file lists and benches begin with: the prefix and its `_`.
     before: String,
+    has_rpu: bool,
     simulator: &'static str,
 }
 
@@ -38,6 +40,7 @@ struct Replay {
 struct Vivado {
     banner: String,
     before: String,
+    has_rpu: bool,
 }
 
 /// Clocks of a frame, of all lanes, from which a bench is slower in Icarus than Verilator takes to compile it.
@@ -47,17 +50,20 @@ const ICARUS_CLOCKS: u64 = 40_000;
 /// modules begin with `prefix`.
 #[must_use]
 pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
-    let mut files = prefix.apply(verilog(design, Top::Rcm));
-    let rcm_list = file_list(&files);
-    let unit = prefix.apply(verilog(design, Top::Rpu));
-    let unit_list = file_list(&unit);
-    // A serial array has no RPU inside.
-    files.extend(unit.into_iter().filter(|file| !rcm_list.contains(&file.path)));
+    let (mut files, mut lists) = (Vec::<SourceFile>::new(), Vec::new());
+    for &top in Top::all_of(design).iter().rev() {
+        let sources = prefix.apply(verilog(design, top));
+        let path = prefix.name(&format!("{}.f", top.module()));
+        lists.push(SourceFile { path, contents: file_list(&sources) });
+        // A serial array has no RPU inside.
+        let is_new = |file: &SourceFile| files.iter().all(|known| known.path != file.path);
+        let new: Vec<_> = sources.into_iter().filter(is_new).collect();
+        files.extend(new);
+    }
     let paths: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
-    let vivado = Vivado { banner: banner(design), before: prefix.name("") };
+    let vivado =
+        Vivado { banner: banner(design), before: prefix.name(""), has_rpu: has_rpu(design) };
     let beside = [
-        (prefix.name("rpu.f"), unit_list),
-        (prefix.name("rcm.f"), rcm_list),
         ("foveate_rcm.core".to_owned(), text_of(&fusesoc(design, prefix, paths))),
         ("constraints/ooc.xdc".to_owned(), include_str!("../../../constraints/ooc.xdc").to_owned()),
         ("vivado_ooc.tcl".to_owned(), text_of(&vivado)),
@@ -65,6 +71,7 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         ("tb/replay.sh".to_owned(), text_of(&replay(design, prefix))),
         ("README.md".to_owned(), emitter(design).readme(prefix)),
     ];
+    files.extend(lists);
     files.extend(synth::files(design, prefix));
     files.extend(beside.map(|(path, contents)| SourceFile { path, contents }));
     files
@@ -78,8 +85,14 @@ fn replay(design: &Design, prefix: &Prefix) -> Replay {
     Replay {
         banner: banner(design),
         before: prefix.name(""),
+        has_rpu: has_rpu(design),
         simulator: if is_long { "verilator" } else { "iverilog" },
     }
+}
+
+/// Whether the core has a module `rpu` beside `rcm`.
+pub(crate) fn has_rpu(design: &Design) -> bool {
+    Top::all_of(design).contains(&Top::Rpu)
 }
 
 fn file_list(files: &[SourceFile]) -> String {
@@ -97,6 +110,7 @@ fn fusesoc<'a>(design: &Design, prefix: &Prefix, files: Vec<&'a str>) -> FuseSoc
         // No two designs have the same, and neither have two prefixes of one.
         name: prefix.name(&design.fingerprint()),
         before: prefix.name(""),
+        has_rpu: has_rpu(design),
         columns: design.columns(),
         rows: design.rows(),
         n: design.region_size(),

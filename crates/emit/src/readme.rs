@@ -6,6 +6,7 @@ mod sync;
 
 pub(crate) use raster::raster_readme;
 
+use crate::core::has_rpu;
 use crate::instance::instance;
 use crate::text::text_of;
 use crate::thresholds::threshold_value;
@@ -50,6 +51,7 @@ struct Readme {
     synthesized: &'static str,
     /// When the bench for `rpu` compares an output, beside "at every clock".
     compared: &'static str,
+    has_rpu: bool,
 }
 
 #[derive(Template)]
@@ -99,6 +101,7 @@ struct SerialReadme {
     synthesized: &'static str,
     /// When the bench for `rpu` compares an output, beside "at every clock".
     compared: &'static str,
+    has_rpu: bool,
 }
 
 struct PortRow {
@@ -170,6 +173,7 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
+        has_rpu: has_rpu(&design),
         compared: " at which it is valid",
     }
 }
@@ -230,6 +234,7 @@ fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: Pipeline
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
+        has_rpu: has_rpu(&design),
         compared: "",
     }
 }

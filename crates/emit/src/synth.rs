@@ -4,6 +4,7 @@
 //! They do what `foveate estimate --place-and-route` does. A core has more ports than a device has pins, so a
 //! module around it has a register of the device for each bit.
 
+use crate::core::has_rpu;
 use crate::text::text_of;
 use crate::{Prefix, SourceFile, Top, banner};
 use askama::Template;
@@ -113,6 +114,7 @@ struct Script {
     names: String,
     /// What is placed unless something else is asked for.
     top: &'static str,
+    has_rpu: bool,
 }
 
 #[derive(Template)]
@@ -194,6 +196,7 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
             devices: family.devices,
             names: names.join(", "),
             top: top(design).module(),
+            has_rpu: has_rpu(design),
         };
         let tcl = Tcl {
             banner: banner(design),
@@ -213,7 +216,7 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         files.push(file(format!("{}.tcl", family.script), text_of(&tcl)));
         files.push(file(format!("{}_registers.v", family.script), text_of(&registers)));
     }
-    for top in [Top::Rpu, Top::Rcm] {
+    for &top in Top::all_of(design) {
         let ports = top.ports(design);
         let around = Around {
             banner: banner(design),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The two modules that may be on top of a design.
 
-use foveate_design::{Design, Port};
+use foveate_design::{Design, Hardware, Port};
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
@@ -16,6 +16,16 @@ pub enum Top {
 }
 
 impl Top {
+    /// The modules that a core of the design has on top, the smaller first: one RPU and the array. A raster core is
+    /// one for all regions, so it has no other.
+    #[must_use]
+    pub fn all_of(design: &Design) -> &'static [Self] {
+        match design.hardware() {
+            Hardware::Pipelined(_) | Hardware::Serial(_) => &[Self::Rpu, Self::Rcm],
+            Hardware::Raster(_) => &[Self::Rcm],
+        }
+    }
+
     /// Name of the module.
     #[must_use]
     pub fn module(self) -> &'static str {

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # {= banner =}
 #
-# Replays the recorded vectors through `{= before =}rpu` and `{= before =}rcm` and compares every output at every clock.
+# Replays the recorded vectors through {% if has_rpu %}`{= before =}rpu` and {% endif %}`{= before =}rcm` and compares every output at every clock.
 #
-#   sh tb/replay.sh [all|rpu|rcm] [iverilog|verilator] [waves]
+#   sh tb/replay.sh [all|{% if has_rpu %}rpu|{% endif %}rcm] [iverilog|verilator] [waves]
 #
-# `waves` writes {= before =}rpu.vcd or {= before =}rcm.vcd where the command is run. Exit code 0: every bench says PASS; 1: one
+# `waves` writes {% if has_rpu %}{= before =}rpu.vcd or {% endif %}{= before =}rcm.vcd where the command is run. Exit code 0: every bench says PASS; 1: one
 # says FAIL, or INCOMPLETE because its vectors do not show everything; 2: a bench cannot be built or run.
 
 which=${1:-all}
@@ -48,10 +48,10 @@ replay() {
 }
 
 case $which in
-all) tops='rpu rcm' ;;
-rpu | rcm) tops=$which ;;
+all) tops='{% if has_rpu %}rpu {% endif %}rcm' ;;
+{% if has_rpu %}rpu | {% endif %}rcm) tops=$which ;;
 *)
-    echo "unknown module \`$which\`; use all, rpu or rcm" >&2
+    echo "unknown module \`$which\`; use all{% if has_rpu %}, rpu{% endif %} or rcm" >&2
     exit 2
     ;;
 esac

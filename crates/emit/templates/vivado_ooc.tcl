@@ -4,12 +4,14 @@
 # Out-of-context synthesis of a generated core in Vivado; run it in the folder of the core:
 #
 #     vivado -mode batch -source vivado_ooc.tcl                  ;# the RCM
+{%- if has_rpu %}
 #     vivado -mode batch -source vivado_ooc.tcl -tclargs rpu     ;# one RPU
+{%- endif %}
 #
 # It writes reports to vivado/. The part is the VCU118's. The project's own tests do not run Vivado.
 set which [expr {$argc > 0 ? [lindex $argv 0] : "rcm"}]
-if {$which ni {rpu rcm}} {
-    error "the top is rpu or rcm, not '$which'"
+if {$which ni { {%- if has_rpu %}rpu {% endif %}rcm}} {
+    error "the top is {% if has_rpu %}rpu or {% endif %}rcm, not '$which'"
 }
 set top {= before =}$which
 

@@ -67,7 +67,12 @@ impl ShippedBench {
         let array = grid::part(design, Top::Rcm)?;
         let (columns, rows) = (array.columns(), array.rows());
         let array = Level::Rcm { columns, rows };
-        Ok(vec![Level::Rpu, if array.is_whole(design) { Level::Full } else { array }])
+        let array = if array.is_whole(design) { Level::Full } else { array };
+        let level = |top: &Top| match top {
+            Top::Rpu => Level::Rpu,
+            Top::Rcm => array,
+        };
+        Ok(Top::all_of(design).iter().map(level).collect())
     }
 
     /// Plays the frames that show everything to the model of `top`, and makes a bench of it for a core whose

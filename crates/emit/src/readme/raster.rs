@@ -3,6 +3,7 @@
 
 use super::{PortRow, ThresholdRow, port_row, score_names, sync, threshold};
 use crate::camera::is_last_sent;
+use crate::core::has_rpu;
 use crate::instance::instance;
 use crate::text::text_of;
 use crate::{Prefix, banner};
@@ -66,8 +67,6 @@ struct Readme {
     deep: bool,
     last_sent: bool,
     store: &'static str,
-    lone_width: u32,
-    lone_height: u32,
     runtime: bool,
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
@@ -76,6 +75,7 @@ struct Readme {
     /// The module whose clock is of interest.
     synthesized: &'static str,
     compared: &'static str,
+    has_rpu: bool,
 }
 
 pub(crate) fn raster_readme(design: RasterDesign<'_>, prefix: &Prefix) -> String {
@@ -84,7 +84,6 @@ pub(crate) fn raster_readme(design: RasterDesign<'_>, prefix: &Prefix) -> String
 
 fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Readme {
     let n = design.region_size();
-    let lone = design.lone_unit();
     let memories = RasterMemory::all_of(design);
     Readme {
         banner: banner(&design),
@@ -129,14 +128,13 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         deep: design.pipelining() == Pipelining::Deep,
         last_sent: is_last_sent(&design),
         store: design.store().name(),
-        lone_width: lone.width(),
-        lone_height: lone.height(),
         runtime: design.thresholds() == Thresholds::Runtime,
         rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
         thresholds: design.rcm_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
         sync: sync::section(&design, "word", ""),
+        has_rpu: has_rpu(&design),
         compared: " at which it is valid",
     }
 }

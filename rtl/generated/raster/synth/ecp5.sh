@@ -5,7 +5,7 @@
 # Synthesizes the core for ECP5 with Yosys, places and routes it with nextpnr from several seeds, and prints the
 # clock of each seed, the worst and the median.
 #
-#   sh synth/ecp5.sh [rcm|rpu] [DEVICE] [SEEDS]
+#   sh synth/ecp5.sh [rcm] [DEVICE] [SEEDS]
 #
 # DEVICE is one of ecp5-85k, ecp5-45k, ecp5-25k, ecp5-85k-8; the first is the default. SEEDS says how many, 5 by default. The core is
 # placed as in the middle of a chip: every port but the clock is a register beside it (synth/rcm_ports.v).
@@ -20,8 +20,8 @@ seeds=${3:-5}
 here=$(pwd)
 cd "$(dirname "$0")/.." || exit 2
 case $which in
-rcm | rpu) top=$which ;;
-*) echo "unknown module \`$which\`; use rcm or rpu" >&2 && exit 2 ;;
+rcm) top=$which ;;
+*) echo "unknown module \`$which\`; use rcm" >&2 && exit 2 ;;
 esac
 case $device in
 ecp5-85k) synthesis='synth_ecp5 -abc9' part='--85k --package CABGA381 --speed 6 --lpf-allow-unconstrained --freq 400' ;;

@@ -5,7 +5,7 @@
 # Synthesizes the core for iCE40 with Yosys, places and routes it with nextpnr from several seeds, and prints the
 # clock of each seed, the worst and the median.
 #
-#   sh synth/ice40.sh [rcm|rpu] [DEVICE] [SEEDS]
+#   sh synth/ice40.sh [rcm] [DEVICE] [SEEDS]
 #
 # DEVICE is one of up5k, hx8k, hx4k, hx1k; the first is the default. SEEDS says how many, 5 by default. The core is
 # placed as in the middle of a chip: every port but the clock is a register beside it (synth/rcm_ports.v).
@@ -20,8 +20,8 @@ seeds=${3:-5}
 here=$(pwd)
 cd "$(dirname "$0")/.." || exit 2
 case $which in
-rcm | rpu) top=$which ;;
-*) echo "unknown module \`$which\`; use rcm or rpu" >&2 && exit 2 ;;
+rcm) top=$which ;;
+*) echo "unknown module \`$which\`; use rcm" >&2 && exit 2 ;;
 esac
 case $device in
 up5k) synthesis='synth_ice40 -device u -spram -dsp' part='--up5k --package sg48 --pcf-allow-unconstrained --freq 100' ;;
