@@ -23,9 +23,6 @@ struct Lane {
 
 impl PipelinedRcm {
     /// The RCM of the design.
-    ///
-    /// # Panics
-    /// When the design is not pipelined.
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
         let rpu = PipelinedRpu::new(design);

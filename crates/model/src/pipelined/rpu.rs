@@ -27,9 +27,6 @@ pub struct PipelinedRpu {
 
 impl PipelinedRpu {
     /// An RPU of the design.
-    ///
-    /// # Panics
-    /// When the design is not pipelined.
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
         let plan = Plan::of(design);

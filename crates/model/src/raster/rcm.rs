@@ -45,7 +45,7 @@ pub struct RasterRcm {
 }
 
 impl RasterRcm {
-    /// The core of the design, which must be a raster design.
+    /// The core of the design.
     #[must_use]
     pub fn new(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);

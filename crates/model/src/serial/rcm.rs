@@ -43,8 +43,8 @@ impl Stage {
 }
 
 impl SerialRcm {
-    /// The array of the design. That of [`Design::one_lane`] is the core of one RPU.
-    ///
+    /// The array of the design. That of [`SerialDesign::one_lane`] is the core of one RPU.
+    #[must_use]
     pub fn new(design: SerialDesign<'_>) -> Self {
         let intake = Intake::new(design);
         let output = SerialOutput { ready: true, ..SerialOutput::silent(intake.width()) };
