@@ -78,12 +78,11 @@ fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
 }
 
-/// The sources of a core: those of both tops.
+/// The sources of a core: those of all of its tops.
 fn sources(design: &Design) -> Vec<SourceFile> {
-    let mut all = verilog(design, Top::Rcm);
-    let known: BTreeSet<String> = all.iter().map(|file| file.path.clone()).collect();
-    all.extend(verilog(design, Top::Rpu).into_iter().filter(|file| !known.contains(&file.path)));
-    all
+    let mut known = BTreeSet::new();
+    let all = Top::all_of(design).iter().flat_map(|&top| verilog(design, top));
+    all.filter(|file| known.insert(file.path.clone())).collect()
 }
 
 /// What is simulated by default of a core, as a small grid, or whole.
@@ -184,7 +183,7 @@ fn what_a_small_grid_leaves_out_is_named() {
     let left = |levels: &[Level]| {
         not_elaborated(&design, &sources, &Prefix::default(), levels, &toolchain).unwrap()
     };
-    let small = left(&[Level::Rpu, Level::sample(&design)]);
+    let small = left(&[Level::sample(&design)]);
     let said: Vec<String> = small.iter().map(ToString::to_string).collect();
     for wanted in ["module raster_banks", "raster_ring with ", "rcm with COLUMNS = 14, ROWS = 10"] {
         assert!(said.iter().any(|text| text.starts_with(wanted)), "{wanted}: {said:?}");
