@@ -5,7 +5,7 @@
 //! Each organization answers in a module of its own, as an implementation of [`crate::rules::Rules`].
 
 use crate::rules::Unit;
-use crate::{Design, Feed, HardwareConfig, MemoryKind, Organization, Port, Timing};
+use crate::{Design, Feed, HardwareConfig, Organization, Port, Timing};
 
 impl Organization {
     /// What people call a unit of the array, such as "RPU".
@@ -23,15 +23,6 @@ impl Organization {
     pub fn feeds(self) -> &'static [Feed] {
         match self {
             Self::Serial => Feed::ALL,
-            Self::Pipelined | Self::Raster => &[],
-        }
-    }
-
-    /// The values that `hardware.memory` may have; none where it may not be given.
-    #[must_use]
-    pub fn memories(self) -> &'static [MemoryKind] {
-        match self {
-            Self::Serial => MemoryKind::ALL,
             Self::Pipelined | Self::Raster => &[],
         }
     }

@@ -29,8 +29,10 @@ pub(crate) trait Rules {
     fn lone_unit(&self) -> Design;
     /// When it says what.
     fn timing(&self) -> Timing;
-    /// The ports of module `rpu`, inputs first.
-    fn rpu_ports(&self) -> Vec<Port>;
+    /// The ports of module `rpu`, inputs first: where it is no part of the array, those of an array of one unit.
+    fn rpu_ports(&self) -> Vec<Port> {
+        self.lone_unit().rcm_ports()
+    }
     /// The ports of module `rcm`, inputs first.
     fn rcm_ports(&self) -> Vec<Port>;
 }

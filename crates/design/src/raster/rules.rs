@@ -111,10 +111,6 @@ impl Rules for RasterDesign<'_> {
         RasterTiming::of(*self).answers()
     }
 
-    fn rpu_ports(&self) -> Vec<Port> {
-        self.lone_unit().rcm_ports()
-    }
-
     fn rcm_ports(&self) -> Vec<Port> {
         ports(*self)
     }

@@ -77,10 +77,6 @@ impl Rules for SerialDesign<'_> {
         SerialTiming::of(*self).answers()
     }
 
-    fn rpu_ports(&self) -> Vec<Port> {
-        self.one_lane().rcm_ports()
-    }
-
     fn rcm_ports(&self) -> Vec<Port> {
         ports(*self)
     }

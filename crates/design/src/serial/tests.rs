@@ -20,11 +20,8 @@ fn timing(design: &Design) -> SerialTiming {
 #[test]
 fn the_papers_frame_takes_7905_clocks() {
     let design = design(&[]);
-    let timing = timing(&design);
-    assert_eq!(
-        (design.serial().unwrap().lanes(), design.slots(), design.serial().unwrap().feed()),
-        (784, 1, Feed::Parallel)
-    );
+    let (timing, array) = (timing(&design), design.serial().unwrap());
+    assert_eq!((array.lanes(), array.fold(), array.feed()), (784, 1, Feed::Parallel));
     let edge = FeatureKind::Edge;
     let phases = [
         (DenoiseTemporal, 64 * 83),
@@ -160,42 +157,26 @@ fn the_configuration_may_name_the_memory() {
     assert_eq!(steps.steps(), slow.steps() - 9 * 64);
     let design = design(&["hardware.memory=block"]);
     let folded = design.with_fold(2).unwrap().serial().unwrap().lane_memory();
-    assert_eq!(
-        (folded.kind, design.serial().unwrap().one_lane().serial().unwrap().lane_memory().kind),
-        (block.kind, block.kind)
-    );
+    let lane = design.lone_unit();
+    let single = lane.serial().unwrap().lane_memory();
+    assert_eq!((folded.kind, single.kind), (block.kind, block.kind));
 }
 
 #[test]
 fn the_widths_of_the_ports_hold_their_numbers() {
     let wide = design(&["hardware.fold=3", "spatial=[{feature=\"edge\"},{feature=\"variance\"}]"]);
+    let wide = wide.serial().unwrap();
     assert_eq!(
-        (
-            wide.serial().unwrap().lanes(),
-            wide.region_bits(),
-            wide.serial().unwrap().lane_bits(),
-            wide.serial().unwrap().slot_bits()
-        ),
+        (wide.lanes(), wide.region_bits(), wide.lane_bits(), wide.slot_bits()),
         (262, 10, 9, 2)
     );
-    assert_eq!(
-        (wide.serial().unwrap().score_count(), wide.serial().unwrap().score_index_bits()),
-        (3, 2)
-    );
-    assert_eq!(wide.serial().unwrap().any_score_bits(), wide.features()[1].score_bits());
-    assert_eq!(
-        (wide.serial().unwrap().region_of(261, 0), wide.serial().unwrap().region_of(261, 1)),
-        (Some(783), None)
-    );
+    assert_eq!((wide.score_count(), wide.score_index_bits()), (3, 2));
+    assert_eq!(wide.any_score_bits(), wide.features()[1].score_bits());
+    assert_eq!((wide.region_of(261, 0), wide.region_of(261, 1)), (Some(783), None));
     let one = design(&["frame.width=8", "frame.height=8"]);
-    assert_eq!(
-        (one.region_bits(), one.serial().unwrap().lane_bits(), one.serial().unwrap().slot_bits()),
-        (1, 1, 1)
-    );
-    assert_eq!(
-        (one.serial().unwrap().score_index_bits(), one.serial().unwrap().any_score_bits()),
-        (1, 7)
-    );
+    let one = one.serial().unwrap();
+    assert_eq!((one.region_bits(), one.lane_bits(), one.slot_bits()), (1, 1, 1));
+    assert_eq!((one.score_index_bits(), one.any_score_bits()), (1, 7));
 }
 
 /// Name, width, lanes, and whether there is a value per lane.
@@ -300,21 +281,13 @@ fn every_window_is_filled_once() {
                         &format!("frame.height={}", rows * side - 1),
                         "hardware.feed=raster",
                     ]);
+                    let array = design.serial().unwrap();
                     let mut places = 0;
                     for y in 0..rows * side {
-                        assert_eq!(
-                            design.serial().unwrap().row_places(y),
-                            counted(&design, y, rows)
-                        );
+                        assert_eq!(array.row_places(y), counted(&design, y, rows));
                         for x in 0..columns * side {
-                            assert_eq!(
-                                design.serial().unwrap().column_places(x),
-                                counted(&design, x, columns)
-                            );
-                            places += u64::from(
-                                design.serial().unwrap().column_places(x)
-                                    * design.serial().unwrap().row_places(y),
-                            );
+                            assert_eq!(array.column_places(x), counted(&design, x, columns));
+                            places += u64::from(array.column_places(x) * array.row_places(y));
                         }
                     }
                     let windows = u64::from(design.regions() * design.stream_pixels());
@@ -384,8 +357,9 @@ fn no_fold_beats_the_frugal() {
     let single = design(&["frame.width=100", "frame.height=40", "hardware.memory=block"]);
     let all: Vec<_> = (1..=single.regions()).map(|fold| single.with_fold(fold).unwrap()).collect();
     let cost = |design: &Design| {
-        let lanes = u64::from(design.serial().unwrap().lanes());
-        (lanes, lanes * design.serial().unwrap().lane_memory().blocks)
+        let array = design.serial().unwrap();
+        let lanes = u64::from(array.lanes());
+        (lanes, lanes * array.lane_memory().blocks)
     };
     for limit in all.iter().map(|design| timing(design).clocks_per_frame()) {
         let frugal = single.frugal_folds(limit);
