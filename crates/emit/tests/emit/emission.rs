@@ -83,7 +83,7 @@ fn module_headers_are_the_port_lists() {
     for toml in matrix() {
         let design = design(&toml);
         let files = verilog(&design, Top::Rcm);
-        for top in [Top::Rpu, Top::Rcm] {
+        for &top in Top::all_of(&design) {
             let header = contents(&files, &format!("rtl/{}.v", top.module()));
             let header = header.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
             for port in top.ports(&design) {
@@ -111,7 +111,7 @@ fn module_headers_are_the_port_lists() {
 fn headers_of_other_organizations_are_the_port_lists() {
     for toml in [serial_matrix(), raster_matrix()].concat() {
         let design = design(&toml);
-        for top in [Top::Rpu, Top::Rcm] {
+        for &top in Top::all_of(&design) {
             let files = verilog(&design, top);
             let text = contents(&files, &format!("rtl/{}.v", top.module()));
             let header = text.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;

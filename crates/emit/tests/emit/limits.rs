@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::common::{design, matrix, serial_matrix};
+use crate::common::{design, every_design};
 use foveate_emit::{LEAVES, Leaf, Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
 use foveate_toolchain::testing::require_tools;
@@ -210,9 +210,10 @@ fn every_parameter_and_port_is_documented() {
     for leaf in LEAVES {
         assert_eq!(undocumented(leaf.contents), Vec::<&str>::new(), "{}", leaf.name);
     }
-    for toml in [matrix(), serial_matrix()].concat() {
-        for top in [Top::Rpu, Top::Rcm] {
-            let files = verilog(&design(&toml), top);
+    for toml in every_design() {
+        let design = design(&toml);
+        for &top in Top::all_of(&design) {
+            let files = verilog(&design, top);
             let top_file = &files.last().unwrap().contents;
             assert_eq!(undocumented(top_file), Vec::<&str>::new(), "{toml}");
         }
