@@ -13,7 +13,7 @@ use crate::report::{FORMAT_VERSION, Level, Report, Row};
 use crate::timer::Timer;
 use crate::tools::Tools;
 use crate::vectors::Vectors;
-use crate::{clear, functional, netlist, rtl};
+use crate::{cycle, functional, netlist, rtl};
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -53,9 +53,8 @@ impl Bench {
         progress("vectors");
         let recording = self.record(timer)?;
         let vectors = Vectors::read(design, &recording)?;
-        progress("cycle-level models");
-        rows.push(clear::clear(design, frames, &recording, &vectors, timer)?);
-        rows.extend(clear::fast(design, &recording, &vectors, timer)?);
+        progress("cycle-level model");
+        rows.push(cycle::cycle(design, frames, &recording, &vectors, timer)?);
         progress("RTL: building and running Verilator's model");
         rows.push(match missing(tools.toolchain, &[Tool::Verilator, Tool::Cxx])? {
             Some(why) => Row::missing(Level::Rtl, "Verilator", why),

@@ -7,18 +7,16 @@
 //! ```text
 //! functional, clear   FunctionalCamera  frames          the reference
 //! functional, fast    Engine            frames          every result of every region = FunctionalCamera
-//! cycle, clear        Pipelined-/SerialRcm   clocks     every score and decision = FunctionalCamera
-//! cycle, fast         PipelinedArray    clocks          every port at every clock = clear
-//! RTL                 Verilator         clocks          every port at every clock = clear
-//! netlist             Icarus            one RPU         every port at every clock = clear
+//! cycle               PipelinedRcm, ..  clocks          every score and decision = FunctionalCamera
+//! RTL                 Verilator         clocks          every port at every clock = cycle
+//! netlist             Icarus            one RPU         every port at every clock = cycle
 //! ```
 //!
 //! The levels with clocks see the same [`Recording`](foveate_cosim::Recording). Each level is first
 //! compared, in a separate pass, and then timed from memory, without files, comparison or reading of outputs.
 
-mod array;
 mod bench;
-mod clear;
+mod cycle;
 mod error;
 #[cfg(test)]
 mod falsified;

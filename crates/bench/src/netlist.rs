@@ -56,7 +56,7 @@ pub(crate) fn netlist(
     };
     let differing = u64::from(!report.passed());
     let agreement = Agreement { compared: report.comparisons, differing };
-    Ok(Row::of(Level::Netlist, &name(design), measured.agrees(Level::CycleClear, agreement)))
+    Ok(Row::of(Level::Netlist, &name(design), measured.agrees(Level::Cycle, agreement)))
 }
 
 /// The design for a frame of the regions of one unit, or of fewer where that unit is the whole array.

@@ -5,7 +5,7 @@ use foveate_cosim::Agreement;
 use serde::Serialize;
 
 /// Version of [`Report`] as JSON; changes when a field changes its meaning or goes.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 /// A level of the design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -15,10 +15,8 @@ pub enum Level {
     FunctionalClear,
     /// Whole frames, written to be fast.
     FunctionalFast,
-    /// Every port at every clock, written to be read.
-    CycleClear,
-    /// Every port at every clock, written to be fast.
-    CycleFast,
+    /// Every port at every clock.
+    Cycle,
     /// The Verilog.
     Rtl,
     /// What synthesis makes of it.

@@ -45,7 +45,7 @@ pub(crate) fn rtl(
         ..per_clock(design, vectors, time)
     };
     let name = short_version(&timed.version);
-    Ok(Row::of(Level::Rtl, &name, measured.agrees(Level::CycleClear, timed.agreement)))
+    Ok(Row::of(Level::Rtl, &name, measured.agrees(Level::Cycle, timed.agreement)))
 }
 
 /// `Verilator 5.006` of what it says.

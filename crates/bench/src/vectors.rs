@@ -7,7 +7,7 @@ use std::path::Path;
 
 use foveate_cosim::{Agreement, Field, Layout, Recording};
 use foveate_design::{Design, PortRole};
-use foveate_model::{FrameSync, Thresholds};
+use foveate_model::Thresholds;
 
 use crate::error::BenchError;
 
@@ -18,8 +18,6 @@ pub(crate) struct Vectors {
     pixels: Vec<u16>,
     /// The pixels at the port of references of a core that has one.
     references: Vec<u16>,
-    /// The same in bytes, where they fit.
-    narrow: Vec<u8>,
     /// Pixels at the port per clock.
     width: usize,
     /// Frames that are taken in.
@@ -59,14 +57,8 @@ impl Vectors {
             let words = reference.into_iter().flat_map(|port| port.words(input, held));
             references.extend(words.map(narrow));
         })?;
-        let byte = |&pixel| u8::try_from(pixel).expect("a pixel of at most 8 bits");
         Ok(Self {
             width: pixels.len() / controls.len().max(1),
-            narrow: if design.pixel_bits() <= 8 {
-                pixels.iter().map(byte).collect()
-            } else {
-                Vec::new()
-            },
             streamed: taken / design.timing().pixels_per_frame(),
             controls,
             pixels,
@@ -88,25 +80,9 @@ impl Vectors {
         let width = if self.references.is_empty() { 0 } else { self.width };
         (0..self.controls.len()).map(move |clock| &self.references[clock * width..][..width])
     }
-
-    /// As [`Vectors::words`], where pixels fit into bytes.
-    pub(crate) fn bytes(&self) -> Option<impl Iterator<Item = (&Control, &[u8])>> {
-        let has_bytes = !self.narrow.is_empty();
-        has_bytes.then(|| self.controls.iter().zip(self.narrow.chunks_exact(self.width.max(1))))
-    }
 }
 
 impl Control {
-    /// Whether regions that take a pixel at every clock take one, behind what finds their frames; what that shows is
-    /// in it.
-    pub(crate) fn reaches(&self, sync: &mut FrameSync) -> bool {
-        if self.reset {
-            sync.reset();
-            return false;
-        }
-        sync.step(self.valid, self.sof, true)
-    }
-
     fn of(design: &Design, layout: &Layout, input: &[u8]) -> Self {
         let mut thresholds = Thresholds::of(design);
         let (mut reset, mut valid, mut forward_ready) = (false, false, true);

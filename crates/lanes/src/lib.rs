@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pixels in vector lanes: the common code of the fast models.
+//! Pixels in vector lanes: what the engine and the executor of networks share.
 //!
 //! * [`Level`]: a set of vector instructions, chosen at run time; a [`Task`] is compiled once for each level.
 //! * [`Lane`]: a pixel as a byte or a word, and the arithmetic on it that vectorises; [`Block`]: lanes that fill a register.

@@ -7,7 +7,7 @@
 //! it the case would not be hard.
 //!
 //! The models are not assumed to agree: frames run through the functional model, the engine and the
-//! cycle-level array.
+//! cycle-level model.
 
 mod case;
 mod depth;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The same frames through the functional model, the engine and the cycle-level array.
+//! The same frames through the functional model, the engine and the cycle-level model.
 
-use foveate_array::PipelinedArray;
 use foveate_design::{Design, PipelinedDesign};
 use foveate_engine::Engine;
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, RpuOutput, Thresholds, region_stream};
+use foveate_model::{
+    FunctionalCamera, PipelinedRcm, RcmInput, RpuOutput, Thresholds, region_stream,
+};
 
 use crate::pixels::Random;
 
@@ -39,8 +40,8 @@ pub(crate) fn compare(
     let mut tally = Tally::default();
     let mut camera = FunctionalCamera::new(design);
     let mut engine = Engine::new(design);
-    let array = design.pipelined().expect("cases are of pipelined designs");
-    let mut clocks = Clocks::new(array, unrest);
+    let pipelined = design.pipelined().expect("cases are of pipelined designs");
+    let mut clocks = Clocks::new(pipelined, unrest);
     // A decision may come a frame late, and an interrupted run owes some for ever.
     let mut owed = std::collections::VecDeque::new();
     for (number, frame) in (0u64..).zip(frames) {
@@ -79,10 +80,10 @@ pub(crate) fn compare(
     tally
 }
 
-/// The array, fed with whole frames.
+/// The cycle-level model, fed with whole frames.
 struct Clocks<'a> {
     design: PipelinedDesign<'a>,
-    array: PipelinedArray,
+    rcm: PipelinedRcm,
     thresholds: Thresholds,
     random: Random,
     unrest: bool,
@@ -92,7 +93,7 @@ impl<'a> Clocks<'a> {
     fn new(design: PipelinedDesign<'a>, unrest: bool) -> Self {
         Self {
             design,
-            array: PipelinedArray::new(design),
+            rcm: PipelinedRcm::new(design),
             thresholds: Thresholds::of(&design),
             random: Random::new(7),
             unrest,
@@ -124,17 +125,25 @@ impl<'a> Clocks<'a> {
         {
             self.clock(Some(pixels), &mut Vec::new());
         }
-        let idle = vec![0; self.design.regions() as usize];
-        self.array.step(true, false, &idle, &self.thresholds);
+        self.step(true, None);
     }
 
     fn clock(&mut self, pixels: Option<&[u16]>, decisions: &mut Vec<Vec<RpuOutput>>) {
-        let idle = vec![0; self.design.regions() as usize];
-        let valid = pixels.is_some();
-        let outputs = self.array.step(false, valid, pixels.unwrap_or(&idle), &self.thresholds);
-        if outputs.decision_valid() {
-            decisions.push((0..idle.len()).map(|region| outputs.rpu(region)).collect());
+        let outputs = self.step(false, pixels);
+        if outputs[0].decision_valid {
+            decisions.push(outputs.to_vec());
         }
+    }
+
+    fn step(&mut self, reset: bool, pixels: Option<&[u16]>) -> &[RpuOutput] {
+        let idle = vec![0; self.design.regions() as usize];
+        self.rcm.step(&RcmInput {
+            reset,
+            valid: pixels.is_some(),
+            sof: false,
+            pixels: pixels.unwrap_or(&idle),
+            thresholds: &self.thresholds,
+        })
     }
 
     /// What all regions take, pixel by pixel.

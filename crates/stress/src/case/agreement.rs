@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional model, the engine and the cycle-level array say the same.
+//! The functional model, the engine and the cycle-level model say the same.
 
 use foveate_design::Design;
 use foveate_scenes::{Scene, SceneSize};

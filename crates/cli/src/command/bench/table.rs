@@ -62,7 +62,7 @@ fn title(row: &Row) -> String {
 fn name(level: Level) -> &'static str {
     match level {
         Level::FunctionalClear | Level::FunctionalFast => "functional",
-        Level::CycleClear | Level::CycleFast => "cycle",
+        Level::Cycle => "cycle",
         Level::Rtl => "RTL",
         Level::Netlist => "netlist",
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clear cycle-level models: [`PipelinedRcm`], [`SerialRcm`] and [`RasterRcm`]. The recording was made by them.
+//! The cycle-level models: [`PipelinedRcm`], [`SerialRcm`] and [`RasterRcm`]. The recording was made by them.
 
 use std::hint::black_box;
 
@@ -10,15 +10,15 @@ use foveate_model::{PipelinedRcm, RasterInput, RasterRcm, RcmInput, SerialInput,
 
 use crate::error::BenchError;
 use crate::memory::Before;
+use crate::outcomes;
 use crate::rate::per_clock;
 use crate::report::{Level, Measured, Row};
 use crate::timer::Timer;
 use crate::vectors::{Control, Vectors, compare};
-use crate::{array, outcomes};
 
 /// Compares what they decide with the functional model, and what they show when the vectors come again
 /// with the recording; then times them.
-pub(crate) fn clear(
+pub(crate) fn cycle(
     design: &Design,
     frames: &[Frame],
     recording: &Recording,
@@ -72,20 +72,7 @@ pub(crate) fn clear(
         differing: decided.differing + again.differing,
     };
     let measured = Measured { peak_bytes, ..per_clock(design, vectors, time) };
-    Ok(Row::of(Level::CycleClear, name, measured.agrees(Level::FunctionalClear, agreement)))
-}
-
-/// The fast cycle-level model, in an organization that has one.
-pub(crate) fn fast(
-    design: &Design,
-    recording: &Recording,
-    vectors: &Vectors,
-    timer: Timer<'_>,
-) -> Result<Option<Row>, BenchError> {
-    match design.pipelined() {
-        Some(design) => array::fast(design, recording, vectors, timer).map(Some),
-        None => Ok(None),
-    }
+    Ok(Row::of(Level::Cycle, name, measured.agrees(Level::FunctionalClear, agreement)))
 }
 
 fn pipelined_agreement(
