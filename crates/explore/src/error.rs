@@ -3,12 +3,12 @@
 
 use std::path::PathBuf;
 
-use foveate_boxes::BoxError;
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
 use foveate_footage::FootageError;
+use foveate_footage::boxes::BoxError;
 use foveate_ideal::IdealError;
 use foveate_pictures::page::PageError;
 use foveate_staging::StagingError;

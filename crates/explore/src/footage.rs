@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use foveate_boxes::{Boxes, Clip, Rect, assign};
 use foveate_camera::{Camera, CameraConfig};
 use foveate_fidelity::{Figures, Tally};
+use foveate_footage::boxes::{Boxes, Clip, Rect, assign};
 use foveate_footage::{InputOptions, Source, SourceFrame, Subject, is_read_once, open, subjects};
 
 use crate::measure::{self, Measured};

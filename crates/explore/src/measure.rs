@@ -6,10 +6,10 @@ use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
-use foveate_boxes::{Boxes, Rect};
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_fidelity::{Fidelity, Tally};
+use foveate_footage::boxes::{Boxes, Rect};
 use foveate_footage::{FootageError, InputOptions, Kind, Source, Subject, open};
 use foveate_frame::{Raster, convert_depth};
 use foveate_ideal::{IdealCamera, IdealOutcome};

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use foveate_boxes::{Boxes, Grid, Place, Rect, View};
 use foveate_camera::Camera;
+use foveate_footage::boxes::{Boxes, Grid, Place, Rect, View};
 use foveate_footage::{Crop, Source, SourceFrame};
 use serde::{Deserialize, Serialize};
 

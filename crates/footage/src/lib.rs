@@ -3,10 +3,11 @@
 //!
 //! [`open`] turns an input (video, files, folders, globs, `scene:NAME`) into a [`Source`] of
 //! frames of the design's depth; [`plan`] decides whether inputs are one clip or many; [`read_ahead`]
-//! reads on a separate thread. Memory does not grow with the number of frames. This crate does not
+//! reads on a separate thread. [`boxes`] reads where objects are in the frames. Memory does not grow with the number of frames. This crate does not
 //! know what happens to the frames.
 
 mod advice;
+pub mod boxes;
 mod error;
 mod extension;
 mod hooks;

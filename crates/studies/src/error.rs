@@ -3,10 +3,10 @@
 
 use std::path::PathBuf;
 
-use foveate_boxes::BoxError;
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
+use foveate_footage::boxes::BoxError;
 use foveate_pictures::chart::ChartError;
 use foveate_staging::StagingError;
 use thiserror::Error;

@@ -13,7 +13,7 @@ fn rows(extra: &[&str]) -> Vec<Value> {
     let dir = tempfile::tempdir().unwrap();
     let args = [&TINY[..], &["--json"], extra].concat();
     let report: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
-    assert_eq!(report["format_version"], 1);
+    assert_eq!(report["format_version"], 2);
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is left");
     report["rows"].as_array().unwrap().clone()
 }

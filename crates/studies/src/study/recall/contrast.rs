@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How far an object stands out: the mean of the pixels in its box against the mean of a ring around it.
 
-use foveate_boxes::Rect;
+use foveate_footage::boxes::Rect;
 use foveate_frame::Raster;
 
 /// Sums of all pixels above and to the left of every corner, so that any mean takes four of them.

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use foveate_boxes::Grid;
 use foveate_design::Design;
+use foveate_footage::boxes::Grid;
 use foveate_simulator::{pixels_forwarded, region_bits};
 
 use super::class::CLASSES;

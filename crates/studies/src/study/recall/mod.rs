@@ -13,9 +13,9 @@ use std::path::PathBuf;
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use foveate_boxes::{Clip, assign};
 use foveate_design::Config;
 use foveate_footage::Kind;
+use foveate_footage::boxes::{Clip, assign};
 
 use super::Study;
 use super::sweep::{Key, region_size, thresholds};

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use foveate_boxes::{BoxError, Boxes, Place, Rect, View};
+use foveate_footage::boxes::{BoxError, Boxes, Place, Rect, View};
 use foveate_footage::{Crop, Kind, Source, SourceFrame};
 
 use super::class::classes_of;

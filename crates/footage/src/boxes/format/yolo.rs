@@ -6,8 +6,8 @@ use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
 
 use super::field::{numbers, whole};
-use crate::limits::{self, MAX_BOXES};
-use crate::{BoxError, Labelled, Rect};
+use crate::boxes::limits::{self, MAX_BOXES};
+use crate::boxes::{BoxError, Labelled, Rect};
 
 /// Longest line, of which a few dozen letters are used.
 const MAX_LINE: u64 = 4096;

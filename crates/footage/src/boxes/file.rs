@@ -7,20 +7,13 @@
 //! fits an image whose path ends with it.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use crate::format::{Format, coco, mot, table, yolo};
-use crate::{BoxError, Rect};
-
-/// A box, and the track of its object if the file has tracks.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Labelled {
-    /// Where it is, in pixels of the frame before it is cropped and scaled.
-    pub rect: Rect,
-    /// The number of the object, the same in all frames.
-    pub track: Option<u64>,
-}
+use super::error::BoxError;
+use super::format::{Format, coco, mot, table, yolo};
+use super::name::endings;
+use super::rect::Labelled;
 
 /// A frame, as boxes are found for it.
 #[derive(Clone, Copy, Debug)]
@@ -156,24 +149,4 @@ impl Boxes {
         let [one, other] = both;
         Err(BoxError::Ambiguous { path: self.path.clone(), name, one, other })
     }
-}
-
-/// A name in a file as it is compared: folders and name with `/` between them. `None` if there is no name.
-pub(crate) fn key(name: &str) -> Option<String> {
-    let parts = parts(Path::new(&name.replace('\\', "/")));
-    (!parts.is_empty()).then(|| parts.join("/"))
-}
-
-fn parts(path: &Path) -> Vec<String> {
-    let part = |part| match part {
-        Component::Normal(part) => Some(part.to_string_lossy().into_owned()),
-        _ => None,
-    };
-    path.components().filter_map(part).collect()
-}
-
-/// The path of an image, then what is left without its first folders, down to the name.
-fn endings(path: &Path) -> Vec<String> {
-    let parts = parts(path);
-    (0..parts.len()).map(|first| parts[first..].join("/")).collect()
 }

@@ -10,8 +10,8 @@ pub(crate) mod yolo;
 use std::io::Read;
 use std::path::Path;
 
-use crate::BoxError;
-use crate::limits;
+use crate::boxes::BoxError;
+use crate::boxes::limits;
 
 /// A format of boxes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,9 +11,9 @@ use std::path::Path;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use crate::boxes::key;
-use crate::limits::{self, MAX_BOXES};
-use crate::{BoxError, Labelled, Rect};
+use crate::boxes::limits::{self, MAX_BOXES};
+use crate::boxes::name::key;
+use crate::boxes::{BoxError, Labelled, Rect};
 
 #[derive(Deserialize)]
 struct Document {

@@ -8,9 +8,9 @@ use std::path::Path;
 use csv::{ReaderBuilder, Trim};
 
 use super::field::{in_line, numbers, unreadable};
-use crate::boxes::key;
-use crate::limits::{self, MAX_BOXES};
-use crate::{BoxError, Labelled, Rect};
+use crate::boxes::limits::{self, MAX_BOXES};
+use crate::boxes::name::key;
+use crate::boxes::{BoxError, Labelled, Rect};
 
 pub(crate) const COLUMNS: [&str; 5] = ["file", "x0", "y0", "x1", "y1"];
 

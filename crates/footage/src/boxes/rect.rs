@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Rectangles of real coordinates: pixel x covers x to x + 1.
 
-use crate::limits::MAX_COORDINATE;
+use super::limits::MAX_COORDINATE;
 
 /// A rectangle; `x1` and `y1` are where it ends, so that its width is `x1 - x0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +14,15 @@ pub struct Rect {
     pub x1: f64,
     /// Lower side.
     pub y1: f64,
+}
+
+/// A box, and the track of its object if the file has tracks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Labelled {
+    /// Where it is, in pixels of the frame before it is cropped and scaled.
+    pub rect: Rect,
+    /// The number of the object, the same in all frames.
+    pub track: Option<u64>,
 }
 
 impl Rect {

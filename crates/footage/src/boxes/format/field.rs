@@ -7,7 +7,7 @@ use std::path::Path;
 
 use csv::{ErrorKind, Position, StringRecord};
 
-use crate::BoxError;
+use crate::boxes::BoxError;
 
 /// A field as a number.
 pub(crate) fn number(name: &str, text: &str) -> Result<f64, String> {

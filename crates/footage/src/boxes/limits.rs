@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{BufReader, Read, Take};
 use std::path::Path;
 
-use crate::BoxError;
+use crate::boxes::BoxError;
 
 /// The most boxes of a file, or of a file of a YOLO folder.
 pub const MAX_BOXES: usize = 4_000_000;

@@ -3,23 +3,24 @@
 //!
 //! [`Boxes`] reads a file of MOT, COCO or CSV, or a folder of YOLO files, and gives the boxes of a frame by
 //! its number or its name. [`assign`] finds the boxes of several clips. A [`View`] moves boxes into a frame
-//! that is cropped and scaled, and a [`Grid`] says which regions a box owns. This crate knows no camera and
-//! reads no frames.
+//! that is cropped and scaled, and a [`Grid`] says which regions a box owns. Nothing here reads
+//! frames.
 
 mod assign;
-mod boxes;
 mod error;
+mod file;
 mod format;
 mod grid;
 mod limits;
+mod name;
 mod rect;
 mod view;
 
 pub use assign::{Clip, assign};
-pub use boxes::{Boxes, Found, Labelled, Place};
 pub use error::BoxError;
+pub use file::{Boxes, Found, Place};
 pub use format::Format;
 pub use grid::Grid;
 pub use limits::{MAX_BOXES, MAX_COORDINATE};
-pub use rect::Rect;
+pub use rect::{Labelled, Rect};
 pub use view::View;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::support::file;
-use foveate_boxes::{Clip, assign};
+use foveate_footage::boxes::{Clip, assign};
 
 const ROW: &str = "1,1,1,1,1,1,1,1,1\n";
 

@@ -11,8 +11,8 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::field::{in_line, numbers, unreadable, whole};
-use crate::limits::{self, MAX_BOXES};
-use crate::{BoxError, Labelled, Rect};
+use crate::boxes::limits::{self, MAX_BOXES};
+use crate::boxes::{BoxError, Labelled, Rect};
 
 const COLUMNS: [&str; 9] =
     ["frame", "track", "left", "top", "width", "height", "counted", "class", "visibility"];

@@ -2,7 +2,7 @@
 //! Every mistake in a file is one line that names the file, the place, and what would be right.
 
 use crate::support::{at, file, frame, image};
-use foveate_boxes::Boxes;
+use foveate_footage::boxes::Boxes;
 
 #[test]
 fn damaged_files_are_refused_in_one_line() {

@@ -2,7 +2,7 @@
 //! Known files of every format.
 
 use crate::support::{at, file, frame, image, labelled};
-use foveate_boxes::{Boxes, Format, Place};
+use foveate_footage::boxes::{Boxes, Format, Place};
 
 const MOT: &str = "1,7,11,21,30,40,1,1,0.9\n\
                    1,8,11,21,30,40,0,1,1\n\

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::{BoxError, Boxes};
+use crate::boxes::{BoxError, Boxes};
 
 /// A clip that needs boxes.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 use crate::support::{at, file, frame, image};
-use foveate_boxes::{Boxes, Grid, Labelled, Place, Rect};
+use foveate_footage::boxes::{Boxes, Grid, Labelled, Place, Rect};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
