@@ -2,9 +2,7 @@
 //! The configuration file as serde types: that of a camera, and what computes it. The defaults are the paper's
 //! design.
 
-use crate::{
-    Design, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds, keys::HARDWARE_KEYS,
-};
+use crate::{Feed, MemoryKind, Organization, Pipelining, Store, Thresholds, keys::HARDWARE_KEYS};
 use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, Key, text};
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -47,16 +45,6 @@ impl Config {
     #[must_use]
     pub fn at_depth(&self, bits: u32) -> Self {
         Self { camera: self.camera.at_depth(bits), hardware: self.hardware.clone() }
-    }
-
-    /// The design for inputs of `width` x `height` pixels.
-    ///
-    /// # Errors
-    /// As [`CameraConfig::fit_frame`] and [`Config::validate`].
-    pub fn for_frames(&self, width: u32, height: u32) -> Result<Design, ConfigError> {
-        let mut config = self.clone();
-        config.camera.fit_frame(width, height)?;
-        config.validate()
     }
 }
 

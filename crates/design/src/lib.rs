@@ -21,6 +21,7 @@ mod rules;
 mod serial;
 mod timing;
 mod validate;
+mod view;
 
 pub use choice::{Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
 pub use config::{Config, HardwareConfig};
@@ -31,7 +32,7 @@ pub use foveate_camera::{
     Reference, RegionConfig, RenderConfig, SpatialConfig, SpatialFeature, Temporal, TemporalConfig,
     Variance, Written, bits_for, index_bits, mad_score_max,
 };
-pub use hardware::{DesignOn, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
+pub use hardware::Hardware;
 pub use pipelined::{Pipelined, PipelinedTiming};
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};
@@ -43,3 +44,4 @@ pub use serial::{
     Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, Serial, SerialTiming,
 };
 pub use timing::{Departure, Timing};
+pub use view::{DesignOn, PipelinedDesign, RasterDesign, SerialDesign};

@@ -4,8 +4,8 @@
 //!
 //! Each organization answers in a module of its own, as an implementation of [`crate::rules::Rules`].
 
-use crate::rules::Unit;
-use crate::{Design, Feed, HardwareConfig, Organization, Port, Timing};
+use crate::rules::{Rules, Unit};
+use crate::{Design, Feed, Hardware, HardwareConfig, Organization, Port, Timing};
 
 impl Organization {
     /// What people call a unit of the array, such as "RPU".
@@ -67,6 +67,15 @@ impl Design {
     #[must_use]
     pub fn rcm_ports(&self) -> Vec<Port> {
         self.rules().rcm_ports()
+    }
+
+    /// What every organization answers.
+    fn rules(&self) -> Box<dyn Rules + '_> {
+        match self.hardware() {
+            Hardware::Pipelined(own) => Box::new(self.on(own)),
+            Hardware::Serial(own) => Box::new(self.on(own)),
+            Hardware::Raster(own) => Box::new(self.on(own)),
+        }
     }
 }
 

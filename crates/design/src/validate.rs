@@ -16,6 +16,16 @@ impl Config {
         self.validate_up_to(MAX_SIDE)
     }
 
+    /// The design for inputs of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// As [`CameraConfig::fit_frame`] and [`Config::validate`].
+    pub fn for_frames(&self, width: u32, height: u32) -> Result<Design, ConfigError> {
+        let mut config = self.clone();
+        config.camera.fit_frame(width, height)?;
+        config.validate()
+    }
+
     /// As [`Config::validate`], for frames with sides up to `max_side`.
     pub(crate) fn validate_up_to(&self, max_side: u32) -> Result<Design, ConfigError> {
         let camera = self.camera.validate_up_to(max_side)?;

@@ -10,7 +10,6 @@
 
 use crate::Leaf;
 use crate::camera::is_last_sent;
-use crate::organization::emitter;
 use foveate_design::{
     Design, Feed, Filter, MemoryKind, Pipelining, RasterDesign, RasterTiming, SerialDesign, Store,
 };
@@ -82,12 +81,12 @@ fn is_in_banks(design: RasterDesign<'_>) -> bool {
 /// Parameters of a leaf and their values.
 pub(crate) type Values = Vec<(&'static str, String)>;
 
-/// The text of a leaf as `design` ships it; its parameters have these `values` in the design.
-pub(crate) fn text(design: &Design, leaf: &Leaf, values: &[(&str, String)]) -> String {
+/// The text of a leaf as a design ships it; its parameters have these `values` in the design, which elaborates all of
+/// its parts, or not.
+pub(crate) fn text(leaf: &Leaf, values: &[(&str, String)], is_whole: bool) -> String {
     let plain = leaf.contents.to_owned();
     let text = values.iter().fold(plain, |text, (name, value)| with_default(&text, name, value));
-    let own = emitter(design);
-    if leaf.uses.iter().all(|part| own.is_taken(leaf.name, part)) {
+    if is_whole {
         return text;
     }
     let parts = "// Parts that the design does not elaborate are left out, so some parameters have no use.\n\

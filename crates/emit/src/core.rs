@@ -62,7 +62,7 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
     }
     let paths: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
     let vivado =
-        Vivado { banner: banner(design), before: prefix.name(""), has_rpu: has_rpu(design) };
+        Vivado { banner: banner(design), before: prefix.name(""), has_rpu: Top::has_rpu(design) };
     let beside = [
         ("foveate_rcm.core".to_owned(), text_of(&fusesoc(design, prefix, paths))),
         ("constraints/ooc.xdc".to_owned(), include_str!("../../../constraints/ooc.xdc").to_owned()),
@@ -85,14 +85,9 @@ fn replay(design: &Design, prefix: &Prefix) -> Replay {
     Replay {
         banner: banner(design),
         before: prefix.name(""),
-        has_rpu: has_rpu(design),
+        has_rpu: Top::has_rpu(design),
         simulator: if is_long { "verilator" } else { "iverilog" },
     }
-}
-
-/// Whether the core has a module `rpu` beside `rcm`.
-pub(crate) fn has_rpu(design: &Design) -> bool {
-    Top::all_of(design).contains(&Top::Rpu)
 }
 
 fn file_list(files: &[SourceFile]) -> String {
@@ -110,7 +105,7 @@ fn fusesoc<'a>(design: &Design, prefix: &Prefix, files: Vec<&'a str>) -> FuseSoc
         // No two designs have the same, and neither have two prefixes of one.
         name: prefix.name(&design.fingerprint()),
         before: prefix.name(""),
-        has_rpu: has_rpu(design),
+        has_rpu: Top::has_rpu(design),
         columns: design.columns(),
         rows: design.rows(),
         n: design.region_size(),

@@ -2,7 +2,6 @@
 //! The hand-written leaf modules, and which of them a design needs.
 
 use crate::camera::is_last_sent;
-use crate::organization::emitter;
 use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining};
 
 /// A hand-written module of `rtl/`.
@@ -108,17 +107,16 @@ leaves! {
     ],
 }
 
-/// The leaves of these names and those that they elaborate in `design`, in compile order.
+/// The leaves of these names and those that they elaborate, in compile order; `is_taken` says whether a leaf has a part
+/// inside.
 pub(crate) fn with_parts(
-    design: &Design,
     mut names: Vec<&'static str>,
+    is_taken: impl Fn(&str, &str) -> bool,
 ) -> impl Iterator<Item = &'static Leaf> {
-    let own = emitter(design);
     // Every leaf stands after those that it instantiates.
     for leaf in LEAVES.iter().rev() {
         if names.contains(&leaf.name) {
-            let taken = leaf.uses.iter().filter(|part| own.is_taken(leaf.name, part));
-            names.extend(taken);
+            names.extend(leaf.uses.iter().filter(|part| is_taken(leaf.name, part)));
         }
     }
     LEAVES.iter().filter(move |leaf| names.contains(&leaf.name))

@@ -35,7 +35,7 @@ pub(crate) fn modules(design: PipelinedDesign<'_>, top: Top) -> Vec<SourceFile> 
         Top::Rcm => {
             // A part of the array alone, so it is none of the leaves of the RPU.
             let sync = design.syncs().then_some("frame_sync");
-            let leaves = leaf::with_parts(&design, sync.into_iter().collect());
+            let leaves = leaf::with_parts(sync.into_iter().collect(), |_, _| true);
             let leaves = leaves.map(|leaf| file(leaf.name, leaf.contents.to_owned()));
             let array = file(top.module(), render(design));
             leaves.chain([rpu, array]).collect()

@@ -6,11 +6,10 @@ mod sync;
 
 pub(crate) use raster::raster_readme;
 
-use crate::core::has_rpu;
 use crate::instance::instance;
 use crate::text::text_of;
 use crate::thresholds::threshold_value;
-use crate::{Prefix, banner, latency};
+use crate::{Prefix, Top, banner, latency};
 use askama::Template;
 use foveate_design::{
     Design, Direction, Feed, MemoryKind, PipelinedDesign, PipelinedTiming, Port, SerialDesign,
@@ -173,7 +172,7 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
-        has_rpu: has_rpu(&design),
+        has_rpu: Top::has_rpu(&design),
         compared: " at which it is valid",
     }
 }
@@ -234,7 +233,7 @@ fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: Pipeline
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
-        has_rpu: has_rpu(&design),
+        has_rpu: Top::has_rpu(&design),
         compared: "",
     }
 }

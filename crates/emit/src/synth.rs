@@ -4,7 +4,6 @@
 //! They do what `foveate estimate --place-and-route` does. A core has more ports than a device has pins, so a
 //! module around it has a register of the device for each bit.
 
-use crate::core::has_rpu;
 use crate::text::text_of;
 use crate::{Prefix, SourceFile, Top, banner};
 use askama::Template;
@@ -196,7 +195,7 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
             devices: family.devices,
             names: names.join(", "),
             top: top(design).module(),
-            has_rpu: has_rpu(design),
+            has_rpu: Top::has_rpu(design),
         };
         let tcl = Tcl {
             banner: banner(design),

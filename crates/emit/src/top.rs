@@ -26,6 +26,11 @@ impl Top {
         }
     }
 
+    /// Whether a core of the design has a module `rpu` beside `rcm`.
+    pub(crate) fn has_rpu(design: &Design) -> bool {
+        Self::all_of(design).contains(&Self::Rpu)
+    }
+
     /// Name of the module.
     #[must_use]
     pub fn module(self) -> &'static str {

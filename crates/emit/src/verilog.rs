@@ -16,9 +16,12 @@ pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
         Top::Rpu => &lone,
         Top::Rcm => design,
     };
-    let leaves = leaf::with_parts(whole, own.leaves()).map(|leaf| {
+    let of_whole = emitter(whole);
+    let is_taken = |leaf: &str, part: &str| of_whole.is_taken(leaf, part);
+    let leaves = leaf::with_parts(own.leaves(), is_taken).map(|leaf| {
         // The same for both tops: what the smaller of them elaborates both have.
-        file(leaf.name, branch::text(&lone, leaf, &of_lone.values(leaf.name)))
+        let is_whole = leaf.uses.iter().all(|part| of_lone.is_taken(leaf.name, part));
+        file(leaf.name, branch::text(leaf, &of_lone.values(leaf.name), is_whole))
     });
     leaves.chain(own.modules(top)).collect()
 }

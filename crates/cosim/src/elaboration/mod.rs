@@ -5,6 +5,7 @@
 //! simulation of a small one. So what is generated is elaborated, and what is simulated, and the modules
 //! with their parameter values are compared. [`crate::hierarchy`] finds files that nothing instantiates.
 
+mod tile;
 mod variant;
 mod wiring;
 mod xml;
@@ -16,9 +17,9 @@ use foveate_emit::{Parameter, Prefix, SourceFile, Top};
 use foveate_toolchain::{Source, Toolchain, verilator};
 use std::collections::BTreeSet;
 use std::io::BufReader;
+pub(crate) use tile::Tile;
 pub use variant::NotElaborated;
 pub(crate) use variant::Variant;
-pub(crate) use wiring::Tile;
 
 /// What the hierarchy below a top is made of.
 #[derive(Debug, Default)]

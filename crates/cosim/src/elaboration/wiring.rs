@@ -4,7 +4,7 @@
 //! A simulation of a few copies shows what one does and how neighbors are told apart. That the other copies are
 //! connected in the same way is read from the elaborated array, however large it is.
 
-use super::xml::Token;
+use super::tile::{Connection, Tile};
 use foveate_design::{Design, Direction, Port, PortRole};
 use foveate_emit::Top;
 use foveate_model::region_border;
@@ -12,43 +12,6 @@ use std::collections::BTreeMap;
 
 /// The valid bit behind `frame_sync`.
 const BEAT: &str = "beat";
-
-/// An instance in the top.
-#[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Tile {
-    pub(super) module: String,
-    pub(super) ports: Vec<(String, Connection)>,
-}
-
-/// What is connected to a port.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Connection {
-    /// A whole signal.
-    All(String),
-    /// So many bits of a signal.
-    Part { signal: String, from: u64, width: u64 },
-    /// A constant.
-    Number(u64),
-    /// Anything else.
-    Other,
-}
-
-impl Connection {
-    pub(super) fn of(tokens: &[Token]) -> Self {
-        let number = |text: &str| u64::from_str_radix(text, 16).ok();
-        match tokens {
-            [Token::Signal(name)] => Self::All(name.clone()),
-            [Token::Select, Token::Signal(name), Token::Number(from), Token::Number(width)] => {
-                match (number(from), number(width)) {
-                    (Some(from), Some(width)) => Self::Part { signal: name.clone(), from, width },
-                    _ => Self::Other,
-                }
-            }
-            [Token::Number(value)] => number(value).map_or(Self::Other, Self::Number),
-            _ => Self::Other,
-        }
-    }
-}
 
 /// Whether there is one copy of `unit_name` per region, in their order, and each has the lanes of its own region: of
 /// every port that the array has for all of them the whole, of every port that it has per region its part.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Reads the hierarchy that Verilator writes as XML: modules, parameters, and what the top connects.
 
-use super::{Elaboration, Tile, Variant};
-use crate::elaboration::wiring::Connection;
+use super::tile::{Connection, Tile, Token};
+use super::{Elaboration, Variant};
 use crate::error::CosimError;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -19,14 +19,6 @@ struct Place {
     tile: Option<Tile>,
     /// The port of the tile, and what stands there.
     port: Option<(String, Vec<Token>)>,
-}
-
-/// A part of what is connected to a port.
-pub(super) enum Token {
-    Select,
-    Signal(String),
-    Number(String),
-    Other,
 }
 
 /// Reads all of it; `top` is the module whose instances are wanted.

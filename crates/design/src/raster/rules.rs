@@ -1,74 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a raster design answers, and which frames its core takes; see [`crate::organization`].
+//! What a raster design answers; see [`crate::organization`].
 
+use super::hardware::least_columns;
 use super::{RasterTiming, ports::ports};
 use crate::rules::{Rules, Unit};
-use crate::{Design, HardwareConfig, Organization, Pipelining, Port, RasterDesign, Store, Timing};
-use foveate_camera::{Camera, ConfigError, Reference, Written, in_range};
+use crate::{Design, Organization, Port, RasterDesign, Store, Timing};
 
-/// Pixels that a word may have.
-const WORDS: [u32; 3] = [1, 2, 4];
-/// Fewest regions side by side.
-const MIN_COLUMNS: u32 = 4;
-/// Fewest words of a row of the padded frame.
-const MIN_ROW_WORDS: u32 = 16;
-/// Widest frame in pixels.
-const MAX_WIDTH: u32 = 8192;
 /// Regions one below the other of the lone core.
 const LONE_ROWS: u32 = 3;
-
-/// What a raster core has of its own.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Raster {
-    /// Pixels that it takes at a clock, K: 1, 2 or 4.
-    pub pixels_per_clock: u32,
-    /// How finely the arithmetic is cut by registers.
-    pub pipelining: Pipelining,
-    /// Where the frame store is, and of what it is built.
-    pub store: Store,
-    /// Whether the pixels of active regions leave.
-    pub forwards: bool,
-}
-
-impl Raster {
-    /// What is asked for, if a raster core takes it.
-    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        refuse_lanes(asked)?;
-        let pixels = asked.pixels_per_clock.unwrap_or(WORDS[0]);
-        check_word(asked, pixels, camera.region_size())?;
-        check_reference(asked, camera.temporal().reference)?;
-        let why = " for organization = \"raster\"; use a narrower frame, or \"serial\"";
-        in_range("frame.width", camera.width(), 1..=MAX_WIDTH, why)?;
-        let size = camera.region_size();
-        let columns = least_columns(size, pixels);
-        if camera.columns() < columns {
-            let remedy = format!(
-                "a row must have at least {MIN_COLUMNS} regions and {MIN_ROW_WORDS} words of \
-                 {pixels} pixels; use frames of at least {} pixels, or smaller regions",
-                (columns - 1) * size + 1
-            );
-            return Err(asked.clash("frame.width", camera.width().to_string(), &remedy));
-        }
-        Ok(Self {
-            pixels_per_clock: pixels,
-            pipelining: asked.pipelining.unwrap_or_default(),
-            store: asked.store.unwrap_or_default(),
-            forwards: asked.forward.unwrap_or(true),
-        })
-    }
-
-    /// `[hardware]`. That pixels leave is left out, so that designs have the fingerprints from before there was the key.
-    pub(crate) fn config(&self) -> HardwareConfig {
-        HardwareConfig {
-            organization: Organization::Raster,
-            pixels_per_clock: Some(self.pixels_per_clock),
-            pipelining: Some(self.pipelining),
-            store: Some(self.store),
-            forward: (!self.forwards).then_some(false),
-            ..HardwareConfig::default()
-        }
-    }
-}
 
 impl RasterDesign<'_> {
     /// Pixels of a word K.
@@ -114,73 +53,4 @@ impl Rules for RasterDesign<'_> {
     fn rcm_ports(&self) -> Vec<Port> {
         ports(*self)
     }
-}
-
-/// Refuses what only lanes have.
-fn refuse_lanes(asked: &HardwareConfig) -> Result<(), ConfigError> {
-    if asked.fold != 1 {
-        let remedy = "only the serial organization shares lanes; use 1";
-        return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));
-    }
-    if let Some(feed) = asked.feed {
-        let remedy = "this organization always takes the frame row by row; leave the key out";
-        return Err(asked.clash("hardware.feed", format!("\"{feed}\""), remedy));
-    }
-    if let Some(memory) = asked.memory {
-        let remedy = "only the lanes of the serial organization have such a memory; leave the key \
-                      out, or use `hardware.store`";
-        return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
-    }
-    Ok(())
-}
-
-/// Refuses words that do not fill the rows of a region.
-fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), ConfigError> {
-    let key = "hardware.pixels_per_clock";
-    if !WORDS.contains(&pixels) {
-        return Err(ConfigError::Range {
-            key: key.to_owned(),
-            value: pixels.to_string(),
-            valid: "1, 2 or 4".to_owned(),
-        });
-    }
-    if size.is_multiple_of(pixels) {
-        return Ok(());
-    }
-    let remedy = format!("it must divide region.size = {}; use fewer pixels", size);
-    Err(asked.clash(key, pixels.to_string(), &remedy))
-}
-
-/// Refuses what cannot keep references that are written when regions are sent.
-fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), ConfigError> {
-    match reference.written() {
-        Written::WithEveryFrame => return Ok(()),
-        Written::WhenSent => {}
-    }
-    let clash = |key: &str, value: String, remedy: &str| {
-        Err(ConfigError::Combination {
-            key: key.to_owned(),
-            value,
-            with: format!("temporal.reference = \"{reference}\""),
-            remedy: remedy.to_owned(),
-        })
-    };
-    if asked.forward == Some(false) {
-        let remedy = "its references are the pixels that leave; leave the key out, or use \
-                      reference = \"previous\"";
-        return clash("hardware.forward", false.to_string(), remedy);
-    }
-    match asked.store.unwrap_or_default() {
-        Store::Block | Store::Ultra => Ok(()),
-        store @ (Store::SinglePort | Store::External) => {
-            let remedy = "it also writes regions that leave while others come, for which such a \
-                          store has no port; use \"block\" or \"ultra\", or reference = \"previous\"";
-            clash("hardware.store", format!("\"{store}\""), remedy)
-        }
-    }
-}
-
-/// The fewest regions side by side, for regions and words of so many pixels.
-fn least_columns(size: u32, pixels: u32) -> u32 {
-    (MIN_ROW_WORDS * pixels).div_ceil(size).max(MIN_COLUMNS)
 }

@@ -5,14 +5,15 @@
 
 mod feature;
 mod folds;
+mod hardware;
 mod memory;
 mod ports;
 mod rules;
 mod timing;
 mod widths;
 
+pub use hardware::Serial;
 pub use memory::{Area, AreaKind, LaneMemory, MemoryChoice};
-pub use rules::Serial;
 pub use timing::{Phase, SerialTiming};
 pub use widths::LaneWidths;
 

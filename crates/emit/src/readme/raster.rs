@@ -3,10 +3,9 @@
 
 use super::{PortRow, ThresholdRow, port_row, score_names, sync, threshold};
 use crate::camera::is_last_sent;
-use crate::core::has_rpu;
 use crate::instance::instance;
 use crate::text::text_of;
-use crate::{Prefix, banner};
+use crate::{Prefix, Top, banner};
 use askama::Template;
 use foveate_design::{
     FRAME_NUMBERS, Pipelining, RasterDesign, RasterMemory, RasterTiming, Store, Thresholds,
@@ -134,7 +133,7 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
         sync: sync::section(&design, "word", ""),
-        has_rpu: has_rpu(&design),
+        has_rpu: Top::has_rpu(&design),
         compared: " at which it is valid",
     }
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a pipelined array has of its own, and what of a configuration it takes.
+
+use crate::{Feed, HardwareConfig, Organization, Pipelining};
+use foveate_camera::ConfigError;
+
+/// What a pipelined array has of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pipelined {
+    /// How finely the arithmetic is cut by registers.
+    pub pipelining: Pipelining,
+}
+
+impl Pipelined {
+    /// What is asked for, if a pipelined array takes it.
+    pub(crate) fn validate(asked: &HardwareConfig) -> Result<Self, ConfigError> {
+        asked.refuse_raster_keys()?;
+        if asked.fold != 1 {
+            let remedy = "only the serial organization shares lanes; use 1";
+            return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));
+        }
+        if let Some(memory) = asked.memory {
+            let remedy = "only the lanes of the serial organization have such a memory; \
+                          leave the key out";
+            return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
+        }
+        match asked.feed {
+            None | Some(Feed::Parallel) => {
+                Ok(Self { pipelining: asked.pipelining.unwrap_or_default() })
+            }
+            Some(Feed::Raster) => {
+                let remedy = "only the serial organization takes the frame row by row; \
+                              leave the key out";
+                Err(asked.clash("hardware.feed", format!("\"{}\"", Feed::Raster), remedy))
+            }
+        }
+    }
+
+    /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
+    pub(crate) fn config(&self) -> HardwareConfig {
+        HardwareConfig {
+            organization: Organization::Pipelined,
+            pipelining: self.pipelining.if_deep(),
+            ..HardwareConfig::default()
+        }
+    }
+}

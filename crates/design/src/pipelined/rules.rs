@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a pipelined design answers; see [`crate::organization`].
+
+use super::{PipelinedTiming, ports};
+use crate::rules::{Rules, Unit};
+use crate::{Design, Organization, PipelinedDesign, Port, Timing};
+
+impl Rules for PipelinedDesign<'_> {
+    fn unit(&self) -> Unit {
+        Unit {
+            name: Organization::Pipelined.unit_name(),
+            module: "rpu",
+            count: self.regions(),
+            regions: 1,
+            rpu_in_rcm: true,
+            split: "rpu",
+        }
+    }
+
+    fn lone_unit(&self) -> Design {
+        self.design().clone()
+    }
+
+    fn timing(&self) -> Timing {
+        PipelinedTiming::of(*self).answers()
+    }
+
+    fn rpu_ports(&self) -> Vec<Port> {
+        ports::rpu(self)
+    }
+
+    fn rcm_ports(&self) -> Vec<Port> {
+        ports::rcm(self)
+    }
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a serial array has of its own, and what of a configuration it takes.
+
+use crate::{Feed, HardwareConfig, MemoryKind, Organization, Pipelining};
+use foveate_camera::{Camera, ConfigError, in_range};
+
+/// Smallest side of a region.
+const MIN_SIDE: u32 = 4;
+
+/// What a serial array has of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Serial {
+    /// Regions per lane K.
+    pub fold: u32,
+    /// How pixels enter.
+    pub feed: Feed,
+    /// Of what the memories of the lanes are to be built, where the configuration says so; see [`super::LaneMemory`].
+    pub memory: Option<MemoryKind>,
+    /// How finely the arithmetic is cut by registers.
+    pub pipelining: Pipelining,
+}
+
+impl Serial {
+    /// What is asked for, if a serial array takes it.
+    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
+        asked.refuse_raster_keys()?;
+        let (size, regions) = (camera.region_size(), camera.regions());
+        if size < MIN_SIDE {
+            let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
+            return Err(asked.clash("region.size", size.to_string(), &remedy));
+        }
+        let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
+        in_range("hardware.fold", asked.fold, 1..=regions, &why)?;
+        Ok(Self {
+            fold: asked.fold,
+            feed: asked.feed.unwrap_or_default(),
+            memory: asked.memory,
+            pipelining: asked.pipelining.unwrap_or_default(),
+        })
+    }
+
+    /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
+    pub(crate) fn config(&self) -> HardwareConfig {
+        HardwareConfig {
+            organization: Organization::Serial,
+            fold: self.fold,
+            feed: Some(self.feed),
+            memory: self.memory,
+            pipelining: self.pipelining.if_deep(),
+            ..HardwareConfig::default()
+        }
+    }
+}
