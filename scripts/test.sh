@@ -28,8 +28,9 @@ scripts/python_tools.sh --package >"$packages" 2>&1 &
 installed=$!
 step "format"
 cargo fmt --all --check
-step "code that would take a new variant for another"
+step "code that would take a new variant for another; files that import in circles"
 scripts/variants.py
+scripts/circles.py
 step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "shell, Python, dependencies"

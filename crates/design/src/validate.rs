@@ -19,7 +19,7 @@ impl Config {
     /// The design for inputs of `width` x `height` pixels.
     ///
     /// # Errors
-    /// As [`CameraConfig::fit_frame`] and [`Config::validate`].
+    /// As [`foveate_camera::CameraConfig::fit_frame`] and [`Config::validate`].
     pub fn for_frames(&self, width: u32, height: u32) -> Result<Design, ConfigError> {
         let mut config = self.clone();
         config.camera.fit_frame(width, height)?;

@@ -2,11 +2,10 @@
 //! From a space and clips to a folder of tables, fronts, configurations and one page.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use foveate_design::Design;
 use foveate_files::tables::Table;
-use foveate_footage::InputOptions;
 use foveate_staging::write_file;
 
 use crate::cost::Synthesized;
@@ -17,20 +16,7 @@ use crate::row::Row;
 use crate::store::Store;
 use crate::table::{errors, point};
 use crate::work::Work;
-use crate::{ClipRow, Exploration, ExploreError, Hooks, Space, Synthesizer};
-
-/// What is explored.
-#[derive(Clone, Debug)]
-pub struct Request<'a> {
-    /// The designs.
-    pub space: &'a Space,
-    /// Clips and sets of one size, one each; image files together are one clip.
-    pub inputs: &'a [PathBuf],
-    /// How they are read.
-    pub input: &'a InputOptions,
-    /// The synthesizer, for areas; without it the figures have no areas.
-    pub synthesizer: Option<&'a Synthesizer>,
-}
+use crate::{ClipRow, Exploration, ExploreError, Hooks, Request, Synthesizer};
 
 /// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
 /// can continue.

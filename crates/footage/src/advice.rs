@@ -7,9 +7,9 @@ use std::path::Path;
 use foveate_frame::Frame;
 
 use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
-use crate::input::{InputOptions, entries, expand, is_special};
+use crate::input::{entries, expand, is_special};
 use crate::sets::{cifar, idx};
-use crate::{ImagesAs, picture};
+use crate::{ImagesAs, InputOptions, picture};
 
 /// Warnings about the inputs, one sentence each. What [`open`](crate::open) refuses is not among them.
 #[must_use]

@@ -15,52 +15,18 @@ use std::path::{Path, PathBuf};
 use foveate_camera::CameraConfig;
 use foveate_scenes::{Scene, SceneSize};
 
-use crate::limits::Crop;
+use crate::options::{ImagesAs, InputOptions};
 use crate::sets::cifar::{Batch, Sheet};
 use crate::sets::idx::Idx;
 use crate::sets::open_unpacked;
 use crate::source::feed::{Adjustment, Feed, Input};
 use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
-use crate::source::select::Selection;
 use crate::video::{Medium, Video};
 use crate::y4m::Y4m;
-use crate::{FootageError, FrameRate, Kind, Source, picture};
+use crate::{FootageError, Kind, Source, picture};
 
 /// Side of a scene where the configuration does not say.
 const SCENE_SIDE: u32 = 224;
-
-/// How image files are related.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ImagesAs {
-    /// Frames of one clip, in order.
-    #[default]
-    Clip,
-    /// A set: each is a first frame. Sub-folders are searched, and their names are labels.
-    Set,
-    /// CIFAR sheets: 1024 columns, and every row is an image of 32x32 pixels.
-    CifarSheet,
-}
-
-/// Choices on how inputs are read.
-#[derive(Clone, Debug, Default)]
-pub struct InputOptions {
-    /// At most this many frames; a scene has exactly this many.
-    pub frames: Option<u32>,
-    /// Frames per second of inputs without times: images, scenes, streams without a rate.
-    pub frame_rate: FrameRate,
-    /// Which frames of a clip to take.
-    pub selection: Selection,
-    /// The part of every frame to take.
-    pub crop: Option<Crop>,
-    /// Width and height to scale to, after cropping.
-    pub resize: Option<(u32, u32)>,
-    /// How image files are related.
-    pub images: ImagesAs,
-    /// The labels of an IDX file, if they are not beside it under their usual name.
-    pub labels: Option<PathBuf>,
-    /// Whether the number of every frame must be known: then a late start is decoded to, not sought.
-    pub numbered: bool,
-}
 
 /// Opens inputs as one source of frames with the configuration's bits per pixel. Scenes also take
 /// their size from it.

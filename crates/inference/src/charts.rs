@@ -2,7 +2,8 @@
 //! The charts of a run: what is needed along the network's depth and over the frames, what frames save, and what tuning could choose between.
 
 use crate::Layer;
-use crate::summary::{Macs, Summary, Tried, Tuning};
+use crate::macs::Macs;
+use crate::summary::{Summary, Tried, Tuning};
 use foveate_pictures::chart::{Chart, Line, Look, Shape};
 
 /// A counted frame.
@@ -50,10 +51,8 @@ pub(crate) fn frame_id(place: u64) -> String {
 
 /// Everything that tuning tried in the order of its table, with its name among the points.
 pub(crate) fn tried(tuning: &Tuning) -> Vec<(String, &'static str, Tried)> {
-    let uniform = tuning.uniform.iter().map(|tried| ("uniform", *tried));
-    let others = [("frozen", tuning.frozen), ("chosen", tuning.chosen)];
-    let all = [("exact", tuning.exact)].into_iter().chain(uniform).chain(others);
-    all.enumerate().map(|(at, (limits, tried))| (format!("t{at}"), limits, tried)).collect()
+    let all = tuning.tried().enumerate();
+    all.map(|(at, (limits, tried))| (format!("t{at}"), limits, tried)).collect()
 }
 
 /// All charts. Frames that are not counted are left out.

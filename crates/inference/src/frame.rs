@@ -3,8 +3,8 @@
 
 use crate::camera::Seen;
 use crate::cost::{Costs, FrameCost};
-use crate::summary::{Macs, macs};
-use crate::tally::Positions;
+use crate::macs::{Macs, macs};
+use crate::positions::Positions;
 use crate::traffic::Traffic;
 use foveate_accelerator::Cost;
 use foveate_files::tables::{Cell, Cells};

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a run says at its end, and its tables.
 
-use crate::charts::tried;
 use crate::closeness::Closeness;
 use crate::cost::{Accelerated, Costs, FrameCost};
-use crate::tally::{Positions, Reference};
+use crate::macs::Macs;
+use crate::positions::Positions;
+use crate::reference::Reference;
+use crate::sums::ratio;
 use crate::traffic::FrameTraffic;
 use crate::{Mapping, Recorded};
 use foveate_design::Config;
 use foveate_files::tables::{Cell, Cells, Table};
 use foveate_network::{Executor, Form, Mode, Network};
 use serde::Serialize;
-use std::ops::AddAssign;
 
 /// A run of a network behind a camera. All shares and means are over the counted frames.
 #[derive(Clone, Debug, Serialize)]
@@ -99,36 +100,6 @@ pub struct Clip {
     pub problem: Option<String>,
 }
 
-/// Multiplications and additions per frame.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Macs {
-    /// Of a whole computation.
-    pub dense: f64,
-    /// Of the positions whose windows hold a change.
-    pub needed: f64,
-    /// Of the positions that were computed: whole blocks.
-    pub scheduled: f64,
-    /// Of the positions that a whole computation computes, in the same blocks.
-    pub whole: f64,
-}
-
-impl Macs {
-    /// Some of them as a share of a whole computation; 0 where there is nothing to compute.
-    #[must_use]
-    pub fn share(&self, some: f64) -> f64 {
-        if self.dense == 0.0 { 0.0 } else { some / self.dense }
-    }
-}
-
-impl AddAssign for Macs {
-    fn add_assign(&mut self, other: Self) {
-        self.dense += other.dense;
-        self.needed += other.needed;
-        self.scheduled += other.scheduled;
-        self.whole += other.whole;
-    }
-}
-
 /// A comparison with a whole computation.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Error {
@@ -193,6 +164,15 @@ pub struct Tuning {
     pub frozen: Tried,
     /// Whether the second half reaches the goal, too.
     pub holds: bool,
+}
+
+impl Tuning {
+    /// Everything that was tried, with what its limits are called, in the order of its table.
+    pub(crate) fn tried(&self) -> impl Iterator<Item = (&'static str, Tried)> {
+        let uniform = self.uniform.iter().map(|tried| ("uniform", *tried));
+        let others = [("frozen", self.frozen), ("chosen", self.chosen)];
+        [("exact", self.exact)].into_iter().chain(uniform).chain(others)
+    }
 }
 
 /// What some limits gave on the first half.
@@ -294,22 +274,6 @@ pub(crate) fn mask_bytes(form: &Form) -> u64 {
     form.places().div_ceil(8) as u64
 }
 
-/// The sums over all layers.
-pub(crate) fn macs(network: &Network, sums: &[Positions]) -> Macs {
-    #[allow(clippy::cast_precision_loss, reason = "a mean")]
-    let of = |share: &dyn Fn(usize, &Positions) -> f64| {
-        let layer = |(node, sums)| network.macs(node) as f64 * share(node, sums);
-        sum(sums.iter().enumerate().map(layer))
-    };
-    let places = |node: usize| network.form(node + 1).places() as u64;
-    Macs {
-        dense: of(&|_, _| 1.0),
-        needed: of(&|_, sums| ratio(sums.needed, sums.all)),
-        scheduled: of(&|_, sums| ratio(sums.scheduled, sums.all)),
-        whole: of(&|node, _| ratio(network.scheduled(node) as u64, places(node))),
-    }
-}
-
 /// The comparison of the outputs.
 pub(crate) fn error(reference: &Reference<'_>) -> Error {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
@@ -319,17 +283,6 @@ pub(crate) fn error(reference: &Reference<'_>) -> Error {
         outputs: (&reference.outputs).into(),
         dense_seconds_per_frame: reference.seconds / frames,
     }
-}
-
-/// A sum; of nothing it is 0, where that of the standard library is -0.
-pub(crate) fn sum(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |sum, value| sum + value)
-}
-
-/// A share; 0 of nothing.
-#[allow(clippy::cast_precision_loss, reason = "a share")]
-pub(crate) fn ratio(part: u64, all: u64) -> f64 {
-    if all == 0 { 0.0 } else { part as f64 / all as f64 }
 }
 
 impl Summary {
@@ -386,7 +339,7 @@ impl Summary {
     /// A row for each limit that all layers had together, and one for what was chosen.
     pub(crate) fn tuning_table(&self) -> Option<Table> {
         let tuning = self.tuning.as_ref()?;
-        let row = |(_, limits, tried): (String, &str, Tried)| -> Cells {
+        let row = |(limits, tried): (&str, Tried)| -> Cells {
             let real = |value: f64| Cell::Real(Some(value));
             [
                 ("limits", Cell::Text(limits.to_owned())),
@@ -403,6 +356,6 @@ impl Summary {
             .map(|(name, cell)| (name.to_owned(), cell))
             .into()
         };
-        Some(Table::of(tried(tuning).into_iter().map(row)))
+        Some(Table::of(tuning.tried().map(row)))
     }
 }

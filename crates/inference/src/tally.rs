@@ -1,42 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums over the frames of a run.
+//! Sums over the frames of a clip, and frames whose outputs are not finite.
 
-use crate::closeness::{Closeness, Distance};
 use crate::frame::Frame;
-use crate::summary::{Clip, Macs};
-use foveate_network::{Executor, Mask, Mode, Network, Work};
-use std::ops::AddAssign;
-use std::time::Instant;
-
-/// Positions of a node over all counted frames.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Positions {
-    pub(crate) all: u64,
-    pub(crate) needed: u64,
-    pub(crate) scheduled: u64,
-    pub(crate) changed: u64,
-}
-
-impl Positions {
-    /// Of a frame.
-    pub(crate) fn of(work: &Work, places: usize) -> Self {
-        Self {
-            all: places as u64,
-            needed: work.needed as u64,
-            scheduled: work.scheduled as u64,
-            changed: work.changed as u64,
-        }
-    }
-}
-
-impl AddAssign for Positions {
-    fn add_assign(&mut self, other: Self) {
-        self.all += other.all;
-        self.needed += other.needed;
-        self.scheduled += other.scheduled;
-        self.changed += other.changed;
-    }
-}
+use crate::macs::Macs;
+use crate::summary::Clip;
+use foveate_network::{Executor, Network};
 
 /// Sums over the frames of a clip.
 #[derive(Clone, Debug)]
@@ -134,61 +102,5 @@ impl NotFinite {
             node.name(),
             node.kind()
         ))
-    }
-}
-
-/// A whole computation beside the one that is judged.
-pub(crate) struct Reference<'a> {
-    network: &'a Network,
-    dense: Executor<'a>,
-    full: Mask,
-    /// By node.
-    pub(crate) layers: Vec<Distance>,
-    pub(crate) outputs: Closeness,
-    /// Frames in which some value of some tensor has other bits.
-    pub(crate) different: u64,
-    pub(crate) seconds: f64,
-}
-
-impl<'a> Reference<'a> {
-    pub(crate) fn new(network: &'a Network) -> Self {
-        Self {
-            network,
-            dense: Executor::new(network, Mode::Dense),
-            full: Mask::full(network.input().height(), network.input().width()),
-            layers: vec![Distance::default(); network.nodes().len()],
-            outputs: Closeness::default(),
-            different: 0,
-            seconds: 0.0,
-        }
-    }
-
-    /// Computes the picture whole and compares every tensor; returns how close the outputs are. Only a
-    /// counted frame is in the means.
-    pub(crate) fn judge(
-        &mut self,
-        picture: &[f32],
-        other: &Executor<'_>,
-        is_counted: bool,
-    ) -> Closeness {
-        let start = Instant::now();
-        self.dense.step(picture, &self.full);
-        let seconds = start.elapsed().as_secs_f64();
-        let mut is_different = false;
-        for (node, layer) in self.layers.iter_mut().enumerate() {
-            let (distance, differs) =
-                Distance::of(&self.dense.value(node + 1).reals(), &other.value(node + 1).reals());
-            if is_counted {
-                layer.add(distance);
-            }
-            is_different |= differs;
-        }
-        let outputs = Closeness::of(self.network, |value| self.dense.value(value).reals(), other);
-        self.different += u64::from(is_different);
-        if is_counted {
-            self.outputs.add(&outputs);
-            self.seconds += seconds;
-        }
-        outputs
     }
 }

@@ -9,9 +9,10 @@
 use crate::InferenceError;
 use crate::album::Part;
 use crate::closeness::{Closeness, Goal};
+use crate::macs::{Macs, macs};
 use crate::player::{Player, Way};
-use crate::summary::{Macs, Tried, Tuning, macs};
-use crate::tally::Positions;
+use crate::positions::Positions;
+use crate::summary::{Tried, Tuning};
 use foveate_footage::{Hooks, Progress};
 use foveate_network::{Executor, Mode, Network};
 use std::borrow::Cow;

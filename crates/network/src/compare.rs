@@ -2,10 +2,10 @@
 //! What has changed of values beside those that are kept. Channel by channel the loops run over neighbors in memory, in vector lanes, because
 //! this is all that the modes that compare take longer.
 
-use crate::element::Number;
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::for_each_run;
+use crate::values::Number;
 
 /// Positions of which all channels are compared before the next ones, so that their marks stay in the first cache.
 const TOGETHER: usize = 2048;

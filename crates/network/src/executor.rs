@@ -2,12 +2,13 @@
 //! Runs a network frame by frame, and computes again only what may have changed.
 
 use crate::compare::{copy, moved};
-use crate::element::{Element, Number, typed};
+use crate::element::{Element, typed};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::network::Network;
 use crate::operator::Job;
-use crate::tensor::{Tensor, Values};
+use crate::tensor::Tensor;
+use crate::values::{Number, Values};
 use std::time::{Duration, Instant};
 
 /// What is computed for a frame after the first. The first is always computed whole.
@@ -254,6 +255,7 @@ impl<'a> Executor<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::Layout;
     use crate::mask::Window;
     use crate::operator::{Activation, Arithmetic, Binary, Conv, Geometry, Operator, Pointwise};
     use foveate_lanes::Level;
@@ -310,8 +312,7 @@ mod tests {
         let level = Level::detect();
         let geometry = Geometry::new(&[3, 1, 3, 3], [window; 2], 1).unwrap();
         let conv = Conv::new(geometry, &weights, None, level).unwrap();
-        let mut network =
-            Network::new(Form::features(vec![1, 1, 24, 24]), crate::read::Layout::Nchw).unwrap();
+        let mut network = Network::new(Form::features(vec![1, 1, 24, 24]), Layout::Nchw).unwrap();
         let faulty = |operator, fault| Arc::new(Faulty { operator, window, fault });
         let first =
             network.push("a", "Conv", faulty(Arc::new(conv), in_convolution), vec![0]).unwrap();

@@ -4,6 +4,9 @@
 use crate::element::Encoding;
 use std::ops::Range;
 
+/// Axes that a tensor of a network has at most.
+pub(crate) const MAX_AXES: usize = 8;
+
 /// A shape, of which some axes are the rows and columns of the picture.
 ///
 /// In memory a tensor is `outer` x `height` x `width` x `inner` values, row by row. The features of a convolution have their channels
@@ -109,7 +112,7 @@ impl Form {
     /// In words, when there is no such axis.
     pub(crate) fn axis(&self, axis: i64) -> Result<usize, String> {
         let count = self.shape.len();
-        // At most eight axes: see `network`.
+        // A network refuses forms of more than `MAX_AXES`.
         let from_end = axis.checked_add(i64::try_from(count).expect("a few axes"));
         let own = if axis < 0 { from_end.unwrap_or(-1) } else { axis };
         usize::try_from(own)

@@ -3,10 +3,10 @@
 
 use crate::element::Encoding;
 use crate::error::NetworkError;
-use crate::form::Form;
+use crate::form::{Form, MAX_AXES};
+use crate::layout::Layout;
 use crate::mask::Mask;
 use crate::operator::{Operator, Products};
-use crate::read::Layout;
 use std::sync::Arc;
 
 /// Values of the largest tensor.
@@ -15,8 +15,6 @@ const MAX_ELEMENTS: usize = 1 << 28;
 const MAX_KEPT: usize = 1 << 30;
 /// Bytes of the weights of all nodes.
 const MAX_WEIGHTS: u64 = 1 << 32;
-/// Axes of a tensor.
-pub(crate) const MAX_AXES: usize = 8;
 
 /// A network whose shapes are known. Value 0 is its input, value `i + 1` the output of node `i`.
 #[derive(Clone, Debug)]

@@ -1,30 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Values of a tensor.
+//! A tensor: a form, and values for it.
 
-use crate::element::{Element, Number, typed};
+use crate::element::{Element, typed};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::values::{Number, Values};
 use std::borrow::Cow;
-
-/// Values as they are stored.
-#[derive(Clone, Debug)]
-pub(crate) enum Values {
-    F32(Vec<f32>),
-    U8(Vec<u8>),
-    I8(Vec<i8>),
-    I32(Vec<i32>),
-}
-
-impl Values {
-    pub(crate) fn zeros(element: Element, count: usize) -> Self {
-        match element {
-            Element::F32 => Self::F32(vec![0.0; count]),
-            Element::U8 => Self::U8(vec![0; count]),
-            Element::I8 => Self::I8(vec![0; count]),
-            Element::I32 => Self::I32(vec![0; count]),
-        }
-    }
-}
 
 /// A tensor.
 #[derive(Clone, Debug)]

@@ -2,6 +2,7 @@
 //! Which inputs of a cell its outputs wait for, what starts at it and what ends at it.
 
 use super::delay;
+use super::joint::{Joint, joints};
 use super::path::Weight;
 use super::raw::{Bit, RawCell};
 use crate::cells::CellKind;
@@ -15,13 +16,6 @@ pub(super) struct CellTiming {
     pub(super) starts: Vec<(u32, Weight)>,
     /// Inputs at which paths end, and their pins.
     pub(super) ends: Vec<(u32, String)>,
-}
-
-/// A net and the pin that it is joined to.
-pub(super) struct Joint<'a> {
-    pub(super) port: &'a str,
-    pub(super) index: usize,
-    pub(super) net: u32,
 }
 
 impl CellTiming {
@@ -57,13 +51,6 @@ pub(super) fn carry_out(cell: &RawCell) -> Option<u32> {
     matches!(CellKind::of(&cell.kind), Some(CellKind::Carry(_)))
         .then(|| cell.connections.get("CO")?.last().and_then(Bit::net))
         .flatten()
-}
-
-pub(super) fn joints(cell: &RawCell) -> impl Iterator<Item = Joint<'_>> {
-    cell.connections.iter().flat_map(|(port, bits)| {
-        let joint = move |(index, bit): (usize, &Bit)| Some(Joint { port, index, net: bit.net()? });
-        bits.iter().enumerate().filter_map(joint)
-    })
 }
 
 fn is_output(kind: CellKind, port: &str) -> bool {

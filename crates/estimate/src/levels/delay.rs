@@ -5,7 +5,7 @@
 //! * The models are those of the 7 series. Yosys has none of UltraScale+, and takes these for it.
 //! * Setup times are left out, as those of ECP5 are 0.
 
-use super::cell::Joint;
+use super::joint::Joint;
 use super::path::Weight;
 use super::raw::RawCell;
 use crate::cells::CellKind;

@@ -3,7 +3,8 @@
 //! picoseconds. Reads of distributed RAM have a delay of 0 there. What they lack is what nextpnr 0.11 says
 //! of speed grade 6.
 
-use super::cell::{CellTiming, joints};
+use super::cell::CellTiming;
+use super::joint::joints;
 use super::path::Weight;
 use super::raw::RawCell;
 

@@ -14,6 +14,7 @@ mod cell;
 mod delay;
 mod ecp5;
 mod graph;
+mod joint;
 mod path;
 mod raw;
 mod search;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What nextpnr says: its report where it came to an end, its log where a device is too small.
+//! What nextpnr reports where it came to an end.
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::report::Over;
 use crate::error::EstimateError;
 
 /// The report that nextpnr writes; only what is needed.
@@ -89,20 +88,4 @@ impl Path {
     pub(super) fn delay(&self) -> f64 {
         self.steps.iter().map(|step| step.delay).sum()
     }
-}
-
-/// What a device has too few of, from the table in nextpnr's log: `DP16KD:  155/ 108 143%`.
-pub(super) fn over(log: &str) -> Vec<Over> {
-    let row = |line: &str| {
-        let (place, counts) = line.strip_prefix("Info:")?.split_once(':')?;
-        let (used, rest) = counts.split_once('/')?;
-        let available = rest.split_whitespace().next()?;
-        let over = Over {
-            place: place.trim().to_owned(),
-            used: used.trim().parse().ok()?,
-            available: available.parse().ok()?,
-        };
-        (over.used > over.available).then_some(over)
-    };
-    log.lines().filter_map(row).collect()
 }

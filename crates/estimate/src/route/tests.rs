@@ -7,8 +7,9 @@ use super::device::Family;
 use super::hierarchy::Hierarchy;
 use super::job::to_place;
 use super::netlist::Netlist;
-use super::report::{Fmax, Over};
-use super::result::{Outcome, over};
+use super::over::{Over, over};
+use super::report::Fmax;
+use super::result::Outcome;
 use super::{ROUTE_DEVICES, RouteDevice, ports};
 use crate::error::EstimateError;
 

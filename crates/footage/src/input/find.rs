@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use glob::{MatchOptions, Pattern};
 
-use super::ImagesAs;
 use super::sniff::{self, FileKind};
 use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
+use crate::options::ImagesAs;
 use crate::source::files::ImageFile;
 use crate::{FootageError, natural_order, picture};
 

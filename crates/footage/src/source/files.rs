@@ -8,8 +8,8 @@ use foveate_scenes::{Scene, SceneFrames, SceneSize};
 
 use super::feed::Feed;
 use super::form::{Labels, SetFiles, SetForm};
-use super::{FrameRate, Kind, SourceFrame};
-use crate::{FootageError, picture};
+use super::{Kind, SourceFrame};
+use crate::{FootageError, FrameRate, picture};
 
 /// An image file, with the label that its folder gives it.
 #[derive(Clone, Debug, PartialEq, Eq)]

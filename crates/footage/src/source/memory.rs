@@ -4,8 +4,8 @@
 use foveate_frame::Raster;
 
 use super::feed::{Adjustment, Feed, Input};
-use super::{FrameRate, Kind, Source, SourceFrame};
-use crate::{FootageError, ImagesAs, InputOptions};
+use super::{Kind, Source, SourceFrame};
+use crate::{FootageError, FrameRate, ImagesAs, InputOptions};
 
 /// Frames in a given order.
 struct Memory {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 use super::*;
 use crate::cost::{Accelerated, FrameCost};
-use crate::summary::{Clip, Error, Macs, Outputs, Tried, Tuning};
+use crate::macs::Macs;
+use crate::summary::{Clip, Error, Outputs, Tried, Tuning};
 use crate::{FrameTraffic, Layer, Mapping, Recorded};
 use foveate_design::Config;
 use foveate_pictures::page::browser::{Tip, chromium, probe};

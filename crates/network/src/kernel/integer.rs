@@ -10,7 +10,7 @@ use super::chunks::{CHUNK, Chunk};
 use super::gather::{Gathered, Picture};
 use super::panels::{Outputs, add_block};
 use super::weights::Weights;
-use crate::element::{Byte, Number};
+use crate::values::{Byte, Number};
 use foveate_lanes::{Level, Task};
 use std::ops::Range;
 

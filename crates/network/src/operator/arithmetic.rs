@@ -2,10 +2,10 @@
 //! Two tensors, element by element, each repeated along the axes in which it has one element.
 
 use super::{Activation, Job, Operator};
-use crate::element::Number;
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::Tensor;
+use crate::values::Number;
 use std::ops::Range;
 use std::sync::Arc;
 

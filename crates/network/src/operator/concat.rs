@@ -2,9 +2,10 @@
 //! Tensors one behind the other, along an axis.
 
 use super::{Job, Operator, everything, moved, same_position, values_of};
-use crate::element::{Encoding, Number, typed};
+use crate::element::{Encoding, typed};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::values::Number;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Concat {

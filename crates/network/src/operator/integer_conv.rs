@@ -3,12 +3,13 @@
 
 use super::sums::{Outcome, Sums};
 use super::{Geometry, Job, Operator, Products, of_bytes, values_of};
-use crate::element::{Byte, Element, Encoding, typed_byte};
+use crate::element::{Element, Encoding, typed_byte};
 use crate::form::Form;
 use crate::kernel::{
     self, Blocking, ByteWeights, CHUNK, Chunk, DepthwiseBytes, EXACT, Outputs, Picture, chunks,
 };
 use crate::mask::Mask;
+use crate::values::Byte;
 use foveate_lanes::Level;
 use rayon::prelude::*;
 

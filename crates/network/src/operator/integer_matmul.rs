@@ -5,9 +5,10 @@ use super::integer_conv::Rows;
 use super::linear::along_last;
 use super::sums::{Outcome, Sums};
 use super::{Job, Operator, Products, of_bytes, values_of};
-use crate::element::{Byte, Encoding, typed, typed_byte};
+use crate::element::{Encoding, typed, typed_byte};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::values::Byte;
 use rayon::prelude::*;
 
 #[derive(Clone, Debug)]

@@ -45,10 +45,11 @@ pub(crate) use sums::Sums;
 pub(crate) use table::Table;
 pub(crate) use transpose::Transpose;
 
-use crate::element::{Element, Encoding, Number};
+use crate::element::{Element, Encoding};
 use crate::form::Form;
 use crate::mask::{Mask, Window};
-use crate::tensor::{Tensor, Values};
+use crate::tensor::Tensor;
+use crate::values::{Number, Values};
 use rayon::prelude::*;
 use std::fmt::Debug;
 use std::ops::Range;

@@ -3,9 +3,10 @@
 
 use super::geometry::outputs;
 use super::{Job, Operator, features, moved, only, values_of, wanted};
-use crate::element::{Element, Encoding, Number, typed};
+use crate::element::{Element, Encoding, typed};
 use crate::form::Form;
 use crate::mask::Window;
+use crate::values::Number;
 use rayon::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

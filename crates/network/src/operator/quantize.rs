@@ -3,8 +3,9 @@
 
 use super::sums::rounded;
 use super::{Job, Operator, only, wanted};
-use crate::element::{Element, Encoding, Number as _, typed, typed_byte};
+use crate::element::{Element, Encoding, typed, typed_byte};
 use crate::form::Form;
+use crate::values::Number as _;
 
 /// Scales and zero points: one for a whole tensor, or one for each index of an axis.
 #[derive(Clone, Debug)]

@@ -4,9 +4,10 @@
 use super::sums::{Outcome, rounded};
 use super::{Arithmetic, Binary, Concat, Job, Operator, Pool, Table, of_bytes, only, values_of};
 use super::{everything, wanted};
-use crate::element::{Byte, Encoding, typed_byte};
+use crate::element::{Encoding, typed_byte};
 use crate::form::Form;
 use crate::mask::{Mask, Window};
+use crate::values::Byte;
 
 /// The sum or the product of two tensors.
 #[derive(Clone, Debug)]

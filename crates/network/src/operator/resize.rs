@@ -2,9 +2,10 @@
 //! Features of another height and width.
 
 use super::{Job, Operator, features, moved, only, wanted};
-use crate::element::{Element, Encoding, Number, typed};
+use crate::element::{Element, Encoding, typed};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::values::Number;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ResizeKind {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What becomes of exact sums of products of 8-bit values.
 
-use crate::element::{Byte, Encoding, Number};
+use crate::element::Encoding;
+use crate::values::{Byte, Number};
 
 /// The last steps of a sum: a bias per channel is added, and the sum is brought to the output's scale.
 #[derive(Clone, Debug)]

@@ -3,8 +3,9 @@
 
 use super::sums::rounded;
 use super::{Activation, Job, Operator, only};
-use crate::element::{Byte, Element, Encoding, typed_byte};
+use crate::element::{Element, Encoding, typed_byte};
 use crate::form::Form;
+use crate::values::Byte;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Table {

@@ -2,8 +2,7 @@
 //! Constants of a model.
 
 use crate::element::{Element, Encoding};
-use crate::form::Form;
-use crate::network::MAX_AXES;
+use crate::form::{Form, MAX_AXES};
 use crate::onnx::{TensorProto, data_type};
 use crate::tensor::Tensor;
 use std::cell::Cell;

@@ -2,8 +2,7 @@
 //! Nodes whose outputs are known when the network is read: shapes and what is computed of them.
 
 use super::constant::{Constant, Values};
-use super::graph::Known;
-use super::node::{NodeReader, from_start, signed};
+use super::node::{Known, NodeReader, from_start, signed};
 use super::quantized;
 use super::rearrange::{MAX_FOLDED, filled, reshaped, sliced, transposed};
 

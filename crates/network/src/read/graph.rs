@@ -3,44 +3,19 @@
 
 use super::constant::{Constant, Folder};
 use super::fold;
-use super::input::{FrameSize, Layout, input_form, name_of, puts_channels_first};
-use super::node::NodeReader;
-use super::operators::{self, Made};
+use super::input::{FrameSize, input_form, puts_channels_first};
+use super::made::Made;
+use super::names::{full_kind, name_of, shown_name};
+use super::node::{Known, NodeReader};
+use super::operators;
 use super::pointwise;
 use crate::error::NetworkError;
+use crate::layout::Layout;
 use crate::network::Network;
 use crate::onnx::{GraphProto, NodeProto};
 use crate::operator::Activation;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
-
-/// What a name stands for.
-#[derive(Clone, Debug)]
-pub(super) enum Known {
-    /// A value of the network.
-    Value(usize),
-    Constant(Arc<Constant>),
-}
-
-/// Whether a domain is that of the standard.
-pub(super) fn is_standard(domain: Option<&str>) -> bool {
-    matches!(domain, None | Some("" | "ai.onnx"))
-}
-
-/// What an operator is called, with its domain if it is not of the standard.
-pub(super) fn full_kind(node: &NodeProto) -> String {
-    let kind = node.op_type.as_deref().unwrap_or_default();
-    match node.domain.as_deref().filter(|domain| !is_standard(Some(domain))) {
-        Some(domain) => format!("{domain}.{kind}"),
-        None => kind.to_owned(),
-    }
-}
-
-/// What a node is called: by its name, or by its operator and its number.
-pub(super) fn shown_name(node: &NodeProto, index: usize) -> String {
-    let name = node.name.clone().filter(|name| !name.is_empty());
-    name.unwrap_or_else(|| format!("{}_{index}", node.op_type.as_deref().unwrap_or_default()))
-}
 
 /// Reads a graph for frames of a size.
 pub(super) fn read(

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The input of a network, and the frames that it is to take.
 
-use super::graph::{full_kind, is_standard, shown_name};
+use super::names::{full_kind, is_standard, name_of, shown_name};
 use crate::error::NetworkError;
 use crate::form::Form;
+use crate::layout::Layout;
 use crate::onnx::{GraphProto, NodeProto, ValueInfoProto, data_type};
 
 /// Width and height of the frames, for a network that takes any.
@@ -13,30 +14,6 @@ pub struct FrameSize {
     pub width: usize,
     /// Rows.
     pub height: usize,
-}
-
-pub(super) fn name_of(value: &ValueInfoProto) -> &str {
-    value.name.as_deref().unwrap_or_default()
-}
-
-/// In which order a model takes the axes of its input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layout {
-    /// Channels, rows, columns.
-    Nchw,
-    /// Rows, columns, channels, as models from TensorFlow do, which put the channels first before anything else. A network is read from there on.
-    Nhwc,
-}
-
-impl Layout {
-    /// Its usual name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nchw => "nchw",
-            Self::Nhwc => "nhwc",
-        }
-    }
 }
 
 /// What puts the channels first.

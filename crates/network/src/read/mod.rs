@@ -5,8 +5,10 @@ mod constant;
 mod fold;
 mod graph;
 mod input;
+mod made;
 mod memory;
 mod moves;
+mod names;
 mod node;
 mod operators;
 mod pointwise;
@@ -24,7 +26,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-pub use input::{FrameSize, Layout};
+pub use input::FrameSize;
 pub use operators::operators;
 
 /// Bytes of the largest file.
@@ -74,7 +76,7 @@ impl Network {
         }
         let model = ModelProto::decode(bytes).map_err(|error| not_onnx(error.to_string()))?;
         let graph = model.graph.as_ref().ok_or_else(|| not_onnx("it has no graph".to_owned()))?;
-        let own = model.opset_import.iter().find(|set| graph::is_standard(set.domain.as_deref()));
+        let own = model.opset_import.iter().find(|set| names::is_standard(set.domain.as_deref()));
         let opset = own.and_then(|set| set.version).unwrap_or(MAX_OPSET);
         if !(MIN_OPSET..=MAX_OPSET).contains(&opset) {
             return Err(NetworkError::Network(format!(

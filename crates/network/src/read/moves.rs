@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Operators of ONNX that only move values: other shapes, parts, joints and sizes.
 
+use super::made::{Made, one};
 use super::node::{NodeReader, from_start, positive, signed};
-use super::operators::{Made, one};
 use crate::element::{Element, Encoding};
-use crate::form::Form;
-use crate::network::MAX_AXES;
+use crate::form::{Form, MAX_AXES};
 use crate::operator::{
     Concat, Coordinates, Cut, Nearest, Pad, Reshape, Resize, ResizeKind, Size, Slice, Transpose,
 };

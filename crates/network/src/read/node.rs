@@ -2,13 +2,22 @@
 //! A node as operators read it: attributes with their defaults, constants, and values.
 
 use super::constant::{Constant, Folder};
-use super::graph::Known;
+use super::names;
 use crate::element::{Element, typed_byte};
 use crate::form::Form;
 use crate::mask::Window;
 use crate::onnx::{AttributeProto, NodeProto};
 use crate::operator::Geometry;
 use std::collections::HashMap;
+use std::sync::Arc;
+
+/// What a name stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Known {
+    /// A value of the network.
+    Value(usize),
+    Constant(Arc<Constant>),
+}
 
 pub(super) struct NodeReader<'a> {
     pub(super) node: &'a NodeProto,
@@ -26,7 +35,7 @@ impl<'a> NodeReader<'a> {
 
     /// The same with the domain, if it is not of the standard.
     pub(super) fn full_kind(&self) -> String {
-        super::graph::full_kind(self.node)
+        names::full_kind(self.node)
     }
 
     fn attribute(&self, name: &str) -> Option<&AttributeProto> {

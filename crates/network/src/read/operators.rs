@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The operators of ONNX, and which of ours each becomes.
 
-use super::constant::Constant;
-use super::graph::Known;
+use super::made::{Made, one};
 use super::node::NodeReader;
 use super::{moves, pointwise, quantized, sums};
-use crate::operator::{Activation, Arithmetic, Operator, PoolKind, Reduction};
-use std::sync::Arc;
-
-/// What an output of a node is.
-pub(super) enum Made {
-    Constant(Constant),
-    /// What an input is.
-    Same(Known),
-    Operator(Arc<dyn Operator>, Vec<usize>),
-    /// An activation of a value, which the operator that makes it may apply itself.
-    Finish(Activation, usize),
-}
+use crate::operator::{Activation, Arithmetic, PoolKind, Reduction};
 
 type Maker = fn(&NodeReader<'_>) -> Result<Vec<Made>, String>;
 
@@ -140,13 +128,6 @@ pub(super) fn make(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
         .find(|&&(name, _)| name == node.full_kind())
         .expect("the operator is known");
     maker(node)
-}
-
-pub(super) fn one(
-    operator: impl Operator + 'static,
-    inputs: Vec<usize>,
-) -> Result<Vec<Made>, String> {
-    Ok(vec![Made::Operator(Arc::new(operator), inputs)])
 }
 
 #[cfg(test)]

@@ -2,9 +2,8 @@
 //! Operators of ONNX in which every value has its own: activations, arithmetic and scales.
 
 use super::constant::Constant;
-use super::graph::Known;
-use super::node::NodeReader;
-use super::operators::{Made, one};
+use super::made::{Made, one};
+use super::node::{Known, NodeReader};
 use crate::element::Element;
 use crate::form::Form;
 use crate::operator::{

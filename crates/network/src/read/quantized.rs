@@ -2,9 +2,8 @@
 //! The operators of quantized networks: those of ONNX, and those of onnxruntime (`com.microsoft`).
 
 use super::constant::{Constant, Values};
-use super::graph::Known;
-use super::node::NodeReader;
-use super::operators::{Made, one};
+use super::made::{Made, one};
+use super::node::{Known, NodeReader};
 use super::scales::{bytes, row_major};
 use super::sums::pool;
 use crate::element::{Element, Encoding};

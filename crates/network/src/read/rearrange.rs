@@ -3,7 +3,7 @@
 
 use super::constant::{Constant, Values};
 use super::node::{NodeReader, from_start, signed};
-use crate::network::MAX_AXES;
+use crate::form::MAX_AXES;
 
 /// Values of the largest constant that is computed.
 pub(super) const MAX_FOLDED: usize = 1 << 16;

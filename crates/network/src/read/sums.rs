@@ -2,8 +2,8 @@
 //! Operators of ONNX that sum over windows, channels or everything.
 
 use super::constant::Constant;
+use super::made::{Made, one};
 use super::node::{NodeReader, from_start, signed};
-use super::operators::{Made, one};
 use super::pointwise;
 use crate::operator::{Conv, Linear, MatMul, Pool, PoolKind, Reduce, Reduction, Softmax};
 use foveate_lanes::Level;

@@ -5,7 +5,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::draw::{GRID, GROUND, INK, Result, cut, plain, rgb, top};
+use super::axes::top;
+use super::label::{cut, plain};
+use super::paint::{GRID, GROUND, INK, Result, rgb};
 use super::{Bars, Chart};
 
 /// Around the plot, and left of it, in pixels.

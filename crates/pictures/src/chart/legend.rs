@@ -5,7 +5,8 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::draw::{INK, Result, cut, numbered, rgb, target};
+use super::label::cut;
+use super::paint::{INK, Result, numbered, rgb, target};
 use super::{Bars, Line, Look};
 
 /// Columns of pixels for the legend, and letters of a name in it.

@@ -3,11 +3,15 @@
 //! same on a machine without fonts. Colours are those of the palette; from the eighth series on, lines
 //! are dashed. Knows nothing of what is drawn.
 
+mod axes;
 mod bars;
 mod draw;
 mod error;
 mod figure;
+mod files;
+mod label;
 mod legend;
+mod paint;
 mod sheet;
 
 pub use error::ChartError;

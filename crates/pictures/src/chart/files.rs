@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The two files of a chart: SVG and PNG.
+
+use std::sync::OnceLock;
+
+use ab_glyph::FontRef;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use plotters::prelude::*;
+use plotters::style::register_font;
+
+use super::figure::SIZE;
+use super::sheet::Page;
+use super::{Chart, ChartError, draw};
+
+impl Chart {
+    /// The chart as SVG, with `notes` as a comment.
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn svg(&self, notes: &[String]) -> Result<String, ChartError> {
+        self.load_font()?;
+        let mut text = String::new();
+        draw::draw(self, &SVGBackend::with_string(&mut text, SIZE).into_drawing_area())
+            .map_err(|error| self.failed(&error))?;
+        // Two hyphens end a comment.
+        let notes = notes.join("\n").replace("--", "- -");
+        Ok(format!("<!--\n{notes}\n-->\n{text}"))
+    }
+
+    /// The chart as PNG.
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn png(&self) -> Result<Vec<u8>, ChartError> {
+        self.load_font()?;
+        let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
+        let font = FontRef::try_from_slice(dejavu::sans::regular())
+            .map_err(|_| self.failed(&"the font is damaged"))?;
+        let page = Page { pixels: &mut pixels, size: SIZE, font };
+        draw::draw(self, &page.into_drawing_area()).map_err(|error| self.failed(&error))?;
+        let mut file = Vec::new();
+        PngEncoder::new(&mut file)
+            .write_image(&pixels, SIZE.0, SIZE.1, ExtendedColorType::Rgb8)
+            .map_err(|error| self.failed(&error))?;
+        Ok(file)
+    }
+
+    fn load_font(&self) -> Result<(), ChartError> {
+        static LOADED: OnceLock<bool> = OnceLock::new();
+        let load =
+            || register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular()).is_ok();
+        if *LOADED.get_or_init(load) { Ok(()) } else { Err(self.failed(&"the font is damaged")) }
+    }
+
+    fn failed(&self, problem: &dyn std::fmt::Display) -> ChartError {
+        ChartError { name: self.file.clone(), problem: problem.to_string() }
+    }
+}

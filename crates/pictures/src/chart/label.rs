@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Numbers and names as a chart writes them.
+
+/// A label with no more digits than it needs.
+pub(crate) fn plain(value: f64) -> String {
+    // Steps of an axis are added up.
+    ((value * 1e9).round() / 1e9).to_string()
+}
+
+/// A label of a logarithmic axis, such as `20 k`.
+pub(crate) fn thousands(value: f64) -> String {
+    let units = [(1e9, " G"), (1e6, " M"), (1e3, " k")];
+    let unit = units.into_iter().find(|&(size, _)| value >= size).unwrap_or((1.0, ""));
+    format!("{}{}", (value / unit.0 * 10.0).round() / 10.0, unit.1)
+}
+
+/// A name of at most this many letters.
+pub(crate) fn cut(name: &str, letters: usize) -> String {
+    if name.chars().count() <= letters {
+        return name.to_owned();
+    }
+    name.chars().take(letters - 1).chain(['…']).collect()
+}

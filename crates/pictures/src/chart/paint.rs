@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Colours of a chart, and what tells one series from another.
+
+use plotters::prelude::*;
+
+use super::{Line, Look};
+use crate::palette::{Colour, LIGHT};
+
+pub(crate) const GROUND: RGBColor = rgb(LIGHT.ground);
+pub(crate) const INK: RGBColor = rgb(LIGHT.ink);
+pub(crate) const QUIET: RGBColor = rgb(LIGHT.quiet);
+pub(crate) const GRID: RGBColor = rgb(LIGHT.grid);
+
+pub(crate) type Result<DB> =
+    std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+
+/// How a line is told from the others.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbered {
+    pub(crate) colour: RGBColor,
+    /// Whether a line below shows through it.
+    pub(crate) is_open: bool,
+}
+
+/// Lines with their colours, of which a target needs none. When all are taken, they are drawn with gaps from the first on.
+pub(crate) fn numbered(lines: &[Line]) -> impl Iterator<Item = (Numbered, &Line)> {
+    let colours = LIGHT.series.len();
+    let mut next = 0;
+    lines.iter().map(move |line| {
+        if line.look == Look::Target {
+            return (Numbered { colour: INK, is_open: false }, line);
+        }
+        let number = next;
+        next += 1;
+        let colour = rgb(LIGHT.series[number % colours]);
+        (Numbered { colour, is_open: line.look == Look::Open || number >= colours }, line)
+    })
+}
+
+/// A disc that nothing hides, with a ring and a dot.
+pub(crate) fn target<C: Clone>(at: C) -> [Circle<C, u32>; 3] {
+    [
+        Circle::new(at.clone(), 9, GROUND.filled()),
+        Circle::new(at.clone(), 7, INK.stroke_width(2)),
+        Circle::new(at, 3, INK.filled()),
+    ]
+}
+
+pub(crate) const fn rgb([red, green, blue]: Colour) -> RGBColor {
+    RGBColor(red, green, blue)
+}
