@@ -100,9 +100,7 @@ impl CliError {
             Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::exit_code(),
             Self::Tool(error) => tool_code(error),
             Self::Cosim(CosimError::Tool(error)) => tool_code(error),
-            Self::Cosim(
-                CosimError::Short { .. } | CosimError::Synthesis(_) | CosimError::NoModel { .. },
-            ) => TOOL,
+            Self::Cosim(CosimError::Short { .. } | CosimError::NoModel { .. }) => TOOL,
             Self::Estimate(error) => estimate_code(error),
             Self::Simulator(error) => simulator_code(error),
             _ => INPUT,

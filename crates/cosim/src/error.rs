@@ -2,7 +2,6 @@
 //! Errors of a co-simulation. A mismatch is a result and not an error.
 
 use foveate_design::ConfigError;
-use foveate_estimate::EstimateError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use std::path::{Path, PathBuf};
@@ -14,10 +13,6 @@ pub enum CosimError {
     /// A tool is missing, too old, or refused its input.
     #[error(transparent)]
     Tool(ToolError),
-
-    /// The Verilog could not be synthesized.
-    #[error(transparent)]
-    Synthesis(Box<EstimateError>),
 
     /// A cell of the netlist cannot be simulated.
     #[error(
@@ -181,15 +176,6 @@ impl From<ToolError> for CosimError {
             }
             ToolError::NoPort { top, port } => Self::NoPort { top, port },
             error => Self::Tool(error),
-        }
-    }
-}
-
-impl From<EstimateError> for CosimError {
-    fn from(error: EstimateError) -> Self {
-        match error {
-            EstimateError::Tool(error) => error.into(),
-            error => Self::Synthesis(Box::new(error)),
         }
     }
 }

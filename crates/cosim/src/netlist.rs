@@ -9,8 +9,9 @@ use crate::cells::{cell_models, wired_wrongly};
 use crate::error::CosimError;
 use foveate_design::Design;
 use foveate_emit::{Prefix, Top};
-use foveate_estimate::{EstimateJob, ToolRecord, sources};
-use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256, yosys};
+use foveate_toolchain::{
+    Cache, Source, SynthesisJob, ToolRecord, Toolchain, sources_sha256, yosys,
+};
 use serde::{Deserialize, Serialize};
 
 /// The netlist itself, as a file.
@@ -50,18 +51,24 @@ impl Netlist {
         if design.unit().rpu_in_rcm {
             // Verilog of one RPU lacks the array around it, which comes last.
             let array = prefix.apply(foveate_emit::verilog(design, Top::Rcm));
-            let array = sources(array).pop();
+            let array = array.into_iter().next_back().map(Source::from);
             let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
             verilog.extend(array.filter(is_new));
         }
-        let mut job = EstimateJob::with_sources(design, top, verilog);
-        (job.unit, job.array) = (prefix.name(&job.unit), prefix.name(&job.array));
-        let synthesis = job.synthesize(toolchain, cache)?;
+        let array = top.array(design);
+        let parameters = array.parameters(design).into_iter();
+        let job = SynthesisJob {
+            sources: verilog,
+            unit: prefix.name(design.unit().module),
+            array: prefix.name(array.module()),
+            parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
+        };
+        let synthesis = job.run(toolchain, cache)?;
         if wired_wrongly(&synthesis.verilog) {
             return Err(CosimError::WiredWrongly { yosys: synthesis.tool.version });
         }
         let library = yosys::cell_models(toolchain, cache, "xilinx/cells_sim.v")?;
-        let models = cell_models(&library, synthesis.cells()?)?;
+        let models = cell_models(&library, synthesis.cells())?;
         let verilog = chosen(&synthesis.verilog);
         let sources = vec![(MODELS_FILE.to_owned(), models), (NETLIST_FILE.to_owned(), verilog)];
         Ok(Self { tool: synthesis.tool, sources })

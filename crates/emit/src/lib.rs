@@ -43,6 +43,13 @@ pub struct SourceFile {
     pub contents: String,
 }
 
+/// Path and text, as tools take them.
+impl From<SourceFile> for (String, String) {
+    fn from(file: SourceFile) -> Self {
+        (file.path, file.contents)
+    }
+}
+
 /// The latency of a decision of a pipelined design, in words.
 fn latency(design: PipelinedDesign<'_>) -> String {
     let timing = PipelinedTiming::of(design);

@@ -26,6 +26,15 @@ impl Top {
         }
     }
 
+    /// The top that is an array with this one inside: this one, where its module is an array of its own.
+    #[must_use]
+    pub fn array(self, design: &Design) -> Self {
+        match self {
+            Self::Rpu if !design.unit().rpu_in_rcm => Self::Rpu,
+            Self::Rpu | Self::Rcm => Self::Rcm,
+        }
+    }
+
     /// Whether a core of the design has a module `rpu` beside `rcm`.
     pub(crate) fn has_rpu(design: &Design) -> bool {
         Self::all_of(design).contains(&Self::Rpu)

@@ -34,15 +34,14 @@ pub use comparison::{Candidate, Comparison, Skipped};
 pub use device::{Device, Share, XCVU9P};
 pub use error::EstimateError;
 pub use folds::{FoldCost, cheapest_fold};
-pub use job::{EstimateJob, Synthesis, estimate};
+pub use job::{EstimateJob, estimate};
 pub use levels::LogicPath;
 pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
 pub use render::{ramb36, render_markdown, render_text};
-pub use report::{FORMAT_VERSION, LeafArea, Paths, Report, ToolRecord};
+pub use report::{FORMAT_VERSION, LeafArea, Paths, Report};
 pub use route::{
     CriticalPath, Fmax, Over, PathEnd, Placed, ROUTE_DEVICES, ROUTE_FORMAT_VERSION, RouteDevice,
     RouteJob, RouteReport, Routed, Used, place_and_route, render_routes_markdown,
     render_routes_text,
 };
 pub use speed::{Speed, most_clocks};
-pub use synthesis::sources;

@@ -5,7 +5,7 @@
 //! writes text between the modules of a nested design, which is no JSON, and 0.70 adds submodules to
 //! some figures. The netlist itself has been the same for years.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
@@ -61,11 +61,6 @@ impl Netlist {
             module: name.to_owned(),
             present: self.0.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
         })
-    }
-
-    /// The types of the primitive cells of all modules.
-    pub(crate) fn cell_types(&self) -> BTreeSet<String> {
-        self.0.values().flat_map(|module| module.cells.keys().cloned()).collect()
     }
 
     /// The area of a module's own cells, without submodules.

@@ -5,9 +5,10 @@ mod paper;
 
 use crate::area::Area;
 use crate::levels::LogicPath;
-use crate::report::{LeafArea, Paths, Report, ToolRecord};
+use crate::report::{LeafArea, Paths, Report};
 use crate::table::{Table, header, wrap};
 use foveate_pictures::page::number::grouped;
+use foveate_toolchain::ToolRecord;
 use paper::paper_table;
 
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];

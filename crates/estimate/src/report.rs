@@ -10,20 +10,10 @@ use crate::error::EstimateError;
 use crate::levels::LogicPath;
 use crate::paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper};
 use crate::speed::Speed;
+use foveate_toolchain::ToolRecord;
 
 /// The version of the JSON report. It grows when a field changes its meaning or goes away.
 pub const FORMAT_VERSION: u32 = 1;
-
-/// What made the figures.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ToolRecord {
-    /// `Yosys`.
-    pub name: String,
-    /// Its version as it says itself.
-    pub version: String,
-    /// The synthesis command.
-    pub flags: String,
-}
 
 /// A leaf module, synthesized apart from the others.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

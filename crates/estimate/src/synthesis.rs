@@ -2,8 +2,8 @@
 //! Which synthesis a design asks for: its unit, the array around it, and their Verilog.
 
 use foveate_design::Design;
-use foveate_emit::{SourceFile, Top};
-use foveate_toolchain::{Source, sources_sha256};
+use foveate_emit::Top;
+use foveate_toolchain::{Source, SynthesisJob, sources_sha256};
 
 use crate::EstimateJob;
 
@@ -11,7 +11,7 @@ impl EstimateJob {
     /// The synthesis of a design's freshly generated Verilog.
     #[must_use]
     pub fn of(design: &Design, top: Top) -> Self {
-        Self::with_sources(design, top, sources(foveate_emit::verilog(design, top)))
+        Self::with_sources(design, top, sources(design, top))
     }
 
     /// The synthesis of a design from this Verilog. Where the array is not made of modules
@@ -19,28 +19,29 @@ impl EstimateJob {
     #[must_use]
     pub fn with_sources(design: &Design, top: Top, verilog: Vec<Source>) -> Self {
         let unit = design.unit();
-        let (array, units) = match top {
-            Top::Rpu if !unit.rpu_in_rcm => (Top::Rpu, 1),
-            Top::Rpu | Top::Rcm => (Top::Rcm, unit.count),
+        let array = top.array(design);
+        let units = match array {
+            Top::Rpu => 1,
+            Top::Rcm => unit.count,
         };
         let parameters = array.parameters(design).into_iter();
         Self {
-            sources: verilog,
-            unit: unit.module.to_owned(),
+            synthesis: SynthesisJob {
+                sources: verilog,
+                unit: unit.module.to_owned(),
+                array: array.module().to_owned(),
+                parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
+            },
             unit_name: unit.name.to_owned(),
             units: units.into(),
-            array: array.module().to_owned(),
-            parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
             regions: design.regions().into(),
             clocks_per_frame: design.timing().clocks_per_frame(),
-            rpu_sha256: sources_sha256(&sources(foveate_emit::verilog(design, Top::Rpu))),
+            rpu_sha256: sources_sha256(&sources(design, Top::Rpu)),
             leaves_of: None,
         }
     }
 }
 
-/// Generated Verilog as the tools take it.
-#[must_use]
-pub fn sources(files: Vec<SourceFile>) -> Vec<Source> {
-    files.into_iter().map(|file| (file.path, file.contents)).collect()
+pub(crate) fn sources(design: &Design, top: Top) -> Vec<Source> {
+    foveate_emit::verilog(design, top).into_iter().map(Source::from).collect()
 }

@@ -3,7 +3,7 @@
 
 use foveate_estimate::{EstimateError, EstimateJob, estimate, render_text};
 use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Cache, Tool, ToolError, Toolchain};
+use foveate_toolchain::{Cache, SynthesisJob, Tool, ToolError, Toolchain};
 
 fn toy(regions: u64) -> EstimateJob {
     let rcm = include_str!("fixtures/rcm.v").replace("REGIONS", &regions.to_string());
@@ -15,12 +15,14 @@ fn toy(regions: u64) -> EstimateJob {
         ("rcm.v", rcm),
     ];
     EstimateJob {
-        sources: sources.map(|(name, text)| (name.to_owned(), text)).to_vec(),
-        unit: "rpu".to_owned(),
+        synthesis: SynthesisJob {
+            sources: sources.map(|(name, text)| (name.to_owned(), text)).to_vec(),
+            unit: "rpu".to_owned(),
+            array: "rcm".to_owned(),
+            parameters: Vec::new(),
+        },
         unit_name: "RPU".to_owned(),
         units: regions,
-        array: "rcm".to_owned(),
-        parameters: Vec::new(),
         regions,
         clocks_per_frame: 64,
         rpu_sha256: String::new(),
@@ -64,8 +66,9 @@ fn a_design_without_memory_is_estimated() {
     }
     let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
     let mut job = toy(4);
-    job.sources[2].1 = job.sources[2].1.replace("= mem[addr_i]", "= d_i").replace("reg [W", "//");
-    job.sources[2].1 = job.sources[2].1.replace("always", "//");
+    job.synthesis.sources[2].1 =
+        job.synthesis.sources[2].1.replace("= mem[addr_i]", "= d_i").replace("reg [W", "//");
+    job.synthesis.sources[2].1 = job.synthesis.sources[2].1.replace("always", "//");
     let report = estimate(&tools, &cache, &job).unwrap();
     assert_eq!(report.rpu.lut_memory, 0);
 }
@@ -81,12 +84,15 @@ fn mistakes_are_named() {
     assert_eq!(error.to_string(), expected);
 
     let mut job = toy(4);
-    job.sources[3].1 = job.sources[3].1.replace("always @(posedge clk_i)", "always @*");
+    job.synthesis.sources[3].1 =
+        job.synthesis.sources[3].1.replace("always @(posedge clk_i)", "always @*");
     let error = estimate(&tools, &cache, &job).unwrap_err();
     let EstimateError::UnknownCell { cell, module, .. } = &error else { panic!("{error}") };
     assert_eq!((cell.as_str(), module.as_str()), ("LDCE", "rpu"));
 
-    let error = estimate(&tools, &cache, &EstimateJob { array: "array".into(), ..toy(4) });
+    let mut other = toy(4);
+    other.synthesis.array = "array".into();
+    let error = estimate(&tools, &cache, &other);
     let Err(EstimateError::Tool(ToolError::Failed { tail, .. })) = error else {
         panic!("{error:?}")
     };

@@ -80,7 +80,11 @@ impl Synthesizer {
         let mut jobs = BTreeMap::new();
         let keys = designs.map(|design| {
             let job = EstimateJob::of(design, Top::Rcm);
-            let key = format!("{} {:?}", sources_sha256(&job.sources), job.parameters);
+            let key = format!(
+                "{} {:?}",
+                sources_sha256(&job.synthesis.sources),
+                job.synthesis.parameters
+            );
             jobs.entry(key.clone()).or_insert(job);
             key
         });

@@ -4,7 +4,7 @@
 //! Everything goes through a [`Toolchain`], which finds each [`Tool`] once, refuses versions that are
 //! too old, and runs [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all that went
 //! into them. The modules [`verilator`], [`iverilog`], [`yosys`] and [`nextpnr`]
-//! know one tool each.
+//! know one tool each; [`SynthesisJob`] knows what Yosys is told for a Xilinx device.
 
 pub mod cache;
 mod error;
@@ -19,6 +19,7 @@ pub mod nextpnr;
 mod ports;
 mod process;
 mod stream;
+mod synthesis;
 pub mod testing;
 mod tool;
 mod toolchain;
@@ -34,5 +35,6 @@ pub use key::{Key, KeyBuilder, sha256_hex, sources_sha256};
 pub use located::Located;
 pub use ports::PortBits;
 pub use stream::{Feeder, Stream};
+pub use synthesis::{Synthesis, SynthesisJob, ToolRecord};
 pub use tool::{Tool, Version};
 pub use toolchain::Toolchain;

@@ -15,14 +15,15 @@ use super::critical::Names;
 use super::device::{Family, RouteDevice};
 use super::hierarchy::Hierarchy;
 use super::netlist::Netlist;
+use super::over::over;
 use super::ports;
 use super::report::{Fmax, Placed, ROUTE_FORMAT_VERSION, RouteReport, Routed, Used};
-use super::result::{Outcome, over};
+use super::result::Outcome;
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::levels::Library;
-use crate::report::ToolRecord;
 use crate::synthesis::sources;
+use foveate_toolchain::ToolRecord;
 
 const NETLIST: &str = "netlist.json";
 const HIERARCHY: &str = "hierarchy.json";
@@ -50,7 +51,7 @@ impl RouteJob {
     pub fn of(design: &Design, top: Top, seeds: u32, is_portable: bool) -> Self {
         let parameters = top.parameters(design).into_iter();
         Self {
-            sources: sources(foveate_emit::verilog(design, top)),
+            sources: sources(design, top),
             top: top.module().to_owned(),
             parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
             seeds,

@@ -4,8 +4,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::critical::CriticalPath;
+use super::over::Over;
 use crate::clock::ClockEstimate;
-use crate::report::ToolRecord;
+use foveate_toolchain::ToolRecord;
 
 /// The version of the JSON report. It grows when a field changes its meaning or goes away.
 pub const ROUTE_FORMAT_VERSION: u32 = 2;
@@ -38,17 +39,6 @@ pub struct Routed {
     pub placed: Option<Placed>,
     /// What the device has too few of; nothing where the design fits.
     pub over: Vec<Over>,
-}
-
-/// A kind of place of which a device has too few.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Over {
-    /// What nextpnr calls it.
-    pub place: String,
-    /// How many the design needs.
-    pub used: u64,
-    /// How many the device has.
-    pub available: u64,
 }
 
 /// What a design takes of a device, and the clock that it reaches there.

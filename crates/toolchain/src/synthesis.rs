@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Synthesis of an array by Yosys, for the LUTs, carry chains and memories of Xilinx UltraScale+.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::cache::Cache;
+use crate::error::ToolError;
+use crate::files::Source;
+use crate::tool::Tool;
+use crate::toolchain::Toolchain;
+use crate::yosys::{self, YosysJob};
+
+const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
+/// Shift registers, which `synth_xilinx` would make in the middle. Yosys up to 0.67 loses their enable
+/// (<https://github.com/YosysHQ/yosys/issues/6058>): it notes that there is none, next to its net. What
+/// was a chain of FDRE has an enable, active high.
+const SHIFT_REGISTERS: &str = "xilinx_srl -fixed -minlen 3\n\
+    setparam -set ENPOL 1 t:$__XILINX_SHREG_\n\
+    techmap -map +/xilinx/cells_map.v\n\
+    clean\n";
+const NETLIST: &str = "netlist.json";
+const VERILOG: &str = "netlist.v";
+
+/// An array to synthesize.
+#[derive(Debug, Clone)]
+pub struct SynthesisJob {
+    /// The Verilog files; headers for `` `include `` may be among them if they end in `.vh`.
+    pub sources: Vec<Source>,
+    /// The module of which the array has many, an RPU or a lane. Its leaves are flattened into it. If
+    /// it has parameters, its Verilog must have the attribute `keep_hierarchy`.
+    pub unit: String,
+    /// The module of the array.
+    pub array: String,
+    /// Its parameters and their values.
+    pub parameters: Vec<(String, u32)>,
+}
+
+/// The netlist of an array, as it is counted and as Verilog.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Synthesis {
+    /// What made it.
+    pub tool: ToolRecord,
+    /// The netlist as JSON.
+    pub json: Vec<u8>,
+    /// The same netlist as Verilog: a module for the array, and one for the unit.
+    pub verilog: String,
+}
+
+/// What made a netlist or its figures, as reports say it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ToolRecord {
+    /// `Yosys`.
+    pub name: String,
+    /// Its version as it says itself.
+    pub version: String,
+    /// The synthesis command.
+    pub flags: String,
+}
+
+impl Synthesis {
+    /// The types of all primitive cells: those that are no modules of the netlist. What is no netlist has none.
+    #[must_use]
+    pub fn cells(&self) -> BTreeSet<String> {
+        let netlist: Value = serde_json::from_slice(&self.json).unwrap_or_default();
+        let Some(modules) = netlist["modules"].as_object() else { return BTreeSet::new() };
+        let cells = modules.values().filter_map(|module| module["cells"].as_object());
+        let types = cells.flat_map(|cells| cells.values()).filter_map(|cell| cell["type"].as_str());
+        types.filter(|name| !modules.contains_key(*name)).map(str::to_owned).collect()
+    }
+}
+
+impl SynthesisJob {
+    /// Synthesizes the array with the unit kept as a module: the leaves are flattened into the unit
+    /// but not the unit into the array.
+    ///
+    /// # Errors
+    /// When Yosys is missing or refuses the design.
+    pub fn run(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Synthesis, ToolError> {
+        let version = toolchain.find(Tool::Yosys)?.banner;
+        let mut run = yosys::run(toolchain, cache, &self.whole())?;
+        let mut file = |name| run.files.remove(name).expect("it is one of the wanted files");
+        let flags =
+            format!("{SYNTHESIS} -flatten, then xilinx_srl; {} kept as a module", self.unit);
+        Ok(Synthesis {
+            tool: ToolRecord { name: "Yosys".into(), version, flags },
+            json: file(NETLIST),
+            verilog: String::from_utf8_lossy(&file(VERILOG)).into_owned(),
+        })
+    }
+
+    /// The netlist, as JSON, of a module with its leaves apart.
+    ///
+    /// # Errors
+    /// As [`SynthesisJob::run`].
+    pub fn run_apart(
+        &self,
+        top: &str,
+        toolchain: &Toolchain,
+        cache: &Cache,
+    ) -> Result<Vec<u8>, ToolError> {
+        let job = self.script(&format!(
+            "hierarchy -check -top {top}\n{SYNTHESIS} -top {top}\n{SHIFT_REGISTERS}"
+        ));
+        let mut run = yosys::run(toolchain, cache, &job)?;
+        Ok(run.files.remove(NETLIST).expect("it is one of the wanted files"))
+    }
+
+    fn whole(&self) -> YosysJob {
+        let Self { unit, array, .. } = self;
+        let set = |(name, value): &(String, u32)| format!(" -set {name} {value}");
+        let parameters: String = self.parameters.iter().map(set).collect();
+        let parameters = match parameters.as_str() {
+            "" => String::new(),
+            set => format!("chparam{set} {array}\n"),
+        };
+        // A unit with parameters has another name by now, and its attribute from its Verilog.
+        let mut job = self.script(&format!(
+            "{parameters}hierarchy -check -top {array}\n\
+             setattr -mod -set keep_hierarchy 1 {unit}\n\
+             {SYNTHESIS} -flatten -top {array}\n\
+             {SHIFT_REGISTERS}"
+        ));
+        job.script += &format!("write_verilog -noattr {VERILOG}\n");
+        job.outputs.push(VERILOG.to_owned());
+        job
+    }
+
+    /// Reads the sources, synthesizes, and writes the netlist without the library of cells.
+    fn script(&self, synthesis: &str) -> YosysJob {
+        let script = format!(
+            "{}{synthesis}delete =A:blackbox =A:whitebox\nwrite_json {NETLIST}\n",
+            self.read()
+        );
+        YosysJob { sources: self.sources.clone(), script, outputs: vec![NETLIST.to_owned()] }
+    }
+
+    fn read(&self) -> String {
+        let names = self.sources.iter().map(|(name, _)| name).filter(|name| !name.ends_with(".vh"));
+        names.map(|name| format!("read_verilog -I. {name}\n")).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn primitive_cells_are_no_modules() {
+        let tool = ToolRecord { name: String::new(), version: String::new(), flags: String::new() };
+        let of = |json: &str| {
+            let json = json.as_bytes().to_vec();
+            Synthesis { tool: tool.clone(), json, verilog: String::new() }.cells()
+        };
+        let netlist = r#"{"modules": {"rcm": {"cells": {"a": {"type": "rpu"}, "b": {"type": "LUT4"}}},
+            "rpu": {"cells": {"c": {"type": "FDRE"}, "d": {"type": "LUT4"}}}}}"#;
+        assert_eq!(of(netlist), BTreeSet::from(["FDRE".to_owned(), "LUT4".to_owned()]));
+        assert!(of("{}").is_empty() && of("no JSON").is_empty());
+    }
+}
