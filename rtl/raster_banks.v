@@ -60,7 +60,7 @@ module raster_banks #(
                 write_q <= write_place[group];
                 word_q  <= word[group];
             end
-            raster_pulse #(.DEPTH(1)) u_write (.clk_i(clk_i), .rst_i(rst_i), .bit_i(write[group]), .bit_o(write[group+1]));
+            bit_delay #(.DEPTH(1)) u_write (.clk_i(clk_i), .rst_i(rst_i), .bit_i(write[group]), .bit_o(write[group+1]));
             assign read_place[group+1] = read_q;
             assign write_place[group+1] = write_q;
             assign word[group+1] = word_q;
@@ -92,7 +92,7 @@ module raster_banks #(
                 );
                 // A register halfway: the blocks of a bank stand far apart.
                 reg [WIDTH-1:0] bank_word_q;
-                raster_delay #(.WIDTH(1), .DEPTH(4)) u_comes (.clk_i(clk_i), .data_i(asked_q), .data_o(comes));
+                word_delay #(.WIDTH(1), .DEPTH(4)) u_comes (.clk_i(clk_i), .data_i(asked_q), .data_o(comes));
                 always @(posedge clk_i) begin
                     bank_word_q <= bank_words[bank*WIDTH+:WIDTH];
                     if (comes) bank_words_q[bank*WIDTH+:WIDTH] <= bank_word_q;

@@ -188,9 +188,9 @@ module raster_core #(
     wire [1:0] left, right, top, bottom;
     wire [WORD-1:0] word;
 
-    raster_pulse #(.DEPTH(DEEP)) u_step (.clk_i(clk_i), .rst_i(rst_i), .bit_i(advance), .bit_o(step));
-    raster_pulse #(.DEPTH(DEEP)) u_in_tail (.clk_i(clk_i), .rst_i(rst_i), .bit_i(in_tail), .bit_o(tail));
-    raster_delay #(.WIDTH(WORD + 13), .DEPTH(DEEP)) u_word (
+    bit_delay #(.DEPTH(DEEP)) u_step (.clk_i(clk_i), .rst_i(rst_i), .bit_i(advance), .bit_o(step));
+    bit_delay #(.DEPTH(DEEP)) u_in_tail (.clk_i(clk_i), .rst_i(rst_i), .bit_i(in_tail), .bit_o(tail));
+    word_delay #(.WIDTH(WORD + 13), .DEPTH(DEEP)) u_word (
         .clk_i(clk_i),
         .data_i({made, advance_left, advance_right, advance_top, advance_bottom, repeated,
                  advance_segment_end, advance_row_end, advance_region_top, advance_region_bottom}),
@@ -216,14 +216,14 @@ module raster_core #(
                 .repeat_i(row_repeated), .step_o(column_step), .top_o(column_top), .bottom_o(column_bottom),
                 .upper_o(upper), .middle_o(middle), .lower_o(lower)
             );
-            raster_delay #(.WIDTH(2), .DEPTH(COLUMN_CLOCKS)) u_sides (
+            word_delay #(.WIDTH(2), .DEPTH(COLUMN_CLOCKS)) u_sides (
                 .clk_i(clk_i), .data_i({left[0], right[0]}), .data_o({column_left, column_right})
             );
-            raster_median #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_median (
+            median_columns #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_median (
                 .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
                 .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
             );
-            raster_pulse #(.DEPTH(MEDIAN_CLOCKS)) u_scored_step (
+            bit_delay #(.DEPTH(MEDIAN_CLOCKS)) u_scored_step (
                 .clk_i(clk_i), .rst_i(rst_i), .bit_i(step), .bit_o(scored_step)
             );
             assign scored_repeated = 1'b0;
@@ -231,7 +231,7 @@ module raster_core #(
                 reg [WORD-1:0] raw_q;
                 always @(posedge clk_i) if (column_step) raw_q <= middle;
                 // With the step that makes a word the center its column is in raw_q a clock later.
-                raster_delay #(.WIDTH(WORD), .DEPTH(MEDIAN_CLOCKS - COLUMN_CLOCKS)) u_raw (
+                word_delay #(.WIDTH(WORD), .DEPTH(MEDIAN_CLOCKS - COLUMN_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(raw_q), .data_o(scored_raw)
                 );
             end else begin : g_denoised
@@ -266,10 +266,10 @@ module raster_core #(
             always @(posedge clk_i) if (column_step) center_q <= middle;
             assign center_word = center_q;
 
-            raster_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
+            word_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
                 .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({scored_top, scored_bottom})
             );
-            raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
+            word_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
                 .clk_i(clk_i), .data_i({left[MEDIAN], right[MEDIAN]}), .data_o({column_left, column_right})
             );
             raster_window #(
@@ -312,22 +312,22 @@ module raster_core #(
     wire [WORD-1:0] center;
     wire center_step, store_step, arriving_step, hit_step;
 
-    raster_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_center (.clk_i(clk_i), .data_i(center_word), .data_o(center));
-    raster_pulse #(.DEPTH(CENTER_CLOCKS)) u_center_step (
+    word_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_center (.clk_i(clk_i), .data_i(center_word), .data_o(center));
+    bit_delay #(.DEPTH(CENTER_CLOCKS)) u_center_step (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(tail), .bit_o(center_step)
     );
-    raster_pulse #(.DEPTH(STORE_CLOCKS - 1)) u_arriving_step (
+    bit_delay #(.DEPTH(STORE_CLOCKS - 1)) u_arriving_step (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(center_step), .bit_o(arriving_step)
     );
-    raster_pulse #(.DEPTH(1)) u_store_step (
+    bit_delay #(.DEPTH(1)) u_store_step (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(arriving_step), .bit_o(store_step)
     );
-    raster_pulse #(.DEPTH(HIT_CLOCKS - STORE_CLOCKS)) u_hit_step (
+    bit_delay #(.DEPTH(HIT_CLOCKS - STORE_CLOCKS)) u_hit_step (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(store_step), .bit_o(hit_step)
     );
 
     wire hit_segment_end, hit_row_end, hit_region_top, hit_region_bottom;
-    raster_delay #(.WIDTH(4), .DEPTH(CENTER_CLOCKS + HIT_CLOCKS)) u_places (
+    word_delay #(.WIDTH(4), .DEPTH(CENTER_CLOCKS + HIT_CLOCKS)) u_places (
         .clk_i(clk_i), .data_i({segment_end, row_end, region_top, region_bottom}),
         .data_o({hit_segment_end, hit_row_end, hit_region_top, hit_region_bottom})
     );
@@ -340,14 +340,14 @@ module raster_core #(
     wire [PLACE_BITS-1:0] reference_place;
 
     wire reference_read;
-    raster_pulse #(.DEPTH(IN_GROUPS ? CENTER_CLOCKS - 2 - GROUPS : 1)) u_reference_read (
+    bit_delay #(.DEPTH(IN_GROUPS ? CENTER_CLOCKS - 2 - GROUPS : 1)) u_reference_read (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(IN_GROUPS ? in_tail : center_step), .bit_o(reference_read)
     );
     generate
         if (STORE == EXTERNAL) begin : g_external
             wire stored_row_end;
             wire unused_reference = reference_write || |reference_word || |reference_place;
-            raster_delay #(.WIDTH(1), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS)) u_stored_row_end (
+            word_delay #(.WIDTH(1), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS)) u_stored_row_end (
                 .clk_i(clk_i), .data_i(row_end), .data_o(stored_row_end)
             );
             raster_external #(.WORD_BITS(WORD), .DEEP(DEEP)) u_external (
@@ -410,8 +410,8 @@ module raster_core #(
     wire [VARIANCE_BITS-1:0] variance;
     wire settled;  // all scores but that of MAD are there
     wire [(HITS+1)*COUNT_BITS-1:0] settled_counts;
-    raster_pulse #(.DEPTH(VARIANCE_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
-    raster_delay #(.WIDTH((HITS + 1) * COUNT_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
+    bit_delay #(.DEPTH(VARIANCE_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
+    word_delay #(.WIDTH((HITS + 1) * COUNT_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
         .clk_i(clk_i), .data_i(counts), .data_o(settled_counts)
     );
     generate
@@ -501,7 +501,7 @@ module raster_core #(
         if (FORWARD) begin : g_forward
             wire store_row_end, store_region_bottom;
             wire [WORD-1:0] stored_raw;
-            raster_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS - 1)) u_store_places (
+            word_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS - 1)) u_store_places (
                 .clk_i(clk_i), .data_i({row_end, region_bottom}), .data_o({store_row_end, store_region_bottom})
             );
             if (RAW && HITS > 0) begin : g_line
@@ -509,11 +509,11 @@ module raster_core #(
                 raster_line #(.WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS)) u_line (
                     .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_raw), .word_o(raw_center)
                 );
-                raster_delay #(.WIDTH(WORD), .DEPTH(COLUMN_CLOCKS + STORE_CLOCKS)) u_raw (
+                word_delay #(.WIDTH(WORD), .DEPTH(COLUMN_CLOCKS + STORE_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(raw_center), .data_o(stored_raw)
                 );
             end else if (RAW) begin : g_beside
-                raster_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_raw (
+                word_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(scored_raw), .data_o(stored_raw)
                 );
             end else begin : g_scored

@@ -87,16 +87,16 @@ module raster_counts #(
     // Nothing is above a region's first row. Where a row of a region takes several words, its place is known early, and
     // the memory, which may stand far from here, has a clock for the way.
     wire top;
-    raster_delay #(.WIDTH(1), .DEPTH(DEEP && !EARLY ? 1 : 0)) u_top (.clk_i(clk_i), .data_i(top_q), .data_o(top));
-    raster_delay #(.WIDTH(FEATURES * KEPT_BITS), .DEPTH(DEEP && EARLY ? 1 : 0)) u_above (
+    word_delay #(.WIDTH(1), .DEPTH(DEEP && !EARLY ? 1 : 0)) u_top (.clk_i(clk_i), .data_i(top_q), .data_o(top));
+    word_delay #(.WIDTH(FEATURES * KEPT_BITS), .DEPTH(DEEP && EARLY ? 1 : 0)) u_above (
         .clk_i(clk_i), .data_i(top ? {FEATURES * KEPT_BITS{1'b0}} : kept_above), .data_o(above)
     );
 
     wire [FEATURES*ROW_BITS-1:0] last_row;
     wire ended, bottom;
     wire [COLUMN_BITS-1:0] column;
-    raster_pulse #(.DEPTH(DEEP)) u_ended (.clk_i(clk_i), .rst_i(rst_i), .bit_i(ended_q), .bit_o(ended));
-    raster_delay #(.WIDTH(FEATURES * ROW_BITS + COLUMN_BITS + 1), .DEPTH(DEEP)) u_row (
+    bit_delay #(.DEPTH(DEEP)) u_ended (.clk_i(clk_i), .rst_i(rst_i), .bit_i(ended_q), .bit_o(ended));
+    word_delay #(.WIDTH(FEATURES * ROW_BITS + COLUMN_BITS + 1), .DEPTH(DEEP)) u_row (
         .clk_i(clk_i), .data_i({row_q, old_column_q, bottom_q}), .data_o({last_row, column, bottom})
     );
 

@@ -50,15 +50,15 @@ module raster_deviation #(
     ) u_mean (
         .clk_i(clk_i), .done_i(done_i), .sum_i(sum_i), .mean_o(mean)
     );
-    raster_delay #(.WIDTH(MEAN_BITS), .DEPTH(OTHER_CLOCKS)) u_settled_mean (
+    word_delay #(.WIDTH(MEAN_BITS), .DEPTH(OTHER_CLOCKS)) u_settled_mean (
         .clk_i(clk_i), .data_i(mean), .data_o(settled_mean)
     );
 
     // The mean takes a clock.
     wire enter;
     wire [OTHER_BITS-1:0] entering;
-    raster_pulse #(.DEPTH(1)) u_enter (.clk_i(clk_i), .rst_i(rst_i), .bit_i(settled_i), .bit_o(enter));
-    raster_delay #(.WIDTH(OTHER_BITS), .DEPTH(1)) u_entering (.clk_i(clk_i), .data_i(other_i), .data_o(entering));
+    bit_delay #(.DEPTH(1)) u_enter (.clk_i(clk_i), .rst_i(rst_i), .bit_i(settled_i), .bit_o(enter));
+    word_delay #(.WIDTH(OTHER_BITS), .DEPTH(1)) u_entering (.clk_i(clk_i), .data_i(other_i), .data_o(entering));
 
     wire [START_BITS-1:0] start;
     wire [2:0] unused_row;

@@ -26,7 +26,7 @@ module raster_external #(
     assign reference_ready_o = read_i && !first_frame_i;
 
     // The word on the port is taken at every edge; only that of the right one is used.
-    raster_delay #(.WIDTH(WORD_BITS), .DEPTH(1 + DEEP)) u_reference (
+    word_delay #(.WIDTH(WORD_BITS), .DEPTH(1 + DEEP)) u_reference (
         .clk_i(clk_i), .data_i(reference_pixel_i), .data_o(reference_o)
     );
 

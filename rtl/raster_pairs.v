@@ -82,10 +82,10 @@ module raster_pairs #(
     wire memory_read, memory_write, show, show_second;
     wire [PAIR_BITS-1:0] memory_address;
     wire [2*WORD_BITS-1:0] memory_word;
-    raster_pulse #(.DEPTH(DEEP)) u_read (.clk_i(clk_i), .rst_i(rst_i), .bit_i(read), .bit_o(memory_read));
-    raster_pulse #(.DEPTH(DEEP)) u_write (.clk_i(clk_i), .rst_i(rst_i), .bit_i(write), .bit_o(memory_write));
-    raster_pulse #(.DEPTH(DEEP)) u_show (.clk_i(clk_i), .rst_i(rst_i), .bit_i(read_i), .bit_o(show));
-    raster_delay #(.WIDTH(PAIR_BITS + 2 * WORD_BITS + 1), .DEPTH(DEEP)) u_access (
+    bit_delay #(.DEPTH(DEEP)) u_read (.clk_i(clk_i), .rst_i(rst_i), .bit_i(read), .bit_o(memory_read));
+    bit_delay #(.DEPTH(DEEP)) u_write (.clk_i(clk_i), .rst_i(rst_i), .bit_i(write), .bit_o(memory_write));
+    bit_delay #(.DEPTH(DEEP)) u_show (.clk_i(clk_i), .rst_i(rst_i), .bit_i(read_i), .bit_o(show));
+    word_delay #(.WIDTH(PAIR_BITS + 2 * WORD_BITS + 1), .DEPTH(DEEP)) u_access (
         .clk_i(clk_i), .data_i({read ? read_place : write_place, written_q, ask_second_q}),
         .data_o({memory_address, memory_word, show_second})
     );

@@ -90,10 +90,10 @@ module raster_pass #(
     // Deviations, their sum over a word, and over the region.
     wire word_valid, word_first, word_last;
     wire [MEAN_BITS-1:0] mean;
-    raster_pulse #(.DEPTH(READ_CLOCKS)) u_word_valid (
+    bit_delay #(.DEPTH(READ_CLOCKS)) u_word_valid (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(reading_q), .bit_o(word_valid)
     );
-    raster_delay #(.WIDTH(MEAN_BITS + 2), .DEPTH(READ_CLOCKS)) u_word_mean (
+    word_delay #(.WIDTH(MEAN_BITS + 2), .DEPTH(READ_CLOCKS)) u_word_mean (
         .clk_i(clk_i), .data_i({mean_q, first, last}), .data_o({mean, word_first, word_last})
     );
 
@@ -126,7 +126,7 @@ module raster_pass #(
 
     assign done_o = done_q;
     assign sum_o = sum_q;
-    raster_delay #(.WIDTH(EXTRA_BITS), .DEPTH(READ_CLOCKS + 3)) u_extra (
+    word_delay #(.WIDTH(EXTRA_BITS), .DEPTH(READ_CLOCKS + 3)) u_extra (
         .clk_i(clk_i), .data_i(extra_q), .data_o(extra_o)
     );
 

@@ -59,8 +59,8 @@ module raster_sums #(
         .clk_i(clk_i), .write_i(written_q), .write_address_i(write_column_q), .data_i(sum_o),
         .read_i(1'b1), .read_address_i(column_q), .data_o(above)
     );
-    raster_pulse #(.DEPTH(DEEP)) u_ended (.clk_i(clk_i), .rst_i(rst_i), .bit_i(ended_q), .bit_o(ended));
-    raster_delay #(.WIDTH(SUM_BITS + COLUMN_BITS + 1), .DEPTH(DEEP)) u_row (
+    bit_delay #(.DEPTH(DEEP)) u_ended (.clk_i(clk_i), .rst_i(rst_i), .bit_i(ended_q), .bit_o(ended));
+    word_delay #(.WIDTH(SUM_BITS + COLUMN_BITS + 1), .DEPTH(DEEP)) u_row (
         .clk_i(clk_i), .data_i({row_q, old_column_q, top_q}), .data_o({row, column, top})
     );
 

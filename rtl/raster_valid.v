@@ -39,7 +39,7 @@ module raster_valid #(
         mark_o <= next_i ^ lost_bit;
     end
 
-    raster_delay #(.WIDTH(1), .DEPTH(DEEP)) u_lost_bit (.clk_i(clk_i), .data_i(read_lost_bit), .data_o(lost_bit));
+    word_delay #(.WIDTH(1), .DEPTH(DEEP)) u_lost_bit (.clk_i(clk_i), .data_i(read_lost_bit), .data_o(lost_bit));
 
     assign valid_o = (decided_bit_q ^ read_lost_bit) && !none_i;
     wire unused_reset = rst_i;

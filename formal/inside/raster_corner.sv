@@ -53,7 +53,7 @@ end
 generate
     for (f_lane = 0; f_lane < LANES; f_lane = f_lane + 1) begin : g_f_hit
         wire expected;
-        raster_delay #(.WIDTH(1), .DEPTH(3 + DEEP)) f_expected (
+        word_delay #(.WIDTH(1), .DEPTH(3 + DEEP)) f_expected (
             .clk_i(clk_i), .data_i(f_corner(f_window(f_lane))), .data_o(expected)
         );
         always @* if (f_age >= 3 + DEEP) assert(hit_o[f_lane] == expected);

@@ -84,7 +84,7 @@ generate
             end
         end
         wire expected;
-        raster_delay #(.WIDTH(1), .DEPTH(2 + DEEP)) f_expected (
+        word_delay #(.WIDTH(1), .DEPTH(2 + DEEP)) f_expected (
             .clk_i(clk_i), .data_i(f_hit(window_2)), .data_o(expected)
         );
         always @* if (f_age >= 3 + DEEP) assert(hit_o[f_lane] == expected);

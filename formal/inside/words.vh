@@ -14,7 +14,7 @@ generate
 endgenerate
 wire f_step, f_at_left, f_at_right;
 wire [LANES*F_COLUMN-1:0] f_incoming;
-raster_delay #(.WIDTH(3 + LANES * F_COLUMN), .DEPTH(F_LATE)) f_late (
+word_delay #(.WIDTH(3 + LANES * F_COLUMN), .DEPTH(F_LATE)) f_late (
     .clk_i(clk_i), .data_i({step_i, left_i, right_i, f_word}), .data_o({f_step, f_at_left, f_at_right, f_incoming})
 );
 

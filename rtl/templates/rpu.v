@@ -53,12 +53,12 @@ module rpu (
     reg raw_center_left_q;
     always @(posedge clk_i) if (raw_advance) raw_center_left_q <= raw_left;
 
-    raster_median #(.WIDTH({= p =}), .LANES(1), .DEEP(0)) u_median (
+    median_columns #(.WIDTH({= p =}), .LANES(1), .DEEP(0)) u_median (
         .clk_i(clk_i), .step_i(raw_advance), .left_i(raw_center_left_q), .right_i(raw_right),
         .top_i(1'b0), .bottom_i(1'b0), .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower), .median_o(denoised_pixel)
     );
 
-    raster_pulse #(.DEPTH({= median_registers =})) u_denoised_valid (
+    bit_delay #(.DEPTH({= median_registers =})) u_denoised_valid (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(raw_step), .bit_o(denoised_valid)
     );
     {%- else %}

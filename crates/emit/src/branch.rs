@@ -37,7 +37,7 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
     let window = || design.has_feature_window();
     match (leaf, part) {
         ("raster_core", "raster_window") => median() || window(),
-        ("raster_core", "raster_median") => median(),
+        ("raster_core", "median_columns") => median(),
         ("raster_core", "raster_repeat") => !median() && !window() && is_padded_below(&design),
         ("raster_core", "raster_edge") => detects("edge"),
         ("raster_core", "raster_corner") => detects("corner"),

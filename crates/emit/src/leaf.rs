@@ -67,36 +67,36 @@ leaves! {
     "serial_sides" => [],
     "serial_decision" => ["frame_store"],
     "raster_memory" => [],
-    "raster_delay" => [],
-    "raster_pulse" => [],
+    "word_delay" => [],
+    "bit_delay" => [],
     "raster_ring" => [],
     "raster_pad" => [],
     "raster_control" => [],
     "raster_window" => ["raster_memory"],
     "raster_line" => ["raster_memory", "raster_ring"],
-    "raster_median" => ["raster_delay"],
+    "median_columns" => ["word_delay"],
     "raster_edge" => ["adder", "magnitude_above"],
     "raster_corner" => [],
     "raster_change" => ["magnitude_above"],
-    "raster_counts" => ["raster_memory", "raster_delay", "raster_pulse"],
-    "raster_pairs" => ["raster_ring", "raster_delay", "raster_pulse"],
-    "raster_banks" => ["raster_memory", "raster_delay", "raster_pulse"],
+    "raster_counts" => ["raster_memory", "word_delay", "bit_delay"],
+    "raster_pairs" => ["raster_ring", "word_delay", "bit_delay"],
+    "raster_banks" => ["raster_memory", "word_delay", "bit_delay"],
     "raster_store" => ["raster_memory", "raster_ring", "raster_pairs", "raster_banks"],
-    "raster_external" => ["raster_delay"],
+    "raster_external" => ["word_delay"],
     "raster_start" => [],
-    "raster_valid" => ["raster_delay"],
+    "raster_valid" => ["word_delay"],
     "raster_walk" => [],
     "raster_repeat" => ["raster_memory"],
-    "raster_sums" => ["raster_memory", "raster_delay", "raster_pulse"],
+    "raster_sums" => ["raster_memory", "word_delay", "bit_delay"],
     "raster_variance" => [],
-    "raster_pass" => ["raster_memory", "raster_walk", "raster_delay", "raster_pulse"],
+    "raster_pass" => ["raster_memory", "raster_walk", "word_delay", "bit_delay"],
     "raster_readout" => ["raster_memory", "raster_walk"],
     "raster_moments" => ["raster_sums", "raster_variance"],
-    "raster_deviation" => ["region_mean", "raster_delay", "raster_pulse", "raster_start", "raster_pass", "raster_memory"],
-    "raster_decision" => ["vote", "raster_delay", "raster_pulse", "raster_valid"],
+    "raster_deviation" => ["region_mean", "word_delay", "bit_delay", "raster_start", "raster_pass", "raster_memory"],
+    "raster_decision" => ["vote", "word_delay", "bit_delay", "raster_valid"],
     "raster_forward" => ["raster_start", "raster_readout", "raster_memory"],
     "raster_core" => [
-        "raster_control", "raster_pad", "raster_pulse", "raster_delay", "raster_window", "raster_median",
+        "raster_control", "raster_pad", "bit_delay", "word_delay", "raster_window", "median_columns",
         "raster_edge", "raster_corner", "raster_store", "raster_external", "raster_change", "raster_counts",
         "raster_moments", "raster_ring", "raster_deviation", "raster_decision", "raster_forward", "raster_line",
         "raster_repeat"
@@ -136,7 +136,7 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
     let deep = design.pipelining() == Pipelining::Deep;
     need(true, &[if deep { "magnitude_above" } else { "change_detector" }]);
     need(denoise && !deep, &["median3x3"]);
-    need(denoise && deep, &["raster_median", "raster_pulse"]);
+    need(denoise && deep, &["median_columns", "bit_delay"]);
     need(design.keeps_raw(), &["line_delay"]);
     if denoise || window {
         need(true, &["window_column"]);

@@ -3,13 +3,13 @@ rtl/adder.v
 rtl/magnitude_above.v
 rtl/vote.v
 rtl/raster_memory.v
-rtl/raster_delay.v
-rtl/raster_pulse.v
+rtl/word_delay.v
+rtl/bit_delay.v
 rtl/raster_ring.v
 rtl/raster_pad.v
 rtl/raster_control.v
 rtl/raster_window.v
-rtl/raster_median.v
+rtl/median_columns.v
 rtl/raster_edge.v
 rtl/raster_change.v
 rtl/raster_counts.v

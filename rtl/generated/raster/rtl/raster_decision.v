@@ -85,8 +85,8 @@ module raster_decision #(
     wire [REGION_BITS-1:0] decided_region;
     wire decided_valid;  // its reference was valid
     wire decided_last;   // the region is the last of the frame
-    raster_pulse #(.DEPTH(DEEP)) u_decided (.clk_i(clk_i), .rst_i(rst_i), .bit_i(judged_i), .bit_o(decided_o));
-    raster_delay #(.WIDTH(7 + REGION_BITS + 3 * COUNT_BITS + MAD_BITS + VARIANCE_BITS), .DEPTH(DEEP)) u_judged (
+    bit_delay #(.DEPTH(DEEP)) u_decided (.clk_i(clk_i), .rst_i(rst_i), .bit_i(judged_i), .bit_o(decided_o));
+    word_delay #(.WIDTH(7 + REGION_BITS + 3 * COUNT_BITS + MAD_BITS + VARIANCE_BITS), .DEPTH(DEEP)) u_judged (
         .clk_i(clk_i),
         .data_i({votes, trs, reference_valid, last_region_q, region_q, temporal_count, edge_count, corner_count, mad_i, variance_i}),
         .data_o({decided_votes, decided_trs, decided_valid, decided_last, decided_region, decided_temporal,

@@ -2,7 +2,7 @@
 // A word, DEPTH clocks later.
 `default_nettype none
 
-module raster_delay #(
+module word_delay #(
     parameter WIDTH = 8,  // bits of a word
     parameter DEPTH = 4   // clocks
 ) (

@@ -8,7 +8,7 @@
 // selection of pixels: it is enough to say how the comparisons would end if the center's column stood there.
 `default_nettype none
 
-module raster_median #(
+module median_columns #(
     parameter WIDTH = 8,  // bits of a pixel
     parameter LANES = 1,  // pixels of a word
     parameter DEEP = 0    // 0: a result three clocks after its step; 1: six
@@ -68,7 +68,7 @@ module raster_median #(
     wire sort_step, sort_left, sort_right;
     genvar lane, level;
 
-    raster_delay #(.WIDTH(3), .DEPTH(DEEP)) u_sort (
+    word_delay #(.WIDTH(3), .DEPTH(DEEP)) u_sort (
         .clk_i(clk_i), .data_i({step_i, left_i, right_i}), .data_o({sort_step, sort_left, sort_right})
     );
 
@@ -168,7 +168,7 @@ module raster_median #(
         end
     endgenerate
 
-    raster_delay #(.WIDTH((LANES + 2) * COLUMN + 9 * LANES + 2), .DEPTH(DEEP)) u_merge (
+    word_delay #(.WIDTH((LANES + 2) * COLUMN + 9 * LANES + 2), .DEPTH(DEEP)) u_merge (
         .clk_i(clk_i), .data_i({columns, left_above, next_above, skip_above, merge_left_q, merge_right_q}),
         .data_o({merged, row_ab, row_next, row_ac, row_left, row_right})
     );

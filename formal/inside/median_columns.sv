@@ -49,7 +49,7 @@ end
 generate
     for (f_lane = 0; f_lane < LANES; f_lane = f_lane + 1) begin : g_f_median
         wire expected;
-        raster_delay #(.WIDTH(1), .DEPTH(2 + 2 * DEEP)) f_expected (
+        word_delay #(.WIDTH(1), .DEPTH(2 + 2 * DEEP)) f_expected (
             .clk_i(clk_i), .data_i(f_count(f_window(f_lane)) >= 4'd5), .data_o(expected)
         );
         always @* if (f_age >= 2 + 2 * DEEP) assert((median_o[f_lane*WIDTH+:WIDTH] >= f_threshold) == expected);

@@ -2,7 +2,7 @@
 // A bit, DEPTH clocks later; forgotten by a reset.
 `default_nettype none
 
-module raster_pulse #(
+module bit_delay #(
     parameter DEPTH = 4  // clocks
 ) (
     input  wire clk_i,  // clock, rising edge
