@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_footage::{Kind, Plan, Source, open, plan};
+use foveate_footage::{ClipPlan, Kind, Source, open, plan};
 use foveate_frame::{Plane, Raster};
 use foveate_simulator::SimulatorError;
 use numpy::ndarray::Axis;
@@ -209,7 +209,7 @@ pub(crate) fn simulate(
     let (inputs, options) = (paths(inputs)?, input_options("simulate", &[], options)?);
     let config = config::read(camera, None)?;
     at_once(py, move || -> PyResult<Run> {
-        if let Plan::Batch(clips) = plan(&inputs, &options).map_err(raise)? {
+        if let ClipPlan::Batch(clips) = plan(&inputs, &options).map_err(raise)? {
             return Err(value_error(format!(
                 "the inputs are {} clips; simulate them one after the other",
                 clips.len()

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use foveate_design::Action;
-use foveate_engine::Outcome as Result;
+use foveate_engine::FrameOutcome;
 use foveate_frame::Plane;
 use numpy::{Element, PyArray2, PyArrayMethods, PyUntypedArray};
 use pyo3::exceptions::PyTypeError;
@@ -18,7 +18,7 @@ use crate::design::Design;
 /// A frame and what came of it, as numbers.
 pub(crate) struct Taken {
     pub(crate) design: Arc<foveate_design::Design>,
-    pub(crate) result: Result,
+    pub(crate) result: FrameOutcome,
     pub(crate) number: u64,
     pub(crate) time_us: u64,
     pub(crate) name: Option<String>,

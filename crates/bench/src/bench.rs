@@ -9,7 +9,7 @@ use foveate_frame::Frame;
 use foveate_toolchain::{Tool, Toolchain};
 
 use crate::error::BenchError;
-use crate::report::{FORMAT_VERSION, Level, Report, Row};
+use crate::report::{BenchReport, FORMAT_VERSION, Level, LevelRow};
 use crate::timer::Timer;
 use crate::tools::Tools;
 use crate::vectors::Vectors;
@@ -39,7 +39,7 @@ impl Bench {
         &self,
         tools: Tools<'_>,
         progress: &mut dyn FnMut(&str),
-    ) -> Result<Report, BenchError> {
+    ) -> Result<BenchReport, BenchError> {
         if self.frames.is_empty() {
             return Err(BenchError::NoFrames);
         }
@@ -57,14 +57,14 @@ impl Bench {
         rows.push(cycle::cycle(design, frames, &recording, &vectors, timer)?);
         progress("RTL: building and running Verilator's model");
         rows.push(match missing(tools.toolchain, &[Tool::Verilator, Tool::Cxx])? {
-            Some(why) => Row::missing(Level::Rtl, "Verilator", why),
+            Some(why) => LevelRow::missing(Level::Rtl, "Verilator", why),
             None => rtl::rtl(design, &recording, &vectors, tools, timer)?,
         });
         if self.netlist {
             progress("netlist: Yosys and Icarus");
             let needed = [Tool::Yosys, Tool::Iverilog, Tool::Vvp];
             rows.push(match missing(tools.toolchain, &needed)? {
-                Some(why) => Row::missing(Level::Netlist, &netlist::name(design), why),
+                Some(why) => LevelRow::missing(Level::Netlist, &netlist::name(design), why),
                 None => netlist::netlist(design, frames, self.seed, tools)?,
             });
         }
@@ -81,9 +81,9 @@ impl Bench {
         Ok(stimulus.record_until(&self.design, timer.cancel, &mut |_, _| {})?)
     }
 
-    fn report(&self, vectors: &Vectors, rows: Vec<Row>) -> Report {
+    fn report(&self, vectors: &Vectors, rows: Vec<LevelRow>) -> BenchReport {
         let design = &self.design;
-        Report {
+        BenchReport {
             format_version: FORMAT_VERSION,
             design: design.fingerprint(),
             organization: design.organization().name(),

@@ -12,7 +12,7 @@ use crate::error::BenchError;
 use crate::memory::Before;
 use crate::outcomes;
 use crate::rate::per_clock;
-use crate::report::{Level, Measured, Row};
+use crate::report::{Level, LevelRow, Measured};
 use crate::timer::Timer;
 use crate::vectors::{Control, Vectors, compare};
 
@@ -24,7 +24,7 @@ pub(crate) fn cycle(
     recording: &Recording,
     vectors: &Vectors,
     timer: Timer<'_>,
-) -> Result<Row, BenchError> {
+) -> Result<LevelRow, BenchError> {
     let decided = outcomes::agreement(design, recording, frames, vectors.streamed)?;
     let (name, again, peak_bytes, time) = match design.hardware() {
         Hardware::Pipelined(own) => {
@@ -72,7 +72,7 @@ pub(crate) fn cycle(
         differing: decided.differing + again.differing,
     };
     let measured = Measured { peak_bytes, ..per_clock(design, vectors, time) };
-    Ok(Row::of(Level::Cycle, name, measured.agrees(Level::FunctionalClear, agreement)))
+    Ok(LevelRow::of(Level::Cycle, name, measured.agrees(Level::FunctionalClear, agreement)))
 }
 
 fn pipelined_agreement(

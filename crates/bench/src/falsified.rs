@@ -12,7 +12,7 @@ use foveate_frame::Frame;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
-use crate::report::Row;
+use crate::report::LevelRow;
 use crate::timer::Timer;
 use crate::tools::Tools;
 use crate::vectors::Vectors;
@@ -78,7 +78,7 @@ impl Case {
     }
 }
 
-fn differing(row: &Row) -> u64 {
+fn differing(row: &LevelRow) -> u64 {
     row.measured.as_ref().unwrap().differing
 }
 

@@ -11,7 +11,7 @@ use foveate_model::FunctionalCamera;
 
 use crate::error::BenchError;
 use crate::memory::Before;
-use crate::report::{Level, Measured, Row};
+use crate::report::{Level, LevelRow, Measured};
 use crate::timer::{Time, Timer};
 
 /// [`FunctionalCamera`], which everything is compared with in the end.
@@ -19,7 +19,7 @@ pub(crate) fn clear(
     design: &Design,
     frames: &[Frame],
     timer: Timer<'_>,
-) -> Result<Row, BenchError> {
+) -> Result<LevelRow, BenchError> {
     let before = Before::now();
     let mut camera = FunctionalCamera::new(design);
     let time = timer.time(|| {
@@ -29,12 +29,16 @@ pub(crate) fn clear(
         Ok(())
     })?;
     let measured = Measured { peak_bytes: before.peak_bytes(), ..per_frame(design, frames, time) };
-    Ok(Row::of(Level::FunctionalClear, "FunctionalCamera", measured))
+    Ok(LevelRow::of(Level::FunctionalClear, "FunctionalCamera", measured))
 }
 
 /// [`Engine`] on one thread. It may not skip regions that have not changed: the frames come again and
 /// again, and a single one would cost nothing.
-pub(crate) fn fast(design: &Design, frames: &[Frame], timer: Timer<'_>) -> Result<Row, BenchError> {
+pub(crate) fn fast(
+    design: &Design,
+    frames: &[Frame],
+    timer: Timer<'_>,
+) -> Result<LevelRow, BenchError> {
     let agreement = agreement(design, frames, frames)?;
     let before = Before::now();
     let options = Options { threads: 1, skip: false, level: Instructions::detect() };
@@ -46,7 +50,11 @@ pub(crate) fn fast(design: &Design, frames: &[Frame], timer: Timer<'_>) -> Resul
         Ok(())
     })?;
     let measured = Measured { peak_bytes: before.peak_bytes(), ..per_frame(design, frames, time) };
-    Ok(Row::of(Level::FunctionalFast, "Engine", measured.agrees(Level::FunctionalClear, agreement)))
+    Ok(LevelRow::of(
+        Level::FunctionalFast,
+        "Engine",
+        measured.agrees(Level::FunctionalClear, agreement),
+    ))
 }
 
 /// Every result of every region and every pixel of the screen; the engine sees `fast`, the model `clear`.

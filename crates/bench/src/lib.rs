@@ -35,5 +35,5 @@ mod vectors;
 pub use bench::Bench;
 pub use error::BenchError;
 pub use frames::random_frames;
-pub use report::{FORMAT_VERSION, Level, Measured, Report, Row};
+pub use report::{BenchReport, FORMAT_VERSION, Level, LevelRow, Measured};
 pub use tools::Tools;

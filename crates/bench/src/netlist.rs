@@ -8,7 +8,7 @@ use foveate_design::Design;
 use foveate_frame::Frame;
 
 use crate::error::BenchError;
-use crate::report::{Level, Measured, Row};
+use crate::report::{Level, LevelRow, Measured};
 use crate::tools::{LIMIT, Tools};
 
 /// What people call it.
@@ -23,7 +23,7 @@ pub(crate) fn netlist(
     frames: &[Frame],
     seed: u64,
     tools: Tools<'_>,
-) -> Result<Row, BenchError> {
+) -> Result<LevelRow, BenchError> {
     let part = part(design)?;
     let cut = |frame: &Frame| {
         let pixel = |x: u32, y: u32| frame.clamped(x.into(), y.into());
@@ -56,7 +56,7 @@ pub(crate) fn netlist(
     };
     let differing = u64::from(!report.passed());
     let agreement = Agreement { compared: report.comparisons, differing };
-    Ok(Row::of(Level::Netlist, &name(design), measured.agrees(Level::Cycle, agreement)))
+    Ok(LevelRow::of(Level::Netlist, &name(design), measured.agrees(Level::Cycle, agreement)))
 }
 
 /// The design for a frame of the regions of one unit, or of fewer where that unit is the whole array.

@@ -5,7 +5,7 @@
 use foveate_cosim::{Agreement, Layout, Recording};
 use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, Outcome};
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
 
 use crate::error::BenchError;
 use crate::vectors::{each_clock, field};
@@ -33,14 +33,14 @@ pub(crate) fn agreement(
 struct Judge<'a> {
     design: &'a Design,
     layout: &'a Layout,
-    outcomes: Vec<Outcome>,
+    outcomes: Vec<FunctionalOutcome>,
     /// Decisions that have been seen, by region.
     decided: Vec<usize>,
     agreement: Agreement,
 }
 
 impl<'a> Judge<'a> {
-    fn new(design: &'a Design, layout: &'a Layout, outcomes: Vec<Outcome>) -> Self {
+    fn new(design: &'a Design, layout: &'a Layout, outcomes: Vec<FunctionalOutcome>) -> Self {
         let decided = vec![0; design.regions() as usize];
         Self { design, layout, outcomes, decided, agreement: Agreement::default() }
     }
@@ -102,7 +102,7 @@ impl<'a> Judge<'a> {
 
     fn decide(&mut self, record: &[u8], region: usize, lane: u32) {
         for (role, bit) in [
-            (PortRole::Srs, (|outcome| &outcome.srs) as fn(&Outcome) -> &Vec<bool>),
+            (PortRole::Srs, (|outcome| &outcome.srs) as fn(&FunctionalOutcome) -> &Vec<bool>),
             (PortRole::Trs, |outcome| &outcome.trs),
             (PortRole::Active, |outcome| &outcome.active),
         ] {
@@ -115,7 +115,12 @@ impl<'a> Judge<'a> {
     }
 
     /// One value of the frame that the region is at; nothing where the port is not there.
-    fn check(&mut self, region: usize, got: Option<u64>, wanted: impl Fn(&Outcome) -> u64) {
+    fn check(
+        &mut self,
+        region: usize,
+        got: Option<u64>,
+        wanted: impl Fn(&FunctionalOutcome) -> u64,
+    ) {
         let Some(got) = got else { return };
         let outcome = self.decided.get(region).and_then(|&frame| self.outcomes.get(frame));
         self.agreement.compared += 1;

@@ -4,7 +4,7 @@
 use foveate_cosim::Agreement;
 use serde::Serialize;
 
-/// Version of [`Report`] as JSON; changes when a field changes its meaning or goes.
+/// Version of [`BenchReport`] as JSON; changes when a field changes its meaning or goes.
 pub const FORMAT_VERSION: u32 = 2;
 
 /// A level of the design.
@@ -25,7 +25,7 @@ pub enum Level {
 
 /// All levels of one design, top down.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct BenchReport {
     /// [`FORMAT_VERSION`].
     pub format_version: u32,
     /// Fingerprint of the design.
@@ -45,12 +45,12 @@ pub struct Report {
     /// The processor's vector instructions that the fast levels use.
     pub instructions: String,
     /// One per level.
-    pub rows: Vec<Row>,
+    pub rows: Vec<LevelRow>,
 }
 
 /// One level.
 #[derive(Clone, Debug, Serialize)]
-pub struct Row {
+pub struct LevelRow {
     /// Which.
     pub level: Level,
     /// What runs there.
@@ -104,7 +104,7 @@ impl Measured {
     }
 }
 
-impl Row {
+impl LevelRow {
     pub(crate) fn of(level: Level, name: &str, measured: Measured) -> Self {
         Self { level, name: name.to_owned(), measured: Some(measured), missing: None }
     }
@@ -114,7 +114,7 @@ impl Row {
     }
 }
 
-impl Report {
+impl BenchReport {
     /// Values that differ between levels that claim the same.
     #[must_use]
     pub fn differing(&self) -> u64 {

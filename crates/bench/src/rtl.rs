@@ -9,7 +9,7 @@ use foveate_toolchain::verilator::Optimize;
 
 use crate::error::BenchError;
 use crate::rate::per_clock;
-use crate::report::{Level, Measured, Row};
+use crate::report::{Level, LevelRow, Measured};
 use crate::timer::{Time, Timer};
 use crate::tools::{LIMIT, Tools};
 use crate::vectors::Vectors;
@@ -22,7 +22,7 @@ pub(crate) fn rtl(
     vectors: &Vectors,
     tools: Tools<'_>,
     timer: Timer<'_>,
-) -> Result<Row, BenchError> {
+) -> Result<LevelRow, BenchError> {
     let stimulus = Stimulus { level: Simulated::Full, ..Stimulus::default() };
     let dut = Job::new(design, stimulus, Path::new(""))?.dut(design);
     let run = Run {
@@ -45,7 +45,7 @@ pub(crate) fn rtl(
         ..per_clock(design, vectors, time)
     };
     let name = short_version(&timed.version);
-    Ok(Row::of(Level::Rtl, &name, measured.agrees(Level::Cycle, timed.agreement)))
+    Ok(LevelRow::of(Level::Rtl, &name, measured.agrees(Level::Cycle, timed.agreement)))
 }
 
 /// `Verilator 5.006` of what it says.

@@ -56,7 +56,7 @@ pub use netlist::{Netlist, NetlistRecord};
 pub use packer::Packer;
 pub use recording::{Recorder, Recording, Span, vectors_hex};
 pub use report::{CosimReport, Seconds};
-pub use shipped::{Losses, ShippedBench, Tally};
+pub use shipped::{Losses, ShippedBench, VectorTally};
 pub use simulate::{Dut, Outcome, Run, Simulator};
 pub use stimulus::{PipelinedCodec, RasterCodec, SerialCodec, Stimulus};
 pub use summary::{FORMAT_VERSION, Left, Summary, Verdict};

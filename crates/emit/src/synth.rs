@@ -142,11 +142,11 @@ struct Around {
     banner: String,
     before: String,
     module: String,
-    ports: Vec<Row>,
+    ports: Vec<WrappedPort>,
 }
 
 /// A port but the clock.
-struct Row {
+struct WrappedPort {
     name: String,
     bits: u32,
     /// Its range and a space; nothing for one bit.
@@ -154,7 +154,7 @@ struct Row {
     input: bool,
 }
 
-impl Row {
+impl WrappedPort {
     fn of(port: &Port) -> Self {
         let bits = port.bits();
         Self {
@@ -221,7 +221,11 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
             banner: banner(design),
             before: before(),
             module: prefix.name(top.module()),
-            ports: ports.iter().filter(|port| port.role != PortRole::Clock).map(Row::of).collect(),
+            ports: ports
+                .iter()
+                .filter(|port| port.role != PortRole::Clock)
+                .map(WrappedPort::of)
+                .collect(),
         };
         files.push(file(format!("{}_ports.v", prefix.name(top.module())), text_of(&around)));
     }

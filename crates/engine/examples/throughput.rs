@@ -11,7 +11,7 @@ use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
 use foveate_camera::{CameraConfig, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
-use foveate_engine::{Engine, Level, Options, Outcome, Screens};
+use foveate_engine::{Engine, FrameOutcome, Level, Options, Screens};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -159,7 +159,7 @@ fn take<'e>(
     batch: &[&[u8]],
     width: usize,
     screens: Option<&mut Screens<u8>>,
-) -> Result<&'e [Outcome], Failure> {
+) -> Result<&'e [FrameOutcome], Failure> {
     Ok(match batch {
         [frame] => std::slice::from_ref(engine.step_u8(frame, width)?),
         _ => engine.step_batch_u8(batch, width, screens)?,

@@ -8,7 +8,7 @@ use foveate_camera::Reference;
 use crate::denoised::Denoiser;
 use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};
 use crate::pixels::Pixels;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use crate::scratch::{Columns, Scratch, Sums};
 use foveate_lanes::{BLOCK, Block, Lane, threshold};
 
@@ -32,7 +32,7 @@ fn blocks_mut<'a, T>(
 /// Counts what the features that look at windows find in a row.
 #[inline(always)]
 fn features<T: Lane>(
-    plan: &Plan<T>,
+    plan: &CameraPlan<T>,
     windows: Windows<'_, T>,
     sides: impl Sides<T>,
     columns: &mut Columns<T>,
@@ -49,7 +49,7 @@ fn features<T: Lane>(
 /// A band of regions with its part of the planes.
 #[derive(Debug)]
 pub(crate) struct Band<'a, T: Lane> {
-    pub(crate) plan: &'a Plan<T>,
+    pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) raw: Pixels<'a, T>,
     /// Its number, from the top.
     pub(crate) number: usize,
@@ -200,7 +200,7 @@ impl<T: Lane> Band<'_, T> {
 impl<T: Lane> Columns<T> {
     /// Zero in every sum that the first pass of a run uses.
     #[inline(always)]
-    fn clear(&mut self, plan: &Plan<T>, run: &Range<usize>) {
+    fn clear(&mut self, plan: &CameraPlan<T>, run: &Range<usize>) {
         self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
         if plan.edge.is_some() {
             self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);

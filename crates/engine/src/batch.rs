@@ -8,7 +8,7 @@ use crate::engine::{Engine, Lanes};
 use crate::pixels::Pixels;
 use crate::plan::index;
 use crate::workers::Workers;
-use crate::{EngineError, Outcome, Screens, screens};
+use crate::{EngineError, FrameOutcome, Screens, screens};
 use foveate_lanes::Lane;
 
 /// Bytes of frames that go through the engine together: what is compared first should still be in the
@@ -34,7 +34,7 @@ impl Engine {
         frames: &[&[u8]],
         stride: usize,
         screens: Option<&mut Screens<u8>>,
-    ) -> Result<&[Outcome], EngineError> {
+    ) -> Result<&[FrameOutcome], EngineError> {
         let frames = checked(&self.camera, frames, stride)?;
         let Self { camera, workers, lanes, outcome, outcomes, .. } = self;
         match lanes {
@@ -56,7 +56,7 @@ impl Engine {
         frames: &[&[u16]],
         stride: usize,
         screens: Option<&mut Screens<u16>>,
-    ) -> Result<&[Outcome], EngineError> {
+    ) -> Result<&[FrameOutcome], EngineError> {
         let frames = checked(&self.camera, frames, stride)?;
         let Self { camera, workers, lanes, outcome, outcomes, .. } = self;
         match lanes {
@@ -84,8 +84,8 @@ fn checked<'a, T: Lane>(
 }
 
 /// Room for as many outcomes; those of longer batches stay for the next one.
-fn prepare(outcomes: &mut Vec<Outcome>, camera: &Camera, frames: usize) {
-    let new = || Outcome::new(camera.features().len(), index(camera.regions()));
+fn prepare(outcomes: &mut Vec<FrameOutcome>, camera: &Camera, frames: usize) {
+    let new = || FrameOutcome::new(camera.features().len(), index(camera.regions()));
     outcomes.resize_with(frames.max(outcomes.len()), new);
 }
 
@@ -94,8 +94,8 @@ fn run<T: Lane>(
     core: &mut Core<T>,
     workers: &Workers,
     frames: &[Pixels<'_, T>],
-    outcome: &mut Outcome,
-    (outcomes, screens): (&mut [Outcome], Option<&mut Screens<T>>),
+    outcome: &mut FrameOutcome,
+    (outcomes, screens): (&mut [FrameOutcome], Option<&mut Screens<T>>),
 ) {
     let room = |screens| screens::prepare(screens, &core.plan, frames.len());
     let screens = screens.map_or(&mut [][..], room);

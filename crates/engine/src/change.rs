@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use crate::pixels::Pixels;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use foveate_lanes::{BLOCK, Lane};
 
 /// The share of a band's blocks from which on it is computed as a whole.
@@ -14,7 +14,7 @@ const NEARLY: (usize, usize) = (4, 5);
 /// every region whether a pixel has changed.
 #[inline(always)]
 pub(crate) fn compare<T: Lane>(
-    plan: &Plan<T>,
+    plan: &CameraPlan<T>,
     raw: Pixels<'_, T>,
     number: usize,
     copy: &mut [T],
@@ -38,7 +38,7 @@ pub(crate) fn compare<T: Lane>(
 /// Says of every region of band `number` whether a pixel has changed from one frame to another.
 #[inline(always)]
 pub(crate) fn compare_frames<T: Lane>(
-    plan: &Plan<T>,
+    plan: &CameraPlan<T>,
     [last, now]: [Pixels<'_, T>; 2],
     number: usize,
     changed: &mut [bool],
@@ -58,7 +58,12 @@ pub(crate) fn compare_frames<T: Lane>(
 
 /// Copies band `number`.
 #[inline(always)]
-pub(crate) fn keep<T: Lane>(plan: &Plan<T>, raw: Pixels<'_, T>, number: usize, copy: &mut [T]) {
+pub(crate) fn keep<T: Lane>(
+    plan: &CameraPlan<T>,
+    raw: Pixels<'_, T>,
+    number: usize,
+    copy: &mut [T],
+) {
     for (y, copy) in copy.chunks_exact_mut(plan.width).enumerate() {
         copy.copy_from_slice(raw.row(number * plan.side + y));
     }
@@ -97,7 +102,7 @@ fn compare_any<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]
 /// most a region.
 #[inline(always)]
 pub(crate) fn affected<T: Lane>(
-    plan: &Plan<T>,
+    plan: &CameraPlan<T>,
     [above, here, below]: [&[bool]; 3],
     affected: &mut [bool],
 ) {
@@ -117,7 +122,7 @@ pub(crate) fn affected<T: Lane>(
 /// The blocks under the affected regions, as runs. Each run costs `margin` blocks on each side: what
 /// lies closer together is one run, and where nearly all of the blocks are wanted it is all of them.
 #[inline(always)]
-pub(crate) fn runs<T: Lane>(plan: &Plan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
+pub(crate) fn runs<T: Lane>(plan: &CameraPlan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
     runs.clear();
     let (side, margin) = (plan.side, plan.margin());
     for (column, _) in affected.iter().enumerate().filter(|(_, affected)| **affected) {
@@ -146,7 +151,7 @@ mod tests {
             let mut config = CameraConfig::default();
             (config.frame.width, config.frame.height) = (Some(width), Some(side));
             (config.region.size, config.region.neighborhood) = (side, neighborhood);
-            let plan = Plan::<u8>::new(&config.validate().unwrap());
+            let plan = CameraPlan::<u8>::new(&config.validate().unwrap());
             let affected: Vec<bool> = (0..plan.columns).map(|x| columns.contains(&x)).collect();
             let mut found = Vec::new();
             runs(&plan, &affected, &mut found);

@@ -8,9 +8,9 @@ use foveate_camera::Reference;
 
 use crate::change;
 use crate::look::{Changes, Look};
-use crate::outcome::{Outcome, split_off};
+use crate::outcome::{FrameOutcome, split_off};
 use crate::pixels::Pixels;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use crate::policy::{Policy, SAMPLE, Step};
 use crate::scratch::Scratch;
 use crate::screens::Screen;
@@ -25,7 +25,7 @@ const SMALLEST_HEIGHT: usize = 96;
 /// The state between frames.
 #[derive(Debug)]
 pub(crate) struct Core<T: Lane> {
-    pub(crate) plan: Plan<T>,
+    pub(crate) plan: CameraPlan<T>,
     denoised: Aligned<T>,
     reference: Aligned<T>,
     pub(crate) screen: Vec<T>,
@@ -45,7 +45,7 @@ pub(crate) struct Core<T: Lane> {
 /// What is to be kept of every frame of a batch; nothing of none where there are no outcomes.
 #[derive(Debug)]
 pub(crate) struct Keep<'a, T> {
-    pub(crate) outcomes: &'a mut [Outcome],
+    pub(crate) outcomes: &'a mut [FrameOutcome],
     /// By frame, or empty.
     pub(crate) screens: &'a mut [Screen<T>],
 }
@@ -57,7 +57,7 @@ impl<T> Keep<'_, T> {
 }
 
 impl<T: Lane> Core<T> {
-    pub(crate) fn new(plan: Plan<T>, skip: bool) -> Self {
+    pub(crate) fn new(plan: CameraPlan<T>, skip: bool) -> Self {
         let plane = plan.stride() * plan.rows * plan.side;
         let reference = match plan.reference {
             Reference::Previous => 0,
@@ -92,7 +92,7 @@ impl<T: Lane> Core<T> {
         &mut self,
         frames: &[Pixels<'_, T>],
         workers: &Workers,
-        outcome: &mut Outcome,
+        outcome: &mut FrameOutcome,
         keep: Keep<'_, T>,
     ) {
         self.divide(frames.len(), workers);
@@ -165,7 +165,7 @@ impl<T: Lane> Core<T> {
         frames: &[Pixels<'_, T>],
         workers: &Workers,
         first: usize,
-        outcome: &mut Outcome,
+        outcome: &mut FrameOutcome,
         keep: Keep<'_, T>,
     ) {
         let plan = &self.plan;
@@ -178,7 +178,7 @@ impl<T: Lane> Core<T> {
         let screens = screens.iter_mut();
         let screens = screens.map(|screen| (&mut screen.pixels[..], &mut screen.black[..]));
         let screens = screens.chain(iter::repeat_with(|| (&mut [][..], &mut [][..])));
-        let kept = outcomes.iter_mut().map(Outcome::results).zip(screens);
+        let kept = outcomes.iter_mut().map(FrameOutcome::results).zip(screens);
         let mut kept: Vec<_> =
             kept.map(|(results, (screen, black))| Kept { results, screen, black }).collect();
         let bands = shares(plan.rows, self.scratch.len());
@@ -211,7 +211,12 @@ impl<T: Lane> Core<T> {
     }
 
     /// Puts together what the strips have skipped, and lets the policy know.
-    fn count_skipped(&mut self, known: Range<usize>, last: &mut Outcome, outcomes: &mut [Outcome]) {
+    fn count_skipped(
+        &mut self,
+        known: Range<usize>,
+        last: &mut FrameOutcome,
+        outcomes: &mut [FrameOutcome],
+    ) {
         let frame = |number: usize| {
             let mut all = Skipped::default();
             self.scratch.iter().for_each(|(_, skipped)| all += skipped[number]);

@@ -6,11 +6,11 @@ use foveate_camera::{Combine, FeatureKind, Irrelevant, Reference};
 
 use crate::kernel::mad;
 use crate::outcome::Results;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use crate::scratch::Sums;
 use foveate_lanes::Lane;
 
-impl<T: Lane> Plan<T> {
+impl<T: Lane> CameraPlan<T> {
     /// Decides every region of one band; those that are not affected keep their scores, and their
     /// temporal count is what it must be when no pixel has changed.
     #[inline(always)]

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use crate::kernel::{Open, Seams, Windows, median};
 use crate::pixels::Pixels;
-use crate::plan::{Plan, SeamMasks};
-use crate::scratch::{DenoisedRow, Row};
+use crate::plan::{CameraPlan, SeamMasks};
+use crate::scratch::{BlockRow, DenoisedRow};
 use foveate_lanes::{BLOCK, Block, Lane};
 
 impl<T: Lane> SeamMasks<T> {
@@ -23,9 +23,9 @@ const AHEAD: usize = 6;
 /// The rows of one run of blocks, padding and borders as the contract says.
 #[derive(Debug)]
 pub(crate) struct Denoiser<'a, T: Lane> {
-    pub(crate) plan: &'a Plan<T>,
+    pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) raw: Pixels<'a, T>,
-    pub(crate) sorted: &'a mut [[Row<T>; 3]],
+    pub(crate) sorted: &'a mut [[BlockRow<T>; 3]],
     pub(crate) tail: &'a mut [Block<T>; 3],
     pub(crate) rows: &'a mut [DenoisedRow<T>],
     /// How many of them are in use, a power of two.

@@ -6,9 +6,9 @@ use foveate_frame::Frame;
 
 use crate::core::{Core, Keep};
 use crate::pixels::Pixels;
-use crate::plan::{Plan, index};
+use crate::plan::{CameraPlan, index};
 use crate::workers::{MAX_THREADS, Workers};
-use crate::{EngineError, Level, Outcome};
+use crate::{EngineError, FrameOutcome, Level};
 use foveate_frame::{Plane, Raster};
 
 /// How an engine runs; what it computes does not depend on it.
@@ -43,9 +43,9 @@ pub struct Engine {
     pub(crate) camera: Camera,
     pub(crate) workers: Workers,
     pub(crate) lanes: Lanes,
-    pub(crate) outcome: Outcome,
+    pub(crate) outcome: FrameOutcome,
     /// Of a batch, and of longer ones before.
-    pub(crate) outcomes: Vec<Outcome>,
+    pub(crate) outcomes: Vec<FrameOutcome>,
     /// A frame as bytes, where it came as words.
     narrow: Vec<u8>,
 }
@@ -83,11 +83,11 @@ impl Engine {
 
     fn on(camera: &Camera, options: Options, workers: Workers) -> Self {
         let lanes = if camera.pixel_bits() <= 8 {
-            Lanes::Bytes(Core::new(Plan::new(camera), options.skip))
+            Lanes::Bytes(Core::new(CameraPlan::new(camera), options.skip))
         } else {
-            Lanes::Words(Core::new(Plan::new(camera), options.skip))
+            Lanes::Words(Core::new(CameraPlan::new(camera), options.skip))
         };
-        let outcome = Outcome::new(camera.features().len(), index(camera.regions()));
+        let outcome = FrameOutcome::new(camera.features().len(), index(camera.regions()));
         Self {
             camera: camera.clone(),
             workers,
@@ -123,7 +123,7 @@ impl Engine {
     ///
     /// # Errors
     /// When the frame is not of the camera's size and depth; nothing has changed then.
-    pub fn step(&mut self, frame: &Frame) -> Result<&Outcome, EngineError> {
+    pub fn step(&mut self, frame: &Frame) -> Result<&FrameOutcome, EngineError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         let (width, height) = (index(frame.width()), index(frame.height()));
         let Self { workers, lanes, outcome, narrow, .. } = self;
@@ -148,7 +148,7 @@ impl Engine {
     ///
     /// # Errors
     /// When the frame is not of the camera's size and depth; nothing has changed then.
-    pub fn step_raster(&mut self, frame: &Raster) -> Result<&Outcome, EngineError> {
+    pub fn step_raster(&mut self, frame: &Raster) -> Result<&FrameOutcome, EngineError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         match frame.plane() {
             Plane::Bytes(pixels) => self.step_u8(pixels, index(frame.width())),
@@ -170,7 +170,7 @@ impl Engine {
     ///
     /// # Errors
     /// When that is no frame of the camera; nothing has changed then.
-    pub fn step_u8(&mut self, pixels: &[u8], stride: usize) -> Result<&Outcome, EngineError> {
+    pub fn step_u8(&mut self, pixels: &[u8], stride: usize) -> Result<&FrameOutcome, EngineError> {
         let raw = Pixels::checked(&self.camera, pixels, stride)?;
         let Self { workers, lanes, outcome, .. } = self;
         match lanes {
@@ -184,7 +184,11 @@ impl Engine {
     ///
     /// # Errors
     /// When that is no frame of the camera; nothing has changed then.
-    pub fn step_u16(&mut self, pixels: &[u16], stride: usize) -> Result<&Outcome, EngineError> {
+    pub fn step_u16(
+        &mut self,
+        pixels: &[u16],
+        stride: usize,
+    ) -> Result<&FrameOutcome, EngineError> {
         let raw = Pixels::checked(&self.camera, pixels, stride)?;
         let Self { workers, lanes, outcome, .. } = self;
         match lanes {
@@ -200,7 +204,7 @@ impl Engine {
 
     /// What the last frame has led to.
     #[must_use]
-    pub fn outcome(&self) -> &Outcome {
+    pub fn outcome(&self) -> &FrameOutcome {
         &self.outcome
     }
 

@@ -34,6 +34,6 @@ mod workers;
 pub use engine::{Engine, Options};
 pub use error::EngineError;
 pub use foveate_lanes::Level;
-pub use outcome::Outcome;
+pub use outcome::FrameOutcome;
 pub use screens::Screens;
 pub use workers::MAX_THREADS;

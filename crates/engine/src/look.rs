@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::change;
 use crate::pixels::Pixels;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use crate::policy::Step;
 use foveate_lanes::Lane;
 use foveate_lanes::Task;
@@ -13,7 +13,7 @@ use foveate_lanes::Task;
 /// Finds what has changed in some bands of a batch of frames.
 #[derive(Debug)]
 pub(crate) struct Look<'a, T: Lane> {
-    pub(crate) plan: &'a Plan<T>,
+    pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) frames: &'a [Pixels<'a, T>],
     pub(crate) bands: Range<usize>,
     pub(crate) step: Step,
@@ -88,7 +88,7 @@ impl<'a> Changes<'a> {
     #[inline(always)]
     pub(crate) fn around<T: Lane>(
         &self,
-        plan: &Plan<T>,
+        plan: &CameraPlan<T>,
         frame: usize,
         band: usize,
     ) -> Option<[&'a [bool]; 3]> {

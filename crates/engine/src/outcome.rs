@@ -8,7 +8,7 @@ use foveate_camera::{Action, FeatureKind};
 /// Scores and decisions of every region, numbered row by row: the fields of the functional model's
 /// outcome. The rendered frame is at [`Engine::rendered`](crate::Engine::rendered).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outcome {
+pub struct FrameOutcome {
     /// Spatial relevance of every region.
     pub srs: Vec<bool>,
     /// Temporal relevance of every region.
@@ -26,7 +26,7 @@ pub struct Outcome {
     pub skipped: usize,
 }
 
-impl Outcome {
+impl FrameOutcome {
     pub(crate) fn new(features: usize, regions: usize) -> Self {
         Self {
             srs: vec![false; regions],

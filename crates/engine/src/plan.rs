@@ -13,7 +13,7 @@ const BATCH: usize = 32;
 
 /// What a camera asks for.
 #[derive(Clone, Debug)]
-pub(crate) struct Plan<T: Lane> {
+pub(crate) struct CameraPlan<T: Lane> {
     /// Frame width without padding.
     pub(crate) width: usize,
     /// Frame height without padding.
@@ -59,7 +59,7 @@ pub(crate) struct SeamMasks<T: Lane> {
     pub(crate) last: Aligned<T>,
 }
 
-impl<T: Lane> Plan<T> {
+impl<T: Lane> CameraPlan<T> {
     pub(crate) fn new(camera: &Camera) -> Self {
         let side = index(camera.region_size());
         let columns = index(camera.columns());

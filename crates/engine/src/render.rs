@@ -5,7 +5,7 @@ use foveate_camera::Action;
 use foveate_camera::{Payload, Reference};
 
 use crate::pixels::Pixels;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use foveate_lanes::Lane;
 
 /// The part of a band's planes that its actions change. The screen has no padding.
@@ -25,7 +25,7 @@ impl<T: Lane> Canvas<'_, T> {
     #[inline(always)]
     pub(crate) fn act(
         &mut self,
-        plan: &Plan<T>,
+        plan: &CameraPlan<T>,
         raw: Pixels<'_, T>,
         number: usize,
         actions: &[Action],
@@ -72,7 +72,7 @@ const PIECE: usize = 64;
 /// Makes band `number` of a kept screen that of the screen; each comes with the regions that are black.
 #[inline(always)]
 pub(crate) fn show<T: Lane>(
-    plan: &Plan<T>,
+    plan: &CameraPlan<T>,
     number: usize,
     (screen, black): (&[T], &[bool]),
     (kept, kept_black): (&mut [T], &mut [bool]),

@@ -4,15 +4,15 @@
 use std::ops::Range;
 
 use crate::kernel::Near;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use foveate_lanes::Aligned;
 use foveate_lanes::{BLOCK, Block, Lane};
 
 /// A row with a block to spare on each side, so that it can be read shifted by one.
 #[derive(Clone, Debug)]
-pub(crate) struct Row<T: Lane>(Aligned<T>);
+pub(crate) struct BlockRow<T: Lane>(Aligned<T>);
 
-impl<T: Lane> Row<T> {
+impl<T: Lane> BlockRow<T> {
     fn new(blocks: usize) -> Self {
         Self(Aligned::new((blocks + 2) * BLOCK))
     }
@@ -65,7 +65,7 @@ impl<T: Lane> Row<T> {
 pub(crate) struct DenoisedRow<T: Lane> {
     /// Which row and blocks of the current frame this is.
     pub(crate) holds: Option<(usize, Range<usize>)>,
-    pub(crate) pixels: Row<T>,
+    pub(crate) pixels: BlockRow<T>,
 }
 
 /// Column sums of one band.
@@ -98,7 +98,7 @@ pub(crate) struct Sums {
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch<T: Lane> {
     /// Low, mid and high of the columns of each row of a batch.
-    pub(crate) sorted: Vec<[Row<T>; 3]>,
+    pub(crate) sorted: Vec<[BlockRow<T>; 3]>,
     /// A row short of a whole block, three rows of a window.
     pub(crate) tail: [Block<T>; 3],
     /// The rows of a batch and those around it.
@@ -112,8 +112,8 @@ pub(crate) struct Scratch<T: Lane> {
 }
 
 impl<T: Lane> Scratch<T> {
-    pub(crate) fn new(plan: &Plan<T>) -> Self {
-        let (rows, row) = (plan.slots(1), || Row::new(plan.blocks));
+    pub(crate) fn new(plan: &CameraPlan<T>) -> Self {
+        let (rows, row) = (plan.slots(1), || BlockRow::new(plan.blocks));
         let denoised = || DenoisedRow { holds: None, pixels: row() };
         let regions = || vec![0; plan.columns];
         let width = plan.stride();

@@ -4,7 +4,7 @@
 //! Most of a rendered frame is black, and was black in the frame that was here before: what is known
 //! to be black already is not written again, which is why the buffers are not simply the caller's.
 
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use foveate_lanes::Lane;
 
 /// Rendered frames, one per frame of the last batch; to be given to batch after batch, of any engine.
@@ -48,7 +48,7 @@ impl<T> Screens<T> {
 /// As many screens as there are frames, to be written.
 pub(crate) fn prepare<'a, T: Lane>(
     screens: &'a mut Screens<T>,
-    plan: &Plan<T>,
+    plan: &CameraPlan<T>,
     frames: usize,
 ) -> &'a mut [Screen<T>] {
     let shape = (plan.width, plan.height, plan.side);

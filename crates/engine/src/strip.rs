@@ -11,7 +11,7 @@ use crate::change;
 use crate::look::Changes;
 use crate::outcome::{Results, within};
 use crate::pixels::Pixels;
-use crate::plan::Plan;
+use crate::plan::CameraPlan;
 use crate::render::{Canvas, show};
 use crate::scratch::Scratch;
 use foveate_lanes::Lane;
@@ -46,7 +46,7 @@ pub(crate) struct Kept<'a, T> {
 /// Takes a batch of frames through some bands.
 #[derive(Debug)]
 pub(crate) struct Strip<'a, T: Lane> {
-    pub(crate) plan: &'a Plan<T>,
+    pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) frames: &'a [Pixels<'a, T>],
     pub(crate) bands: Range<usize>,
     pub(crate) denoised: &'a mut [T],

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::device::{Device, Share};
 use crate::paper::{PAPER_RCM, PAPER_RPU};
 use crate::render::{heading, ramb36};
-use crate::report::Report;
+use crate::report::AreaReport;
 use crate::speed::Speed;
 use crate::table::{Table, wrap};
 use foveate_pictures::page::number::grouped;
@@ -33,7 +33,7 @@ pub struct Candidate {
     /// What tells it from the others.
     pub name: String,
     /// Its area, paths, clock and frames per second.
-    pub report: Report,
+    pub report: AreaReport,
 }
 
 /// A design that is not in the comparison.
@@ -53,7 +53,7 @@ impl Comparison {
     }
 
     /// Adds a design.
-    pub fn push(&mut self, name: String, report: Report) {
+    pub fn push(&mut self, name: String, report: AreaReport) {
         self.candidates.push(Candidate { name, report: report.at(self.clock_mhz) });
     }
 
@@ -83,7 +83,8 @@ impl Comparison {
     }
 
     fn table(&self) -> Table {
-        let has = |count: fn(&Report) -> u64| self.candidates.iter().any(|c| count(&c.report) > 0);
+        let has =
+            |count: fn(&AreaReport) -> u64| self.candidates.iter().any(|c| count(&c.report) > 0);
         let dsp = has(|report| report.rcm.dsp);
         let bram = has(|report| report.rcm.bram18);
         let mut header: Vec<String> = HEADER.map(str::to_owned).to_vec();
@@ -154,7 +155,7 @@ fn at_clock(speed: Option<&Speed>) -> [String; 2] {
 }
 
 fn figures(candidate: &Candidate) -> Vec<String> {
-    let Report { rpu, rcm, paths, clocks_per_frame, speed, .. } = &candidate.report;
+    let AreaReport { rpu, rcm, paths, clocks_per_frame, speed, .. } = &candidate.report;
     let unit = [
         rpu.lut_logic_low,
         rpu.lut_logic_high,

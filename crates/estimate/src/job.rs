@@ -11,7 +11,7 @@ use crate::error::EstimateError;
 use crate::leaves::leaf_areas;
 use crate::levels::{Library, longest_paths};
 use crate::netlist::Netlist;
-use crate::report::{Areas, Paths, Report, Rtl, Timing, Units};
+use crate::report::{AreaReport, Areas, Paths, Rtl, Timing, Units};
 
 /// What messages call the netlist.
 const NETLIST: &str = "netlist.json";
@@ -44,7 +44,7 @@ pub fn estimate(
     toolchain: &Toolchain,
     cache: &Cache,
     job: &EstimateJob,
-) -> Result<Report, EstimateError> {
+) -> Result<AreaReport, EstimateError> {
     let (synthesis, leaves) = thread::scope(|scope| {
         let leaves = scope.spawn(|| {
             let run = |top: &String| job.synthesis.run_apart(top, toolchain, cache);
@@ -69,7 +69,7 @@ pub fn estimate(
     let clock = ClockEstimate::of(NETLIST, &synthesis.json, &job.synthesis.array, Library::Xilinx)?;
     go_on()?;
     let [unit, array] = paths.try_into().expect("a path for each of the two modules");
-    Ok(Report::new(
+    Ok(AreaReport::new(
         synthesis.tool,
         Rtl { sha256: sources_sha256(&job.synthesis.sources), rpu_sha256: job.rpu_sha256.clone() },
         job.regions,

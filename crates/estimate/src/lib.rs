@@ -38,7 +38,7 @@ pub use job::{EstimateJob, estimate};
 pub use levels::LogicPath;
 pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
 pub use render::{ramb36, render_markdown, render_text};
-pub use report::{FORMAT_VERSION, LeafArea, Paths, Report};
+pub use report::{AreaReport, FORMAT_VERSION, LeafArea, Paths};
 pub use route::{
     CriticalPath, Fmax, Over, PathEnd, Placed, ROUTE_DEVICES, ROUTE_FORMAT_VERSION, RouteDevice,
     RouteJob, RouteReport, Routed, Used, place_and_route, render_routes_markdown,

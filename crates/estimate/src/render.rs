@@ -5,7 +5,7 @@ mod paper;
 
 use crate::area::Area;
 use crate::levels::LogicPath;
-use crate::report::{LeafArea, Paths, Report};
+use crate::report::{AreaReport, LeafArea, Paths};
 use crate::table::{Table, header, wrap};
 use foveate_pictures::page::number::grouped;
 use foveate_toolchain::ToolRecord;
@@ -15,7 +15,7 @@ const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP"
 
 /// The report as tables for a terminal of `width` columns; 80 is enough.
 #[must_use]
-pub fn render_text(report: &Report, width: usize) -> String {
+pub fn render_text(report: &AreaReport, width: usize) -> String {
     let mut text = wrap(&heading(report), width);
     for table in tables(report) {
         text.push('\n');
@@ -26,7 +26,7 @@ pub fn render_text(report: &Report, width: usize) -> String {
 
 /// The report as Markdown.
 #[must_use]
-pub fn render_markdown(report: &Report) -> String {
+pub fn render_markdown(report: &AreaReport) -> String {
     let mut text = heading(report) + "\n";
     for table in tables(report) {
         text.push('\n');
@@ -35,13 +35,13 @@ pub fn render_markdown(report: &Report) -> String {
     text
 }
 
-pub(crate) fn heading(report: &Report) -> String {
+pub(crate) fn heading(report: &AreaReport) -> String {
     let ToolRecord { version, flags, .. } = &report.tool;
     let version = version.split(" (").next().unwrap_or(version);
     format!("Yosys estimate ({version}): {flags}")
 }
 
-fn tables(report: &Report) -> Vec<Table> {
+fn tables(report: &AreaReport) -> Vec<Table> {
     let mut tables = vec![area_table(report), path_table(report)];
     tables.extend(paper_table(report));
     if !report.leaves.is_empty() {
@@ -50,7 +50,7 @@ fn tables(report: &Report) -> Vec<Table> {
     tables
 }
 
-fn area_table(report: &Report) -> Table {
+fn area_table(report: &AreaReport) -> Table {
     let mut rows = area_rows(&report.unit, &report.rpu);
     rows.extend(area_rows("RCM", &report.rcm));
     rows.push(area_row("  glue only", &report.rcm_glue));
@@ -67,8 +67,8 @@ fn area_table(report: &Report) -> Table {
     }
 }
 
-fn area_title(report: &Report) -> String {
-    let Report { regions, unit, units, .. } = report;
+fn area_title(report: &AreaReport) -> String {
+    let AreaReport { regions, unit, units, .. } = report;
     if units == regions {
         format!("Area of {} regions, one {unit} each", grouped(*regions))
     } else if *units == 1 {
@@ -78,7 +78,7 @@ fn area_title(report: &Report) -> String {
     }
 }
 
-fn path_table(report: &Report) -> Table {
+fn path_table(report: &AreaReport) -> Table {
     let Paths { rpu, rcm } = &report.paths;
     let row = |name: &str, path: &LogicPath| {
         vec![name.to_owned(), path.levels.to_string(), path.carry4.to_string()]
@@ -150,7 +150,7 @@ fn area_row(name: &str, area: &Area) -> Vec<String> {
     row
 }
 
-fn share_row(report: &Report) -> Vec<String> {
+fn share_row(report: &AreaReport) -> Vec<String> {
     let percent = |value: f64| format!("{value:.2}%");
     let share = &report.share;
     vec![
@@ -166,7 +166,7 @@ fn share_row(report: &Report) -> Vec<String> {
     ]
 }
 
-fn leaf_table(report: &Report) -> Table {
+fn leaf_table(report: &AreaReport) -> Table {
     // The first is the module whose leaves they are.
     let of_array = report.leaves.first().is_some_and(|leaf| leaf.module == "rcm");
     let whole = if of_array { "RCM" } else { report.unit.as_str() };

@@ -69,7 +69,7 @@ pub(crate) struct Rtl {
 
 /// The area of a design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Report {
+pub struct AreaReport {
     /// [`FORMAT_VERSION`].
     pub format_version: u32,
     /// What made the figures.
@@ -111,7 +111,7 @@ pub struct Report {
     pub leaves: Vec<LeafArea>,
 }
 
-impl Report {
+impl AreaReport {
     /// Puts the measured areas beside device and paper.
     pub(crate) fn new(
         tool: ToolRecord,
@@ -174,16 +174,16 @@ pub(crate) mod tests {
     use super::*;
 
     /// A report with round figures, for the tests of its renderings.
-    pub(crate) fn example(regions: u64) -> Report {
+    pub(crate) fn example(regions: u64) -> AreaReport {
         of_units(regions, Units { name: "RPU".into(), count: regions })
     }
 
     /// The same as a serial array of `lanes` lanes.
-    pub(crate) fn serial_example(regions: u64, lanes: u64) -> Report {
+    pub(crate) fn serial_example(regions: u64, lanes: u64) -> AreaReport {
         of_units(regions, Units { name: "lane".into(), count: lanes })
     }
 
-    fn of_units(regions: u64, units: Units) -> Report {
+    fn of_units(regions: u64, units: Units) -> AreaReport {
         let rpu = Area {
             lut_logic_low: 90,
             lut_logic_high: 120,
@@ -229,7 +229,7 @@ pub(crate) mod tests {
             ClockEstimate { mhz: 60.0, low_mhz: 48.0, high_mhz: 80.0, wiring_share: 0.65, path };
         let timing = Timing { paths, clock: Some(clock), clocks_per_frame: 64 };
         let rtl = Rtl { sha256: "00".into(), rpu_sha256: "01".into() };
-        Report::new(tool, rtl, regions, units, areas, timing, leaves)
+        AreaReport::new(tool, rtl, regions, units, areas, timing, leaves)
     }
 
     #[test]
@@ -247,6 +247,6 @@ pub(crate) mod tests {
         let report = example(784);
         let json = report.to_json().unwrap();
         assert!(json.contains("\"format_version\": 1"));
-        assert_eq!(serde_json::from_str::<Report>(&json).unwrap(), report);
+        assert_eq!(serde_json::from_str::<AreaReport>(&json).unwrap(), report);
     }
 }

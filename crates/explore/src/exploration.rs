@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::point::described;
-use crate::{Refused, Row};
+use crate::{DesignRow, Refused};
 
 /// What an exploration found.
 #[derive(Clone, Debug, Serialize)]
@@ -24,7 +24,7 @@ pub struct Exploration {
     /// Keys of the configuration that vary.
     pub axes: Vec<String>,
     /// The points.
-    pub rows: Vec<Row>,
+    pub rows: Vec<DesignRow>,
     /// Combinations that are no design.
     pub refused: Vec<Refused>,
     /// Clips that ended before their end and designs that Yosys did not synthesize, and why.
@@ -34,7 +34,7 @@ pub struct Exploration {
 impl Exploration {
     /// What a point sets, as `key = value`.
     #[must_use]
-    pub fn described(&self, row: &Row) -> String {
+    pub fn described(&self, row: &DesignRow) -> String {
         described(self.axes.iter().map(String::as_str), &row.settings)
     }
 }

@@ -12,7 +12,7 @@ use crate::cost::Synthesized;
 use crate::folder::{UNFINISHED, claim, mark};
 use crate::measure::Measured;
 use crate::objective::mark_fronts;
-use crate::row::Row;
+use crate::row::DesignRow;
 use crate::store::Store;
 use crate::table::{errors, point};
 use crate::work::Work;
@@ -45,7 +45,7 @@ pub fn explore(
         let of_point: Vec<&Measured> = measured.iter().map(|clip| &clip[look_of[index]]).collect();
         let settings = point.settings.clone();
         let clock = space.clock_mhz;
-        rows.extend(Row::new(index + 1, settings, design, &of_point, synthesized, clock));
+        rows.extend(DesignRow::new(index + 1, settings, design, &of_point, synthesized, clock));
     }
     mark_fronts(&mut rows);
     let of_clip = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| ClipRow {
@@ -101,7 +101,7 @@ fn write(
     output: &Path,
 ) -> Result<(), ExploreError> {
     let rows = &exploration.rows;
-    let table = |rows: &mut dyn Iterator<Item = &Row>| {
+    let table = |rows: &mut dyn Iterator<Item = &DesignRow>| {
         Table::of(rows.map(|row| point(row, &exploration.axes)))
     };
     let points = table(&mut rows.iter());

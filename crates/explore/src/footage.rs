@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_camera::{Camera, CameraConfig};
-use foveate_fidelity::{Figures, Tally};
+use foveate_fidelity::{ErrorTally, Figures};
 use foveate_footage::boxes::{Boxes, Clip, Rect, assign};
 use foveate_footage::{InputOptions, Source, SourceFrame, Subject, is_read_once, open, subjects};
 
@@ -167,7 +167,7 @@ impl<'a> Footage<'a> {
         let mut found = Vec::new();
         let all = before + cameras.len();
         for some in cameras.chunks(TOGETHER) {
-            let mut sums: Vec<Option<(Tally, Objects)>> = vec![None; some.len()];
+            let mut sums: Vec<Option<(ErrorTally, Objects)>> = vec![None; some.len()];
             let done = before + found.len();
             let tell = || Progress::Measuring { done, all };
             for (clip, &(half, _)) in halves.iter().enumerate() {
@@ -182,7 +182,7 @@ impl<'a> Footage<'a> {
                     }
                 }
             }
-            let figures = |(tally, objects): &(Tally, Objects)| (tally.figures(), *objects);
+            let figures = |(tally, objects): &(ErrorTally, Objects)| (tally.figures(), *objects);
             found.extend(sums.iter().flatten().map(figures));
         }
         Ok(found)

@@ -41,7 +41,7 @@ pub use foveate_fidelity::{Figures, ScoreError};
 pub use method::{Axis, Method};
 pub use point::{Point, Refused};
 pub use request::Request;
-pub use row::{Fronts, Row};
+pub use row::{DesignRow, Fronts};
 pub use space::{BUILT_IN, BuiltIn, Space};
 pub use unit::{Unit, measure_unit, plan};
 

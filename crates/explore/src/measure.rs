@@ -8,7 +8,7 @@ use std::thread;
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
-use foveate_fidelity::{Fidelity, Tally};
+use foveate_fidelity::{ErrorTally, Fidelity};
 use foveate_footage::boxes::{Boxes, Rect};
 use foveate_footage::{FootageError, InputOptions, Kind, Source, Subject, open};
 use foveate_frame::{Raster, convert_depth};
@@ -26,7 +26,7 @@ const AHEAD: usize = 2;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Measured {
     /// Errors against the ideal.
-    pub(crate) tally: Tally,
+    pub(crate) tally: ErrorTally,
     /// What becomes of objects, where there are boxes.
     #[serde(default)]
     pub(crate) objects: Objects,

@@ -3,7 +3,7 @@
 //! both from here; nothing else says which way is up.
 
 use crate::front::front;
-use crate::row::{Fronts, Row, real};
+use crate::row::{DesignRow, Fronts, real};
 
 /// A figure of a point by which points beat each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ impl Objective {
     }
 
     /// The figure of a point; none where it is not known.
-    pub(crate) fn of(self, row: &Row) -> Option<f64> {
+    pub(crate) fn of(self, row: &DesignRow) -> Option<f64> {
         match self {
             Self::Error => Some(row.figures.action_flips),
             Self::Speed => row.speed.map(|speed| speed.frames_per_second),
@@ -53,7 +53,7 @@ impl Objective {
     }
 
     /// The figure as a cost, which is better the smaller it is.
-    fn cost(self, row: &Row) -> Option<f64> {
+    fn cost(self, row: &DesignRow) -> Option<f64> {
         self.of(row).map(|value| match self.better() {
             Better::Smaller => value,
             Better::Larger => -value,
@@ -62,21 +62,24 @@ impl Objective {
 }
 
 /// What tells which of some points is faster: frames per second, or frames per clock if no clock is known.
-pub(crate) fn speed<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Objective {
+pub(crate) fn speed<'a>(rows: impl IntoIterator<Item = &'a DesignRow>) -> Objective {
     let known = rows.into_iter().any(|row| row.speed.is_some());
     if known { Objective::Speed } else { Objective::PerClock }
 }
 
 /// Which of some points no other beats: none is as good in all objectives and better in one.
-pub(crate) fn unbeaten<const N: usize>(rows: &[&Row], objectives: [Objective; N]) -> Vec<bool> {
-    let costs = |row: &&Row| objectives.map(|objective| objective.cost(row));
+pub(crate) fn unbeaten<const N: usize>(
+    rows: &[&DesignRow],
+    objectives: [Objective; N],
+) -> Vec<bool> {
+    let costs = |row: &&DesignRow| objectives.map(|objective| objective.cost(row));
     front(&rows.iter().map(costs).collect::<Vec<_>>())
 }
 
 /// Marks the fronts of an exploration.
-pub(crate) fn mark_fronts(rows: &mut [Row]) {
+pub(crate) fn mark_fronts(rows: &mut [DesignRow]) {
     use Objective::{Error, Luts};
-    let all: Vec<&Row> = rows.iter().collect();
+    let all: Vec<&DesignRow> = rows.iter().collect();
     let fast = speed(all.iter().copied());
     let speed = unbeaten(&all, [Error, fast]);
     let area = unbeaten(&all, [Error, Luts]);
@@ -94,7 +97,7 @@ mod tests {
     use foveate_estimate::Speed;
 
     /// Points with figures of few values, so that many are equal; some have no area, some no clock.
-    fn points(seed: u64) -> Vec<Row> {
+    fn points(seed: u64) -> Vec<DesignRow> {
         let row = exploration("", true).rows.remove(0);
         let mut chance = fastrand::Rng::with_seed(seed);
         let mut point = || {
@@ -115,8 +118,9 @@ mod tests {
     }
 
     /// The definition, read off the figures of the table: lower error, more frames per second, fewer LUTs.
-    fn beats(one: &Row, other: &Row, fast: bool, luts: bool) -> bool {
-        let lut = |row: &Row| row.silicon.as_ref().map(|silicon| silicon.array.lut_total_packed);
+    fn beats(one: &DesignRow, other: &DesignRow, fast: bool, luts: bool) -> bool {
+        let lut =
+            |row: &DesignRow| row.silicon.as_ref().map(|silicon| silicon.array.lut_total_packed);
         let mut pairs = vec![one.figures.action_flips.total_cmp(&other.figures.action_flips)];
         if fast {
             let (Some(one), Some(other)) = (one.speed, other.speed) else { return false };
@@ -156,7 +160,7 @@ mod tests {
         let mut rows = points(1);
         rows.iter_mut().for_each(|row| row.speed = None);
         mark_fronts(&mut rows);
-        let beaten = |row: &Row| {
+        let beaten = |row: &DesignRow| {
             rows.iter().any(|other| {
                 let error = other.figures.action_flips.total_cmp(&row.figures.action_flips);
                 let both = [error, other.clocks_per_frame.cmp(&row.clocks_per_frame)];

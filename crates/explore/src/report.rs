@@ -17,11 +17,9 @@ pub(crate) mod sample;
 mod tests;
 
 use askama::Template;
-use foveate_pictures::page::{
-    COLOURS, Notice, Page, PageError, Plot, Row as Line, Table, Target, number,
-};
+use foveate_pictures::page::{COLOURS, Notice, Page, PageError, Plot, Row, Table, Target, number};
 
-use crate::{Exploration, ExploreError, Refused, Row};
+use crate::{DesignRow, Exploration, ExploreError, Refused};
 use card::Card;
 use colour::Grouping;
 use setting::Settings;
@@ -86,7 +84,7 @@ pub(crate) fn page(exploration: &Exploration) -> Result<String, ExploreError> {
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
     let columns = table::columns(&settings, areas);
-    let lines: Vec<Line> = rows.iter().map(|row| table::line(row, &settings, areas)).collect();
+    let lines: Vec<Row> = rows.iter().map(|row| table::line(row, &settings, areas)).collect();
     let table = |prefix, tall, rows| Table {
         prefix,
         number: "number of the point",
@@ -135,8 +133,8 @@ pub(crate) fn page(exploration: &Exploration) -> Result<String, ExploreError> {
 }
 
 /// All rows; of too many those of the fronts and an even sample of the others.
-fn shown(rows: &[Row]) -> Vec<&Row> {
-    let front = |row: &Row| row.front.all || row.front.speed || row.front.area;
+fn shown(rows: &[DesignRow]) -> Vec<&DesignRow> {
+    let front = |row: &DesignRow| row.front.all || row.front.speed || row.front.area;
     let fronts = rows.iter().filter(|row| front(row)).count();
     let others = rows.len() - fronts;
     let every = others.div_ceil(POINTS.saturating_sub(fronts).max(1)).max(1);

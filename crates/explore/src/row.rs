@@ -4,7 +4,7 @@
 use foveate_camera::Camera;
 use foveate_design::{Config, Design};
 use foveate_estimate::Speed;
-use foveate_fidelity::{Figures, Tally};
+use foveate_fidelity::{ErrorTally, Figures};
 use serde::Serialize;
 
 use crate::cost::{Silicon, Synthesized};
@@ -12,7 +12,7 @@ use crate::measure::Measured;
 
 /// A design with its errors, costs and speed.
 #[derive(Clone, Debug, Serialize)]
-pub struct Row {
+pub struct DesignRow {
     /// Its number, from 1, in the order of the space.
     pub number: usize,
     /// The value of every axis, a string without quotes; empty if it is the value of the start.
@@ -48,7 +48,7 @@ pub struct Fronts {
     pub all: bool,
 }
 
-impl Row {
+impl DesignRow {
     pub(crate) fn new(
         number: usize,
         settings: Vec<String>,
@@ -82,7 +82,7 @@ impl Row {
 }
 
 /// The sums of several clips; none of none.
-pub(crate) fn together(measured: &[&Measured]) -> Option<Tally> {
+pub(crate) fn together(measured: &[&Measured]) -> Option<ErrorTally> {
     let mut tallies = measured.iter().map(|part| &part.tally);
     let mut all = tallies.next()?.clone();
     tallies.for_each(|tally| all.merge(tally));

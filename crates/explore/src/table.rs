@@ -6,10 +6,10 @@ use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
 use foveate_files::tables::{Cell, Cells};
 
-use crate::row::{Row, real};
+use crate::row::{DesignRow, real};
 
 /// The columns of a point.
-pub(crate) fn point(row: &Row, axes: &[String]) -> Cells {
+pub(crate) fn point(row: &DesignRow, axes: &[String]) -> Cells {
     let mut cells: Cells = vec![("point".to_owned(), count(row.number as u64))];
     let settings = axes.iter().zip(&row.settings);
     cells.extend(settings.map(|(axis, value)| (axis.clone(), Cell::Text(value.clone()))));

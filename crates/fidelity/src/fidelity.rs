@@ -2,7 +2,7 @@
 //! Compares a candidate with the ideal, frame by frame.
 
 use foveate_camera::Camera;
-use foveate_engine::Outcome;
+use foveate_engine::FrameOutcome;
 use foveate_frame::{Plane, Raster};
 use foveate_ideal::IdealOutcome;
 
@@ -13,7 +13,7 @@ use crate::planes::Planes;
 use crate::sample::Sample;
 use crate::scores::Pair;
 use crate::stale::Watch;
-use crate::{FidelityError, Tally};
+use crate::{ErrorTally, FidelityError};
 
 /// Compares the frames of one clip; memory is allocated with the first.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub struct Fidelity {
     /// Decisions of the ideal and of the candidate.
     states: [Vec<u8>; 2],
     eye: Eye,
-    tally: Tally,
+    tally: ErrorTally,
 }
 
 /// What looks at pixels, in the type that the ideal's fit into.
@@ -58,10 +58,10 @@ impl Fidelity {
             });
         }
         let pairs = Pair::all(ideal, candidate);
-        let tally = Tally {
+        let tally = ErrorTally {
             peak: ideal.pixel_max(),
             scores: pairs.iter().map(Pair::tally).collect(),
-            ..Tally::default()
+            ..ErrorTally::default()
         };
         Ok(Self {
             cells: Cells::new(ideal, candidate),
@@ -86,7 +86,7 @@ impl Fidelity {
         &mut self,
         input: &Raster,
         ideal: &IdealOutcome,
-        candidate: &Outcome,
+        candidate: &FrameOutcome,
         screen: Plane<'_>,
     ) -> Result<(), FidelityError> {
         self.check(input, ideal, candidate, screen)?;
@@ -115,17 +115,17 @@ impl Fidelity {
 
     /// The sums so far.
     #[must_use]
-    pub fn tally(&self) -> &Tally {
+    pub fn tally(&self) -> &ErrorTally {
         &self.tally
     }
 
     /// The sums, at the end.
     #[must_use]
-    pub fn into_tally(self) -> Tally {
+    pub fn into_tally(self) -> ErrorTally {
         self.tally
     }
 
-    fn decisions(&mut self, ideal: &IdealOutcome, candidate: &Outcome) {
+    fn decisions(&mut self, ideal: &IdealOutcome, candidate: &FrameOutcome) {
         let Self { cells, states: [own, other], tally, .. } = self;
         own.clear();
         own.extend(
@@ -145,7 +145,7 @@ impl Fidelity {
         &self,
         input: &Raster,
         ideal: &IdealOutcome,
-        candidate: &Outcome,
+        candidate: &FrameOutcome,
         screen: Plane<'_>,
     ) -> Result<(), FidelityError> {
         let expected = (self.ideal.width(), self.ideal.height(), self.ideal.pixel_bits());
@@ -211,7 +211,13 @@ impl<T: Sample> Sight<T> {
         }
     }
 
-    fn look(&mut self, input: &Raster, ideal: &IdealOutcome, screen: Plane<'_>, tally: &mut Tally) {
+    fn look(
+        &mut self,
+        input: &Raster,
+        ideal: &IdealOutcome,
+        screen: Plane<'_>,
+        tally: &mut ErrorTally,
+    ) {
         // The types have been checked.
         let Some(pictures) = self.planes.take(input.plane(), ideal, screen) else { return };
         let [to_ideal, to_input] = self.comparison.compare(pictures);

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Tally;
+use crate::ErrorTally;
 use crate::exact::{ratio, real};
 use crate::scores::ScoreTally;
 
@@ -84,7 +84,7 @@ pub struct Staleness {
     pub share: f64,
 }
 
-impl Tally {
+impl ErrorTally {
     /// What people read of it.
     #[must_use]
     pub fn figures(&self) -> Figures {

@@ -2,7 +2,7 @@
 //! How far a camera is from the ideal camera, over the frames of clips.
 //!
 //! A [`Fidelity`] gets each input frame with the results of the ideal camera
-//! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`Tally`] holds whole numbers
+//! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`ErrorTally`] holds whole numbers
 //! only, so tallies of clips can be stored, and their sum has the same bits in any order. [`Figures`] are
 //! for people: errors of scores, flips, PSNR, SSIM, staleness. This crate does no I/O.
 #![forbid(unsafe_code)]
@@ -26,4 +26,4 @@ pub use error::FidelityError;
 pub use fidelity::Fidelity;
 pub use figures::{Figures, ScoreError, Staleness};
 pub use likeness::Likeness;
-pub use tally::Tally;
+pub use tally::ErrorTally;

@@ -2,7 +2,7 @@
 //! Errors of the scores that both cameras have, region by region; only where regions are the same.
 
 use foveate_camera::{Camera, Measure};
-use foveate_engine::Outcome;
+use foveate_engine::FrameOutcome;
 use foveate_ideal::IdealOutcome;
 use serde::{Deserialize, Serialize};
 
@@ -92,7 +92,12 @@ impl Pair {
     }
 
     /// Adds one frame.
-    pub(crate) fn add(&self, ideal: &IdealOutcome, candidate: &Outcome, tally: &mut ScoreTally) {
+    pub(crate) fn add(
+        &self,
+        ideal: &IdealOutcome,
+        candidate: &FrameOutcome,
+        tally: &mut ScoreTally,
+    ) {
         match self.places {
             Some((own, other)) => self.compare(
                 &ideal.scores[own],

@@ -12,7 +12,7 @@ use crate::stale::StaleTally;
 /// tally in whatever order and on however many threads their clips were compared.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Tally {
+pub struct ErrorTally {
     pub(crate) frames: u64,
     /// Pixels of all frames.
     pub(crate) pixels: u64,
@@ -25,7 +25,7 @@ pub struct Tally {
     pub(crate) stale: StaleTally,
 }
 
-impl Tally {
+impl ErrorTally {
     /// Adds the frames of another tally: of the same two cameras, but for the size of the frames.
     ///
     /// Scores are added by name. Of different depths the largest pixel counts, for PSNR, which then says

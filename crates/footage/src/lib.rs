@@ -33,7 +33,7 @@ pub use limits::{Crop, MAX_SIDE};
 pub use natural::natural_order;
 pub use options::{ImagesAs, InputOptions};
 pub use picture::{decode, luma, read};
-pub use plan::{Clip, Plan, plan};
+pub use plan::{Clip, ClipPlan, plan};
 pub use rate::FrameRate;
 pub use source::ahead::{Frames, read_ahead};
 pub use source::form::{IdxFile, Labels, SetFiles, SetForm};

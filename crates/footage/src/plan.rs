@@ -30,7 +30,7 @@ pub struct Clip {
 
 /// How inputs are to be simulated.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Plan {
+pub enum ClipPlan {
     /// As one clip or set.
     One,
     /// As several clips.
@@ -41,15 +41,18 @@ pub enum Plan {
 ///
 /// # Errors
 /// When a folder cannot be read, or an input cannot be one of several clips.
-pub fn plan<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Result<Plan, FootageError> {
+pub fn plan<P: AsRef<Path>>(
+    inputs: &[P],
+    options: &InputOptions,
+) -> Result<ClipPlan, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
     let tree = |path: &Path| -> Result<bool, FootageError> {
         let whole = options.images == ImagesAs::Set || !path.is_dir();
         Ok(!whole && !entries(path)?.iter().any(|entry| is_image_name(entry) && entry.is_file()))
     };
     match inputs.as_slice() {
-        [one] if !tree(one)? => return Ok(Plan::One),
-        several if several.iter().all(|path| belongs_to_a_clip(path)) => return Ok(Plan::One),
+        [one] if !tree(one)? => return Ok(ClipPlan::One),
+        several if several.iter().all(|path| belongs_to_a_clip(path)) => return Ok(ClipPlan::One),
         _ => {}
     }
     let mut clips = Vec::new();
@@ -69,7 +72,7 @@ pub fn plan<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Result<Plan
         return Err(FootageError::EmptyFolder { path });
     }
     set_apart(&mut clips);
-    Ok(Plan::Batch(clips))
+    Ok(ClipPlan::Batch(clips))
 }
 
 /// An image file, a pattern, or something that is not there, which opening will say.

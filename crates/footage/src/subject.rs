@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use crate::{FootageError, ImagesAs, InputOptions, Plan, plan};
+use crate::{ClipPlan, FootageError, ImagesAs, InputOptions, plan};
 
 /// A clip or set with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,13 +22,15 @@ pub struct Subject {
 pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<Subject>, FootageError> {
     let mut found = Vec::new();
     let sheets = options.images == ImagesAs::CifarSheet;
-    if inputs.len() > 1 && !sheets && matches!(plan(inputs, options), Ok(Plan::One)) {
+    if inputs.len() > 1 && !sheets && matches!(plan(inputs, options), Ok(ClipPlan::One)) {
         return Ok(vec![Subject { name: name_of(&inputs[0]), inputs: inputs.to_vec() }]);
     }
     for input in inputs {
         match plan(&[input], options)? {
-            Plan::One => found.push(Subject { name: name_of(input), inputs: vec![input.clone()] }),
-            Plan::Batch(clips) => found.extend(clips.into_iter().map(|clip| {
+            ClipPlan::One => {
+                found.push(Subject { name: name_of(input), inputs: vec![input.clone()] });
+            }
+            ClipPlan::Batch(clips) => found.extend(clips.into_iter().map(|clip| {
                 // A clip has an input.
                 Subject { name: name_of(&clip.inputs[0]), inputs: clip.inputs }
             })),

@@ -17,8 +17,8 @@ use crate::report::{FORMAT_VERSION, QUANTIZER};
 use crate::search::coarsest;
 use crate::sender::DECISION_BITS;
 use crate::{
-    Cameras, ClipReport, Codec, Effort, Encoded, Encoder, Figures, LinkError, Point, Quality,
-    Report, SenderReport, Timeline, Unit, files,
+    Cameras, ClipReport, Codec, Effort, Encoded, Encoder, Figures, LinkError, LinkReport, Point,
+    Quality, SenderReport, Timeline, Unit, files,
 };
 
 /// What is compared.
@@ -51,7 +51,7 @@ pub fn compare(
     output: &Path,
     overwrite: bool,
     hooks: &dyn BatchHooks,
-) -> Result<Report, LinkError> {
+) -> Result<LinkReport, LinkError> {
     let staging = StagedFolder::new(output, LINK, overwrite)?;
     let subjects = subjects(request.inputs, request.input)?;
     let ffmpeg = tools.find(Tool::Ffmpeg)?.banner;
@@ -67,7 +67,7 @@ pub fn compare(
         };
         clips.push(one(request, tools, subject, &tick)?);
     }
-    let report = Report {
+    let report = LinkReport {
         format_version: FORMAT_VERSION,
         foveate_version: env!("CARGO_PKG_VERSION"),
         ffmpeg,

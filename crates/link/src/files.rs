@@ -5,10 +5,10 @@ use foveate_files::tables::{Cell, Cells, Table};
 use foveate_staging::StagedFolder;
 
 use crate::picture::charts;
-use crate::{ClipReport, LinkError, Point, Quality, Report, SenderReport};
+use crate::{ClipReport, LinkError, LinkReport, Point, Quality, SenderReport};
 
 /// Writes them all.
-pub(crate) fn write(staging: &StagedFolder, report: &Report) -> Result<(), LinkError> {
+pub(crate) fn write(staging: &StagedFolder, report: &LinkReport) -> Result<(), LinkError> {
     let senders = |clip: &ClipReport| -> Vec<Cells> {
         clip.senders.iter().map(|sender| sender_row(clip, sender)).collect()
     };

@@ -34,7 +34,7 @@ pub use error::LinkError;
 pub use fifo::{Served, serve};
 pub use figures::{Delivery, Figures};
 pub use quality::Quality;
-pub use report::{ClipReport, Point, Report, SenderReport};
+pub use report::{ClipReport, LinkReport, Point, SenderReport};
 pub use search::coarsest;
 pub use sender::{Cameras, Sent};
 pub use timeline::Timeline;

@@ -13,7 +13,7 @@ pub(crate) const QUANTIZER: &str = "quantizer";
 
 /// A comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
+pub struct LinkReport {
     /// Version of this format.
     pub format_version: u32,
     /// Version of the program.
@@ -92,7 +92,7 @@ pub struct Point {
     pub quality: Quality,
 }
 
-impl Report {
+impl LinkReport {
     /// Why clips ended before their end.
     #[must_use]
     pub fn problems(&self) -> Vec<String> {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use crate::{ClipReport, Report, SenderReport};
+use crate::{ClipReport, LinkReport, SenderReport};
 
 const COLUMNS: [&str; 14] = [
     "sender",
@@ -22,7 +22,7 @@ const COLUMNS: [&str; 14] = [
     "buffer [kB]",
 ];
 
-impl Report {
+impl LinkReport {
     /// A table per clip. Rates of windows are in kB/s.
     #[must_use]
     pub fn markdown(&self) -> String {

@@ -15,7 +15,7 @@ use foveate_frame::Frame;
 
 /// Everything that one frame leads to. Regions are numbered row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outcome {
+pub struct FunctionalOutcome {
     /// Spatial relevance of every region.
     pub srs: Vec<bool>,
     /// Temporal relevance of every region.
@@ -36,7 +36,7 @@ pub struct Outcome {
     pub rendered: Frame,
 }
 
-impl Outcome {
+impl FunctionalOutcome {
     fn new(camera: &Camera) -> Self {
         let regions = index(camera.regions());
         Self {
@@ -68,7 +68,7 @@ pub struct FunctionalCamera {
     camera: Camera,
     references: References,
     screen: Screen,
-    outcome: Outcome,
+    outcome: FunctionalOutcome,
 }
 
 impl FunctionalCamera {
@@ -78,7 +78,7 @@ impl FunctionalCamera {
         Self {
             references: References::none(camera),
             screen: Screen::black(camera),
-            outcome: Outcome::new(camera),
+            outcome: FunctionalOutcome::new(camera),
             camera: camera.clone(),
         }
     }
@@ -109,7 +109,7 @@ impl FunctionalCamera {
     ///
     /// # Errors
     /// When the frame is not of the camera's size and depth; nothing has changed then.
-    pub fn step(&mut self, frame: &Frame) -> Result<&Outcome, ModelError> {
+    pub fn step(&mut self, frame: &Frame) -> Result<&FunctionalOutcome, ModelError> {
         check_kind(&self.camera, frame)?;
         pad_into(frame, &mut self.outcome.padded);
         denoise_into(&self.camera, &self.outcome.padded, &mut self.outcome.denoised);

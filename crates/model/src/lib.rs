@@ -31,7 +31,7 @@ pub mod window;
 
 pub use decision::action;
 pub use error::ModelError;
-pub use functional::{FunctionalCamera, Outcome};
+pub use functional::{FunctionalCamera, FunctionalOutcome};
 pub use pipelined::{PipelinedRcm, PipelinedRpu, RcmInput, RpuInput, RpuOutput};
 pub use raster::{RasterInput, RasterOutput, RasterRcm};
 pub use region::{pad, region_pixels};

@@ -19,7 +19,7 @@ mod trio;
 use rayon::prelude::*;
 
 pub use depth::Depth;
-pub use row::Row;
+pub use row::CaseRow;
 
 /// Runs every case, side by side; `done` hears how many of how many are finished. Rows come in the order
 /// of the documentation; those of cases that had not begun when `cancelled` became true are missing.
@@ -27,10 +27,10 @@ pub fn run(
     depth: Depth,
     done: &(dyn Fn(usize, usize) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
-) -> Vec<Row> {
+) -> Vec<CaseRow> {
     let cases = case::ALL;
     let finished = std::sync::atomic::AtomicUsize::new(0);
-    let rows: Vec<Vec<Row>> = cases
+    let rows: Vec<Vec<CaseRow>> = cases
         .par_iter()
         .map(|case| {
             let rows = if cancelled() { Vec::new() } else { case(depth) };

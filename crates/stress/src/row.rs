@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// One case on one design, or on a matrix of them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct CaseRow {
     /// What is tried.
     pub case: &'static str,
     /// On which designs.
@@ -20,7 +20,7 @@ pub struct Row {
     pub holds: bool,
 }
 
-impl Row {
+impl CaseRow {
     /// A case in which two numbers must be equal.
     pub(crate) fn equal(
         case: &'static str,

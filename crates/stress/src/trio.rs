@@ -12,14 +12,14 @@ use crate::pixels::Random;
 
 /// What disagreed, and how often it could have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Tally {
+pub(crate) struct AgreementTally {
     /// Values that differ from the functional model's.
     pub(crate) wrong: u64,
     /// Values that were compared.
     pub(crate) tried: u64,
 }
 
-impl Tally {
+impl AgreementTally {
     fn check(&mut self, equal: bool) {
         self.wrong += u64::from(!equal);
         self.tried += 1;
@@ -36,8 +36,8 @@ pub(crate) fn compare(
     design: &Design,
     frames: impl IntoIterator<Item = Frame>,
     unrest: bool,
-) -> Tally {
-    let mut tally = Tally::default();
+) -> AgreementTally {
+    let mut tally = AgreementTally::default();
     let mut camera = FunctionalCamera::new(design);
     let mut engine = Engine::new(design);
     let pipelined = design.pipelined().expect("cases are of pipelined designs");

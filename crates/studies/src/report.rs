@@ -36,7 +36,7 @@ pub struct Request<'a> {
 
 /// What a study found, and the files that it left.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Report {
+pub struct StudyReport {
     /// Name of the study.
     pub study: &'static str,
     /// Names of the files.
@@ -52,7 +52,7 @@ pub struct Report {
     shown: Option<Table>,
 }
 
-impl Report {
+impl StudyReport {
     /// The table as Markdown, or the most important of a large one.
     #[must_use]
     pub fn markdown(&self) -> String {
@@ -71,7 +71,7 @@ pub fn analyze(
     output: &Path,
     overwrite: bool,
     hooks: &dyn BatchHooks,
-) -> Result<Report, StudyError> {
+) -> Result<StudyReport, StudyError> {
     let study = request.study;
     let staging = StagedFolder::new(output, STUDY, overwrite)?;
     let subjects = subjects(request.inputs, request.input)?;
@@ -96,7 +96,7 @@ pub fn analyze(
     }
     staging.commit()?;
     let Findings { table: Table { columns, rows }, shown, problems, .. } = findings;
-    Ok(Report { study: study.name(), files, columns, rows, problems, shown })
+    Ok(StudyReport { study: study.name(), files, columns, rows, problems, shown })
 }
 
 fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyError> {

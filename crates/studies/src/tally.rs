@@ -28,14 +28,14 @@ impl Regions {
 /// A whole clip or set. Frame 0 of a clip has no reference, so that all of its regions have changed,
 /// which says nothing: it counts only in a clip that has no other.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Tally {
+pub(crate) struct RegionTally {
     sum: Regions,
     without_reference: Regions,
     /// Active regions of the frame with the fewest and of the one with the most.
     extremes: Option<(u64, u64)>,
 }
 
-impl Tally {
+impl RegionTally {
     pub(crate) fn add(&mut self, seen: &Seen<'_>) {
         let frame = Regions::of(seen);
         if seen.without_reference {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use foveate_design::{Config, Design};
-use foveate_engine::{Engine, Outcome};
+use foveate_engine::{Engine, FrameOutcome};
 use foveate_footage::{FootageError, InputOptions, Kind, Source, SourceFrame, Subject, open};
 use foveate_simulator::{BatchHooks, BatchProgress};
 use rayon::prelude::*;
@@ -42,7 +42,7 @@ pub(crate) struct Seen<'a> {
     /// The first of a clip, where every region counts as changed.
     pub(crate) without_reference: bool,
     pub(crate) time_us: u64,
-    pub(crate) outcome: &'a Outcome,
+    pub(crate) outcome: &'a FrameOutcome,
 }
 
 /// The inputs of a study and its caller.

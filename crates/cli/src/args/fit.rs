@@ -42,7 +42,7 @@ pub(crate) struct FitArgs {
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
-    /// Synthesize at most this many designs, the most promising first
+    /// Synthesize at most this many designs, the most promising first; if none meets all limits, up to 16 more, to find the nearest
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = at_least_one())]
     pub(crate) max_syntheses: u32,
     /// Ground-truth boxes for --min-recall, as of `foveate analyze recall`

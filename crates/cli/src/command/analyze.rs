@@ -2,7 +2,7 @@
 //! `foveate analyze`: the paper's studies as tables and charts.
 
 use foveate_footage::ImagesAs;
-use foveate_studies::{Report, Request, Study, analyze};
+use foveate_studies::{Request, Study, StudyReport, analyze};
 
 use super::simulate::Terminal;
 use crate::args::{AnalyzeArgs, warn_of};
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
 }
 
 /// The table, unless it has a row for everything that the chart shows better.
-fn text(args: &AnalyzeArgs, report: &Report) -> String {
+fn text(args: &AnalyzeArgs, report: &StudyReport) -> String {
     let files = format!("{}: {}\n", args.output.display(), report.files.join(", "));
     match args.study.0 {
         Study::Activity | Study::MadHistogram => files,

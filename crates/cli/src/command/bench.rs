@@ -5,7 +5,7 @@ mod table;
 
 use std::time::Duration;
 
-use foveate_bench::{Bench, Report, Tools, random_frames};
+use foveate_bench::{Bench, BenchReport, Tools, random_frames};
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_simulator::SimulatorError;
@@ -47,7 +47,7 @@ fn design_and_frames(args: &BenchArgs) -> Result<(Design, Vec<Frame>), CliError>
     Ok((design, frames))
 }
 
-fn tell(args: &BenchArgs, report: &Report) -> Result<(), CliError> {
+fn tell(args: &BenchArgs, report: &BenchReport) -> Result<(), CliError> {
     if args.json {
         output::json(report)
     } else if args.markdown {

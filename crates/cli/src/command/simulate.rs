@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_design::Config;
-use foveate_footage::{ImagesAs, InputOptions, Plan, open, plan};
+use foveate_footage::{ClipPlan, ImagesAs, InputOptions, open, plan};
 use foveate_simulator::{
     Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, Progress, RunOptions,
     Simulation, Summary, Traffic, run_batch,
@@ -47,7 +47,7 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
     warn_of(inputs, input);
     let mut hooks = Terminal::new(*quiet)?;
     match plan {
-        Plan::One => {
+        ClipPlan::One => {
             let source = open(inputs, &config.camera, input)?;
             let simulation = Simulation::new(config, source)?;
             let summary = simulation.run(folder, options, &mut hooks);
@@ -56,7 +56,7 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
             tell(job, &summary, || text(folder, &summary))?;
             hooks.verdict(folder, summary.problem)
         }
-        Plan::Batch(clips) => {
+        ClipPlan::Batch(clips) => {
             let summary = run_batch(&clips, config, input, folder, options, &hooks);
             hooks.shown.finish();
             let summary = summary?;

@@ -3,7 +3,7 @@
 
 use std::sync::atomic::Ordering;
 
-use foveate_stress::{Depth, Row};
+use foveate_stress::{CaseRow, Depth};
 use serde::Serialize;
 
 use crate::args::StressArgs;
@@ -12,10 +12,10 @@ use crate::progress::Progress;
 use crate::{interrupt, output};
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct StressReport<'a> {
     format_version: u32,
     holds: bool,
-    rows: &'a [Row],
+    rows: &'a [CaseRow],
 }
 
 pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
     let broken = rows.iter().filter(|row| !row.holds).count();
     let holds = broken == 0 && !interrupted.load(Ordering::Relaxed);
     if args.json {
-        output::json(&Report { format_version: 1, holds, rows: &rows })?;
+        output::json(&StressReport { format_version: 1, holds, rows: &rows })?;
     } else if args.markdown {
         output::text(&markdown(&rows))?;
     } else {
@@ -41,16 +41,16 @@ pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
     }
 }
 
-fn verdict(row: &Row) -> &'static str {
+fn verdict(row: &CaseRow) -> &'static str {
     if row.holds { "ok" } else { "FAILED" }
 }
 
 /// Two lines a row, so that it fits into any terminal.
-fn text(rows: &[Row]) -> String {
+fn text(rows: &[CaseRow]) -> String {
     let width = output::width();
     let mut text = String::new();
     for row in rows {
-        let Row { case, designs, expected, observed, worst, .. } = row;
+        let CaseRow { case, designs, expected, observed, worst, .. } = row;
         let first = format!("{:<6} {case}: {designs}", verdict(row));
         let second = format!("expected {expected}; observed {observed}; worst error {worst}");
         let indented = textwrap::Options::new(width).subsequent_indent("       ");
@@ -63,12 +63,12 @@ fn text(rows: &[Row]) -> String {
     text + &format!("{held} of {} hold\n", rows.len())
 }
 
-fn markdown(rows: &[Row]) -> String {
+fn markdown(rows: &[CaseRow]) -> String {
     let mut text = "| case | designs | expected | observed | worst error | verdict |\n\
                     | --- | --- | --- | --- | --- | --- |\n"
         .to_owned();
     for row in rows {
-        let Row { case, designs, expected, observed, worst, .. } = row;
+        let CaseRow { case, designs, expected, observed, worst, .. } = row;
         let verdict = verdict(row);
         text +=
             &format!("| {case} | {designs} | {expected} | {observed} | {worst} | {verdict} |\n");

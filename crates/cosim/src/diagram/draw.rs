@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A diagram as a picture: lines, boxes with numbers, gaps.
 
-use super::wave::{Row, Wave};
+use super::wave::{Wave, WaveRow};
 use std::fmt::Write as _;
 
 const COLUMN: usize = 44;
@@ -55,7 +55,7 @@ struct Piece<'a> {
 }
 
 /// The stretches of a row; a gap goes on with what was before it.
-fn pieces(row: &Row) -> Vec<Piece<'_>> {
+fn pieces(row: &WaveRow) -> Vec<Piece<'_>> {
     let mut pieces: Vec<Piece<'_>> = Vec::new();
     let mut data = row.data.iter();
     for shown in row.wave.chars() {
@@ -70,7 +70,7 @@ fn pieces(row: &Row) -> Vec<Piece<'_>> {
     pieces
 }
 
-fn draw_row(svg: &mut String, row: &Row, left: usize, top: usize) {
+fn draw_row(svg: &mut String, row: &WaveRow, left: usize, top: usize) {
     let (high, low) = (top, top + SWING);
     let _ = writeln!(
         svg,

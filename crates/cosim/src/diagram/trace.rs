@@ -3,7 +3,7 @@
 
 use crate::error::CosimError;
 use crate::level::Level;
-use crate::shipped::{Model, Picture, Record, model};
+use crate::shipped::{Model, Record, TestPattern, model};
 use crate::stimulus::{Applied, Random};
 use foveate_design::{Design, Direction, Port, PortRole};
 use foveate_emit::Top;
@@ -91,7 +91,7 @@ fn part(design: &Design) -> Result<(Design, String), CosimError> {
 fn frame(part: &Design) -> Frame {
     let side = part.region_size();
     let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-    let square = Picture::Noise.draw(side as usize, max, false, &mut Random::new(1));
+    let square = TestPattern::Noise.draw(side as usize, max, false, &mut Random::new(1));
     let pixel = |x: u32, y: u32| {
         if x < side && y < side { square[(y * side + x) as usize] } else { max / 3 }
     };

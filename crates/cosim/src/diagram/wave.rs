@@ -11,7 +11,7 @@ const EDGE: &str = "edge of clk_i";
 /// A diagram as WaveDrom has it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub(super) struct Wave {
-    pub(super) signal: Vec<Row>,
+    pub(super) signal: Vec<WaveRow>,
     pub(super) head: Text,
     pub(super) foot: Text,
 }
@@ -25,7 +25,7 @@ pub(super) struct Text {
 /// A signal: a character per column (`0`, `1`: a line; `=`: the next of the data; `x`: nothing of use; `.`:
 /// as before; `|`: a gap).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(super) struct Row {
+pub(super) struct WaveRow {
     pub(super) name: String,
     pub(super) wave: String,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -60,8 +60,8 @@ fn text(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("texts and lists of texts have JSON")
 }
 
-fn edges(columns: &[Column]) -> Row {
-    let mut row = Row { name: EDGE.to_owned(), wave: String::new(), data: Vec::new() };
+fn edges(columns: &[Column]) -> WaveRow {
+    let mut row = WaveRow { name: EDGE.to_owned(), wave: String::new(), data: Vec::new() };
     for column in columns {
         match column {
             Column::Clock { edge, .. } => {
@@ -74,9 +74,9 @@ fn edges(columns: &[Column]) -> Row {
     row
 }
 
-fn row(trace: &Trace, signal: usize, columns: &[Column]) -> Row {
+fn row(trace: &Trace, signal: usize, columns: &[Column]) -> WaveRow {
     let shown = &trace.signals[signal];
-    let mut row = Row { name: shown.name.clone(), wave: String::new(), data: Vec::new() };
+    let mut row = WaveRow { name: shown.name.clone(), wave: String::new(), data: Vec::new() };
     let mut before: Option<Option<u64>> = None;
     for column in columns {
         let &Column::Clock { stretch, .. } = column else {

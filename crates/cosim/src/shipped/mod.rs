@@ -25,14 +25,14 @@ use crate::level::Level;
 use foveate_design::{Design, Port, PortRole};
 use foveate_emit::{Prefix, SourceFile, Top};
 pub(crate) use model::{Model, Record};
-pub(crate) use picture::Picture;
+pub(crate) use picture::TestPattern;
 use player::Player;
 pub(crate) use player::model;
 use script::{FRAMES, Script};
 use std::sync::atomic::AtomicBool;
 use tape::Tape;
 
-pub use tally::{Losses, Tally};
+pub use tally::{Losses, VectorTally};
 
 /// Clocks of the longest vectors. Verilator needs a quarter of an hour for them.
 const MAX_CLOCKS: u64 = 1 << 31;
@@ -47,7 +47,7 @@ pub struct ShippedBench {
     /// Regions side by side and one below the other; the core's own grid, or a smaller one.
     pub grid: (u32, u32),
     /// What the vectors show.
-    pub tally: Tally,
+    pub tally: VectorTally,
     /// Clocks of the vectors.
     pub clocks: u64,
     /// What the vectors should show and do not, in words; the bench then never says `PASS`.
@@ -138,7 +138,7 @@ impl ShippedBench {
 
 /// Vectors, and what they show.
 struct Take {
-    tally: Tally,
+    tally: VectorTally,
     clocks: u64,
     vectors: String,
     /// Whether there are any: not where they would be too long.

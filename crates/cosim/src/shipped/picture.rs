@@ -5,7 +5,7 @@ use crate::stimulus::Random;
 
 /// A way to fill a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Picture {
+pub(crate) enum TestPattern {
     /// Independent random pixels.
     Noise,
     /// Random squares of 2x2 pixels, which a median leaves.
@@ -31,26 +31,26 @@ pub(crate) enum Picture {
 }
 
 /// Those with something in them, the richest in different values first.
-pub(super) const TEXTURES: &[Picture] = &[
-    Picture::Noise,
-    Picture::Blocks,
-    Picture::Binary,
-    Picture::Ramp,
-    Picture::Quadrant,
-    Picture::Dots(1, 3),
-    Picture::Dots(3, 5),
-    Picture::Dots(2, 4),
-    Picture::Halves,
-    Picture::Checkers(1),
-    Picture::Checkers(2),
-    Picture::Columns(1),
-    Picture::Columns(2),
-    Picture::Rows(1),
-    Picture::Rows(2),
-    Picture::Checkers(3),
+pub(super) const TEXTURES: &[TestPattern] = &[
+    TestPattern::Noise,
+    TestPattern::Blocks,
+    TestPattern::Binary,
+    TestPattern::Ramp,
+    TestPattern::Quadrant,
+    TestPattern::Dots(1, 3),
+    TestPattern::Dots(3, 5),
+    TestPattern::Dots(2, 4),
+    TestPattern::Halves,
+    TestPattern::Checkers(1),
+    TestPattern::Checkers(2),
+    TestPattern::Columns(1),
+    TestPattern::Columns(2),
+    TestPattern::Rows(1),
+    TestPattern::Rows(2),
+    TestPattern::Checkers(3),
 ];
 
-impl Picture {
+impl TestPattern {
     /// The picture as `side` x `side` pixels up to `max`, row by row; `is_negative` swaps dark and bright.
     pub(crate) fn draw(
         self,

@@ -4,7 +4,7 @@
 
 use super::damage::DAMAGED;
 use super::has_sink;
-use super::picture::{Picture, TEXTURES};
+use super::picture::{TEXTURES, TestPattern};
 use super::studio::{Look, Studio};
 use crate::stimulus::{Artist, Motif, Random};
 use foveate_design::{Combine, Design, Thresholds as Mode};
@@ -52,7 +52,7 @@ pub(super) struct Shot {
 
 /// Thresholds under which there is something relevant, and those under which nothing is.
 #[derive(Clone, Copy)]
-struct Plan {
+struct ThresholdPair {
     usual: Thresholds,
     blank: Thresholds,
 }
@@ -87,12 +87,12 @@ impl Script {
     /// that go beyond the borders of regions, for regions so small that their neighbors' pixels decide.
     pub(super) fn of(part: &Design, is_wide: bool) -> Self {
         let (mut studio, mut random) = (Studio::new(part), Random::new(1));
-        let plan = plan(part, &mut studio, &mut random);
+        let pair = threshold_pair(part, &mut studio, &mut random);
         let stage = Stage::new(part);
         let cast: Vec<Actor> = (0..stage.places.len())
-            .map(|number| actor(part, &mut studio, &plan.usual, number, &mut random))
+            .map(|number| actor(part, &mut studio, &pair.usual, number, &mut random))
             .collect();
-        let flat = Picture::Flat.draw(stage.side, stage.max, false, &mut random);
+        let flat = TestPattern::Flat.draw(stage.side, stage.max, false, &mut random);
         let shot = |turn, thresholds, square: &dyn Fn(usize, &Actor) -> Vec<u16>| {
             let squares: Vec<_> = cast.iter().enumerate().map(|(i, a)| square(i, a)).collect();
             Shot { frame: stage.frame(&squares, turn), thresholds, stalls: false }
@@ -103,25 +103,25 @@ impl Script {
             _ => flat.clone(),
         };
         let mut sequences = vec![vec![
-            shot(0, plan.usual, &|_, actor| actor.first.clone()),
-            shot(0, plan.usual, &|_, actor| actor.first.clone()),
-            shot(1, plan.usual, &mixed),
-            shot(2, plan.blank, &|_, _| flat.clone()),
-            shot(2, plan.usual, &|_, actor| actor.last.clone()),
+            shot(0, pair.usual, &|_, actor| actor.first.clone()),
+            shot(0, pair.usual, &|_, actor| actor.first.clone()),
+            shot(1, pair.usual, &mixed),
+            shot(2, pair.blank, &|_, _| flat.clone()),
+            shot(2, pair.usual, &|_, actor| actor.last.clone()),
         ]];
         // First, so that a reset follows.
         let pictures = [|actor: &Actor| actor.first.clone(), |actor: &Actor| actor.other.clone()];
         let stalled = (0..stalled_frames(part)).map(|number| {
             let usual =
-                || shot(0, plan.usual, &|_, actor| pictures[number % pictures.len()](actor));
+                || shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor));
             // More regions are lost than have something of their own to show: counters are to get far.
             let turn = u32::try_from(number).unwrap_or_default();
-            let wide = || Shot { frame: stage.wide(turn), thresholds: plan.usual, stalls: false };
+            let wide = || Shot { frame: stage.wide(turn), thresholds: pair.usual, stalls: false };
             Shot { stalls: true, ..if stage.has_ground() { wide() } else { usual() } }
         });
         let stalled: Vec<Shot> = stalled.collect();
         if !stalled.is_empty() {
-            let last = shot(1, plan.usual, &|_, actor| actor.last.clone());
+            let last = shot(1, pair.usual, &|_, actor| actor.last.clone());
             sequences.insert(0, stalled.into_iter().chain([last]).collect());
         }
         let drawn = cast.len() * stage.side * stage.side;
@@ -132,14 +132,14 @@ impl Script {
             let near = NEAR.iter().map(|&motif| {
                 artists.iter_mut().for_each(|artist| artist.draw_near_minimum(motif));
                 let squares: Vec<_> = artists.iter().map(|artist| artist.pixels.clone()).collect();
-                Shot { frame: stage.frame(&squares, 0), thresholds: plan.usual, stalls: false }
+                Shot { frame: stage.frame(&squares, 0), thresholds: pair.usual, stalls: false }
             });
             sequences.push(near.collect());
         }
         // Of a large frame the minima that are met, and not those that are missed by one.
         let minima: &[u32] = if is_small { &[0, 1] } else { &[0] };
         for &more in minima.iter().filter(|_| part.thresholds() == Mode::Runtime) {
-            let exact = cast[0].exact(part, &plan.usual, more);
+            let exact = cast[0].exact(part, &pair.usual, more);
             sequences.push(vec![
                 shot(0, exact, &|_, actor| actor.first.clone()),
                 shot(0, exact, &|_, actor| actor.other.clone()),
@@ -147,11 +147,11 @@ impl Script {
         }
         if is_wide {
             let shot =
-                |turn| Shot { frame: stage.wide(turn), thresholds: plan.usual, stalls: false };
+                |turn| Shot { frame: stage.wide(turn), thresholds: pair.usual, stalls: false };
             sequences.push((0..WIDE_FRAMES).map(shot).collect());
         }
         let damaged = (0..DAMAGED).map(|number| {
-            shot(0, plan.usual, &|_, actor| pictures[number % pictures.len()](actor))
+            shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor))
         });
         Self { damaged: damaged.collect(), sequences }
     }
@@ -196,7 +196,7 @@ impl<'a> Stage<'a> {
             places: (0..count).map(place).collect(),
             side: part.region_size() as usize,
             max,
-            flat: Picture::Flat.draw(1, max, false, &mut Random::new(1))[0],
+            flat: TestPattern::Flat.draw(1, max, false, &mut Random::new(1))[0],
         }
     }
 
@@ -253,9 +253,9 @@ impl Stage<'_> {
 
 /// The thresholds of the design, if pictures lead to all kinds of regions under them; else, where they are
 /// inputs, the smallest that tell something from nothing.
-fn plan(part: &Design, studio: &mut Studio, random: &mut Random) -> Plan {
+fn threshold_pair(part: &Design, studio: &mut Studio, random: &mut Random) -> ThresholdPair {
     let own = Thresholds::of(part);
-    let configured = Plan { usual: own, blank: own };
+    let configured = ThresholdPair { usual: own, blank: own };
     match part.thresholds() {
         Mode::Constant => configured,
         Mode::Runtime if is_telling(part, studio, &own, random) => configured,
@@ -271,7 +271,7 @@ fn is_telling(
     random: &mut Random,
 ) -> bool {
     let (side, max) = size(part);
-    let flat = Picture::Flat.draw(side, max, false, random);
+    let flat = TestPattern::Flat.draw(side, max, false, random);
     let flat = studio.look(&flat, thresholds);
     let least = thresholds.temporal_min_count;
     let mut good = TEXTURES.iter().filter(|texture| {
@@ -284,7 +284,7 @@ fn is_telling(
 
 /// Levels of 0 and minima of 1; a feature that never finds anything (corners in 2x2 pixels behind a median)
 /// must vote with a minimum of 0 where its vote is needed.
-fn least(part: &Design, studio: &mut Studio, random: &mut Random) -> Plan {
+fn least(part: &Design, studio: &mut Studio, random: &mut Random) -> ThresholdPair {
     let (side, max) = size(part);
     let mut blank = Thresholds::of(part);
     (blank.temporal_level, blank.temporal_min_count) = (0, 1);
@@ -302,7 +302,7 @@ fn least(part: &Design, studio: &mut Studio, random: &mut Random) -> Plan {
             *minimum = 0;
         }
     }
-    Plan { usual, blank }
+    ThresholdPair { usual, blank }
 }
 
 /// Pictures for a region: relevant ones, each with enough changes against the one before.
@@ -314,7 +314,7 @@ fn actor(
     random: &mut Random,
 ) -> Actor {
     let (side, max) = size(part);
-    let flat = Picture::Flat.draw(side, max, false, random);
+    let flat = TestPattern::Flat.draw(side, max, false, random);
     let nothing = studio.look(&flat, thresholds);
     let least = thresholds.temporal_min_count;
     let mut pick = |from: usize, before: &Look, wanted: RangeInclusive<u32>| {

@@ -11,7 +11,7 @@ const MIN_FRAMES: u64 = 3;
 
 /// What vectors show.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct VectorTally {
     /// Frames all of whose regions are decided.
     pub frames: u64,
     /// Decisions for an active region.
@@ -52,7 +52,7 @@ pub(super) struct Counter {
     regions: u64,
     region_pixels: u64,
     never_lost: bool,
-    tally: Tally,
+    tally: VectorTally,
     /// Regions that were lost, and the region and frame of the last word that came with abort.
     lost: u64,
     aborted: Option<(u64, u64)>,
@@ -66,7 +66,7 @@ impl Counter {
             regions: part.regions().into(),
             region_pixels: part.region_pixels().into(),
             never_lost: never_lost(part),
-            tally: Tally::default(),
+            tally: VectorTally::default(),
             lost: 0,
             aborted: None,
             seen: outputs.record(),
@@ -134,7 +134,7 @@ impl Counter {
         self.aborted = aborted;
     }
 
-    pub(super) fn finish(self, outputs: &Layout) -> Tally {
+    pub(super) fn finish(self, outputs: &Layout) -> VectorTally {
         let Self { regions, never_lost, mut tally, seen, lost, .. } = self;
         let Losses { waiting, stepping, .. } = tally.losses;
         tally.losses.whole = lost.saturating_sub(waiting + stepping);
@@ -157,7 +157,7 @@ impl Counter {
     }
 }
 
-impl Tally {
+impl VectorTally {
     /// What is missing, in words; `None` if the vectors show all that they can.
     pub(super) fn shortcoming(&self, part: &Design) -> Option<String> {
         let mut missing = Vec::new();
@@ -268,19 +268,19 @@ mod tests {
     fn a_bench_that_stays_out_of_step_never_passes() {
         let design = Config::from_toml("hardware.sync = true").unwrap().validate().unwrap();
         let (active, held, blank) = (800, 800, 800);
-        let whole = Tally {
+        let whole = VectorTally {
             frames: 3,
             active,
             held,
             blank,
             compared: 1,
             sync_errors: 2,
-            ..Tally::default()
+            ..VectorTally::default()
         };
         for (after_error, shortcoming) in
             [(785, None), (784, Some("no frame is decided behind a damaged one".to_owned()))]
         {
-            let tally = Tally { after_error, ..whole.clone() };
+            let tally = VectorTally { after_error, ..whole.clone() };
             assert_eq!(tally.shortcoming(&design), shortcoming);
         }
     }

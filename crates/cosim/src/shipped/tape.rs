@@ -2,7 +2,7 @@
 //! Vectors under way: packed into text, and counted.
 
 use super::model::Record;
-use super::tally::{Counter, Tally};
+use super::tally::{Counter, VectorTally};
 use crate::error::CosimError;
 use crate::packer::Packer;
 use foveate_design::{Design, Port, PortRole};
@@ -44,7 +44,7 @@ impl Tape {
     }
 
     /// What the vectors show, their clocks, and the vectors.
-    pub(super) fn finish(self) -> Result<(Tally, u64, String), CosimError> {
+    pub(super) fn finish(self) -> Result<(VectorTally, u64, String), CosimError> {
         let bytes = self.packer.finish();
         let bytes = bytes.map_err(CosimError::io("write", Path::new("vectors")))?;
         let text = String::from_utf8_lossy(&bytes).into_owned();

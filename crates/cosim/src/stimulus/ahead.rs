@@ -8,7 +8,7 @@ use foveate_model::{RegionScorer, Thresholds, region_border};
 
 /// How the thresholds of a frame are chosen, where they are ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Aim {
+pub(crate) enum FrameAim {
     /// As the design is configured.
     Design,
     /// Levels on, just below or just above what a pixel of the frame has, minima likewise with the scores

@@ -14,7 +14,7 @@ pub(crate) struct Sequence {
     /// How it ends.
     pub(crate) end: End,
     /// How the thresholds are chosen.
-    pub(crate) thresholds: Aim,
+    pub(crate) thresholds: PipelinedAim,
 }
 
 /// How a sequence ends; the next begins with a reset.
@@ -30,7 +30,7 @@ pub(crate) enum End {
 
 /// How thresholds are chosen, where they are ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Aim {
+pub(crate) enum PipelinedAim {
     /// As the design is configured.
     Design,
     /// Levels on, just below or just above what a pixel of the frame has, minima likewise with the
@@ -43,7 +43,7 @@ pub(crate) enum Aim {
 }
 
 const fn drained(name: &'static str, motifs: &'static [Motif]) -> Sequence {
-    Sequence { name, motifs, end: End::Drained, thresholds: Aim::Exact }
+    Sequence { name, motifs, end: End::Drained, thresholds: PipelinedAim::Exact }
 }
 
 /// Every sequence made from motifs, the most telling first.
@@ -54,34 +54,34 @@ pub(crate) const SEQUENCES: &[Sequence] = &[
         name: "configured",
         motifs: &[Smooth, Bump, Ramp, Bump, Flat, Same, Step, LightStep],
         end: End::Drained,
-        thresholds: Aim::Design,
+        thresholds: PipelinedAim::Design,
     },
     Sequence {
         name: "reset in a frame",
         motifs: &[Noise, Ramp, Noise],
         end: End::InFrame,
-        thresholds: Aim::Exact,
+        thresholds: PipelinedAim::Exact,
     },
     drained("steps", &[Step, Ring, Step, Ramp, Step]),
     Sequence {
         name: "reset in a flush",
         motifs: &[Max, Binary],
         end: End::InFlush,
-        thresholds: Aim::Exact,
+        thresholds: PipelinedAim::Exact,
     },
     drained("changes", &[Smooth, Bump, Bump, LightStep, Bump, Same]),
     Sequence {
         name: "reset after one frame",
         motifs: &[Ramp],
         end: End::InFlush,
-        thresholds: Aim::Design,
+        thresholds: PipelinedAim::Design,
     },
     drained("halves", &[HalfMean, TwoPoint, HalfMean, TwoPoint]),
     Sequence {
         name: "restless",
         motifs: &[Noise, Smooth, Binary, Ramp],
         end: End::Drained,
-        thresholds: Aim::Restless,
+        thresholds: PipelinedAim::Restless,
     },
     drained("blanked", &[Noise, Same, Zero, Zero, Noise, Flat, Same, Noise]),
     drained("corners", &[HotCorner, Ring, HotCorner, Ring]),
@@ -89,7 +89,7 @@ pub(crate) const SEQUENCES: &[Sequence] = &[
         name: "reset in a frame, full",
         motifs: &[Max, Max],
         end: End::InFrame,
-        thresholds: Aim::Design,
+        thresholds: PipelinedAim::Design,
     },
     drained("flicker", &[Smooth, Flicker, Flicker, Same]),
     drained("fade", &[Binary, Fade, Fade, Fade]),
@@ -98,7 +98,7 @@ pub(crate) const SEQUENCES: &[Sequence] = &[
         name: "largest",
         motifs: &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
         end: End::Drained,
-        thresholds: Aim::Largest,
+        thresholds: PipelinedAim::Largest,
     },
 ];
 

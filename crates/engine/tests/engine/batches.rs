@@ -3,7 +3,7 @@
 //! batches, number of threads and instruction set.
 
 use foveate_camera::{Camera, FeatureKind, Neighborhood, Reference, SpatialConfig};
-use foveate_engine::{Engine, Level, Options, Outcome, Screens};
+use foveate_engine::{Engine, FrameOutcome, Level, Options, Screens};
 use foveate_frame::Frame;
 use foveate_frame::Plane;
 use foveate_model::FunctionalCamera;
@@ -56,7 +56,7 @@ fn step(
     frames: &[Frame],
     gap: usize,
     kept: Option<&mut Kept>,
-) -> (Vec<Outcome>, Vec<Vec<u16>>) {
+) -> (Vec<FrameOutcome>, Vec<Vec<u16>>) {
     let camera = engine.camera().clone();
     let stride = usize::try_from(camera.width()).unwrap() + gap;
     let words: Vec<Vec<u16>> = frames.iter().map(|f| strided(&camera, f, gap)).collect();

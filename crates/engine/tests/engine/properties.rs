@@ -3,7 +3,7 @@
 //! threads, whether regions are skipped or not.
 
 use foveate_camera::Camera;
-use foveate_engine::{Engine, Level, Options, Outcome};
+use foveate_engine::{Engine, FrameOutcome, Level, Options};
 use foveate_frame::Frame;
 use foveate_frame::Plane;
 use foveate_model::FunctionalCamera;
@@ -12,7 +12,11 @@ use proptest::prelude::*;
 use crate::film::{film, scripts};
 use crate::recipe::cameras;
 
-pub(crate) fn assert_same(fast: &Outcome, clear: &foveate_model::Outcome, context: &str) {
+pub(crate) fn assert_same(
+    fast: &FrameOutcome,
+    clear: &foveate_model::FunctionalOutcome,
+    context: &str,
+) {
     assert_eq!(fast.scores, clear.scores, "scores, {context}");
     assert_eq!(fast.temporal_count, clear.temporal_count, "temporal count, {context}");
     assert_eq!(fast.srs, clear.srs, "srs, {context}");

@@ -2,7 +2,7 @@
 //! What is no frame of the camera is refused by name, and changes nothing.
 
 use foveate_camera::{Camera, CameraConfig};
-use foveate_engine::{Engine, EngineError, MAX_THREADS, Options, Outcome, Screens};
+use foveate_engine::{Engine, EngineError, FrameOutcome, MAX_THREADS, Options, Screens};
 use foveate_frame::Frame;
 
 fn camera(bits: u32) -> Camera {
@@ -12,7 +12,7 @@ fn camera(bits: u32) -> Camera {
     config.validate().unwrap()
 }
 
-fn message(result: Result<&Outcome, EngineError>) -> String {
+fn message(result: Result<&FrameOutcome, EngineError>) -> String {
     result.unwrap_err().to_string()
 }
 

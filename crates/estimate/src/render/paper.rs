@@ -3,12 +3,12 @@
 
 use crate::area::Area;
 use crate::paper::BesidePaper;
-use crate::report::Report;
+use crate::report::AreaReport;
 use crate::table::{Table, header};
 use foveate_pictures::page::number::grouped;
 
 /// None where the paper has nothing like it.
-pub(super) fn paper_table(report: &Report) -> Option<Table> {
+pub(super) fn paper_table(report: &AreaReport) -> Option<Table> {
     let mut rows = Vec::new();
     // A unit for all regions is beside the paper's array, but not beside one RPU.
     if report.units > 1 || report.regions == 1 {

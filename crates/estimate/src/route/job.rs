@@ -18,7 +18,7 @@ use super::netlist::Netlist;
 use super::over::over;
 use super::ports;
 use super::report::{Fmax, Placed, ROUTE_FORMAT_VERSION, RouteReport, Routed, Used};
-use super::result::Outcome;
+use super::result::NextpnrReport;
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::levels::Library;
@@ -169,7 +169,7 @@ impl Ready {
         let mut over_all = Vec::new();
         for outcome in outcomes {
             match outcome {
-                Ok(report) => reports.push(Outcome::parse(&report)?),
+                Ok(report) => reports.push(NextpnrReport::parse(&report)?),
                 Err(ToolError::Failed { full, .. }) if !over(&full).is_empty() => {
                     over_all = over(&full);
                 }
@@ -187,8 +187,8 @@ impl Ready {
         })
     }
 
-    fn placed(&self, top: &str, reports: &[Outcome]) -> Result<Placed, EstimateError> {
-        let seeds = reports.iter().map(Outcome::fmax_mhz).collect::<Result<Vec<_>, _>>()?;
+    fn placed(&self, top: &str, reports: &[NextpnrReport]) -> Result<Placed, EstimateError> {
+        let seeds = reports.iter().map(NextpnrReport::fmax_mhz).collect::<Result<Vec<_>, _>>()?;
         let none = || EstimateError::Placed { reason: "there is none, for no seed".to_owned() };
         let (fmax, median) = Fmax::of(seeds).ok_or_else(none)?;
         let report = &reports[median];

@@ -9,7 +9,7 @@ use crate::error::EstimateError;
 
 /// The report that nextpnr writes; only what is needed.
 #[derive(Debug, Deserialize)]
-pub(super) struct Outcome {
+pub(super) struct NextpnrReport {
     fmax: BTreeMap<String, Clock>,
     utilization: BTreeMap<String, Taken>,
     critical_paths: Vec<Path>,
@@ -58,7 +58,7 @@ impl Step {
     }
 }
 
-impl Outcome {
+impl NextpnrReport {
     pub(super) fn parse(json: &[u8]) -> Result<Self, EstimateError> {
         serde_json::from_slice(json)
             .map_err(|error| EstimateError::Placed { reason: error.to_string() })

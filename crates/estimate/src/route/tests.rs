@@ -9,7 +9,7 @@ use super::job::to_place;
 use super::netlist::Netlist;
 use super::over::{Over, over};
 use super::report::Fmax;
-use super::result::Outcome;
+use super::result::NextpnrReport;
 use super::{ROUTE_DEVICES, RouteDevice, ports};
 use crate::error::EstimateError;
 
@@ -156,14 +156,14 @@ fn the_longest_path_is_between_clock_edges() {
         "fmax": { "clk": { "achieved": 285.7, "constraint": 400.0 } },
         "utilization": { "DP16KD": { "used": 3, "available": 208 } },
     });
-    let outcome = Outcome::parse(report.to_string().as_bytes()).unwrap();
+    let outcome = NextpnrReport::parse(report.to_string().as_bytes()).unwrap();
     assert!((outcome.longest().unwrap().delay() - 3.5).abs() < 1e-9);
     assert!((outcome.fmax_mhz().unwrap() - 285.7).abs() < 1e-9);
     assert_eq!((outcome.used("DP16KD"), outcome.used("SPRAM")), ((3, 208), (0, 0)));
     let nothing = r#"{"critical_paths": [], "fmax": {}, "utilization": {}}"#;
-    let none = Outcome::parse(nothing.as_bytes()).unwrap().fmax_mhz().unwrap_err();
+    let none = NextpnrReport::parse(nothing.as_bytes()).unwrap().fmax_mhz().unwrap_err();
     assert!(matches!(none, EstimateError::Placed { .. }), "{none}");
-    let cut = Outcome::parse(b"{\"fmax\"").unwrap_err().to_string();
+    let cut = NextpnrReport::parse(b"{\"fmax\"").unwrap_err().to_string();
     assert!(cut.starts_with("cannot read the report of nextpnr: "), "{cut}");
 }
 

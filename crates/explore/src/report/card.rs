@@ -6,7 +6,7 @@ use foveate_pictures::page::number::{grouped, percent, real};
 
 use super::setting::Settings;
 use super::table::decibels;
-use crate::Row;
+use crate::DesignRow;
 
 /// What the page says of one point.
 pub(crate) struct Card {
@@ -21,7 +21,7 @@ pub(crate) struct Card {
 }
 
 impl Card {
-    pub(crate) fn new(row: &Row, settings: &Settings) -> Self {
+    pub(crate) fn new(row: &DesignRow, settings: &Settings) -> Self {
         let figures = &row.figures;
         let share = |value: f64| format!("{} %", percent(value));
         let mut facts = vec![
@@ -85,7 +85,7 @@ impl Card {
 }
 
 /// What a mark says when pointed at.
-pub(crate) fn title(row: &Row, settings: &Settings) -> String {
+pub(crate) fn title(row: &DesignRow, settings: &Settings) -> String {
     let figures = &row.figures;
     let area = row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
     format!(

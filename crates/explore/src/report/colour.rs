@@ -4,7 +4,7 @@
 use foveate_pictures::page::{COLOURS, look};
 
 use super::setting::{Settings, set};
-use crate::Row;
+use crate::DesignRow;
 
 /// Groups that can be told apart; the rest is grey.
 const GROUPS: usize = 2 * COLOURS;
@@ -33,7 +33,7 @@ pub(crate) struct Group {
 
 /// Every grouping of the rows; the one to start with has the most groups that can be told apart. Where
 /// points differ from a start in one axis each, that is by the axis they differ in.
-pub(crate) fn groupings(settings: &Settings, rows: &[&Row]) -> Vec<Grouping> {
+pub(crate) fn groupings(settings: &Settings, rows: &[&DesignRow]) -> Vec<Grouping> {
     let axes = 0..settings.names.len();
     let of_axis = |axis: usize| {
         let values: Vec<String> = rows.iter().map(|row| settings.value(row, axis)).collect();
@@ -41,7 +41,7 @@ pub(crate) fn groupings(settings: &Settings, rows: &[&Row]) -> Vec<Grouping> {
     };
     let mut all: Vec<Grouping> = Vec::new();
     if settings.one_at_a_time {
-        let changed = |row: &&Row| set(row).next().map(|axis| settings.names[axis].clone());
+        let changed = |row: &&DesignRow| set(row).next().map(|axis| settings.names[axis].clone());
         let values = rows.iter().map(|row| changed(row).unwrap_or_else(|| "the start".to_owned()));
         let values: Vec<String> = values.collect();
         all.push(Grouping::new("what is changed".to_owned(), &values));

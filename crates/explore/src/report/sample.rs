@@ -6,7 +6,7 @@ use foveate_fidelity::{Figures, ScoreError, Staleness};
 
 use crate::objective::mark_fronts;
 use crate::row::real;
-use crate::{ClipRow, Exploration, Fronts, Refused, Row, Silicon, Space};
+use crate::{ClipRow, DesignRow, Exploration, Fronts, Refused, Silicon, Space};
 
 fn clock(mhz: f64) -> ClockEstimate {
     let (low_mhz, high_mhz) = (mhz / 1.25, mhz / 0.75);
@@ -49,7 +49,7 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
             bram18: 3,
             ..Area::default()
         };
-        rows.push(Row {
+        rows.push(DesignRow {
             number: index + 1,
             settings: point.settings,
             config: point.config,

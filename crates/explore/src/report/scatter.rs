@@ -7,7 +7,7 @@ use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, rings, stairca
 
 use super::colour::Grouping;
 use crate::objective::{Better, Objective, speed, unbeaten};
-use crate::{Exploration, Row};
+use crate::{DesignRow, Exploration};
 
 /// What a plot shows: two objectives, and the front of both.
 struct Scatter {
@@ -43,11 +43,11 @@ impl Measure {
         Self { objective, title, scale }
     }
 
-    fn value(&self, row: &Row) -> Option<f64> {
+    fn value(&self, row: &DesignRow) -> Option<f64> {
         self.objective.of(row).map(|value| value * self.scale)
     }
 
-    fn axis(&self, rows: &[&Row]) -> Axis {
+    fn axis(&self, rows: &[&DesignRow]) -> Axis {
         let values = rows.iter().filter_map(|row| self.value(row));
         match self.objective {
             Objective::Error | Objective::Stale => Axis::from_zero(values),
@@ -64,7 +64,7 @@ impl Measure {
 /// Every plot of points, in order.
 pub(crate) fn plots(
     exploration: &Exploration,
-    rows: &[&Row],
+    rows: &[&DesignRow],
     groupings: &[Grouping],
     titles: &[String],
 ) -> Vec<Plot> {
@@ -84,7 +84,7 @@ pub(crate) fn plots(
 }
 
 impl Scatter {
-    fn plot(&self, rows: &[&Row], groupings: &[Grouping], titles: &[String]) -> Plot {
+    fn plot(&self, rows: &[&DesignRow], groupings: &[Grouping], titles: &[String]) -> Plot {
         let field = Field { x: self.x.axis(rows), y: self.y.axis(rows) };
         let on_front = unbeaten(rows, [self.x.objective, self.y.objective]);
         let mut marks = Vec::new();
@@ -123,7 +123,7 @@ impl Scatter {
 
 /// The mark of a row.
 fn mark(
-    row: &Row,
+    row: &DesignRow,
     index: usize,
     (x, y): (f64, f64),
     front: bool,

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 use crate::point::START;
 use crate::space::plain;
-use crate::{Exploration, Row};
+use crate::{DesignRow, Exploration};
 
 /// The axes of an exploration and the values of the start, as far as they can be known.
 pub(crate) struct Settings {
@@ -29,7 +29,7 @@ impl Settings {
         let of = |table: Table| -> Vec<String> {
             keys.iter().map(|key| value(&table, key).unwrap_or_default()).collect()
         };
-        let untouched = |row: &&Row| row.settings.iter().all(String::is_empty);
+        let untouched = |row: &&DesignRow| row.settings.iter().all(String::is_empty);
         let start = exploration.rows.iter().find(untouched);
         let start = start.and_then(|row| row.config.to_toml().parse::<Table>().ok());
         let ideal = complete(&exploration.ideal).parse::<Table>().unwrap_or_default();
@@ -39,7 +39,7 @@ impl Settings {
     }
 
     /// The value of an axis; that of the start where the point does not set it, empty if nobody knows.
-    pub(crate) fn value(&self, row: &Row, axis: usize) -> String {
+    pub(crate) fn value(&self, row: &DesignRow, axis: usize) -> String {
         let set = row.settings.get(axis).filter(|text| !text.is_empty()).cloned();
         set.or_else(|| self.start.get(axis).cloned()).unwrap_or_default()
     }
@@ -50,7 +50,7 @@ impl Settings {
     }
 
     /// What a point sets, `name value`, apart from one axis.
-    pub(crate) fn described(&self, row: &Row, without: Option<usize>) -> String {
+    pub(crate) fn described(&self, row: &DesignRow, without: Option<usize>) -> String {
         let set = row.settings.iter().enumerate();
         let set = set.filter(|(axis, text)| !text.is_empty() && Some(*axis) != without);
         let words = set
@@ -61,7 +61,7 @@ impl Settings {
 }
 
 /// The axes that a point sets.
-pub(crate) fn set(row: &Row) -> impl Iterator<Item = usize> {
+pub(crate) fn set(row: &DesignRow) -> impl Iterator<Item = usize> {
     let set = row.settings.iter().enumerate().filter(|(_, text)| !text.is_empty());
     set.map(|(axis, _)| axis)
 }

@@ -7,7 +7,7 @@ use foveate_pictures::page::Fact;
 use foveate_pictures::page::number::{NONE, grouped, percent, real, things};
 
 use super::setting::Settings;
-use crate::{Exploration, Row, objective};
+use crate::{DesignRow, Exploration, objective};
 
 /// What the page is called.
 pub(crate) fn title(exploration: &Exploration) -> String {
@@ -76,19 +76,22 @@ fn clock(exploration: &Exploration) -> Fact {
 }
 
 /// The ends of the front in words.
-pub(crate) fn findings(rows: &[Row], settings: &Settings) -> Vec<String> {
+pub(crate) fn findings(rows: &[DesignRow], settings: &Settings) -> Vec<String> {
     let front = || rows.iter().filter(|row| row.front.all);
-    let by_error =
-        |one: &&Row, other: &&Row| one.figures.action_flips.total_cmp(&other.figures.action_flips);
-    let speed = |row: &Row| match row.speed {
+    let by_error = |one: &&DesignRow, other: &&DesignRow| {
+        one.figures.action_flips.total_cmp(&other.figures.action_flips)
+    };
+    let speed = |row: &DesignRow| match row.speed {
         Some(speed) => speed.text(),
         None => format!("{} clocks per frame", grouped(row.clocks_per_frame)),
     };
-    let flips = |row: &Row| format!("{} % flipped actions", percent(row.figures.action_flips));
-    let luts =
-        |row: &Row| row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
+    let flips =
+        |row: &DesignRow| format!("{} % flipped actions", percent(row.figures.action_flips));
+    let luts = |row: &DesignRow| {
+        row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default()
+    };
     let mut found = Vec::new();
-    let mut say = |what: &str, row: Option<&Row>| {
+    let mut say = |what: &str, row: Option<&DesignRow>| {
         found.extend(row.map(|row| {
             let settings = settings.described(row, None);
             let (flips, speed, luts) = (flips(row), speed(row), luts(row));

@@ -3,11 +3,11 @@
 
 use foveate_estimate::ramb36;
 use foveate_pictures::page::number::real;
-use foveate_pictures::page::{Cell, Column, Row as Line};
+use foveate_pictures::page::{Cell, Column, Row};
 
 use super::setting::{Settings, set};
 use crate::row::real as number;
-use crate::{Row, Silicon};
+use crate::{DesignRow, Silicon};
 
 /// Name, unit and meaning of every figure, as the table has them.
 const FIGURES: [(&str, &str, &str); 8] = [
@@ -61,7 +61,7 @@ pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
 }
 
 /// The row of a point, with as many cells as there are headings.
-pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
+pub(crate) fn line(row: &DesignRow, settings: &Settings, area: bool) -> Row {
     let figures = &row.figures;
     let setting = |text: String, set: bool| {
         let class = if set { "" } else { "start" };
@@ -109,7 +109,7 @@ pub(crate) fn line(row: &Row, settings: &Settings, area: bool) -> Line {
             },
         ]);
     }
-    Line { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
+    Row { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
 }
 
 /// Equal pictures have no PSNR and are the best.

@@ -240,7 +240,7 @@ fn of_very_many_points_the_fronts_are_shown() {
     let fronts: usize = sample.rows.iter().map(|row| usize::from(row.front.all)).sum();
     let more = (0..5000).map(|index| {
         let front = crate::Fronts { speed: false, area: false, all: false };
-        Row { number: 1000 + index, front, ..row.clone() }
+        DesignRow { number: 1000 + index, front, ..row.clone() }
     });
     sample.rows.extend(more);
     let rows = shown(&sample.rows);

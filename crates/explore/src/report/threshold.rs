@@ -8,21 +8,21 @@ use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, text, through}
 
 use super::scatter::stack;
 use super::setting::{Settings, set};
-use crate::Row;
+use crate::DesignRow;
 
 /// Lines of a plot that can be told apart.
 const LINES: usize = 8;
 
 /// A line: points that differ in the threshold alone, by threshold.
 struct Sweep<'a> {
-    points: Vec<(f64, &'a Row, usize)>,
+    points: Vec<(f64, &'a DesignRow, usize)>,
     /// Other axes that are not those of the ideal, and those that are set.
     distance: (usize, usize),
     label: String,
 }
 
 /// A plot for every axis that is a threshold and takes several values.
-pub(crate) fn plots(settings: &Settings, rows: &[&Row], titles: &[String]) -> Vec<Plot> {
+pub(crate) fn plots(settings: &Settings, rows: &[&DesignRow], titles: &[String]) -> Vec<Plot> {
     let keys = settings.keys.iter().enumerate();
     let thresholds = keys.filter(|(_, key)| {
         let last = key.rsplit('.').next().unwrap_or(key);
@@ -31,7 +31,7 @@ pub(crate) fn plots(settings: &Settings, rows: &[&Row], titles: &[String]) -> Ve
     thresholds.filter_map(|(axis, _)| plot(settings, rows, titles, axis)).collect()
 }
 
-fn plot(settings: &Settings, rows: &[&Row], titles: &[String], axis: usize) -> Option<Plot> {
+fn plot(settings: &Settings, rows: &[&DesignRow], titles: &[String], axis: usize) -> Option<Plot> {
     let mut sweeps = sweeps(settings, rows, axis);
     sweeps.sort_by_key(|sweep| {
         (sweep.distance, sweep.points.iter().map(|(_, row, _)| row.number).min())
@@ -47,7 +47,7 @@ fn plot(settings: &Settings, rows: &[&Row], titles: &[String], axis: usize) -> O
         }
     }
     points().next()?;
-    let active = |row: &Row| 100.0 * row.figures.active;
+    let active = |row: &DesignRow| 100.0 * row.figures.active;
     let threshold = settings.ideal(axis).and_then(|text| text.parse::<f64>().ok());
     let xs = points().map(|(x, _, _)| *x).chain(threshold);
     let ys = points().map(|(_, row, _)| active(row)).chain(ideals.iter().copied());
@@ -101,7 +101,7 @@ fn title(text: &str, axis: Axis) -> String {
 }
 
 /// The lines of an axis; a point alone is none.
-fn sweeps<'a>(settings: &Settings, rows: &[&'a Row], axis: usize) -> Vec<Sweep<'a>> {
+fn sweeps<'a>(settings: &Settings, rows: &[&'a DesignRow], axis: usize) -> Vec<Sweep<'a>> {
     let mut groups: BTreeMap<Vec<&str>, Sweep<'_>> = BTreeMap::new();
     for (index, row) in rows.iter().enumerate() {
         let Ok(x) = settings.value(row, axis).parse::<f64>() else { continue };

@@ -2,7 +2,7 @@
 //! Real cameras on scenes, tallies that add up, units of scores, and what is refused.
 
 use foveate_camera::{Camera, CameraConfig, Decimal, FeatureKind, Neighborhood, SpatialConfig};
-use foveate_fidelity::{Fidelity, FidelityError, Tally};
+use foveate_fidelity::{ErrorTally, Fidelity, FidelityError};
 use foveate_frame::{Plane, Raster};
 use foveate_scenes::{Scene, SceneSize};
 
@@ -76,7 +76,7 @@ fn tallies_add_up_in_any_order() {
         parts.push(own.into_tally());
     }
     for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0]] {
-        let mut merged = Tally::default();
+        let mut merged = ErrorTally::default();
         order.iter().for_each(|&at: &usize| merged.merge(&parts[at]));
         assert_eq!(&merged, whole.tally());
         assert_eq!(merged.figures(), whole.tally().figures());
@@ -84,12 +84,12 @@ fn tallies_add_up_in_any_order() {
     assert_eq!(whole.tally().figures().frames, 15);
     assert!(whole.tally().figures().scores.is_empty(), "regions of other sizes");
     let stored = serde_json::to_string(whole.tally()).unwrap();
-    assert_eq!(&serde_json::from_str::<Tally>(&stored).unwrap(), whole.tally());
+    assert_eq!(&serde_json::from_str::<ErrorTally>(&stored).unwrap(), whole.tally());
 }
 
 #[test]
 fn nothing_compared_is_nothing_wrong() {
-    let figures = Tally::default().figures();
+    let figures = ErrorTally::default().figures();
     assert_eq!((figures.frames, figures.srs_flips, figures.missed), (0, 0.0, 0.0));
     assert_eq!((figures.active_iou, figures.ssim_ideal, figures.psnr_ideal), (1.0, 1.0, None));
 }

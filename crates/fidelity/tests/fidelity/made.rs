@@ -3,8 +3,8 @@
 
 use foveate_camera::Action;
 use foveate_camera::{Camera, CameraConfig};
-use foveate_engine::{Engine, Outcome};
-use foveate_fidelity::{Fidelity, Tally};
+use foveate_engine::{Engine, FrameOutcome};
+use foveate_fidelity::{ErrorTally, Fidelity};
 use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealOutcome};
 
@@ -37,7 +37,7 @@ pub(crate) fn run(
 }
 
 /// The tally of one clip that both see alike.
-pub(crate) fn tally(ideal: &Camera, candidate: &Camera, frames: &[Raster]) -> Tally {
+pub(crate) fn tally(ideal: &Camera, candidate: &Camera, frames: &[Raster]) -> ErrorTally {
     let mut fidelity = Fidelity::new(ideal, candidate).unwrap();
     let frames: Vec<_> = frames.iter().map(|frame| (frame.clone(), frame.clone())).collect();
     run(ideal, candidate, &frames, &mut fidelity);
@@ -60,9 +60,9 @@ pub(crate) fn blank_ideal(camera: &Camera) -> IdealOutcome {
 }
 
 /// The same for an engine.
-pub(crate) fn blank(camera: &Camera) -> Outcome {
+pub(crate) fn blank(camera: &Camera) -> FrameOutcome {
     let regions = camera.regions() as usize;
-    Outcome {
+    FrameOutcome {
         srs: vec![false; regions],
         trs: vec![false; regions],
         active: vec![false; regions],

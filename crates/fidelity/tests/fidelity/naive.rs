@@ -3,7 +3,7 @@
 
 use foveate_camera::Action;
 use foveate_camera::Camera;
-use foveate_engine::Outcome;
+use foveate_engine::FrameOutcome;
 use foveate_fidelity::{Fidelity, Figures};
 use foveate_frame::{Raster, convert_depth};
 use foveate_ideal::IdealOutcome;
@@ -16,7 +16,7 @@ use crate::made::{Random, blank, blank_ideal, config, greys, pixels, raster};
 pub(crate) struct Frame {
     pub(crate) input: Vec<u16>,
     pub(crate) ideal: IdealOutcome,
-    candidate: Outcome,
+    candidate: FrameOutcome,
     /// At the depth of the candidate.
     screen: Vec<u16>,
 }

@@ -4,7 +4,7 @@
 
 use foveate_camera::Action;
 use foveate_camera::Camera;
-use foveate_engine::Outcome;
+use foveate_engine::FrameOutcome;
 use foveate_fidelity::{Fidelity, Figures};
 use foveate_frame::Raster;
 use foveate_ideal::IdealOutcome;
@@ -13,7 +13,7 @@ use crate::made::{blank, blank_ideal, config, greys, pixels, raster};
 
 struct Results {
     ideal: IdealOutcome,
-    candidate: Outcome,
+    candidate: FrameOutcome,
     screen: Vec<u16>,
 }
 

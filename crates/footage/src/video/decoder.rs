@@ -7,7 +7,7 @@ use std::io::{self, Read};
 use foveate_toolchain::{Invocation, Located, Stream, ToolError};
 
 use super::Medium;
-use super::log::{Info, Report, Shown};
+use super::log::{FfmpegLog, Info, Shown};
 use crate::samples::Layout;
 
 /// How a video is decoded.
@@ -62,7 +62,7 @@ pub(super) enum Start<'a> {
 /// A running ffmpeg.
 pub(super) struct Decoder {
     stream: Stream,
-    report: Report,
+    log: FfmpegLog,
     /// A frame that was announced and not taken.
     ahead: Option<Shown>,
 }
@@ -70,7 +70,7 @@ pub(super) struct Decoder {
 impl Decoder {
     pub(super) fn start(ffmpeg: &Ffmpeg, start: Start<'_>) -> Result<Self, ToolError> {
         let stream = Stream::start(&ffmpeg.decoding(start))?;
-        Ok(Self { stream, report: Report::default(), ahead: None })
+        Ok(Self { stream, log: FfmpegLog::default(), ahead: None })
     }
 
     /// The next frame that ffmpeg announces, or `None` when it will announce no more.
@@ -79,7 +79,7 @@ impl Decoder {
             return Some(shown);
         }
         while let Some(line) = self.stream.next_line() {
-            if let Some(Info::Frame(shown)) = self.report.take(&line) {
+            if let Some(Info::Frame(shown)) = self.log.take(&line) {
                 return Some(shown);
             }
         }
@@ -100,7 +100,7 @@ impl Decoder {
 
     /// Time from one frame to another.
     pub(super) fn time_us(&self, first: i64, pts: i64) -> u64 {
-        let (numerator, denominator) = self.report.time_base;
+        let (numerator, denominator) = self.log.time_base;
         let since = i128::from(pts) - i128::from(first);
         let scaled = since.max(0) * i128::from(numerator) * 1_000_000;
         let denominator = i128::from(denominator.max(1));
@@ -109,7 +109,7 @@ impl Decoder {
 
     /// After the last frame: what was wrong.
     pub(super) fn conclude(&mut self) -> Option<String> {
-        let problem = self.report.problem();
+        let problem = self.log.problem();
         match self.stream.finish() {
             Ok((true, _)) => problem,
             Ok((false, status)) => problem.or(Some(format!("ffmpeg ended with {status}"))),

@@ -22,20 +22,20 @@ pub(super) enum Info {
 
 /// What was said so far.
 #[derive(Debug)]
-pub(super) struct Report {
+pub(super) struct FfmpegLog {
     /// Seconds per unit of time, as a fraction.
     pub(super) time_base: (u32, u32),
     faults: u64,
     first_fault: Option<String>,
 }
 
-impl Default for Report {
+impl Default for FfmpegLog {
     fn default() -> Self {
         Self { time_base: (1, 1_000_000), faults: 0, first_fault: None }
     }
 }
 
-impl Report {
+impl FfmpegLog {
     pub(super) fn take(&mut self, line: &str) -> Option<Info> {
         if line.starts_with("[Parsed_showinfo_") {
             if let Some((_, base)) = line.split_once("] config in time_base: ") {
@@ -123,34 +123,32 @@ mod tests {
 
     #[test]
     fn frames_are_announced_with_time_size_and_format() {
-        let mut report = Report::default();
-        assert_eq!(report.take(CONFIG), None);
-        assert_eq!(report.time_base, (1, 12_800));
+        let mut log = FfmpegLog::default();
+        assert_eq!(log.take(CONFIG), None);
+        assert_eq!(log.time_base, (1, 12_800));
         let layout = Layout { width: 320, height: 240, depth: 8, colour: false };
         let shown = Shown { pts: Some(21_504), layout };
-        assert_eq!(report.take(FRAME), Some(Info::Frame(shown)));
+        assert_eq!(log.take(FRAME), Some(Info::Frame(shown)));
         let without = FRAME.replace("pts:  21504", "pts:NOPTS");
-        assert_eq!(report.take(&without), Some(Info::Frame(Shown { pts: None, ..shown })));
-        assert_eq!(report.take("[Parsed_showinfo_1 @ 0x5a] [info] color_range:tv"), None);
-        assert_eq!(report.take("[info]   title : [error] s:1x1 fmt:gray pts:1"), None);
-        assert_eq!(report.problem(), None);
+        assert_eq!(log.take(&without), Some(Info::Frame(Shown { pts: None, ..shown })));
+        assert_eq!(log.take("[Parsed_showinfo_1 @ 0x5a] [info] color_range:tv"), None);
+        assert_eq!(log.take("[info]   title : [error] s:1x1 fmt:gray pts:1"), None);
+        assert_eq!(log.problem(), None);
     }
 
     #[test]
     fn faults_are_counted_and_the_first_is_kept() {
-        let mut report = Report::default();
-        report.take("[warning] deprecated pixel format used");
-        report.take("[rawvideo @ 0x1] [error] Application provided invalid, non monotonically ...");
-        report.take("[info]   title : [error] s:1x1 fmt:gray pts:1");
-        assert_eq!(report.problem(), None);
-        report.take("[avi @ 0x1] [warning] Packet corrupt (stream = 0, dts = 60).");
+        let mut log = FfmpegLog::default();
+        log.take("[warning] deprecated pixel format used");
+        log.take("[rawvideo @ 0x1] [error] Application provided invalid, non monotonically ...");
+        log.take("[info]   title : [error] s:1x1 fmt:gray pts:1");
+        assert_eq!(log.problem(), None);
+        log.take("[avi @ 0x1] [warning] Packet corrupt (stream = 0, dts = 60).");
         assert_eq!(
-            report.problem().unwrap(),
+            log.problem().unwrap(),
             "ffmpeg reports: Packet corrupt (stream = 0, dts = 60)."
         );
-        report.take("[error] second");
-        assert!(
-            report.problem().unwrap().starts_with("ffmpeg reports 2 faults, the first: Packet")
-        );
+        log.take("[error] second");
+        assert!(log.problem().unwrap().starts_with("ffmpeg reports 2 faults, the first: Packet"));
     }
 }

@@ -8,7 +8,7 @@ use foveate_camera::{Camera, FeatureKind};
 use foveate_frame::Frame;
 use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_model::{FunctionalCamera, Outcome};
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
 /// A score of the model in the unit of the ideal camera.
@@ -30,7 +30,12 @@ fn crop(camera: &Camera, padded: &Frame) -> Vec<f64> {
     positions.map(|(x, y)| f64::from(padded.get(x, y))).collect()
 }
 
-fn assert_decisions(ideal: &IdealOutcome, model: &Outcome, camera: &Camera, context: &str) {
+fn assert_decisions(
+    ideal: &IdealOutcome,
+    model: &FunctionalOutcome,
+    camera: &Camera,
+    context: &str,
+) {
     assert_eq!(ideal.srs, model.srs, "srs, {context}");
     assert_eq!(ideal.trs, model.trs, "trs, {context}");
     assert_eq!(ideal.active, model.active, "active, {context}");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The decision: combinational, from what the score ports show and the thresholds of the clock.
 
-use super::plan::{FEATURES, Plan};
+use super::plan::{FEATURES, RpuPlan};
 use crate::Thresholds;
 use crate::decision::combined;
 
@@ -14,7 +14,7 @@ pub(super) struct Decision {
 
 impl Decision {
     pub(super) fn of(
-        plan: &Plan,
+        plan: &RpuPlan,
         scores: &[u64; FEATURES],
         temporal_count: u32,
         thresholds: &Thresholds,

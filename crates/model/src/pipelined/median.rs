@@ -13,7 +13,7 @@
 
 use super::line::Line;
 use super::pixel::Pixel;
-use super::plan::Plan;
+use super::plan::RpuPlan;
 use super::window::WindowStage;
 use crate::denoise::median;
 
@@ -25,7 +25,7 @@ pub(super) struct MedianStage {
 }
 
 impl MedianStage {
-    pub(super) fn new(plan: &Plan) -> Self {
+    pub(super) fn new(plan: &RpuPlan) -> Self {
         Self {
             window: WindowStage::new(plan, plan.stream_side),
             results: Line::new(plan.median_registers),

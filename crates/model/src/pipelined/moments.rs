@@ -7,7 +7,7 @@
 //! mean, variance   (of the frame before)  | of this frame
 //! ```
 
-use super::plan::Plan;
+use super::plan::RpuPlan;
 use crate::feature::{mad, variance};
 
 /// Accumulators, and the results of the last complete frame.
@@ -23,7 +23,7 @@ pub(super) struct Moments {
 
 impl Moments {
     /// A tail step; `last` is that of position n - 1.
-    pub(super) fn step(&mut self, plan: &Plan, pixel: u16, last: bool, n: u64) {
+    pub(super) fn step(&mut self, plan: &RpuPlan, pixel: u16, last: bool, n: u64) {
         self.sum += u64::from(pixel);
         self.square_sum += variance::square(pixel);
         if last {

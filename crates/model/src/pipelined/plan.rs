@@ -14,7 +14,7 @@ pub(super) const FEATURES: usize = FeatureKind::COUNT;
 
 /// What the blocks of one RPU need to know of the design.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
+pub(super) struct RpuPlan {
     /// Side of a region N.
     pub(super) side: usize,
     /// Pixels of a region n.
@@ -43,7 +43,7 @@ pub(super) struct Plan {
     constants: Option<Thresholds>,
 }
 
-impl Plan {
+impl RpuPlan {
     pub(super) fn of(design: PipelinedDesign<'_>) -> Self {
         let mut features = [None; FEATURES];
         for (place, feature) in features.iter_mut().zip(design.features()) {

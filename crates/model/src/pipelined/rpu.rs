@@ -7,7 +7,7 @@ use super::center::Center;
 use super::line::Line;
 use super::median::MedianStage;
 use super::pixel::{Pixel, Step};
-use super::plan::{FEATURES, Plan};
+use super::plan::{FEATURES, RpuPlan};
 use super::ports::{RpuInput, RpuOutput};
 use super::tail::Tail;
 use super::window::WindowStage;
@@ -17,7 +17,7 @@ use crate::feature::is_hit;
 /// The cycle-level model of one RPU, as after a reset when new.
 #[derive(Clone, Debug)]
 pub struct PipelinedRpu {
-    plan: Plan,
+    plan: RpuPlan,
     median: Option<MedianStage>,
     feature: Option<WindowStage>,
     /// The registers in front of the tail.
@@ -29,7 +29,7 @@ impl PipelinedRpu {
     /// An RPU of the design.
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
-        let plan = Plan::of(design);
+        let plan = RpuPlan::of(design);
         let denoises = match plan.filter {
             foveate_design::Filter::None => false,
             foveate_design::Filter::Median3x3 => true,

@@ -12,7 +12,7 @@ use foveate_design::FeatureKind;
 
 use super::moments::Moments;
 use super::pixel::Step;
-use super::plan::{FEATURES, Plan};
+use super::plan::{FEATURES, RpuPlan};
 use crate::feature::mad;
 
 /// The spatial scores of one RPU, by number of the feature.
@@ -29,7 +29,7 @@ impl Scores {
     /// A tail step; `before` is the pixel at this position in the frame before, if there is one.
     pub(super) fn step(
         &mut self,
-        plan: &Plan,
+        plan: &RpuPlan,
         step: &Step,
         before: Option<u16>,
         last: bool,
@@ -45,14 +45,14 @@ impl Scores {
     }
 
     /// The edge after done.
-    pub(super) fn finish(&mut self, plan: &Plan) {
+    pub(super) fn finish(&mut self, plan: &RpuPlan) {
         self.held = self.running(plan);
         self.hits = [0; FEATURES];
         self.deviations = 0;
     }
 
     /// What the score ports show.
-    pub(super) fn shown(&self, plan: &Plan) -> [u64; FEATURES] {
+    pub(super) fn shown(&self, plan: &RpuPlan) -> [u64; FEATURES] {
         let running = self.running(plan);
         if !plan.second_pass {
             return running;
@@ -67,7 +67,7 @@ impl Scores {
     }
 
     /// Every score where it is formed.
-    fn running(&self, plan: &Plan) -> [u64; FEATURES] {
+    fn running(&self, plan: &RpuPlan) -> [u64; FEATURES] {
         let mut scores = [0; FEATURES];
         for ((score, hits), kind) in scores.iter_mut().zip(self.hits).zip(plan.features) {
             *score = match kind {

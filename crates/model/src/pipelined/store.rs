@@ -11,7 +11,7 @@
 //! ```
 
 use super::pixel::Pixel;
-use super::plan::Plan;
+use super::plan::RpuPlan;
 
 /// The last frames of the region, and the one that was last sent. (Hardware keeps fewer: banks whose
 /// roles change instead of copies.)
@@ -24,7 +24,7 @@ pub(super) struct Store {
 }
 
 impl Store {
-    pub(super) fn new(plan: &Plan) -> Self {
+    pub(super) fn new(plan: &RpuPlan) -> Self {
         let frame = vec![Pixel::default(); plan.pixels];
         Self { current: frame.clone(), previous: frame.clone(), older: frame.clone(), sent: frame }
     }
@@ -44,13 +44,13 @@ impl Store {
     }
 
     /// A pixel of the frame that leaves: the last one that has been decided.
-    pub(super) fn leaving(&self, plan: &Plan, position: usize) -> Pixel {
+    pub(super) fn leaving(&self, plan: &RpuPlan, position: usize) -> Pixel {
         if plan.second_pass { self.older[position] } else { self.previous[position] }
     }
 
     /// The frame that has just been decided becomes the one that was last sent. Comes before
     /// [`Store::rotate`].
-    pub(super) fn send_decided(&mut self, plan: &Plan) {
+    pub(super) fn send_decided(&mut self, plan: &RpuPlan) {
         let decided = if plan.second_pass { &self.previous } else { &self.current };
         self.sent.clone_from(decided);
     }

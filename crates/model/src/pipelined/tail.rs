@@ -17,7 +17,7 @@ use foveate_design::Payload;
 
 use super::decide::Decision;
 use super::pixel::Step;
-use super::plan::Plan;
+use super::plan::RpuPlan;
 use super::ports::RpuOutput;
 use super::scores::Scores;
 use super::store::Store;
@@ -27,7 +27,7 @@ use crate::Thresholds;
 /// Everything behind the windows.
 #[derive(Clone, Debug)]
 pub(super) struct Tail {
-    plan: Plan,
+    plan: RpuPlan,
     store: Store,
     registers: Registers,
 }
@@ -49,7 +49,7 @@ struct Registers {
 }
 
 impl Tail {
-    pub(super) fn new(plan: &Plan) -> Self {
+    pub(super) fn new(plan: &RpuPlan) -> Self {
         Self { plan: *plan, store: Store::new(plan), registers: Registers::default() }
     }
 

@@ -14,7 +14,7 @@
 use foveate_design::{Irrelevant, Reference};
 
 use super::decide::Decision;
-use super::plan::Plan;
+use super::plan::RpuPlan;
 use super::store::Store;
 
 /// Counters and validity of the references.
@@ -41,7 +41,7 @@ impl TemporalScore {
     }
 
     /// The count as it runs, where no later decision can change it.
-    pub(super) fn running(&self, plan: &Plan) -> u32 {
+    pub(super) fn running(&self, plan: &RpuPlan) -> u32 {
         match plan.reference {
             Reference::Previous => self.against_previous,
             Reference::LastSent => self.against_sent,
@@ -50,7 +50,7 @@ impl TemporalScore {
 
     /// With a second pass: the count of the frame that is done, now that the frame before it is
     /// decided (or there was none).
-    pub(super) fn settled(&self, plan: &Plan, decision: Option<Decision>, n: u32) -> u32 {
+    pub(super) fn settled(&self, plan: &RpuPlan, decision: Option<Decision>, n: u32) -> u32 {
         match (plan.reference, decision) {
             (Reference::Previous, _) => self.against_previous,
             (Reference::LastSent, Some(decision)) if decision.active() => self.against_previous,
@@ -60,7 +60,7 @@ impl TemporalScore {
     }
 
     /// The edge after done: counters start anew, references follow the decision.
-    pub(super) fn finish(&mut self, plan: &Plan, decision: Option<Decision>) {
+    pub(super) fn finish(&mut self, plan: &RpuPlan, decision: Option<Decision>) {
         self.against_previous = 0;
         self.against_sent = 0;
         self.has_previous = true;
@@ -73,7 +73,7 @@ impl TemporalScore {
 }
 
 /// Whether the region becomes black, so that what was sent is no longer on the screen.
-fn blanks(plan: &Plan, decision: Decision) -> bool {
+fn blanks(plan: &RpuPlan, decision: Decision) -> bool {
     match plan.irrelevant {
         Irrelevant::Zero => !decision.srs,
         Irrelevant::Hold => false,

@@ -6,7 +6,7 @@ use foveate_design::Neighborhood;
 use super::center::Center;
 use super::isolated::IsolatedWindow;
 use super::pixel::Pixel;
-use super::plan::Plan;
+use super::plan::RpuPlan;
 use super::shared::SharedWindow;
 
 /// A 3x3 window that slides over a region.
@@ -18,7 +18,7 @@ pub(super) enum WindowStage {
 
 impl WindowStage {
     /// A window on a square of `side` pixels.
-    pub(super) fn new(plan: &Plan, side: usize) -> Self {
+    pub(super) fn new(plan: &RpuPlan, side: usize) -> Self {
         match plan.neighborhood {
             Neighborhood::Isolated => Self::Isolated(IsolatedWindow::new(side)),
             Neighborhood::Shared => Self::Shared(SharedWindow::new(side)),

@@ -10,7 +10,7 @@ use crate::region::black_padded;
 
 /// The raw pixels of the frame that comes in.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Picture {
+pub(super) struct IncomingFrame {
     padded: Frame,
     /// Size of the frame itself.
     width: u32,
@@ -19,7 +19,7 @@ pub(super) struct Picture {
     word_pixels: u32,
 }
 
-impl Picture {
+impl IncomingFrame {
     pub(super) fn new(design: RasterDesign<'_>) -> Self {
         Self {
             padded: black_padded(&design),

@@ -6,7 +6,7 @@ use foveate_design::{RasterDesign, RasterTiming, Store};
 use super::advances::{Advances, Place};
 use super::decisions::{Complete, Decisions, Judged};
 use super::outside::Outside;
-use super::picture::Picture;
+use super::picture::IncomingFrame;
 use super::ports::{RasterInput, RasterOutput};
 use super::readout::Readout;
 use super::regions::Regions;
@@ -26,7 +26,7 @@ pub struct RasterRcm {
     constants: Option<Thresholds>,
     sync: FrameSync,
     advances: Advances,
-    picture: Picture,
+    picture: IncomingFrame,
     staleness: Staleness,
     regions: Regions,
     /// The streams of a frame store outside, where it is there.
@@ -56,7 +56,7 @@ impl RasterRcm {
             constants: Thresholds::constants(&design),
             sync: FrameSync::new(&design),
             advances: Advances::new(timing),
-            picture: Picture::new(design),
+            picture: IncomingFrame::new(design),
             staleness: Staleness::new(&timing),
             regions: Regions::new(design),
             outside: (design.store() == Store::External).then(|| Outside::new(design)),

@@ -2,7 +2,7 @@
 //! The functional model equals the oracle, for every kind of design.
 
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, Outcome};
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
 use crate::frames::{film, scripts};
@@ -14,7 +14,7 @@ fn image(frame: &Frame) -> Image {
     (0..frame.height()).map(row).collect()
 }
 
-pub(crate) fn assert_same(recipe: &Recipe, outcome: &Outcome, seen: &Seen) {
+pub(crate) fn assert_same(recipe: &Recipe, outcome: &FunctionalOutcome, seen: &Seen) {
     assert_eq!(image(&outcome.padded), seen.padded);
     assert_eq!(image(&outcome.denoised), seen.denoised);
     for (index, region) in seen.regions.iter().enumerate() {

@@ -3,7 +3,7 @@
 
 use foveate_design::{Config, Design};
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, Outcome, PipelinedRpu, RpuInput, Thresholds};
+use foveate_model::{FunctionalCamera, FunctionalOutcome, PipelinedRpu, RpuInput, Thresholds};
 
 use crate::frames::Random;
 
@@ -58,7 +58,7 @@ fn previous_never_sees_a_slow_fade_and_last_sent_does() {
 }
 
 /// Regions with SRS = 1 that hold a pixel too many; and how many were inactive at all.
-fn stale_regions(design: &Design, outcome: &Outcome) -> (usize, usize) {
+fn stale_regions(design: &Design, outcome: &FunctionalOutcome) -> (usize, usize) {
     let level = design.temporal().level;
     let (mut stale, mut held) = (0, 0);
     for region in 0..design.regions() {

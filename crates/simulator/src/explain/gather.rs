@@ -6,7 +6,7 @@ use foveate_camera::{Camera, Irrelevant, SpatialFeature};
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::feature::{hits, mad};
-use foveate_model::{Outcome, region_pixels};
+use foveate_model::{FunctionalOutcome, region_pixels};
 
 use super::{Change, Explanation, Place, Rows, Spatial};
 use foveate_footage::SourceFrame;
@@ -21,7 +21,7 @@ pub(super) fn explanation(
     source: &SourceFrame,
     region: u32,
     reference: Option<Vec<u16>>,
-    outcome: &Outcome,
+    outcome: &FunctionalOutcome,
 ) -> Explanation {
     let (camera, at) = (design.camera(), region as usize);
     let scores = camera.features().iter().zip(&outcome.scores);
@@ -70,7 +70,7 @@ impl Spatial {
     fn of(
         camera: &Camera,
         feature: &SpatialFeature,
-        outcome: &Outcome,
+        outcome: &FunctionalOutcome,
         region: u32,
         score: u64,
     ) -> Self {
@@ -95,7 +95,12 @@ impl Spatial {
 }
 
 impl Change {
-    fn of(camera: &Camera, reference: Option<Vec<u16>>, outcome: &Outcome, region: u32) -> Self {
+    fn of(
+        camera: &Camera,
+        reference: Option<Vec<u16>>,
+        outcome: &FunctionalOutcome,
+        region: u32,
+    ) -> Self {
         let temporal = camera.temporal();
         let now = pixels(camera, &outcome.denoised, region);
         let hits = match &reference {

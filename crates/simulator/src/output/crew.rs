@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
-use super::picture::Picture;
+use super::picture::RawImage;
 use super::{cannot_write, png};
 use crate::SimulatorError;
 use crate::error::is_full;
@@ -19,7 +19,7 @@ const MOST: usize = 8;
 /// A picture and where it goes.
 struct Job {
     path: PathBuf,
-    picture: Picture,
+    picture: RawImage,
 }
 
 /// The threads with their work.
@@ -79,7 +79,7 @@ impl Crew {
     }
 
     /// Hands a picture over; waits while there is more to do than hands.
-    pub(super) fn push(&mut self, path: PathBuf, picture: Picture) {
+    pub(super) fn push(&mut self, path: PathBuf, picture: RawImage) {
         let job = Job { path, picture };
         let refused = match &self.jobs {
             Some(jobs) => jobs.send(job).err().map(|refused| refused.0),

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
-use foveate_engine::Outcome;
+use foveate_engine::FrameOutcome;
 use foveate_files::tables::{Column, Kind, Value};
 
 use super::EventTables;
@@ -103,7 +103,7 @@ pub struct Moment<'a> {
     /// Time since the first frame in microseconds.
     pub time_us: u64,
     /// What came of it.
-    pub outcome: &'a Outcome,
+    pub outcome: &'a FrameOutcome,
 }
 
 /// The table of regions of a camera.

@@ -8,7 +8,7 @@ use foveate_camera::Camera;
 use super::Medium;
 use super::canvas::Canvas;
 use super::crew::Crew;
-use super::picture::Picture;
+use super::picture::RawImage;
 use super::png_series::PngSeries;
 use super::sink::{Sink, Step};
 use super::video::VideoFile;
@@ -53,7 +53,7 @@ impl Sink for Gallery {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let picture = match &mut self.painter {
             Some(painter) => painter.paint(step).into(),
-            None => Picture::grey(step, self.series.spare()),
+            None => RawImage::grey(step, self.series.spare()),
         };
         match &mut self.series {
             Series::Folder(series) => series.push(picture),

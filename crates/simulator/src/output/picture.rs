@@ -16,21 +16,21 @@ pub(super) enum Samples {
 }
 
 /// A picture as bytes.
-pub(super) struct Picture {
+pub(super) struct RawImage {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) samples: Samples,
     pub(super) bytes: Vec<u8>,
 }
 
-impl From<Canvas> for Picture {
+impl From<Canvas> for RawImage {
     fn from(canvas: Canvas) -> Self {
         let Canvas { width, height, rgb } = canvas;
         Self { width, height, samples: Samples::Rgb8, bytes: rgb }
     }
 }
 
-impl Picture {
+impl RawImage {
     /// What is on the screen, at the depth that [`display_depth`] gives it, in the memory of `bytes`.
     pub(super) fn grey(step: &Step<'_>, mut bytes: Vec<u8>) -> Self {
         let bits = step.camera.pixel_bits();

@@ -8,10 +8,10 @@ use std::path::Path;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 
-use super::picture::{Picture, Samples};
+use super::picture::{RawImage, Samples};
 
 /// Writes one picture at once, by way of `bytes`.
-pub(super) fn write(path: &Path, picture: &Picture, bytes: &mut Vec<u8>) -> io::Result<()> {
+pub(super) fn write(path: &Path, picture: &RawImage, bytes: &mut Vec<u8>) -> io::Result<()> {
     let colour = match picture.samples {
         Samples::Grey8 => ExtendedColorType::L8,
         // The encoder takes native order and writes what PNG wants.

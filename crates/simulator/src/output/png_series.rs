@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::cannot_write;
 use super::crew::Crew;
-use super::picture::Picture;
+use super::picture::RawImage;
 use crate::SimulatorError;
 
 /// A folder of pictures `000000.png`, `000001.png` and on.
@@ -22,7 +22,7 @@ impl PngSeries {
         Ok(Self { folder, next: 0, crew: Crew::new()? })
     }
 
-    pub(super) fn push(&mut self, picture: Picture) {
+    pub(super) fn push(&mut self, picture: RawImage) {
         let path = self.folder.join(format!("{:06}.png", self.next));
         self.next += 1;
         self.crew.push(path, picture);

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use foveate_design::Design;
-use foveate_engine::{Engine, Outcome};
+use foveate_engine::{Engine, FrameOutcome};
 use foveate_staging::Reserve;
 use rayon::prelude::*;
 
@@ -17,7 +17,7 @@ use super::overlay::Overlay;
 use super::pixel_events::PixelRecorder;
 use super::sink::{Sink, Step};
 use super::summary::Totals;
-use super::table::{FrameTable, Row};
+use super::table::{FrameRow, FrameTable};
 use super::{RunOptions, Summary, events};
 use crate::SimulatorError;
 use foveate_footage::{SetForm, SourceFrame};
@@ -150,7 +150,7 @@ impl Recorder {
         self.totals.frames
     }
 
-    fn push_row(&mut self, source: &SourceFrame, outcome: &Outcome) {
+    fn push_row(&mut self, source: &SourceFrame, outcome: &FrameOutcome) {
         let (srs, trs) = (count(&outcome.srs), count(&outcome.trs));
         let active = count(&outcome.active);
         let pixels_forwarded = pixels_forwarded(&self.design, &outcome.active);
@@ -158,7 +158,16 @@ impl Recorder {
         let label = source.label.as_deref();
         self.totals.add(srs, trs, active, pixels_forwarded);
         self.totals.at(time_us);
-        self.table.push(&Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded });
+        self.table.push(&FrameRow {
+            frame,
+            time_us,
+            name,
+            label,
+            srs,
+            trs,
+            active,
+            pixels_forwarded,
+        });
     }
 }
 

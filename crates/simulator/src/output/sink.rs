@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use foveate_camera::Camera;
-use foveate_engine::{Engine, Outcome};
+use foveate_engine::{Engine, FrameOutcome};
 use foveate_frame::Plane;
 
 use crate::SimulatorError;
@@ -16,7 +16,7 @@ pub(super) struct Step<'a> {
     /// Number of the frame in the run.
     pub(super) number: u64,
     pub(super) source: &'a SourceFrame,
-    pub(super) outcome: &'a Outcome,
+    pub(super) outcome: &'a FrameOutcome,
     /// What is on the screen.
     pub(super) screen: Plane<'a>,
 }

@@ -10,7 +10,7 @@ use super::csv::Csv;
 use crate::SimulatorError;
 
 /// What the table says of a frame.
-pub(super) struct Row<'a> {
+pub(super) struct FrameRow<'a> {
     pub(super) frame: u64,
     pub(super) time_us: u64,
     pub(super) name: &'a str,
@@ -31,8 +31,8 @@ impl FrameTable {
         Csv::create(path, heading).map(Self)
     }
 
-    pub(super) fn push(&mut self, row: &Row<'_>) {
-        let Row { frame, time_us, name, label, srs, trs, active, pixels_forwarded } = row;
+    pub(super) fn push(&mut self, row: &FrameRow<'_>) {
+        let FrameRow { frame, time_us, name, label, srs, trs, active, pixels_forwarded } = row;
         let (name, label) = (plain(name), plain(label.unwrap_or_default()));
         let counts = format!("{srs},{trs},{active},{pixels_forwarded}");
         self.0.line([format!("{frame},{time_us},{name},{label},{counts}")]);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use foveate_toolchain::{Feeder, Invocation, Tool, Toolchain};
 
 use super::cannot_write;
-use super::picture::{Picture, Samples};
+use super::picture::{RawImage, Samples};
 use crate::SimulatorError;
 
 /// A video in the making.
@@ -22,7 +22,7 @@ pub(super) struct VideoFile {
 enum State {
     Empty,
     /// The first picture waits for the time of the second.
-    First(Picture, u64),
+    First(RawImage, u64),
     Running(Feeder),
     /// ffmpeg has ended too early, and said this.
     Failed(String),
@@ -41,7 +41,7 @@ impl VideoFile {
     }
 
     /// Takes the next picture; that ffmpeg does not, [`VideoFile::check`] says.
-    pub(super) fn push(&mut self, picture: Picture, time_us: u64) -> Result<(), SimulatorError> {
+    pub(super) fn push(&mut self, picture: RawImage, time_us: u64) -> Result<(), SimulatorError> {
         self.state = match std::mem::replace(&mut self.state, State::Empty) {
             State::Empty => State::First(picture, time_us),
             State::First(first, start) => {
@@ -78,7 +78,7 @@ impl VideoFile {
         self.check()
     }
 
-    fn start(&self, picture: &Picture, rate: &str) -> Result<Feeder, SimulatorError> {
+    fn start(&self, picture: &RawImage, rate: &str) -> Result<Feeder, SimulatorError> {
         let format = match picture.samples {
             Samples::Grey8 => "gray",
             Samples::Grey16 if cfg!(target_endian = "big") => "gray16be",
@@ -117,7 +117,7 @@ impl VideoFile {
         }
     }
 
-    fn feed(&self, mut feeder: Feeder, picture: &Picture) -> Result<State, SimulatorError> {
+    fn feed(&self, mut feeder: Feeder, picture: &RawImage) -> Result<State, SimulatorError> {
         if feeder.write_all(&picture.bytes).is_ok() {
             return Ok(State::Running(feeder));
         }

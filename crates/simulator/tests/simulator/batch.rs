@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use crate::support::{grey, names};
 use foveate_design::Config;
-use foveate_footage::{Clip, FootageError, ImagesAs, InputOptions, Plan, plan};
+use foveate_footage::{Clip, ClipPlan, FootageError, ImagesAs, InputOptions, plan};
 use foveate_simulator::{BatchHooks, BatchProgress, RunOptions, SimulatorError, run_batch};
 
 /// A stream of `frames` frames of 16x16 pixels.
@@ -45,8 +45,8 @@ impl BatchHooks for Listener {
 
 fn planned<P: AsRef<Path>>(inputs: &[P]) -> Vec<Clip> {
     match plan(inputs, &InputOptions::default()).unwrap() {
-        Plan::One => Vec::new(),
-        Plan::Batch(clips) => clips,
+        ClipPlan::One => Vec::new(),
+        ClipPlan::Batch(clips) => clips,
     }
 }
 
@@ -96,7 +96,7 @@ fn what_is_one_clip_is_no_batch() {
     assert!(planned(&["scene:street"]).is_empty() && planned(&["-"]).is_empty());
     assert!(planned(&[at("missing.mp4")]).is_empty(), "opening says that it is missing");
     let set = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
-    assert_eq!(plan(&[at("people")], &set).unwrap(), Plan::One);
+    assert_eq!(plan(&[at("people")], &set).unwrap(), ClipPlan::One);
     assert_eq!(planned(&[at("alone"), at("people/walk")]).len(), 2);
     assert_eq!(planned(&[at("top.y4m"), at("cars")]).len(), 3);
     for mixed in [["top.y4m", "alone/0.png"], ["top.y4m", "gone.mp4"]] {

@@ -6,7 +6,7 @@ use std::fs;
 
 use crate::support::{Npy, STREET, names, outcomes, run, street};
 use foveate_frame::convert_depth;
-use foveate_model::Outcome;
+use foveate_model::FunctionalOutcome;
 use foveate_scenes::Scene;
 use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
 
@@ -30,7 +30,7 @@ fn arrays_hold_every_outcome() {
         assert_eq!((npy.descr.as_str(), &npy.shape[..]), (descr, &[5, 5, 6][..]), "{name}");
         assert!(npy.data == data, "{name}");
     };
-    let flags = |of: fn(&Outcome) -> &Vec<bool>| {
+    let flags = |of: fn(&FunctionalOutcome) -> &Vec<bool>| {
         outcomes.iter().flat_map(|outcome| of(outcome).iter().map(|&bit| u8::from(bit))).collect()
     };
     expect("srs.npy", "|u1", flags(|outcome| &outcome.srs));

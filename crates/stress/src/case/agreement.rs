@@ -7,20 +7,29 @@ use rayon::prelude::*;
 
 use crate::designs::matrix;
 use crate::pixels::Random;
-use crate::trio::{Tally, compare};
-use crate::{Depth, Row};
+use crate::trio::{AgreementTally, compare};
+use crate::{CaseRow, Depth};
 
-fn row(case: &'static str, designs: String, tally: Tally) -> Row {
-    Row::none(case, designs, "values differ", (tally.wrong, tally.tried), u8::from(tally.wrong > 0))
+fn row(case: &'static str, designs: String, tally: AgreementTally) -> CaseRow {
+    CaseRow::none(
+        case,
+        designs,
+        "values differ",
+        (tally.wrong, tally.tried),
+        u8::from(tally.wrong > 0),
+    )
 }
 
-fn all(designs: &[Design], one: impl Fn(&Design) -> Tally + Send + Sync) -> Tally {
-    designs.par_iter().map(one).reduce(Tally::default, Tally::plus)
+fn all(
+    designs: &[Design],
+    one: impl Fn(&Design) -> AgreementTally + Send + Sync,
+) -> AgreementTally {
+    designs.par_iter().map(one).reduce(AgreementTally::default, AgreementTally::plus)
 }
 
 /// Every scene: all zero, all maximum, checkerboard, hot pixels, ramps, half means, flicker, fade, light
 /// step, shake, rain at night, one moving pixel, late change, random.
-pub(crate) fn scenes(depth: Depth) -> Vec<Row> {
+pub(crate) fn scenes(depth: Depth) -> Vec<CaseRow> {
     let (width, height) = depth.pick((40, 24), (96, 72));
     let designs = matrix((width, height), 8, 8);
     let run = |&scene: &Scene| {
@@ -33,7 +42,7 @@ pub(crate) fn scenes(depth: Depth) -> Vec<Row> {
 }
 
 /// Odd regions, frames smaller than a region and one pixel larger.
-pub(crate) fn sizes(depth: Depth) -> Vec<Row> {
+pub(crate) fn sizes(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(3, 24);
     [
         (2, (5, 4)),
@@ -55,7 +64,7 @@ pub(crate) fn sizes(depth: Depth) -> Vec<Row> {
 }
 
 /// Every depth that the contract names.
-pub(crate) fn depths(depth: Depth) -> Vec<Row> {
+pub(crate) fn depths(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(3, 24);
     [1, 10, 12, 16]
         .map(|bits| {
@@ -68,7 +77,7 @@ pub(crate) fn depths(depth: Depth) -> Vec<Row> {
 }
 
 /// Gaps between valid pixels, resets in mid-frame.
-pub(crate) fn unrest(depth: Depth) -> Vec<Row> {
+pub(crate) fn unrest(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(18, 200);
     let designs = matrix((24, 16), 8, 8);
     let tally = all(&designs, |design| compare(design, random((24, 16), 8, frames), true));

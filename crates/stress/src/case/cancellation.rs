@@ -8,15 +8,15 @@ use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::Random;
-use crate::{Depth, Row};
+use crate::{CaseRow, Depth};
 
 /// Our integers beside single-pass f32, both against two passes in f64.
-pub(crate) fn variance(depth: Depth) -> Vec<Row> {
+pub(crate) fn variance(depth: Depth) -> Vec<CaseRow> {
     let regions = depth.pick(200, 5_000);
     [(8, 8), (32, 8), (8, 16), (64, 16)].into_iter().flat_map(|size| pair(size, regions)).collect()
 }
 
-fn pair((side, bits): (u32, u32), regions: u32) -> [Row; 2] {
+fn pair((side, bits): (u32, u32), regions: u32) -> [CaseRow; 2] {
     let mut config = config((side, side), side, bits, &[FeatureKind::Variance]);
     config.camera.denoise.filter = foveate_design::Filter::None;
     let design = design(&config);
@@ -38,7 +38,7 @@ fn pair((side, bits): (u32, u32), regions: u32) -> [Row; 2] {
         naive = naive.max((f64::from(single_pass(&region)) - exact).abs() / exact);
     }
     let designs = format!("variance, N {side}, P {bits}, mean {}", base + 2);
-    let row = |case, expected: &str, error: f64, holds| Row {
+    let row = |case, expected: &str, error: f64, holds| CaseRow {
         case,
         designs: designs.clone(),
         expected: expected.to_owned(),

@@ -5,14 +5,14 @@ use foveate_design::FeatureKind;
 use rayon::prelude::*;
 
 use crate::designs::{config, design};
-use crate::{Depth, Row};
+use crate::{CaseRow, Depth};
 
 /// Every N, powers of two as well, for several P and f.
 ///
 /// `(x * m) >> s` never falls as x grows, and neither does `floor(x / n)`. So the two are equal for all x
 /// if they are equal at both ends of every run of x with the same quotient: at `q * n` and at
 /// `q * n + n - 1`, for every q. That is tried, which proves all of them.
-pub(crate) fn reciprocals(depth: Depth) -> Vec<Row> {
+pub(crate) fn reciprocals(depth: Depth) -> Vec<CaseRow> {
     let kinds: &[(u32, u32)] = depth.pick(
         &[(8, 0), (10, 2), (16, 0)],
         &[(1, 0), (8, 0), (8, 6), (10, 2), (12, 4), (16, 0), (16, 4)],
@@ -20,14 +20,14 @@ pub(crate) fn reciprocals(depth: Depth) -> Vec<Row> {
     kinds.iter().map(|&kind| reciprocal(kind)).collect()
 }
 
-fn reciprocal((bits, fraction_bits): (u32, u32)) -> Row {
+fn reciprocal((bits, fraction_bits): (u32, u32)) -> CaseRow {
     let sides: Vec<u32> = (2..=64).filter(|side| fraction_limit(*side) >= fraction_bits).collect();
     let (wrong, tried, worst) = sides
         .par_iter()
         .map(|&side| exhaust(side, bits, fraction_bits))
         .reduce(|| (0, 0, 0), |a, b| (a.0 + b.0, a.1 + b.1, a.2.max(b.2)));
     let designs = format!("{} sizes N, P {bits}, f {fraction_bits}", sides.len());
-    Row::none(
+    CaseRow::none(
         "mean by reciprocal, every dividend",
         designs,
         "quotients wrong",

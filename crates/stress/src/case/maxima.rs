@@ -7,16 +7,16 @@ use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::frame;
-use crate::{Depth, Row};
+use crate::{CaseRow, Depth};
 
 /// The sums: half of the pixels at the maximum, the others at zero; at the largest region, and at odd ones.
-pub(crate) fn largest_scores(_: Depth) -> Vec<Row> {
+pub(crate) fn largest_scores(_: Depth) -> Vec<CaseRow> {
     let sizes = [(64, 16), (64, 8), (8, 8), (7, 16), (5, 10), (2, 1)];
     let sums = [FeatureKind::Variance, FeatureKind::Mad];
     sizes.into_iter().flat_map(|size| sums.map(|kind| largest_score(kind, size))).collect()
 }
 
-fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> Row {
+fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     let mut config = config((side, side), side, bits, &[kind]);
     config.camera.denoise.filter = foveate_design::Filter::None;
     let design = design(&config);
@@ -36,12 +36,12 @@ fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> Row {
     let observed = low.max(high);
     let tight = bits_for(observed) == feature.score_bits();
     let designs = format!("{kind}, N {side}, P {bits}: {} bits", feature.score_bits());
-    let row = Row::equal("largest score reached", designs, feature.score_max(), observed);
-    Row { holds: row.holds && tight, ..row }
+    let row = CaseRow::equal("largest score reached", designs, feature.score_max(), observed);
+    CaseRow { holds: row.holds && tight, ..row }
 }
 
 /// The counts: every pixel of a region a hit.
-pub(crate) fn counts(_: Depth) -> Vec<Row> {
+pub(crate) fn counts(_: Depth) -> Vec<CaseRow> {
     let edge = |(side, bits): (u32, u32)| {
         let mut config = config((side, side), side, bits, &[FeatureKind::Edge]);
         config.camera.spatial[0].level = Some(0);
@@ -55,7 +55,7 @@ pub(crate) fn counts(_: Depth) -> Vec<Row> {
         let (hits, changed) = outcome.expect("the slope is a frame of the design");
         let n = u64::from(design.region_pixels());
         let designs = format!("edge and temporal, N {side}, P {bits}");
-        Row::equal("count reaches n", designs, 2 * n, hits + changed)
+        CaseRow::equal("count reaches n", designs, 2 * n, hits + changed)
     };
     [(64, 16), (64, 8), (8, 8), (3, 8)].map(edge).into()
 }

@@ -6,15 +6,15 @@ use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::frame;
-use crate::{Depth, Row};
+use crate::{CaseRow, Depth};
 
 /// For every sum around a half the score is that of the mean rounded up at one half: in exact rational
 /// arithmetic, `floor((2 sum + n) / (2 n))`.
-pub(crate) fn halves(_: Depth) -> Vec<Row> {
+pub(crate) fn halves(_: Depth) -> Vec<CaseRow> {
     [2, 3, 5, 8, 16].map(around_halves).into()
 }
 
-fn around_halves(side: u32) -> Row {
+fn around_halves(side: u32) -> CaseRow {
     let mut config = config((side, side), side, 8, &[FeatureKind::Mad]);
     config.camera.denoise.filter = foveate_design::Filter::None;
     config.camera.spatial[0].mean_fraction_bits = Some(0);
@@ -38,7 +38,7 @@ fn around_halves(side: u32) -> Row {
             (wrong, tried, worst) = (wrong + u64::from(error > 0), tried + 1, worst.max(error));
         }
     }
-    Row::none(
+    CaseRow::none(
         "means on one half",
         format!("mad, N {side}, f 0"),
         "scores wrong",

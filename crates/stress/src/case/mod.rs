@@ -10,10 +10,10 @@ mod references;
 mod thresholds;
 mod wraps;
 
-use crate::{Depth, Row};
+use crate::{CaseRow, Depth};
 
 /// Runs one case.
-pub(crate) type Case = fn(Depth) -> Vec<Row>;
+pub(crate) type Case = fn(Depth) -> Vec<CaseRow>;
 
 /// Every case.
 pub(crate) const ALL: &[Case] = &[

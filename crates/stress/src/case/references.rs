@@ -3,12 +3,12 @@
 
 use foveate_design::{Config, Design, FeatureKind, Filter, Reference};
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, Outcome};
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_scenes::{Scene, SceneSize};
 
 use crate::designs::{config, design};
 use crate::pixels::frame;
-use crate::{Depth, Row};
+use crate::{CaseRow, Depth};
 
 const SIDE: u32 = 8;
 const SIZE: (u32, u32) = (16, 16);
@@ -39,7 +39,7 @@ struct Worst {
 }
 
 impl Worst {
-    fn look(&mut self, design: &Design, outcome: &Outcome) {
+    fn look(&mut self, design: &Design, outcome: &FunctionalOutcome) {
         let side = design.region_size();
         let temporal = design.temporal();
         for region in 0..design.regions() {
@@ -76,13 +76,13 @@ fn watch(design: &Design, frames: impl Iterator<Item = Frame>) -> Worst {
 }
 
 /// What `last-sent` promises.
-fn invariant(case: &'static str, designs: String, worst: Worst) -> Row {
+fn invariant(case: &'static str, designs: String, worst: Worst) -> CaseRow {
     let tally = (worst.broken, worst.relevant);
-    Row::none(case, designs, "regions off by min_count pixels", tally, worst.difference)
+    CaseRow::none(case, designs, "regions off by min_count pixels", tally, worst.difference)
 }
 
 /// One level per frame, up and down.
-pub(crate) fn slow_fade(depth: Depth) -> Vec<Row> {
+pub(crate) fn slow_fade(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(600, 10_000);
     let light = |t: u32| if (t / 150).is_multiple_of(2) { t % 150 } else { 150 - t % 150 };
     let run = |reference| watch(&design(&with(reference)), (0..frames).map(|t| textured(light(t))));
@@ -94,7 +94,7 @@ pub(crate) fn slow_fade(depth: Depth) -> Vec<Row> {
             designs(Reference::LastSent),
             run(Reference::LastSent),
         ),
-        Row {
+        CaseRow {
             case: "fade of one level per frame",
             designs: designs(Reference::Previous),
             expected: "drifts: 150 levels off".to_owned(),
@@ -106,7 +106,7 @@ pub(crate) fn slow_fade(depth: Depth) -> Vec<Row> {
 }
 
 /// Two neighboring levels in turn: below the temporal level, so nothing is sent, and nothing is wrong.
-pub(crate) fn flicker(depth: Depth) -> Vec<Row> {
+pub(crate) fn flicker(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(600, 10_000);
     let amplitudes = [1, 8, 9];
     amplitudes
@@ -121,7 +121,7 @@ pub(crate) fn flicker(depth: Depth) -> Vec<Row> {
 
 /// A region whose relevance goes and comes back, unchanged: `last-sent` sends it again, `previous` leaves
 /// it black, as the paper defines it.
-pub(crate) fn blanked(_: Depth) -> Vec<Row> {
+pub(crate) fn blanked(_: Depth) -> Vec<CaseRow> {
     let plain = || frame(SIZE, 8, |_, _| 50);
     let black = |reference| {
         let design = design(&with(reference));
@@ -154,25 +154,25 @@ pub(crate) fn blanked(_: Depth) -> Vec<Row> {
         shown
     };
     vec![
-        Row::equal(
+        CaseRow::equal(
             "region comes back, changed",
             "last-sent, lit pixels",
             lit,
             black(Reference::LastSent),
         ),
-        Row::equal(
+        CaseRow::equal(
             "region comes back, changed",
             "previous, lit pixels",
             lit,
             black(Reference::Previous),
         ),
-        Row::equal(
+        CaseRow::equal(
             "region comes back as it was",
             "last-sent, lit pixels",
             lit,
             returned(Reference::LastSent),
         ),
-        Row::equal(
+        CaseRow::equal(
             "region comes back as it was (stays black)",
             "previous, lit pixels",
             0,
@@ -182,7 +182,7 @@ pub(crate) fn blanked(_: Depth) -> Vec<Row> {
 }
 
 /// The promise of `last-sent` on every scene.
-pub(crate) fn invariant_on_scenes(depth: Depth) -> Vec<Row> {
+pub(crate) fn invariant_on_scenes(depth: Depth) -> Vec<CaseRow> {
     let mut worst = Worst::default();
     let size = depth.pick((48, 40), (224, 224));
     for &scene in Scene::ALL {

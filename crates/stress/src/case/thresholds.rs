@@ -8,10 +8,10 @@ use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
 use crate::pixels::Random;
-use crate::{Depth, Row};
+use crate::{CaseRow, Depth};
 
 /// A score votes at its own value and not one above; a pixel is a hit one below its magnitude and not at it.
-pub(crate) fn on_below_above(depth: Depth) -> Vec<Row> {
+pub(crate) fn on_below_above(depth: Depth) -> Vec<CaseRow> {
     let rounds = depth.pick(12, 200);
     vec![
         scores(FeatureKind::Edge, rounds),
@@ -33,8 +33,8 @@ fn bare(feature: FeatureKind) -> Config {
 fn ask<A: PartialEq>(
     config: &Config,
     frames: [&Frame; 2],
-    clear: impl Fn(&foveate_model::Outcome) -> A,
-    fast: impl Fn(&foveate_engine::Outcome) -> A,
+    clear: impl Fn(&foveate_model::FunctionalOutcome) -> A,
+    fast: impl Fn(&foveate_engine::FrameOutcome) -> A,
 ) -> Option<A> {
     let design = design(config);
     let (mut camera, mut engine) = (FunctionalCamera::new(&design), Engine::new(&design));
@@ -45,9 +45,9 @@ fn ask<A: PartialEq>(
 }
 
 /// `wrong` of `tried` questions.
-fn row(designs: &str, what: &str, answers: &[bool]) -> Row {
+fn row(designs: &str, what: &str, answers: &[bool]) -> CaseRow {
     let wrong = answers.iter().map(|&right| u64::from(!right)).sum();
-    Row::none(
+    CaseRow::none(
         "thresholds on, below, above",
         designs,
         what,
@@ -56,7 +56,7 @@ fn row(designs: &str, what: &str, answers: &[bool]) -> Row {
     )
 }
 
-fn scores(kind: FeatureKind, rounds: u64) -> Row {
+fn scores(kind: FeatureKind, rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for seed in 0..rounds {
         let frame = Random::new(seed).frame((SIDE, SIDE), 8);
@@ -78,7 +78,7 @@ fn scores(kind: FeatureKind, rounds: u64) -> Row {
 }
 
 /// The level of `edge`, swept over the magnitude of one step in brightness.
-fn levels(rounds: u64) -> Row {
+fn levels(rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for step in 1..=rounds.min(255) {
         let step = u32::try_from(step).expect("at most 255");
@@ -96,7 +96,7 @@ fn levels(rounds: u64) -> Row {
 }
 
 /// The temporal level and count, on a known difference in a known number of pixels.
-fn counts(rounds: u64) -> Row {
+fn counts(rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for seed in 0..rounds {
         let mut random = Random::new(seed);

@@ -4,11 +4,11 @@
 
 use crate::designs::matrix;
 use crate::pixels::Random;
-use crate::trio::{Tally, compare};
-use crate::{Depth, Row};
+use crate::trio::{AgreementTally, compare};
+use crate::{CaseRow, Depth};
 
 /// More frames than 8 bits count, and in the long form more than 16 bits do.
-pub(crate) fn long_runs(depth: Depth) -> Vec<Row> {
+pub(crate) fn long_runs(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(300, 66_000);
     let designs = matrix((4, 2), 2, 8);
     // Random frames with long pauses in which nothing changes.
@@ -17,8 +17,8 @@ pub(crate) fn long_runs(depth: Depth) -> Vec<Row> {
     let tally = picked
         .iter()
         .map(|design| compare(design, (0..frames).map(frame), false))
-        .fold(Tally::default(), Tally::plus);
+        .fold(AgreementTally::default(), AgreementTally::plus);
     let designs = format!("{} designs, N 2, {frames} frames", picked.len());
     let counts = (tally.wrong, tally.tried);
-    vec![Row::none("long runs", designs, "values differ", counts, u8::from(tally.wrong > 0))]
+    vec![CaseRow::none("long runs", designs, "values differ", counts, u8::from(tally.wrong > 0))]
 }

@@ -10,7 +10,7 @@ use crate::StudyError;
 use crate::findings::Findings;
 use crate::number::{coordinate, percent, share};
 use crate::table::Table;
-use crate::tally::{Regions, Tally};
+use crate::tally::{RegionTally, Regions};
 use crate::watch::{Watched, Watcher};
 
 const COLUMNS: [&str; 7] =
@@ -141,7 +141,7 @@ fn run(study: Study, watcher: &Watcher<'_>, keys: &[Key]) -> Result<Findings, St
     // The design as it is comes first, for the notes.
     let points = keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone()));
     let configs: Vec<Config> = std::iter::once(watcher.config.clone()).chain(points).collect();
-    let watched = watcher.watch(&configs, |tally: &mut Tally, _, seen| tally.add(seen))?;
+    let watched = watcher.watch(&configs, |tally: &mut RegionTally, _, seen| tally.add(seen))?;
     let mut table = Table::new(&COLUMNS);
     let mut charts = Vec::new();
     let mut first = 1;
@@ -176,7 +176,7 @@ fn run(study: Study, watcher: &Watcher<'_>, keys: &[Key]) -> Result<Findings, St
     Ok(findings)
 }
 
-fn line(clip: &Watched<Tally>, key: &Key, first: usize) -> Line {
+fn line(clip: &Watched<RegionTally>, key: &Key, first: usize) -> Line {
     let tallies = clip.points.iter().skip(first).map(|(_, tally)| tally.sum());
     let point = |((value, _), sum): (&(u64, Config), Regions)| {
         (coordinate(*value), percent(sum.active, sum.all))

@@ -11,7 +11,7 @@ use crate::StudyError;
 use crate::findings::Findings;
 use crate::number::{percent, share};
 use crate::table::Table;
-use crate::tally::{Regions, Tally};
+use crate::tally::{RegionTally, Regions};
 use crate::watch::Watcher;
 
 const COLUMNS: [&str; 9] = [
@@ -27,8 +27,8 @@ const COLUMNS: [&str; 9] = [
 ];
 
 pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
-    let watched =
-        watcher.watch(from_ref(watcher.config), |tally: &mut Tally, _, seen| tally.add(seen))?;
+    let watched = watcher
+        .watch(from_ref(watcher.config), |tally: &mut RegionTally, _, seen| tally.add(seen))?;
     clips_only(Study::Temporal, &watched)?;
     let mut table = Table::new(&COLUMNS);
     let mut groups = Vec::new();

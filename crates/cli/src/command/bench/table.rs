@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A bench as a table: in lines as wide as the terminal, or in Markdown.
 
-use foveate_bench::{Level, Measured, Report, Row};
+use foveate_bench::{BenchReport, Level, LevelRow, Measured};
 
 const HEADINGS: [&str; 7] = ["frames", "clocks", "pixels", "x RTL", "memory", "build", "differ"];
 /// What the first three count per second.
@@ -12,7 +12,7 @@ const OTHER: usize = 8;
 const TABLE: usize = FIRST + HEADINGS.len() * OTHER;
 
 /// A table where it fits; otherwise a paragraph per level.
-pub(super) fn text(report: &Report, width: usize) -> String {
+pub(super) fn text(report: &BenchReport, width: usize) -> String {
     let mut text = if width < TABLE {
         String::new()
     } else {
@@ -39,7 +39,7 @@ pub(super) fn text(report: &Report, width: usize) -> String {
     text
 }
 
-pub(super) fn markdown(report: &Report) -> String {
+pub(super) fn markdown(report: &BenchReport) -> String {
     let mut text = format!("| per second: | {} |\n|{}\n", HEADINGS.join(" | "), " --- |".repeat(8));
     for row in &report.rows {
         let cells = row.measured.as_ref().map_or_else(
@@ -55,7 +55,7 @@ pub(super) fn markdown(report: &Report) -> String {
     text
 }
 
-fn title(row: &Row) -> String {
+fn title(row: &LevelRow) -> String {
     format!("{} {}", name(row.level), row.name)
 }
 
@@ -85,14 +85,14 @@ fn cells(row: &Measured) -> [String; 7] {
 }
 
 /// What is compared, and what the figures include.
-fn notes(report: &Report) -> Vec<String> {
-    let Report { design, organization, regions, size, frames, streamed, clocks, .. } = report;
+fn notes(report: &BenchReport) -> Vec<String> {
+    let BenchReport { design, organization, regions, size, frames, streamed, clocks, .. } = report;
     let mut notes = vec![format!(
         "design {design}, {organization}, {regions} regions, {} x {} pixels, {frames} frames; with clocks \
          {streamed} frames in {clocks} clocks; one thread, {}",
         size.0, size.1, report.instructions
     )];
-    let compared = |row: &Row| {
+    let compared = |row: &LevelRow| {
         let measured = row.measured.as_ref()?;
         let with = report.rows.iter().find(|other| Some(other.level) == measured.same_as)?;
         Some(format!("{} with {} in {} values", row.name, with.name, measured.compared))

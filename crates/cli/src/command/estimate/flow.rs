@@ -3,7 +3,7 @@
 
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_estimate::{EstimateJob, Report, estimate};
+use foveate_estimate::{AreaReport, EstimateJob, estimate};
 use foveate_toolchain::{Cache, Toolchain};
 
 use crate::error::CliError;
@@ -15,7 +15,7 @@ pub(super) struct Flow {
 }
 
 impl Flow {
-    pub(super) fn estimate(&self, design: &Design, leaves: bool) -> Result<Report, CliError> {
+    pub(super) fn estimate(&self, design: &Design, leaves: bool) -> Result<AreaReport, CliError> {
         let job = EstimateJob {
             leaves_of: leaves.then(|| design.unit().split.to_owned()),
             ..EstimateJob::of(design, Top::Rcm)

@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use foveate_estimate::ramb36;
-use foveate_explore::{Exploration, Row};
+use foveate_explore::{DesignRow, Exploration};
 
 /// A column: its name, and what stands in it.
-type Column = (&'static str, fn(&Row) -> String);
+type Column = (&'static str, fn(&DesignRow) -> String);
 
 const COLUMNS: [Column; 16] = [
     ("flips %", |row| percent(row.figures.action_flips)),
@@ -41,7 +41,7 @@ fn decibels(value: Option<f64>) -> String {
 }
 
 /// Largest, mean and RMS of every score that can be compared.
-fn scores(row: &Row) -> String {
+fn scores(row: &DesignRow) -> String {
     let score = |score: &foveate_explore::ScoreError| {
         let digits = |value: f64| {
             format!("{value:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -57,14 +57,14 @@ fn scores(row: &Row) -> String {
     row.figures.scores.iter().map(score).collect::<Vec<_>>().join(", ")
 }
 
-fn unit(row: &Row) -> String {
+fn unit(row: &DesignRow) -> String {
     let figures = row.silicon.as_ref().map(|silicon| &silicon.unit);
     figures.map_or_else(String::new, |unit| {
         format!("{}/{}/{}", unit.lut_total_packed, unit.ff, unit.lut_memory_packed)
     })
 }
 
-fn array(row: &Row) -> String {
+fn array(row: &DesignRow) -> String {
     let figures = row.silicon.as_ref().map(|silicon| &silicon.array);
     figures.map_or_else(String::new, |array| match array.bram18 {
         0 => array.lut_total_packed.to_string(),
@@ -96,7 +96,7 @@ pub(super) fn markdown(found: &Exploration) -> String {
 
 /// What was found in short: the points on the front, and where the rest is.
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
-    let front: Vec<&Row> = found.rows.iter().filter(|row| row.front.all).collect();
+    let front: Vec<&DesignRow> = found.rows.iter().filter(|row| row.front.all).collect();
     let mut text = format!(
         "{} points, {} of them on the Pareto front of flips, speed and (if synthesized) LUTs:\n",
         found.rows.len(),

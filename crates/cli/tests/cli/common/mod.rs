@@ -27,17 +27,17 @@ pub(crate) fn listening() -> std::process::Command {
 }
 
 /// What a command printed, and its exit code.
-pub(crate) struct Outcome {
+pub(crate) struct CommandOutput {
     pub(crate) code: i32,
     pub(crate) stdout: String,
     pub(crate) stderr: String,
 }
 
 /// Runs the command in `folder`.
-pub(crate) fn run_in(folder: &Path, args: &[&str]) -> Outcome {
+pub(crate) fn run_in(folder: &Path, args: &[&str]) -> CommandOutput {
     let output = foveate(args).current_dir(folder).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    Outcome {
+    CommandOutput {
         code: output.status.code().unwrap(),
         stdout: text(output.stdout),
         stderr: text(output.stderr),

@@ -5,7 +5,7 @@ use super::super::aim::Ranges;
 use super::super::applied::Applied;
 use super::super::damage::Delivery;
 use super::super::random::Random;
-use super::super::sequence::{Aim, Gaps};
+use super::super::sequence::{Gaps, PipelinedAim};
 use super::machine::{Machine, PipelinedCodec};
 use crate::error::CosimError;
 use crate::recording::Recorder;
@@ -30,7 +30,7 @@ pub(crate) struct Driver<'a> {
     pub(crate) thresholds: Thresholds,
     configured: Thresholds,
     constant: bool,
-    aim: Aim,
+    aim: PipelinedAim,
     /// How often levels have been aimed since the sequence began.
     turn: u32,
     border: u8,
@@ -66,7 +66,7 @@ impl<'a> Driver<'a> {
             thresholds: configured,
             configured,
             constant: design.thresholds() == Mode::Constant,
-            aim: Aim::Design,
+            aim: PipelinedAim::Design,
             turn: 0,
             border: 0,
             max: u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits"),
@@ -76,8 +76,8 @@ impl<'a> Driver<'a> {
     }
 
     /// Starts over: a reset, during which anything may be on the other inputs.
-    pub(crate) fn begin(&mut self, aim: Aim, border: u8) -> Result<(), CosimError> {
-        self.aim = if self.constant { Aim::Design } else { aim };
+    pub(crate) fn begin(&mut self, aim: PipelinedAim, border: u8) -> Result<(), CosimError> {
+        self.aim = if self.constant { PipelinedAim::Design } else { aim };
         self.turn = 0;
         self.border = border;
         self.thresholds = self.configured;
@@ -91,7 +91,7 @@ impl<'a> Driver<'a> {
 
     /// Whether the thresholds are those of the design, so that the data must meet them.
     pub(crate) fn thresholds_are_configured(&self) -> bool {
-        self.aim == Aim::Design
+        self.aim == PipelinedAim::Design
     }
 
     /// Names the clocks from here on.
@@ -102,11 +102,13 @@ impl<'a> Driver<'a> {
     /// Levels for the frame that comes.
     pub(crate) fn aim_levels(&mut self, now: &[u16], before: &[u16]) {
         match self.aim {
-            Aim::Exact => {
+            PipelinedAim::Exact => {
                 self.ranges.aim_levels(now, before, &mut self.thresholds, &mut self.random);
             }
-            Aim::Largest => self.ranges.aim_largest_levels(self.turn, &mut self.thresholds),
-            Aim::Design | Aim::Restless => {}
+            PipelinedAim::Largest => {
+                self.ranges.aim_largest_levels(self.turn, &mut self.thresholds);
+            }
+            PipelinedAim::Design | PipelinedAim::Restless => {}
         }
         self.turn += 1;
     }
@@ -182,7 +184,7 @@ impl<'a> Driver<'a> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        if self.aim == Aim::Restless {
+        if self.aim == PipelinedAim::Restless {
             self.ranges.shake(&mut self.thresholds, &mut self.random);
         }
         let sof = sof.unwrap_or_else(|| self.sync.is_some() && self.random.one_in(2));
@@ -194,7 +196,7 @@ impl<'a> Driver<'a> {
             border: self.border,
             ..Applied::idle(pixels, &self.thresholds)
         };
-        if self.aim != Aim::Design {
+        if self.aim != PipelinedAim::Design {
             let lane = self.random.up_to(self.garbage.len().saturating_sub(1) as u64);
             if decides(&mut self.scout, self.sync.as_mut(), &inputs) {
                 // What is decided after this edge does not depend on the minima of this edge, so that

@@ -4,7 +4,7 @@
 use super::super::damage::{Damaged, Delivery, Directed, Stop, directed};
 use super::super::motif::{Artist, TELLING};
 use super::super::random::Random;
-use super::super::sequence::{Aim, End, Gaps, SEQUENCES, Sequence};
+use super::super::sequence::{End, Gaps, PipelinedAim, SEQUENCES, Sequence};
 use super::super::turns::{Extent, Turns};
 use super::driver::Driver;
 use crate::error::CosimError;
@@ -74,7 +74,7 @@ impl<'a> Session<'a> {
     ) -> Result<(), CosimError> {
         let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
         self.driver.name(sequence.name, 0, None);
-        self.driver.begin(Aim::Design, 0)?;
+        self.driver.begin(PipelinedAim::Design, 0)?;
         for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
             if frame > 0 {
                 self.driver.name(sequence.name, frame as u64, None);
@@ -159,7 +159,7 @@ impl<'a> Session<'a> {
             Level::Rcm { .. } | Level::Full => (0, None),
         };
         self.driver.name("frames", 0, name);
-        self.driver.begin(Aim::Design, border)?;
+        self.driver.begin(PipelinedAim::Design, border)?;
         let mut streams = Vec::new();
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {

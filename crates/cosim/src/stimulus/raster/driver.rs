@@ -2,7 +2,7 @@
 //! Offers frames to the model of a core, clock by clock, in front of a sink, and records what goes in and what
 //! comes out.
 
-use super::super::ahead::{Aim, Aimer};
+use super::super::ahead::{Aimer, FrameAim};
 use super::super::applied::Applied;
 use super::super::damage::Delivery;
 use super::super::manners::Manners;
@@ -45,7 +45,7 @@ pub(crate) struct Driver<'a> {
     thresholds: Thresholds,
     /// Whether a frame is under way, so that thresholds must stay still.
     is_under_way: bool,
-    aim: Aim,
+    aim: FrameAim,
     /// Frames since the sequence began.
     turn: u32,
     manners: Manners,
@@ -80,7 +80,7 @@ impl<'a> Driver<'a> {
             configured,
             thresholds: configured,
             is_under_way: false,
-            aim: Aim::Design,
+            aim: FrameAim::Design,
             turn: 0,
             manners: Manners::Quiet,
             sink: Sink::new(Mood::Willing),
@@ -91,9 +91,14 @@ impl<'a> Driver<'a> {
     }
 
     /// Starts over: a reset, during which anything may be on the other inputs.
-    pub(super) fn begin(&mut self, aim: Aim, mood: Mood, lapse: Lapse) -> Result<(), CosimError> {
+    pub(super) fn begin(
+        &mut self,
+        aim: FrameAim,
+        mood: Mood,
+        lapse: Lapse,
+    ) -> Result<(), CosimError> {
         let constant = self.design.thresholds() == Mode::Constant;
-        self.aim = if constant { Aim::Design } else { aim };
+        self.aim = if constant { FrameAim::Design } else { aim };
         self.sink = Sink::new(mood);
         self.is_under_way = false;
         self.turn = 0;
@@ -115,7 +120,7 @@ impl<'a> Driver<'a> {
 
     /// Whether the thresholds are those of the design, so that the data must meet them.
     pub(super) fn thresholds_are_configured(&self) -> bool {
-        self.aim == Aim::Design
+        self.aim == FrameAim::Design
     }
 
     /// Names the clocks from here on.
@@ -195,16 +200,16 @@ impl<'a> Driver<'a> {
 
     fn choose_thresholds(&mut self, frame: &Frame) {
         self.thresholds = match self.aim {
-            Aim::Design => self.configured,
-            Aim::Exact | Aim::Largest => {
-                let largest = (self.aim == Aim::Largest).then_some(self.turn);
+            FrameAim::Design => self.configured,
+            FrameAim::Exact | FrameAim::Largest => {
+                let largest = (self.aim == FrameAim::Largest).then_some(self.turn);
                 let region = self.aimer.any_region(&mut self.random);
                 let mut stream = Vec::new();
                 region_stream(&self.design, frame, region, &mut stream);
                 let reference = self.model.reference(region);
                 self.aimer.exact(region, &stream, reference, largest, &mut self.random)
             }
-            Aim::Least => Aimer::least(),
+            FrameAim::Least => Aimer::least(),
         };
         self.turn += 1;
         self.is_under_way = true;
@@ -260,7 +265,7 @@ impl<'a> Driver<'a> {
                 *pixel = self.random.pixel(self.max);
             }
         }
-        if !self.is_under_way && self.aim != Aim::Design {
+        if !self.is_under_way && self.aim != FrameAim::Design {
             self.aimer.shake(&mut self.thresholds, &mut self.random);
         }
         let sof = sof.unwrap_or_else(|| self.design.syncs() && self.random.one_in(2));

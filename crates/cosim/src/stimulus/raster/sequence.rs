@@ -2,7 +2,7 @@
 //! The list of sequences of a raster core: each a reset, a few frames in front of a sink, and the place at
 //! which the next reset finds the core.
 
-use super::super::ahead::Aim;
+use super::super::ahead::FrameAim;
 use super::super::motif::Motif::{self, *};
 use super::memory::Lapse;
 use foveate_design::{RasterDesign, Store};
@@ -19,7 +19,7 @@ pub(super) struct Sequence {
     /// How it ends.
     pub(super) end: End,
     /// How thresholds are chosen.
-    pub(super) aim: Aim,
+    pub(super) aim: FrameAim,
     /// Whether its sink stalls so long that regions are lost.
     pub(super) stalls: bool,
     /// What a memory outside does wrong.
@@ -47,14 +47,14 @@ const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Sequence {
         motifs,
         mixed: true,
         end: End::Drained,
-        aim: Aim::Exact,
+        aim: FrameAim::Exact,
         stalls: false,
         lapse: Lapse::None,
     }
 }
 
 const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Sequence {
-    Sequence { end, aim: Aim::Least, ..mixed(name, motifs) }
+    Sequence { end, aim: FrameAim::Least, ..mixed(name, motifs) }
 }
 
 /// The sequences of a design.
@@ -69,7 +69,7 @@ const SEQUENCES: &[Sequence] = &[
     Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
     cut("reset while loading", &[Noise, Ramp], End::Loading),
     Sequence {
-        aim: Aim::Least,
+        aim: FrameAim::Least,
         stalls: true,
         ..mixed("losses", &[Noise, Same, Binary, Same, Same, Noise])
     },
@@ -79,14 +79,14 @@ const SEQUENCES: &[Sequence] = &[
     Sequence { stalls: true, ..cut("reset at a loss", &[Noise, Binary, Max], End::Losing) },
     mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
     cut("reset while pixels leave", &[Noise], End::Leaving),
-    Sequence { aim: Aim::Design, ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same]) },
+    Sequence { aim: FrameAim::Design, ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same]) },
     cut("reset after one frame", &[TwoPoint], End::Flushing),
     Sequence {
-        aim: Aim::Least,
+        aim: FrameAim::Least,
         ..mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel])
     },
     Sequence {
-        aim: Aim::Least,
+        aim: FrameAim::Least,
         stalls: true,
         ..mixed("blanked and lost", &[Noise, Zero, Noise, Same, Zero, Noise, Same])
     },
@@ -94,7 +94,7 @@ const SEQUENCES: &[Sequence] = &[
     mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
     Sequence {
         mixed: false,
-        aim: Aim::Largest,
+        aim: FrameAim::Largest,
         ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
     },
 ];
@@ -108,7 +108,7 @@ const FAILING: &[Sequence] = &[
     },
     Sequence {
         lapse: Lapse::Gone,
-        aim: Aim::Least,
+        aim: FrameAim::Least,
         ..mixed("lost references", &[Noise, Same, Same, Noise])
     },
     cut("reset while references come", &[Noise, Same, Same], End::Loading),
@@ -116,7 +116,7 @@ const FAILING: &[Sequence] = &[
     Sequence {
         lapse: Lapse::Wrong,
         mixed: false,
-        aim: Aim::Design,
+        aim: FrameAim::Design,
         ..mixed("wrong references of extremes", &[Max, Max, Zero, Zero])
     },
     cut("reset after wrong references", &[Smooth, Same], End::Flushing),

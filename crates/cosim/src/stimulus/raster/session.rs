@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A recording under way: draws the frames of each sequence and offers them to the core.
 
-use super::super::ahead::Aim;
+use super::super::ahead::FrameAim;
 use super::super::damage::{Damaged, Delivery, Directed, Stop, directed};
 use super::super::gallery::Gallery;
 use super::super::motif::TELLING;
@@ -89,7 +89,7 @@ impl<'a> Session<'a> {
         let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
         let mood = self.mood(number.is_multiple_of(2), round + number);
         self.driver.name(sequence.name, 0);
-        self.driver.begin(Aim::Design, mood, Lapse::None)?;
+        self.driver.begin(FrameAim::Design, mood, Lapse::None)?;
         for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
             if frame > 0 {
                 self.driver.name(sequence.name, frame as u64);
@@ -237,7 +237,7 @@ impl<'a> Session<'a> {
             Level::Rcm { .. } | Level::Full => "frames".to_owned(),
         };
         self.driver.name(&name, 0);
-        self.driver.begin(Aim::Design, mood, Lapse::None)?;
+        self.driver.begin(FrameAim::Design, mood, Lapse::None)?;
         let size = (self.design.width(), self.design.height());
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {

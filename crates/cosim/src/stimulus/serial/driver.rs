@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Offers frames to the model of an array, clock by clock, and records what goes in and what comes out.
 
-use super::super::ahead::{Aim, Aimer};
+use super::super::ahead::{Aimer, FrameAim};
 use super::super::applied::Applied;
 use super::super::damage::Delivery;
 use super::super::manners::Manners;
@@ -32,7 +32,7 @@ pub(crate) struct Driver<'a> {
     constant: bool,
     /// Whether the array finds its frames.
     syncs: bool,
-    aim: Aim,
+    aim: FrameAim,
     /// Frames since the sequence began.
     turn: u32,
     manners: Manners,
@@ -63,7 +63,7 @@ impl<'a> Driver<'a> {
             is_under_way: false,
             syncs: design.syncs(),
             constant: design.thresholds() == Mode::Constant,
-            aim: Aim::Design,
+            aim: FrameAim::Design,
             turn: 0,
             manners: Manners::Quiet,
             max: u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits"),
@@ -73,8 +73,8 @@ impl<'a> Driver<'a> {
     }
 
     /// Starts over: a reset, during which anything may be on the other inputs.
-    pub(super) fn begin(&mut self, aim: Aim) -> Result<(), CosimError> {
-        self.aim = if self.constant { Aim::Design } else { aim };
+    pub(super) fn begin(&mut self, aim: FrameAim) -> Result<(), CosimError> {
+        self.aim = if self.constant { FrameAim::Design } else { aim };
         self.is_under_way = false;
         self.turn = 0;
         for _ in 0..=self.random.up_to(1) {
@@ -87,7 +87,7 @@ impl<'a> Driver<'a> {
 
     /// Whether the thresholds are those of the design, so that the data must meet them.
     pub(super) fn thresholds_are_configured(&self) -> bool {
-        self.aim == Aim::Design
+        self.aim == FrameAim::Design
     }
 
     /// Names the clocks from here on.
@@ -116,15 +116,15 @@ impl<'a> Driver<'a> {
             self.idle(pause)?;
             if !self.is_under_way {
                 self.thresholds = match self.aim {
-                    Aim::Design => self.configured,
-                    Aim::Exact | Aim::Largest => {
-                        let largest = (self.aim == Aim::Largest).then_some(self.turn);
+                    FrameAim::Design => self.configured,
+                    FrameAim::Exact | FrameAim::Largest => {
+                        let largest = (self.aim == FrameAim::Largest).then_some(self.turn);
                         let region = self.aimer.any_region(&mut self.random);
                         let stream = feed.stream(region as usize);
                         let reference = self.model.reference(region);
                         self.aimer.exact(region, stream, reference, largest, &mut self.random)
                     }
-                    Aim::Least => Aimer::least(),
+                    FrameAim::Least => Aimer::least(),
                 };
                 self.turn += 1;
                 self.is_under_way = true;
@@ -210,7 +210,7 @@ impl<'a> Driver<'a> {
                 *pixel = self.random.pixel(self.max);
             }
         }
-        if !self.is_under_way && self.aim != Aim::Design {
+        if !self.is_under_way && self.aim != FrameAim::Design {
             self.aimer.shake(&mut self.thresholds, &mut self.random);
         }
         let pixels = pixels.unwrap_or(&self.garbage);

@@ -2,7 +2,7 @@
 //! The list of sequences of a serial array: each a reset, a few frames, and the place at which the next
 //! reset finds the array.
 
-use super::super::ahead::Aim;
+use super::super::ahead::FrameAim;
 use super::super::motif::Motif::{self, *};
 
 /// A sequence of frames with one thing in common.
@@ -17,7 +17,7 @@ pub(super) struct Sequence {
     /// How it ends.
     pub(super) end: End,
     /// How thresholds are chosen.
-    pub(super) aim: Aim,
+    pub(super) aim: FrameAim,
 }
 
 /// Where the reset that begins the next sequence comes; after everything has left, but for these.
@@ -40,11 +40,11 @@ pub(super) enum End {
 }
 
 const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Sequence {
-    Sequence { name, motifs, mixed: true, end: End::Drained, aim: Aim::Exact }
+    Sequence { name, motifs, mixed: true, end: End::Drained, aim: FrameAim::Exact }
 }
 
 const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Sequence {
-    Sequence { name, motifs, mixed: true, end, aim: Aim::Least }
+    Sequence { name, motifs, mixed: true, end, aim: FrameAim::Least }
 }
 
 /// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
@@ -55,7 +55,7 @@ pub(super) const SEQUENCES: &[Sequence] = &[
         motifs: &[Max, Zero, Checkerboard, TwoPoint],
         mixed: false,
         end: End::Drained,
-        aim: Aim::Exact,
+        aim: FrameAim::Exact,
     },
     cut("reset while loading", &[Noise, Ramp], End::Loading),
     mixed("steps", &[Step, Ring, HotCorner, Ramp]),
@@ -67,7 +67,7 @@ pub(super) const SEQUENCES: &[Sequence] = &[
         motifs: &[Smooth, Bump, Ramp, Flat, Same],
         mixed: true,
         end: End::Drained,
-        aim: Aim::Design,
+        aim: FrameAim::Design,
     },
     cut("reset while unloading", &[Noise], End::Unloading),
     Sequence {
@@ -75,7 +75,7 @@ pub(super) const SEQUENCES: &[Sequence] = &[
         motifs: &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel],
         mixed: true,
         end: End::Drained,
-        aim: Aim::Least,
+        aim: FrameAim::Least,
     },
     cut("reset at work", &[TwoPoint, Max], End::Working),
     mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
@@ -86,6 +86,6 @@ pub(super) const SEQUENCES: &[Sequence] = &[
         motifs: &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
         mixed: false,
         end: End::Drained,
-        aim: Aim::Largest,
+        aim: FrameAim::Largest,
     },
 ];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A recording under way: draws the frames of each sequence and offers them to the array.
 
-use super::super::ahead::Aim;
+use super::super::ahead::FrameAim;
 use super::super::damage::{Damaged, Delivery, Directed, Stop, directed};
 use super::super::gallery::Gallery;
 use super::super::motif::TELLING;
@@ -88,7 +88,7 @@ impl<'a> Session<'a> {
     ) -> Result<(), CosimError> {
         let gaps = Gaps::ALL[(round + number) % Gaps::ALL.len()];
         self.driver.name(sequence.name, 0, None);
-        self.driver.begin(Aim::Design)?;
+        self.driver.begin(FrameAim::Design)?;
         for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
             if frame > 0 {
                 self.driver.name(sequence.name, frame as u64, None);
@@ -209,7 +209,7 @@ impl<'a> Session<'a> {
         let gaps = Gaps::ALL[number % Gaps::ALL.len()];
         let region = (self.level == Level::Rpu).then_some(first);
         self.driver.name("frames", 0, region);
-        self.driver.begin(Aim::Design)?;
+        self.driver.begin(FrameAim::Design)?;
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {
                 self.driver.name("frames", number, region);

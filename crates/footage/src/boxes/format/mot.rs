@@ -36,7 +36,7 @@ pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<Labelled>>, BoxError
         }
         let row = row(&record).map_err(wrong)?;
         if !seen.insert((row.frame, row.track)) {
-            let Row { frame, track, .. } = row;
+            let MotRow { frame, track, .. } = row;
             return Err(wrong(format!("track {track} has a second box in frame {frame}")));
         }
         let objects = frames.entry(row.frame).or_default();
@@ -47,14 +47,14 @@ pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<Labelled>>, BoxError
     Ok(frames)
 }
 
-struct Row {
+struct MotRow {
     frame: u64,
     track: u64,
     rect: Rect,
     is_object: bool,
 }
 
-fn row(record: &StringRecord) -> Result<Row, String> {
+fn row(record: &StringRecord) -> Result<MotRow, String> {
     let fields: Vec<&str> = record.iter().collect();
     let Ok([frame, track, left, top, width, height, counted, class, visibility]) =
         <[&str; COLUMNS.len()]>::try_from(fields)
@@ -70,5 +70,5 @@ fn row(record: &StringRecord) -> Result<Row, String> {
     let [counted, class, visible] = numbers(names, [counted, class, visibility])?;
     let rect = Rect::of_sides([left - 1.0, top - 1.0, width, height])?;
     let is_object = counted != 0.0 && class == PEDESTRIAN && visible >= LEAST_VISIBLE;
-    Ok(Row { frame, track, rect, is_object })
+    Ok(MotRow { frame, track, rect, is_object })
 }

@@ -4,7 +4,7 @@
 
 use foveate_design::{Design, Payload, Store};
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, Outcome, RasterOutput};
+use foveate_model::{FunctionalCamera, FunctionalOutcome, RasterOutput};
 
 use super::driver::{Driver, Job, Manner, Trace};
 use super::recipe::{Misread, RasterRecipe};
@@ -13,7 +13,7 @@ use crate::recipe::{FeatureRecipe, Recipe};
 use crate::screen::Screen;
 
 /// The decisions of a frame are those of the camera.
-fn compare(shown: &RasterOutput, outcome: &Outcome) {
+fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
     let at = shown.region as usize;
     let due = (outcome.srs[at], outcome.trs[at], outcome.active[at]);
     assert_eq!((shown.srs, shown.trs, shown.active), due, "decision of region {at}");
@@ -24,7 +24,7 @@ fn compare(shown: &RasterOutput, outcome: &Outcome) {
 
 /// `Departure` says when the last decision comes, and when the last word leaves if all regions are active and any
 /// leaves.
-fn check_departure(design: &Design, outcome: &Outcome, trace: &Trace) {
+fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &Trace) {
     let departure = design.timing().departure();
     let last = |which: fn(&RasterOutput) -> bool| trace.shown.iter().rposition(which);
     let decided = (departure.take_clocks + departure.decision_clocks) as usize;

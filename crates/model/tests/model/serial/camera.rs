@@ -5,8 +5,8 @@
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::{
-    FunctionalCamera, Outcome, RegionScorer, SerialInput, SerialRcm, Thresholds, region_border,
-    region_stream,
+    FunctionalCamera, FunctionalOutcome, RegionScorer, SerialInput, SerialRcm, Thresholds,
+    region_border, region_stream,
 };
 
 use super::bench::applied;
@@ -21,7 +21,7 @@ fn play(
     rcm: &mut SerialRcm,
     frame: &Frame,
     screen: &mut Screen,
-    outcome: &Outcome,
+    outcome: &FunctionalOutcome,
 ) -> i64 {
     let thresholds = Thresholds::of(&screen.design);
     let mut pixels = applied(recipe, frame).into_iter();
@@ -83,7 +83,7 @@ fn play(
 }
 
 /// What will be said of a frame is known before it is fed.
-fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &Outcome, design: &Design) {
+fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: &Design) {
     let (thresholds, mut scorer) = (Thresholds::of(design), RegionScorer::new(design));
     for region in 0..design.regions() {
         let mut stream = Vec::new();

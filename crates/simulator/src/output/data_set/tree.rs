@@ -12,7 +12,7 @@ use foveate_camera::Camera;
 use super::super::cannot_write;
 use super::super::crew::Crew;
 use super::super::csv::Csv;
-use super::super::picture::Picture;
+use super::super::picture::RawImage;
 use super::super::sink::{Sink, Step};
 use crate::SimulatorError;
 
@@ -77,7 +77,7 @@ impl Tree {
 impl Sink for Tree {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let below = self.place(step)?;
-        let picture = Picture::grey(step, self.crew.spare());
+        let picture = RawImage::grey(step, self.crew.spare());
         self.crew.push(self.folder.join(&below), picture);
         let label = step.source.label.as_deref().unwrap_or_default();
         self.table.quoted([&step.number.to_string(), &below.display().to_string(), label]);

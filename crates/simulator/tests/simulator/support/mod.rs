@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::{Config, Design};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, Outcome};
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_simulator::{RunOptions, Silent, Simulation, SimulatorError, Summary};
 
@@ -59,7 +59,7 @@ pub(crate) fn design(overrides: &[&str]) -> Design {
 }
 
 /// What the model says of them.
-pub(crate) fn outcomes(overrides: &[&str]) -> Vec<Outcome> {
+pub(crate) fn outcomes(overrides: &[&str]) -> Vec<FunctionalOutcome> {
     let design = design(overrides);
     let mut camera = FunctionalCamera::new(&design);
     frames(&design).map(|frame| camera.step(&frame).unwrap().clone()).collect()

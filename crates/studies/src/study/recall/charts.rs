@@ -5,7 +5,7 @@ use foveate_pictures::chart::{Bars, Chart, Line, Shape};
 use foveate_pictures::palette::SERIES;
 
 use super::class::{CLASSES, UNKNOWN};
-use super::{Key, Outcome};
+use super::{Key, PointResult};
 use crate::number::{coordinate, percent};
 
 /// Names of the levels of a count, in its order.
@@ -19,9 +19,9 @@ const GROUPS: [(&str, &str); 3] = [
     ("contrast", "contrast to the surroundings: below 8, below 32, above [grey levels of 8 bits]"),
 ];
 
-pub(super) fn all(keys: &[Key], results: &[Outcome]) -> Vec<Chart> {
+pub(super) fn all(keys: &[Key], results: &[PointResult]) -> Vec<Chart> {
     let last = results.last().map_or("", |result| result.clip.as_str());
-    let together: Vec<&Outcome> = results.iter().filter(|result| result.clip == last).collect();
+    let together: Vec<&PointResult> = results.iter().filter(|result| result.clip == last).collect();
     let own = together.iter().find(|result| result.point == 0);
     let by_class =
         own.into_iter().flat_map(|own| GROUPS.iter().filter_map(|group| bars(own, *group)));
@@ -29,14 +29,14 @@ pub(super) fn all(keys: &[Key], results: &[Outcome]) -> Vec<Chart> {
 }
 
 /// A line for every number that is varied.
-fn against_bytes(keys: &[Key], together: &[&Outcome]) -> Chart {
+fn against_bytes(keys: &[Key], together: &[&PointResult]) -> Chart {
     let mut first = 1;
     let mut lines = Vec::new();
     for key in keys {
         let range = first..first + key.points.len();
         first = range.end;
         let own = together.iter().filter(|result| range.contains(&result.point));
-        let point = |result: &&Outcome| {
+        let point = |result: &&PointResult| {
             let count = result.sums.count(0);
             let half = percent(count.active.at_least[HALF], count.objects);
             (coordinate(result.sums.bytes()) / 1000.0, half)
@@ -57,7 +57,7 @@ fn against_bytes(keys: &[Key], together: &[&Outcome]) -> Chart {
 }
 
 /// Recall of every class of a group that has an object, unless nothing is known.
-fn bars(own: &Outcome, (group, axis): (&str, &str)) -> Option<Chart> {
+fn bars(own: &PointResult, (group, axis): (&str, &str)) -> Option<Chart> {
     let classes = CLASSES.iter().enumerate().filter(|(_, class)| class.0 == group);
     let counted = classes.map(|(at, class)| (class.1, own.sums.count(at)));
     let counted: Vec<_> =

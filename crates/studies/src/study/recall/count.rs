@@ -54,12 +54,12 @@ pub(super) struct Sums {
 
 /// What a design makes of a clip. Frame 0 has no reference: it counts only in a clip that has no other.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(super) struct ObjectTally {
     first: Sums,
     rest: Sums,
 }
 
-impl Tally {
+impl ObjectTally {
     pub(super) fn add(&mut self, truth: &Truth, design: &Design, seen: &Seen<'_>) {
         let sums = if seen.without_reference { &mut self.first } else { &mut self.rest };
         sums.add(truth.objects(), design, seen);

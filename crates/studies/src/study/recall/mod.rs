@@ -22,11 +22,11 @@ use super::sweep::{Key, region_size, thresholds};
 use crate::StudyError;
 use crate::findings::Findings;
 use crate::watch::{Watched, Watcher};
-use count::{Count, Sums, Tally, once};
+use count::{Count, ObjectTally, Sums, once};
 use truth::Truth;
 
 /// A clip with what every design made of it.
-type Seen = Watched<Tally, Truth>;
+type Seen = Watched<ObjectTally, Truth>;
 
 /// A design of the study.
 struct Point {
@@ -38,7 +38,7 @@ struct Point {
 }
 
 /// What one design makes of one clip, or of all together.
-struct Outcome {
+struct PointResult {
     clip: String,
     /// The number of its point.
     point: usize,
@@ -62,7 +62,7 @@ pub(crate) fn run(watcher: &Watcher<'_>, files: &[PathBuf]) -> Result<Findings, 
     let watched = watcher.watch_guided(
         &configs,
         |clip| Truth::new(Arc::clone(&boxes[clip]), watcher.input.crop),
-        |truth, tally: &mut Tally, design, seen| tally.add(truth, design, seen),
+        |truth, tally: &mut ObjectTally, design, seen| tally.add(truth, design, seen),
     )?;
     check(&watched)?;
     let points = points(&keys);
@@ -114,7 +114,7 @@ fn points(keys: &[Key]) -> Vec<Point> {
 }
 
 /// Every point of every clip, then of all clips together if there are several.
-fn results(watched: &[Seen], points: &[Point]) -> Vec<Outcome> {
+fn results(watched: &[Seen], points: &[Point]) -> Vec<PointResult> {
     let alone = watched.iter().map(|clip| (clip.name.clone(), from_ref(clip)));
     let together = (watched.len() > 1).then(|| ("all clips".to_owned(), watched));
     let of = |(name, clips): (String, &[Seen])| {
@@ -124,7 +124,7 @@ fn results(watched: &[Seen], points: &[Point]) -> Vec<Outcome> {
     alone.chain(together).flat_map(of).collect()
 }
 
-fn result(name: &str, clips: &[Seen], at: usize, point: &Point) -> Option<Outcome> {
+fn result(name: &str, clips: &[Seen], at: usize, point: &Point) -> Option<PointResult> {
     let clips = clips.iter().filter(|clip| !point.temporal || clip.kind == Kind::Clip);
     let seen: Vec<_> = clips.map(|clip| &clip.points[at]).collect();
     let mut sums = Sums::default();
@@ -134,5 +134,5 @@ fn result(name: &str, clips: &[Seen], at: usize, point: &Point) -> Option<Outcom
     let design = first.0.fingerprint();
     let same = others.iter().all(|other| other.0.fingerprint() == design);
     let design = if same { design } else { String::new() };
-    Some(Outcome { clip: name.to_owned(), point: at, sums, tracks, design })
+    Some(PointResult { clip: name.to_owned(), point: at, sums, tracks, design })
 }

@@ -3,7 +3,7 @@
 
 use super::class::{ALL, CLASSES, UNKNOWN};
 use super::count::{Count, Shares};
-use super::{Outcome, Point, Seen};
+use super::{Point, PointResult, Seen};
 use crate::number::{percent, share};
 use crate::table::Table;
 
@@ -39,7 +39,7 @@ const TRACKS: [&str; 8] =
     ["clip", "track", "frames", "some", "quarter", "half", "all", "longest_gap"];
 
 /// A row for every clip, point, vote and class that has an object.
-pub(super) fn whole(points: &[Point], results: &[Outcome]) -> Table {
+pub(super) fn whole(points: &[Point], results: &[PointResult]) -> Table {
     let mut table = Table::new(&COLUMNS);
     for result in results {
         let point = &points[result.point];
@@ -66,9 +66,9 @@ pub(super) fn whole(points: &[Point], results: &[Outcome]) -> Table {
 }
 
 /// The design as it is: every clip, and the classes of all clips together.
-pub(super) fn shown(results: &[Outcome]) -> Table {
+pub(super) fn shown(results: &[PointResult]) -> Table {
     let mut table = Table::new(&SHOWN);
-    let own: Vec<&Outcome> = results.iter().filter(|result| result.point == 0).collect();
+    let own: Vec<&PointResult> = results.iter().filter(|result| result.point == 0).collect();
     let in_percent = |part, whole| format!("{:.1} %", percent(part, whole));
     for (number, result) in own.iter().enumerate() {
         let mut row = |name: String, shares: Vec<String>, relevant: String, gap: String| {
@@ -114,7 +114,7 @@ pub(super) fn tracks(watched: &[Seen]) -> Option<Table> {
 }
 
 /// The classes that have an object.
-fn counted(result: &Outcome) -> impl Iterator<Item = ((&'static str, &'static str), Count)> {
+fn counted(result: &PointResult) -> impl Iterator<Item = ((&'static str, &'static str), Count)> {
     let counts = CLASSES.into_iter().enumerate().map(|(at, class)| (class, result.sums.count(at)));
     counts.filter(|(_, count)| count.objects > 0)
 }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use crate::support::Silent;
 use foveate_design::Config;
 use foveate_footage::InputOptions;
-use foveate_studies::{Report, Request, Study, StudyError, analyze};
+use foveate_studies::{Request, Study, StudyError, StudyReport, analyze};
 
 /// Objects of regions 0 and 1, 6, and 3, in frames of 4 x 2 regions.
 const MOT: [(u32, [u32; 4]); 3] = [(1, [0, 0, 16, 8]), (2, [16, 8, 8, 8]), (3, [24, 0, 8, 8])];
@@ -68,7 +68,7 @@ fn recall(
     boxes: &[PathBuf],
     input: &InputOptions,
     out: &Path,
-) -> Result<Report, StudyError> {
+) -> Result<StudyReport, StudyError> {
     recall_of(&config(), inputs, boxes, input, out)
 }
 
@@ -78,14 +78,14 @@ fn recall_of(
     boxes: &[PathBuf],
     input: &InputOptions,
     out: &Path,
-) -> Result<Report, StudyError> {
+) -> Result<StudyReport, StudyError> {
     let (study, sensor_events, sensor_start_us) = (Study::Recall, None, 0);
     let request = Request { study, inputs, input, config, sensor_events, sensor_start_us, boxes };
     analyze(&request, out, true, &Silent)
 }
 
 /// Cells of a row of the design as it is.
-fn row<'a>(report: &'a Report, clip: &str, vote: &str, class: (&str, &str)) -> &'a [String] {
+fn row<'a>(report: &'a StudyReport, clip: &str, vote: &str, class: (&str, &str)) -> &'a [String] {
     let wanted = [clip, "design", "", vote, class.0, class.1];
     let mut rows = report.rows.iter().filter(|row| row[..6] == wanted);
     let row = rows.next().unwrap_or_else(|| panic!("no row {wanted:?} in {:?}", report.rows));
@@ -94,7 +94,7 @@ fn row<'a>(report: &'a Report, clip: &str, vote: &str, class: (&str, &str)) -> &
 }
 
 /// What all ways to show the known clip have in common: by hand, frames 1 to 3 of three objects each.
-fn check_known(report: &Report, clip: &str, folder: &Path) {
+fn check_known(report: &StudyReport, clip: &str, folder: &Path) {
     let known = ["9", "0.555556", "0.444444", "0.444444", "0.111111", "", "87"];
     assert_eq!(row(report, clip, "active", ("all", "all")), known);
     assert_eq!(row(report, clip, "active", ("size", "small")), known);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::Config;
 use foveate_footage::InputOptions;
 use foveate_simulator::{BatchHooks, BatchProgress};
-use foveate_studies::{Report, Request, Study, StudyError, analyze};
+use foveate_studies::{Request, Study, StudyError, StudyReport, analyze};
 
 pub(crate) struct Silent;
 
@@ -27,7 +27,7 @@ pub(crate) fn run(
     inputs: &[&str],
     config: &Config,
     output: &Path,
-) -> Result<Report, StudyError> {
+) -> Result<StudyReport, StudyError> {
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
     let input = InputOptions { frames: Some(5), ..InputOptions::default() };
     let request = Request {
@@ -42,7 +42,7 @@ pub(crate) fn run(
     analyze(&request, output, true, &Silent)
 }
 
-pub(crate) fn cells<'a>(report: &'a Report, column: &str) -> Vec<&'a str> {
+pub(crate) fn cells<'a>(report: &'a StudyReport, column: &str) -> Vec<&'a str> {
     let at = report.columns.iter().position(|name| *name == column).unwrap();
     report.rows.iter().map(|row| row[at].as_str()).collect()
 }
