@@ -23,6 +23,15 @@ impl Reference {
         }
     }
 
+    /// Whether it stays as it is from the second of equal frames on, so that no score or decision changes any more.
+    #[must_use]
+    pub fn settles(self) -> bool {
+        match self {
+            // Equal frames are the same reference, and what is sent is what there was.
+            Self::Previous | Self::LastSent => true,
+        }
+    }
+
     /// Bits of state per pixel, of `pixel_bits` bits.
     #[must_use]
     pub fn bits_per_pixel(self, pixel_bits: u32) -> u32 {

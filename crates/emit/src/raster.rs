@@ -206,17 +206,17 @@ fn score_bits(design: RasterDesign<'_>, kind: FeatureKind) -> u32 {
 fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static str, String)> {
     let flag = |condition: bool| u32::from(condition);
     let has = |kind| flag(design.feature(kind).is_some());
-    let edge_level = design.feature(FeatureKind::Edge);
+    let edge = design.feature(FeatureKind::Edge);
+    let edge_level_bits = edge.map_or(design.pixel_bits() + 3, SpatialFeature::level_bits);
     let mut list = vec![
         ("WIDTH", design.pixel_bits()),
         ("LANES", design.pixels_per_clock()),
         ("SIDE", design.region_size()),
         ("ISOLATED", flag(design.neighborhood() == Neighborhood::Isolated)),
         ("MEDIAN", flag(design.filter() == Filter::Median3x3)),
-        ("EDGE", has(FeatureKind::Edge)),
-        ("CORNER", has(FeatureKind::Corner)),
-        ("MAD", has(FeatureKind::Mad)),
-        ("VARIANCE", has(FeatureKind::Variance)),
+    ];
+    list.extend(FeatureKind::ALL.iter().map(|&kind| (parameter(kind), has(kind))));
+    list.extend([
         ("ALL", flag(design.combine() == Combine::All)),
         ("LAST_SENT", flag(is_last_sent(&design))),
         ("BLANKS", flag(blanks(&design))),
@@ -226,12 +226,12 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
         ("DEEP", flag(design.pipelining() == Pipelining::Deep)),
         ("SETTLE", timing.decision_latency),
         ("COUNT_BITS", design.count_bits()),
-        ("EDGE_LEVEL_BITS", edge_level.map_or(design.pixel_bits() + 3, |edge| edge.level_bits())),
+        ("EDGE_LEVEL_BITS", edge_level_bits),
         ("POSITION_BITS", design.position_bits()),
         ("FRAME_BITS", FRAME_NUMBERS.ilog2()),
         ("MAD_BITS", score_bits(design, FeatureKind::Mad)),
         ("VARIANCE_BITS", score_bits(design, FeatureKind::Variance)),
-    ];
+    ]);
     let mut wide = Vec::new();
     if design.features().iter().any(|feature| !feature.kind().has_window()) {
         list.push(("SUM_BITS", design.pixel_sum_bits()));
@@ -257,6 +257,25 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
     list.chain(wide).collect()
 }
 
+/// The parameter of the core that says whether it has a feature.
+fn parameter(kind: FeatureKind) -> &'static str {
+    match kind {
+        FeatureKind::Edge => "EDGE",
+        FeatureKind::Corner => "CORNER",
+        FeatureKind::Mad => "MAD",
+        FeatureKind::Variance => "VARIANCE",
+    }
+}
+
+/// Bits of the level of a feature at the core, whether the design has that feature or not; none where it has no level.
+fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
+    match kind {
+        FeatureKind::Edge => Some(design.pixel_bits() + 3),
+        FeatureKind::Corner => Some(design.pixel_bits()),
+        FeatureKind::Mad | FeatureKind::Variance => None,
+    }
+}
+
 /// The number of its store in the core.
 fn store(design: RasterDesign<'_>) -> u32 {
     match design.store() {
@@ -277,10 +296,10 @@ fn thresholds(design: RasterDesign<'_>) -> Vec<(String, String)> {
         let given = design.feature(kind).map(|_| signal(&design, role));
         list.push((name, given.unwrap_or_else(|| format!("{width}'d0"))));
     };
-    for (kind, width) in
-        [(FeatureKind::Edge, design.pixel_bits() + 3), (FeatureKind::Corner, design.pixel_bits())]
-    {
-        add(format!("{kind}_level_i"), PortRole::Level(kind), kind, width);
+    for &kind in FeatureKind::ALL {
+        if let Some(width) = level_bits(design, kind) {
+            add(format!("{kind}_level_i"), PortRole::Level(kind), kind, width);
+        }
     }
     for &kind in FeatureKind::ALL {
         add(format!("{kind}_min_i"), PortRole::MinScore(kind), kind, score_bits(design, kind));

@@ -191,7 +191,7 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
     let base = |kind| memory.area(kind).map_or(0, |area| area.base);
     let fraction = design.features().iter().find_map(SpatialFeature::mean);
     let kinds: Vec<u32> = design.features().iter().map(|f| kind(f.kind())).collect();
-    let kinds = kinds.iter().rev().fold(0, |sum, kind| sum << 2 | kind);
+    let kinds = kinds.iter().rev().fold(0, |sum, kind| sum << KIND_BITS | kind);
     let flag = |condition: bool| u32::from(condition);
     let numbers = [
         ("WIDTH", design.pixel_bits()),
@@ -225,14 +225,15 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ("CHAIN_BITS", widths.chain),
     ];
     let mut list: Vec<_> = numbers.iter().map(|(name, value)| (*name, value.to_string())).collect();
-    list.push(("KINDS", format!("8'd{kinds}")));
+    list.push(("KINDS", format!("{}'d{kinds}", KIND_BITS << KIND_BITS)));
     list
 }
 
-// Parameter KINDS has a place of two bits for each.
-const _: () = assert!(FeatureKind::COUNT <= 4, "widen KINDS of serial_sequencer.v");
+/// Bits of the number of a feature in parameter KINDS, which has a place for each of as many as there are numbers.
+const KIND_BITS: usize = 2;
+const _: () = assert!(FeatureKind::COUNT <= 1 << KIND_BITS, "widen KINDS of serial_sequencer.v");
 
-/// How the Verilog numbers the features, in two bits each.
+/// How the Verilog numbers the features.
 fn kind(kind: FeatureKind) -> u32 {
     match kind {
         FeatureKind::Edge => 0,

@@ -103,7 +103,7 @@ impl<T: Lane> Band<'_, T> {
             let rows = first..(first + batch).min(plan.side);
             let [above, ..] = denoiser.around(top + rows.start);
             let [.., below] = denoiser.around(top + rows.end - 1);
-            if plan.has_windows() {
+            if plan.has_windows {
                 denoiser.ensure(above..below + 1);
                 for y in top + rows.start..top + rows.end {
                     let windows = denoiser.windows(y);

@@ -36,6 +36,8 @@ pub(crate) struct CameraPlan<T: Lane> {
     /// Fraction bits of the mean of `mad`.
     pub(crate) mad: Option<u32>,
     pub(crate) variance: bool,
+    /// Whether a feature looks at windows.
+    pub(crate) has_windows: bool,
     pub(crate) features: Vec<Feature>,
     pub(crate) combine: Combine,
     pub(crate) level: T,
@@ -85,6 +87,7 @@ impl<T: Lane> CameraPlan<T> {
                 .feature(FeatureKind::Mad)
                 .map(|feature| feature.mean().expect("mad has a mean").fraction_bits),
             variance: camera.feature(FeatureKind::Variance).is_some(),
+            has_windows: camera.has_feature_window(),
             features: camera
                 .features()
                 .iter()
@@ -112,11 +115,6 @@ impl<T: Lane> CameraPlan<T> {
     /// Width with padding.
     pub(crate) fn padded_width(&self) -> usize {
         self.columns * self.side
-    }
-
-    /// Whether a feature looks at windows.
-    pub(crate) fn has_windows(&self) -> bool {
-        self.edge.is_some() || self.corner.is_some()
     }
 
     /// Rows of a run of blocks that go through each step together: in narrow ones several, since a step that reads

@@ -104,7 +104,7 @@ impl<T: Lane> Strip<'_, T> {
             return;
         }
         // Any count and action is followed by the same ones from the second still frame on.
-        self.settled[row] = still;
+        self.settled[row] = still && plan.reference.settles();
         let reference = rows.start.min(self.reference.len())..rows.end.min(self.reference.len());
         if !still {
             let mut band = Band {

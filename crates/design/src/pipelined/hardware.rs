@@ -14,20 +14,31 @@ pub struct Pipelined {
 impl Pipelined {
     /// What is asked for, if a pipelined array takes it.
     pub(crate) fn validate(asked: &HardwareConfig) -> Result<Self, ConfigError> {
+        // Those without a name are refused first, or are for every organization.
+        let &HardwareConfig {
+            fold,
+            feed,
+            memory,
+            pipelining,
+            pixels_per_clock: _,
+            store: _,
+            forward: _,
+            organization: _,
+            sync: _,
+            thresholds: _,
+        } = asked;
         asked.refuse_raster_keys()?;
-        if asked.fold != 1 {
+        if fold != 1 {
             let remedy = "only the serial organization shares lanes; use 1";
-            return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));
+            return Err(asked.clash("hardware.fold", fold.to_string(), remedy));
         }
-        if let Some(memory) = asked.memory {
+        if let Some(memory) = memory {
             let remedy = "only the lanes of the serial organization have such a memory; \
                           leave the key out";
             return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
         }
-        match asked.feed {
-            None | Some(Feed::Parallel) => {
-                Ok(Self { pipelining: asked.pipelining.unwrap_or_default() })
-            }
+        match feed {
+            None | Some(Feed::Parallel) => Ok(Self { pipelining: pipelining.unwrap_or_default() }),
             Some(Feed::Raster) => {
                 let remedy = "only the serial organization takes the frame row by row; \
                               leave the key out";

@@ -29,8 +29,21 @@ pub struct Raster {
 impl Raster {
     /// What is asked for, if a raster core takes it.
     pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
+        // Those without a name are refused first, or are for every organization.
+        let &HardwareConfig {
+            pixels_per_clock,
+            pipelining,
+            store,
+            forward,
+            fold: _,
+            feed: _,
+            memory: _,
+            organization: _,
+            sync: _,
+            thresholds: _,
+        } = asked;
         refuse_lanes(asked)?;
-        let pixels = asked.pixels_per_clock.unwrap_or(WORDS[0]);
+        let pixels = pixels_per_clock.unwrap_or(WORDS[0]);
         check_word(asked, pixels, camera.region_size())?;
         check_reference(asked, camera.temporal().reference)?;
         let why = " for organization = \"raster\"; use a narrower frame, or \"serial\"";
@@ -47,9 +60,9 @@ impl Raster {
         }
         Ok(Self {
             pixels_per_clock: pixels,
-            pipelining: asked.pipelining.unwrap_or_default(),
-            store: asked.store.unwrap_or_default(),
-            forwards: asked.forward.unwrap_or(true),
+            pipelining: pipelining.unwrap_or_default(),
+            store: store.unwrap_or_default(),
+            forwards: forward.unwrap_or(true),
         })
     }
 

@@ -3,6 +3,7 @@
 //! store of a single one.
 
 use super::RasterTiming;
+use super::feature::SummedUp;
 use crate::{
     Filter, RasterDesign, Reference, SpatialFeature, Store, Written, bits_for, index_bits,
 };
@@ -61,7 +62,7 @@ struct Sizes {
     columns: u64,
     regions: u64,
     reference: Reference,
-    /// Features that count hits, `edge` and `corner`.
+    /// Features that count hits.
     hits: u32,
 }
 
@@ -69,7 +70,8 @@ impl Sizes {
     fn of(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
         let rows = u64::from(timing.buffer_rows * design.region_size());
-        let hits = design.features().iter().filter(|feature| feature.kind().has_window()).count();
+        let counts = |feature: &&SpatialFeature| SummedUp::of(feature.kind()) == SummedUp::Hits;
+        let hits = design.features().iter().filter(counts).count();
         Self {
             word: design.pixels_per_clock() * design.pixel_bits(),
             buffer: rows * u64::from(timing.row_words),
@@ -125,10 +127,14 @@ impl Sizes {
         let side = u64::from(design.region_size());
         let column = |holds, bits| RasterMemory { holds, words: self.columns, bits };
         let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
-        let variance = design.features().iter().find_map(SpatialFeature::variance);
-        if variance.is_some() || design.has_second_pass() {
+        let sums = |feature: &SpatialFeature| match SummedUp::of(feature.kind()) {
+            SummedUp::Hits => false,
+            SummedUp::Deviations | SummedUp::Squares => true,
+        };
+        if design.features().iter().any(sums) {
             list.push(column("sums of pixels", design.pixel_sum_bits()));
         }
+        let variance = design.features().iter().find_map(SpatialFeature::variance);
         list.extend(variance.map(|variance| column("sums of squares", variance.square_sum_bits)));
         list
     }

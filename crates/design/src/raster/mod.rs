@@ -2,6 +2,7 @@
 //! The raster organization: one core for all regions, K pixels at every clock; the numbers behind
 //! `docs/raster.md`.
 
+mod feature;
 mod hardware;
 mod memory;
 mod ports;

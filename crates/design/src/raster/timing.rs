@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! When a raster core does what: the numbers of `docs/raster.md`.
 
+use super::feature::SummedUp;
 use crate::timing::Departure;
 use crate::{Filter, Pipelining, RasterDesign, Timing, Written};
 
@@ -61,19 +62,19 @@ impl RasterTiming {
         let word_pixels = design.pixels_per_clock();
         let median = u32::from(design.filter() == Filter::Median3x3);
         let feature = u32::from(design.has_feature_window());
-        let has_variance = design.features().iter().any(|feature| feature.variance().is_some());
         let (store_latency, after_store, lookup_to_store, queue_latency) = match design.pipelining()
         {
             Pipelining::Plain => (2 + 4 * median + feature, 4, 1, 2),
             Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2, 3),
         };
-        let variance_latency = if has_variance { 3 } else { 0 };
+        let latencies = design.features().iter().map(|f| SummedUp::of(f.kind()).score_latency());
+        let score_latency = latencies.max().unwrap_or_default();
         let (pass_after_store, pass_to_decision) = match design.pipelining() {
             Pipelining::Plain => (8, 4),
             Pipelining::Deep => (9, 6),
         };
         let second_pass = design.has_second_pass().then_some(SecondPass {
-            after_store: pass_after_store + variance_latency,
+            after_store: pass_after_store + score_latency,
             decision_latency: pass_to_decision,
         });
         let buffer_rows = match (second_pass, design.forwards()) {
@@ -97,7 +98,7 @@ impl RasterTiming {
             windows: median + feature,
             store_latency,
             lookup_latency: store_latency - lookup_to_store,
-            decision_latency: store_latency + after_store + variance_latency,
+            decision_latency: store_latency + after_store + score_latency,
             buffer_rows,
             queue_latency,
             forwards: design.forwards(),

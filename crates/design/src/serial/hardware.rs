@@ -23,6 +23,19 @@ pub struct Serial {
 impl Serial {
     /// What is asked for, if a serial array takes it.
     pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
+        // Those without a name are refused first, or are for every organization.
+        let &HardwareConfig {
+            fold,
+            feed,
+            memory,
+            pipelining,
+            pixels_per_clock: _,
+            store: _,
+            forward: _,
+            organization: _,
+            sync: _,
+            thresholds: _,
+        } = asked;
         asked.refuse_raster_keys()?;
         let (size, regions) = (camera.region_size(), camera.regions());
         if size < MIN_SIDE {
@@ -30,12 +43,12 @@ impl Serial {
             return Err(asked.clash("region.size", size.to_string(), &remedy));
         }
         let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
-        in_range("hardware.fold", asked.fold, 1..=regions, &why)?;
+        in_range("hardware.fold", fold, 1..=regions, &why)?;
         Ok(Self {
-            fold: asked.fold,
-            feed: asked.feed.unwrap_or_default(),
-            memory: asked.memory,
-            pipelining: asked.pipelining.unwrap_or_default(),
+            fold,
+            feed: feed.unwrap_or_default(),
+            memory,
+            pipelining: pipelining.unwrap_or_default(),
         })
     }
 

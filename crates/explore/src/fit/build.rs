@@ -3,7 +3,7 @@
 
 use foveate_design::{
     CameraConfig, Config, Design, FeatureKind, Feed, Filter, HardwareConfig, MemoryKind,
-    Neighborhood, Organization,
+    Neighborhood, Organization, Reference,
 };
 use foveate_estimate::{Device, Speed};
 
@@ -178,12 +178,15 @@ type Complexity = ((u32, Neighborhood, Vec<FeatureKind>), [u32; 4]);
 fn complexity(config: &CameraConfig) -> Complexity {
     let features = config.spatial.iter().map(|entry| entry.feature).collect();
     let fraction = config.spatial.iter().filter_map(|entry| entry.mean_fraction_bits).sum();
-    let ordered = [
-        config.frame.pixel_bits,
-        u32::from(config.denoise.filter != Filter::None),
-        config.temporal.reference.bits_per_region(),
-        fraction,
-    ];
+    let filter = match config.denoise.filter {
+        Filter::None => 0,
+        Filter::Median3x3 => 1,
+    };
+    let reference = match config.temporal.reference {
+        Reference::Previous => 0,
+        Reference::LastSent => 1,
+    };
+    let ordered = [config.frame.pixel_bits, filter, reference, fraction];
     ((config.region.size, config.region.neighborhood, features), ordered)
 }
 
