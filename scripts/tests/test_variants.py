@@ -25,6 +25,11 @@ class Variants(unittest.TestCase):
         self.lines("match kind {\n    FeatureKind::Edge => { a(b, c) }\n    other => d(other),\n}", [3])
         self.lines("match (reference, is) {\n    (Reference::Previous, true) => 1,\n    _ => 2,\n}", [3])
 
+    def test_views_that_stand_for_all_others_are_found(self):
+        self.lines("let lanes =\n    design.serial().map(lanes).unwrap_or(1);", [2])
+        self.lines("match design.raster() { Some(core) => 1, None => 2 }", [1])
+        self.lines('let own = design.pipelined()\n    .expect("it is");', [])
+
     def test_what_names_every_variant_is_not(self):
         self.lines("match kind {\n    None => 0,\n    Some(FeatureKind::Edge | FeatureKind::Mad) => 1,\n}", [])
         self.lines("match role {\n    PortRole::Region => 1,\n    _ => 2,\n}", [])

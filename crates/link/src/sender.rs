@@ -14,7 +14,7 @@
 //! are read, and gives those of one row of regions after the other: bits of a row when its last decision falls, pixels
 //! when its last word is out.
 
-use foveate_design::{Departure, Design, RasterTiming};
+use foveate_design::{Departure, Design, Hardware, RasterTiming};
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
 use crate::stream::{Leaving, Streamed, own_clocks};
@@ -113,7 +113,10 @@ impl<'a> Cameras<'a> {
 
     /// The numbers of a raster core: it takes pixels as they are read.
     fn core(&self) -> Option<RasterTiming> {
-        self.design.raster().map(RasterTiming::of)
+        match self.design.hardware() {
+            Hardware::Raster(own) => Some(RasterTiming::of(self.design.on(own))),
+            Hardware::Pipelined(_) | Hardware::Serial(_) => None,
+        }
     }
 
     /// The most clocks of a frame, whole or row by row.

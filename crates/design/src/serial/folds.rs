@@ -2,7 +2,7 @@
 //! How far a serial design can be folded before it is too slow, and which folds may be the cheapest.
 
 use super::{Phase, SerialTiming};
-use crate::{Design, SerialDesign};
+use crate::{Design, Hardware, SerialDesign};
 use foveate_camera::ConfigError;
 
 impl Design {
@@ -21,7 +21,11 @@ impl Design {
     /// organization that does not fold.
     #[must_use]
     pub fn largest_fold(&self, max_clocks: u64) -> Option<u32> {
-        let fastest = SerialTiming::of(self.with_fold(1).ok()?.serial()?);
+        let single = self.with_fold(1).ok()?;
+        let fastest = match single.hardware() {
+            Hardware::Serial(own) => SerialTiming::of(single.on(own)),
+            Hardware::Pipelined(_) | Hardware::Raster(_) => return None,
+        };
         // What every slot takes at least, whatever the lanes.
         let least: u64 = fastest.phases().iter().map(least_steps).sum();
         let most = u32::try_from(max_clocks / least.max(1)).unwrap_or(u32::MAX);
@@ -46,7 +50,10 @@ impl Design {
                 continue;
             }
             let Ok(folded) = self.with_fold(fold) else { continue };
-            let Some(blocks) = folded.serial().map(lane_blocks) else { continue };
+            let blocks = match folded.hardware() {
+                Hardware::Serial(own) => lane_blocks(folded.on(own)),
+                Hardware::Pipelined(_) | Hardware::Raster(_) => return Vec::new(),
+            };
             // Fewer slots take fewer clocks, so it is fast enough.
             if blocks < fewest_blocks {
                 folds.push(fold);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The card: everything that follows from a configuration, in the form of its JSON.
 
-use foveate_design::{Config, Design, Direction, Port, Timing};
+use foveate_design::{Config, Design, Direction, Hardware, Port, Timing};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -123,7 +123,10 @@ impl Card {
             features: design.features().iter().map(Feature::of).collect(),
             count_bits: design.count_bits(),
             timing: Clocks(design.timing()),
-            array: design.serial().map(Array::of),
+            array: match design.hardware() {
+                Hardware::Serial(own) => Some(Array::of(design.on(own))),
+                Hardware::Pipelined(_) | Hardware::Raster(_) => None,
+            },
             rate: clock.map(|clock| FrameRate::of(clock, clocks)),
             needs: clock.is_none().then(|| Needed::of(wanted, clocks)),
             proposal: clock.zip(wanted).map(propose).transpose()?,

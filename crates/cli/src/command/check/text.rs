@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Design, Neighborhood, RasterDesign, RasterMemory};
+use foveate_design::{Design, Hardware, Neighborhood, RasterDesign, RasterMemory};
 
 use super::array::{Array, Memory};
 use super::card::{Card, Feature, PortRow};
@@ -40,12 +40,15 @@ pub(super) fn text(design: &Design, card: &Card) -> String {
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
     lines.push(("organization", design.config().hardware.in_words()));
-    match design.raster() {
-        Some(core) => {
+    match design.hardware() {
+        Hardware::Raster(own) => {
+            let core = design.on(own);
             lines.push(("stream", word_line(core.pixels_per_clock())));
             lines.push(("memory", raster_memory_line(core)));
         }
-        None => lines.push(("stream", stream_line(design, card))),
+        Hardware::Pipelined(_) | Hardware::Serial(_) => {
+            lines.push(("stream", stream_line(design, card)));
+        }
     }
     if let Some(array) = &card.array {
         lines.push(("lanes", lanes_line(array)));
