@@ -2,26 +2,10 @@
 //! The charts of a run: what is needed along the network's depth and over the frames, what frames save, and what tuning could choose between.
 
 use crate::Layer;
-use crate::macs::Macs;
-use crate::summary::{Summary, Tried, Tuning};
+use crate::facts::Attempt;
+use crate::frame::Frame;
+use crate::summary::{Summary, Tuning};
 use foveate_pictures::chart::{Chart, Line, Look, Shape};
-
-/// A counted frame.
-#[derive(Clone, Debug)]
-pub(crate) struct Counted {
-    /// Its number among the frames of all clips, one after the other.
-    pub(crate) place: u64,
-    pub(crate) clip: String,
-    /// Its number in its clip.
-    pub(crate) number: u64,
-    pub(crate) name: String,
-    /// Share of regions that were active.
-    pub(crate) active: f64,
-    pub(crate) changed: f64,
-    pub(crate) macs: Macs,
-    pub(crate) seconds: f64,
-    pub(crate) relative_rms: Option<f64>,
-}
 
 /// A chart, and what each point of each line belongs to.
 pub(crate) struct Drawn {
@@ -50,13 +34,12 @@ pub(crate) fn frame_id(place: u64) -> String {
 }
 
 /// Everything that tuning tried in the order of its table, with its name among the points.
-pub(crate) fn tried(tuning: &Tuning) -> Vec<(String, &'static str, Tried)> {
-    let all = tuning.tried().enumerate();
-    all.map(|(at, (limits, tried))| (format!("t{at}"), limits, tried)).collect()
+pub(crate) fn tried(tuning: &Tuning) -> Vec<(String, Attempt)> {
+    tuning.tried().enumerate().map(|(at, attempt)| (format!("t{at}"), attempt)).collect()
 }
 
-/// All charts. Frames that are not counted are left out.
-pub(crate) fn charts(summary: &Summary, frames: &[Counted]) -> Vec<Drawn> {
+/// All charts of counted frames: those in the files, and those on the page.
+pub(crate) fn charts(summary: &Summary, frames: &[&Frame]) -> Vec<Drawn> {
     let caption = format!(
         "foveate {}, {}, mode {}, inputs {}",
         summary.foveate_version,
@@ -75,13 +58,11 @@ pub(crate) fn charts(summary: &Summary, frames: &[Counted]) -> Vec<Drawn> {
 /// Where the halo of the windows eats what is saved.
 fn depth(summary: &Summary) -> Drawn {
     let layers = || summary.layers.iter().enumerate().filter(|(_, layer)| layer.macs > 0);
-    let line = |name: &str, look, share: fn(&Layer) -> f64| Series {
-        name: name.to_owned(),
-        look,
-        points: (1u32..)
+    let line = |name: &str, look, share: fn(&Layer) -> f64| {
+        let points = (1u32..)
             .zip(layers())
-            .map(|(number, (at, layer))| (layer_id(at), (f64::from(number), 100.0 * share(layer))))
-            .collect(),
+            .map(|(number, (at, layer))| (layer_id(at), (f64::from(number), 100.0 * share(layer))));
+        series(name, look, points)
     };
     chart(
         "depth",
@@ -96,15 +77,12 @@ fn depth(summary: &Summary) -> Drawn {
     )
 }
 
-fn over_frames(summary: &Summary, frames: &[Counted]) -> Drawn {
-    let line = |name: &str, look, share: fn(&Counted) -> f64| Series {
-        name: name.to_owned(),
-        look,
-        #[allow(clippy::cast_precision_loss, reason = "a place in a chart")]
-        points: frames
-            .iter()
-            .map(|frame| (frame_id(frame.place), (frame.place as f64, 100.0 * share(frame))))
-            .collect(),
+fn over_frames(summary: &Summary, frames: &[&Frame]) -> Drawn {
+    #[allow(clippy::cast_precision_loss, reason = "a place in a chart")]
+    let line = |name: &str, look, share: fn(&Frame) -> f64| {
+        let point =
+            |frame: &&Frame| (frame_id(frame.place), (frame.place as f64, 100.0 * share(frame)));
+        series(name, look, frames.iter().map(point))
     };
     chart(
         "frames",
@@ -112,7 +90,7 @@ fn over_frames(summary: &Summary, frames: &[Counted]) -> Drawn {
         if summary.clips.len() > 1 { "frame, clip after clip" } else { "frame" },
         "share [%]",
         vec![
-            line("MACs needed", Look::Plain, |frame| frame.macs.share(frame.macs.needed)),
+            line("MACs needed", Look::Plain, |frame| frame.macs.needed_share()),
             line("regions changed", Look::Plain, |frame| frame.changed),
             // Mostly the same regions.
             line("regions active", Look::Open, |frame| frame.active),
@@ -121,19 +99,14 @@ fn over_frames(summary: &Summary, frames: &[Counted]) -> Drawn {
 }
 
 /// What each frame saves against what the camera sends of it.
-fn saved(summary: &Summary, frames: &[Counted]) -> Drawn {
-    let of = |name: &str, is_shown: &dyn Fn(&&Counted) -> bool| Series {
-        name: name.to_owned(),
-        look: Look::Plain,
-        points: frames
-            .iter()
-            .filter(is_shown)
-            .filter(|frame| frame.macs.dense > 0.0)
-            .map(|frame| {
-                let saved = 1.0 - frame.macs.share(frame.macs.needed);
-                (frame_id(frame.place), (100.0 * frame.active, 100.0 * saved))
-            })
-            .collect(),
+fn saved(summary: &Summary, frames: &[&Frame]) -> Drawn {
+    let of = |name: &str, is_shown: &dyn Fn(&Frame) -> bool| {
+        let shown = frames.iter().filter(|frame| is_shown(frame) && frame.macs.dense > 0.0);
+        let points = shown.map(|frame| {
+            let saved = 1.0 - frame.macs.needed_share();
+            (frame_id(frame.place), (100.0 * frame.active, 100.0 * saved))
+        });
+        series(name, Look::Plain, points)
     };
     // Colours tell so many clips apart.
     let series = if (2..=COLOURS).contains(&summary.clips.len()) {
@@ -158,18 +131,12 @@ fn saved(summary: &Summary, frames: &[Counted]) -> Drawn {
 /// The error of what was tried against what it needs, up to the error of outputs that never change.
 fn tuning(tuning: &Tuning) -> Drawn {
     let all = tried(tuning);
-    let line = |name: &str, look, kinds: &[&str]| Series {
-        name: name.to_owned(),
-        look,
-        points: all
-            .iter()
-            .filter(|(_, limits, _)| kinds.contains(limits))
-            .map(|(id, _, tried)| {
-                let error = 100.0 * tried.outputs.rms_of_variation;
-                (id.clone(), (100.0 * tried.needed_share, error))
-            })
-            .filter(|(_, (_, error))| error.is_finite())
-            .collect(),
+    let line = |name: &str, look, kinds: &[&str]| {
+        let of_kind = all.iter().filter(|(_, (limits, _))| kinds.contains(limits));
+        let points = of_kind.map(|(id, (_, tried))| {
+            (id.clone(), (100.0 * tried.needed_share, 100.0 * tried.outputs.rms_of_variation))
+        });
+        series(name, look, points.filter(|(_, (_, error))| error.is_finite()))
     };
     chart(
         "tuning",
@@ -182,6 +149,10 @@ fn tuning(tuning: &Tuning) -> Drawn {
             line("chosen", Look::Target, &["chosen"]),
         ],
     )
+}
+
+fn series(name: &str, look: Look, points: impl Iterator<Item = (String, (f64, f64))>) -> Series {
+    Series { name: name.to_owned(), look, points: points.collect() }
 }
 
 fn chart(file: &str, title: &str, x: &str, y: &str, series: Vec<Series>) -> Drawn {

@@ -4,10 +4,12 @@
 use std::fs::File;
 
 use crate::InferenceError;
-use crate::cost::Costs;
+use crate::cost::{Costs, FrameCost};
 use crate::frame::{Frame, LayerFrame};
+use crate::positions::Positions;
 use crate::summary::mask_bytes;
-use crate::sums::ratio;
+use crate::traffic::Traffic;
+use Kind::{Flag, Long, Real, Text};
 use foveate_files::tables::{Column, Kind, ParquetWriter, Value};
 use foveate_network::Network;
 use foveate_staging::StagedFolder;
@@ -16,24 +18,38 @@ use foveate_staging::StagedFolder;
 pub(crate) const NAME: &str = "layers_frames.parquet";
 /// Rows of a group: a few megabytes of memory.
 const GROUP: usize = 1 << 16;
-/// Columns whose values may be missing are those of an accelerator.
-const COLUMNS: [(&str, Kind, bool); 16] = [
-    ("clip", Kind::Text, false),
-    ("frame", Kind::Long, false),
-    ("counted", Kind::Flag, false),
-    ("layer", Kind::Long, false),
-    ("macs_needed", Kind::Real, false),
-    ("macs_scheduled", Kind::Real, false),
-    ("needed_share", Kind::Real, false),
-    ("scheduled_share", Kind::Real, false),
-    ("changed_share", Kind::Real, false),
-    ("read_bytes", Kind::Long, false),
-    ("halo_bytes", Kind::Long, false),
-    ("written_bytes", Kind::Long, false),
-    ("mask_bytes", Kind::Long, false),
-    ("seconds", Kind::Real, false),
-    ("latency_seconds", Kind::Real, true),
-    ("energy_mj", Kind::Real, true),
+
+/// A layer of a frame.
+struct Row<'a> {
+    frame: &'a Frame,
+    node: usize,
+    positions: Positions,
+    traffic: Traffic,
+    macs: f64,
+    mask_bytes: u64,
+    cost: Option<FrameCost>,
+}
+
+/// A column with its value, and whether that may be missing: those of an accelerator may.
+type Of = (&'static str, Kind, bool, for<'a> fn(&Row<'a>) -> Value<'a>);
+
+const COLUMNS: [Of; 16] = [
+    ("clip", Text, false, |row| Value::Text(&row.frame.clip)),
+    ("frame", Long, false, |row| long(row.frame.number)),
+    ("counted", Flag, false, |row| Value::Flag(row.frame.is_counted)),
+    ("layer", Long, false, |row| long(row.node as u64)),
+    ("macs_needed", Real, false, |row| Value::Real(row.macs * row.positions.needed_share())),
+    ("macs_scheduled", Real, false, |row| Value::Real(row.macs * row.positions.scheduled_share())),
+    ("needed_share", Real, false, |row| Value::Real(row.positions.needed_share())),
+    ("scheduled_share", Real, false, |row| Value::Real(row.positions.scheduled_share())),
+    ("changed_share", Real, false, |row| Value::Real(row.positions.changed_share())),
+    ("read_bytes", Long, false, |row| long(row.traffic.read)),
+    ("halo_bytes", Long, false, |row| long(row.traffic.halo)),
+    ("written_bytes", Long, false, |row| long(row.traffic.written)),
+    ("mask_bytes", Long, false, |row| long(row.mask_bytes)),
+    ("seconds", Real, false, |row| Value::Real(row.traffic.seconds)),
+    ("latency_seconds", Real, true, |row| real(row.cost.map(|cost| cost.seconds))),
+    ("energy_mj", Real, true, |row| real(row.cost.map(|cost| cost.energy_mj))),
 ];
 
 /// The table, open.
@@ -46,8 +62,11 @@ impl Details {
     /// When it cannot be written.
     pub(crate) fn new(staging: &StagedFolder) -> Result<Self, InferenceError> {
         let file = File::create(staging.folder().join(NAME)).map_err(failed)?;
-        let columns =
-            COLUMNS.map(|(name, kind, optional)| Column { name: name.to_owned(), kind, optional });
+        let columns = COLUMNS.map(|(name, kind, optional, _)| Column {
+            name: name.to_owned(),
+            kind,
+            optional,
+        });
         let file = ParquetWriter::new(file, "layers_frames", &columns).map_err(failed)?;
         Ok(Self { file })
     }
@@ -58,36 +77,19 @@ impl Details {
     /// When they cannot be written.
     pub(crate) fn push(
         &mut self,
-        clip: &str,
         frame: &Frame,
+        layers: &[LayerFrame],
         network: &Network,
         costs: Option<&Costs<'_>>,
     ) -> Result<(), InferenceError> {
-        for (node, layer) in frame.layers.iter().enumerate() {
-            let cost = costs.zip(layer.cost).map(|(costs, cost)| costs.mean(cost, 1));
-            let real = |value: Option<f64>| value.map_or(Value::None, Value::Real);
-            let LayerFrame { positions, traffic, .. } = layer;
-            let share = |count: u64| ratio(count, positions.all);
+        for (node, layer) in layers.iter().enumerate() {
             #[allow(clippy::cast_precision_loss, reason = "a share of them")]
             let macs = network.macs(node) as f64;
-            self.file.push([
-                Value::Text(clip),
-                long(frame.number),
-                Value::Flag(frame.is_counted),
-                long(node as u64),
-                Value::Real(macs * share(positions.needed)),
-                Value::Real(macs * share(positions.scheduled)),
-                Value::Real(share(positions.needed)),
-                Value::Real(share(positions.scheduled)),
-                Value::Real(share(positions.changed)),
-                long(traffic.read),
-                long(traffic.halo),
-                long(traffic.written),
-                long(mask_bytes(network.form(node + 1))),
-                Value::Real(traffic.seconds),
-                real(cost.map(|cost| cost.seconds)),
-                real(cost.map(|cost| cost.energy_mj)),
-            ]);
+            let mask_bytes = mask_bytes(network.form(node + 1));
+            let LayerFrame { positions, traffic, .. } = *layer;
+            let cost = costs.zip(layer.cost).map(|(costs, cost)| costs.mean(cost, 1));
+            let row = Row { frame, node, positions, traffic, macs, mask_bytes, cost };
+            self.file.push(COLUMNS.map(|(_, _, _, value)| value(&row)));
         }
         if self.file.pending() >= GROUP {
             self.file.write_group().map_err(failed)?;
@@ -105,9 +107,13 @@ impl Details {
 }
 
 fn failed(source: std::io::Error) -> InferenceError {
-    InferenceError::Table { name: NAME, source }
+    InferenceError::Table { name: NAME.to_owned(), source }
 }
 
 fn long(count: u64) -> Value<'static> {
     Value::Long(i64::try_from(count).expect("nothing is counted up to 2^63"))
+}
+
+fn real(value: Option<f64>) -> Value<'static> {
+    value.map_or(Value::None, Value::Real)
 }

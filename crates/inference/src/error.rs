@@ -66,7 +66,7 @@ pub enum InferenceError {
     #[error("cannot write the table `{name}`: {source}")]
     Table {
         /// The file.
-        name: &'static str,
+        name: String,
         /// Why.
         source: io::Error,
     },

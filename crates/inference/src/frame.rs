@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a frame did: each of its layers, and all of them together as a row of the table of frames.
+//! What a frame did: each of its layers, and all of them together.
 
-use crate::camera::Seen;
 use crate::cost::{Costs, FrameCost};
 use crate::macs::{Macs, macs};
 use crate::positions::Positions;
-use crate::traffic::Traffic;
+use crate::sums::sum;
+use crate::traffic::{FrameTraffic, Traffic};
 use foveate_accelerator::Cost;
-use foveate_files::tables::{Cell, Cells};
 use foveate_network::{Executor, Network, Work};
 
 /// What a layer did for a frame.
@@ -19,74 +18,77 @@ pub(crate) struct LayerFrame {
     pub(crate) cost: Option<Cost>,
 }
 
-/// A frame in numbers.
-#[derive(Clone, Debug)]
+/// A frame in numbers: what its table, the page and the charts say of it.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Frame {
+    /// Its number among the frames of all clips, one after the other.
+    pub(crate) place: u64,
+    pub(crate) clip: String,
+    /// Its number in its clip.
     pub(crate) number: u64,
+    pub(crate) name: String,
+    pub(crate) time_us: u64,
     /// Whether it is in the means.
     pub(crate) is_counted: bool,
-    /// Shares of the regions.
+    /// Share of regions that were active.
     pub(crate) active: f64,
     pub(crate) changed: f64,
     pub(crate) macs: Macs,
+    pub(crate) traffic: FrameTraffic,
     pub(crate) seconds: f64,
+    /// Of it the time beside operators.
+    pub(crate) overhead: f64,
     pub(crate) relative_rms: Option<f64>,
-    pub(crate) layers: Vec<LayerFrame>,
+    /// What a frame costs on the accelerator, if one is named, and what this one costs where it is needed.
+    pub(crate) whole_cost: Option<FrameCost>,
+    pub(crate) masked_cost: Option<FrameCost>,
 }
 
-impl Frame {
+impl LayerFrame {
     /// What every node did for the last frame.
-    pub(crate) fn layers(
+    pub(crate) fn all(
         network: &Network,
         executor: &Executor<'_>,
         work: &[Work],
         costs: Option<&Costs<'_>>,
-    ) -> Vec<LayerFrame> {
-        let of = |(node, work): (usize, &Work)| LayerFrame {
+    ) -> Vec<Self> {
+        let of = |(node, work): (usize, &Work)| Self {
             positions: Positions::of(work, network.form(node + 1).places()),
             traffic: Traffic::of(network, executor, node),
             cost: costs.map(|costs| costs.of_frame(executor, node)),
         };
         work.iter().enumerate().map(of).collect()
     }
+}
 
-    /// Multiplications and additions.
-    pub(crate) fn macs(network: &Network, layers: &[LayerFrame]) -> Macs {
-        macs(network, &layers.iter().map(|layer| layer.positions).collect::<Vec<_>>())
-    }
-
-    /// Its row. What was added to the table later stands at the end.
-    pub(crate) fn row(&self, clip: &str, seen: Seen<'_>, costs: Option<&Costs<'_>>) -> Cells {
+impl Frame {
+    /// The same with what all its layers did together.
+    pub(crate) fn of_layers(
+        self,
+        network: &Network,
+        layers: &[LayerFrame],
+        costs: Option<&Costs<'_>>,
+    ) -> Self {
         let mut moved = Traffic::default();
-        self.layers.iter().for_each(|layer| moved += layer.traffic);
-        let traffic = moved.mean(1);
-        let masked: Option<Cost> = self.layers.iter().map(|layer| layer.cost).sum();
-        let masked = costs.zip(masked).map(|(costs, cost)| costs.mean(cost, 1));
-        let whole = costs.map(Costs::whole);
-        let real = |value: f64| Cell::Real(Some(value));
-        let of = |cost: Option<FrameCost>, of: fn(FrameCost) -> f64| Cell::Real(cost.map(of));
-        [
-            ("frame", Cell::Count(Some(self.number))),
-            ("name", Cell::Text(seen.name.to_owned())),
-            ("t_us", Cell::Count(Some(seen.time_us))),
-            ("active_share", real(self.active)),
-            ("changed_share", real(self.changed)),
-            ("macs_dense", real(self.macs.dense)),
-            ("macs_needed", real(self.macs.needed)),
-            ("macs_scheduled", real(self.macs.scheduled)),
-            ("read_bytes", real(traffic.read_bytes)),
-            ("halo_bytes", real(traffic.halo_bytes)),
-            ("written_bytes", real(traffic.written_bytes)),
-            ("seconds", real(self.seconds)),
-            ("relative_rms", Cell::Real(self.relative_rms)),
-            ("clip", Cell::Text(clip.to_owned())),
-            ("counted", Cell::Flag(self.is_counted)),
-            ("whole_latency_seconds", of(whole, |cost| cost.seconds)),
-            ("latency_seconds", of(masked, |cost| cost.seconds)),
-            ("whole_energy_mj", of(whole, |cost| cost.energy_mj)),
-            ("energy_mj", of(masked, |cost| cost.energy_mj)),
-        ]
-        .map(|(name, cell)| (name.to_owned(), cell))
-        .into()
+        layers.iter().for_each(|layer| moved += layer.traffic);
+        let masked: Option<Cost> = layers.iter().map(|layer| layer.cost).sum();
+        Self {
+            macs: macs(network, &layers.iter().map(|layer| layer.positions).collect::<Vec<_>>()),
+            traffic: moved.mean(1),
+            whole_cost: costs.map(Costs::whole),
+            masked_cost: costs.zip(masked).map(|(costs, cost)| costs.mean(cost, 1)),
+            ..self
+        }
     }
+}
+
+/// Those that are in the means.
+pub(crate) fn counted(frames: &[Frame]) -> Vec<&Frame> {
+    frames.iter().filter(|frame| frame.is_counted).collect()
+}
+
+/// The mean of some counted frames; 0 of none.
+#[allow(clippy::cast_precision_loss, reason = "a mean")]
+pub(crate) fn mean(frames: &[&Frame], of: fn(&Frame) -> f64) -> f64 {
+    sum(frames.iter().map(|frame| of(frame))) / frames.len().max(1) as f64
 }

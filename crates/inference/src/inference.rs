@@ -6,6 +6,8 @@ use crate::charts::{Drawn, charts};
 use crate::clips::{Clips, Showing};
 use crate::cost::Costs;
 use crate::details::Details;
+use crate::facts::{FRAMES, LAYERS, TRIED, table};
+use crate::frame::counted;
 use crate::page::page;
 use crate::player::{Player, Way};
 use crate::recording::{Record, Recording};
@@ -164,7 +166,7 @@ impl Inference {
             mapping: mapping.clone(),
         })?;
         write(&staging, &ended)?;
-        let page = page(&ended.summary, &ended.counted, &design, &options.command)?;
+        let page = page(&ended.summary, &ended.frames, &design, &options.command)?;
         staging.write("report.html", page.as_bytes())?;
         staging.commit()?;
         Ok(ended.summary)
@@ -193,19 +195,23 @@ impl std::fmt::Debug for Inference {
 
 /// The files of a run.
 fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
-    let Ended { summary, frames, counted } = ended;
-    let layers = summary.layer_table();
-    let table = |name: &'static str| move |source| InferenceError::Table { name, source };
-    staging.write("layers.csv", layers.csv().as_bytes())?;
-    staging.write("layers.parquet", &layers.parquet("layers").map_err(table("layers.parquet"))?)?;
-    if let Some(tuning) = summary.tuning_table() {
-        let parquet = tuning.parquet("tuning").map_err(table("tuning.parquet"))?;
-        staging.write("tuning.csv", tuning.csv().as_bytes())?;
-        staging.write("tuning.parquet", &parquet)?;
+    let Ended { summary, frames } = ended;
+    let layers = (0..).zip(&summary.layers);
+    let of_frames = frames.iter().map(|frame| (frame.number, frame));
+    let tried: Option<Vec<_>> = summary.tuning.as_ref().map(|tuning| tuning.tried().collect());
+    let tried = tried.map(|tried| table(None, TRIED, (0..).zip(&tried)));
+    let mut tables = vec![("layers", table(Some("layer"), LAYERS, layers))];
+    tables.push(("frames", table(Some("frame"), FRAMES, of_frames)));
+    tables.extend(tried.map(|tried| ("tuning", tried)));
+    for (name, table) in tables {
+        let file = format!("{name}.parquet");
+        let parquet = table.parquet(name);
+        let parquet =
+            parquet.map_err(|source| InferenceError::Table { name: file.clone(), source })?;
+        staging.write(&format!("{name}.csv"), table.csv().as_bytes())?;
+        staging.write(&file, &parquet)?;
     }
-    staging.write("frames.csv", frames.csv().as_bytes())?;
-    staging.write("frames.parquet", &frames.parquet("frames").map_err(table("frames.parquet"))?)?;
-    for Drawn { chart, .. } in charts(summary, counted) {
+    for Drawn { chart, .. } in charts(summary, &counted(frames)) {
         let notes = [chart.caption.clone()];
         staging.write(&format!("{}.svg", chart.file), chart.svg(&notes)?.as_bytes())?;
         staging.write(&format!("{}.png", chart.file), &chart.png()?)?;

@@ -14,6 +14,7 @@ mod closeness;
 mod cost;
 mod details;
 mod error;
+mod facts;
 mod frame;
 mod inference;
 mod macs;

@@ -21,9 +21,25 @@ pub struct Macs {
 }
 
 impl Macs {
-    /// Some of them as a share of a whole computation; 0 where there is nothing to compute.
+    /// Those that were needed as a share of a whole computation; 0 where there is nothing to compute.
     #[must_use]
-    pub fn share(&self, some: f64) -> f64 {
+    pub fn needed_share(&self) -> f64 {
+        self.share(self.needed)
+    }
+
+    /// Those that were computed, as such a share.
+    #[must_use]
+    pub fn scheduled_share(&self) -> f64 {
+        self.share(self.scheduled)
+    }
+
+    /// Those of a whole computation in blocks, as such a share.
+    #[must_use]
+    pub fn whole_share(&self) -> f64 {
+        self.share(self.whole)
+    }
+
+    fn share(&self, some: f64) -> f64 {
         if self.dense == 0.0 { 0.0 } else { some / self.dense }
     }
 }
@@ -47,8 +63,8 @@ pub(crate) fn macs(network: &Network, sums: &[Positions]) -> Macs {
     let places = |node: usize| network.form(node + 1).places() as u64;
     Macs {
         dense: of(&|_, _| 1.0),
-        needed: of(&|_, sums| ratio(sums.needed, sums.all)),
-        scheduled: of(&|_, sums| ratio(sums.scheduled, sums.all)),
+        needed: of(&|_, sums| sums.needed_share()),
+        scheduled: of(&|_, sums| sums.scheduled_share()),
         whole: of(&|node, _| ratio(network.scheduled(node) as u64, places(node))),
     }
 }

@@ -11,7 +11,8 @@ mod tests;
 mod words;
 
 use crate::Summary;
-use crate::charts::{Counted, charts};
+use crate::charts::charts;
+use crate::frame::{Frame, counted};
 use askama::Template;
 use foveate_design::Design;
 use foveate_pictures::page::{Notice, Page, PageError, Plot, Table, Target};
@@ -65,12 +66,13 @@ struct Files<'a> {
 /// The page.
 pub(crate) fn page(
     summary: &Summary,
-    frames: &[Counted],
+    frames: &[Frame],
     design: &Design,
     command: &[String],
 ) -> Result<String, PageError> {
+    let frames = counted(frames);
     let every = frames.len().div_ceil(FRAMES).max(1);
-    let shown = shown(frames, every);
+    let shown = shown(&frames, every);
     let is_counted = !frames.is_empty();
     let (layers, tried, rows) =
         (rows::layers(summary), rows::tried(summary), rows::frames(&shown, summary));
@@ -122,13 +124,11 @@ pub(crate) fn page(
 }
 
 /// Of `every` frames in a row the one that needs the most, so that no peak is lost.
-fn shown(frames: &[Counted], every: usize) -> Vec<Counted> {
-    let most = |frames: &[Counted]| {
-        let by_macs = |one: &&Counted, other: &&Counted| {
-            // The first of equal ones.
-            one.macs.needed.total_cmp(&other.macs.needed).then(other.place.cmp(&one.place))
-        };
-        frames.iter().max_by(by_macs).cloned()
+fn shown<'a>(frames: &[&'a Frame], every: usize) -> Vec<&'a Frame> {
+    let by_macs = |one: &&&Frame, other: &&&Frame| {
+        // The first of equal ones.
+        one.macs.needed.total_cmp(&other.macs.needed).then(other.place.cmp(&one.place))
     };
+    let most = |frames: &[&'a Frame]| frames.iter().max_by(by_macs).copied();
     frames.chunks(every).filter_map(most).collect()
 }

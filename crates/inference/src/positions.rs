@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How many positions of a layer were needed, were computed and changed.
 
+use crate::sums::ratio;
 use foveate_network::Work;
 use std::ops::AddAssign;
 
@@ -22,6 +23,18 @@ impl Positions {
             scheduled: work.scheduled as u64,
             changed: work.changed as u64,
         }
+    }
+
+    pub(crate) fn needed_share(&self) -> f64 {
+        ratio(self.needed, self.all)
+    }
+
+    pub(crate) fn scheduled_share(&self) -> f64 {
+        ratio(self.scheduled, self.all)
+    }
+
+    pub(crate) fn changed_share(&self) -> f64 {
+        ratio(self.changed, self.all)
     }
 }
 

@@ -3,23 +3,21 @@
 
 use crate::album::Part;
 use crate::camera::Seen;
-use crate::charts::Counted;
 use crate::clips::Audience;
 use crate::cost::Costs;
 use crate::details::Details;
-use crate::frame::Frame;
+use crate::frame::{Frame, LayerFrame, counted, mean};
 use crate::macs::macs;
 use crate::player::Player;
 use crate::positions::Positions;
 use crate::recording::Recording;
 use crate::reference::Reference;
 use crate::summary::{Summary, Tuning, error, layers, mask_bytes};
-use crate::sums::{ratio, sum};
-use crate::tally::{ClipSums, NotFinite};
+use crate::sums::ratio;
+use crate::tally::{NotFinite, clip};
 use crate::traffic::Traffic;
 use crate::{Goal, InferenceError, Mapping};
 use foveate_design::Design;
-use foveate_files::tables::{Cells, Table};
 use foveate_network::Network;
 use std::time::Instant;
 
@@ -39,15 +37,23 @@ pub(crate) struct Told {
 /// A run at its end.
 pub(crate) struct Ended {
     pub(crate) summary: Summary,
-    /// A row per frame.
-    pub(crate) frames: Table,
-    pub(crate) counted: Vec<Counted>,
+    pub(crate) frames: Vec<Frame>,
 }
 
 /// Where the frames go that are not kept in memory.
 pub(crate) struct Files<'a> {
     pub(crate) outputs: Recording<'a>,
     pub(crate) details: Details,
+}
+
+/// A clip or set that has begun.
+struct Begun {
+    name: String,
+    problem: Option<String>,
+    /// Its first frame among those of all.
+    first: usize,
+    /// The place of its first frame.
+    place: u64,
 }
 
 /// A run under way.
@@ -60,20 +66,20 @@ pub(crate) struct Run<'a> {
     files: Files<'a>,
     sums: Vec<Positions>,
     traffic: Vec<Traffic>,
-    clips: Vec<ClipSums>,
-    /// Frames of the clips before this one, for the charts.
-    before: u64,
-    rows: Vec<Cells>,
-    counted: Vec<Counted>,
-    seconds: f64,
-    overhead: f64,
+    clips: Vec<Begun>,
+    frames: Vec<Frame>,
     not_finite: NotFinite,
 }
 
 impl Audience for Run<'_> {
     fn begin(&mut self, clip: &str, black: Option<&[f32]>) {
-        self.before = self.counted.last().map_or(0, |counted| counted.place + 1);
-        self.clips.push(ClipSums::new(clip));
+        let last = self.frames.iter().rev().find(|frame| frame.is_counted);
+        self.clips.push(Begun {
+            name: clip.to_owned(),
+            problem: None,
+            first: self.frames.len(),
+            place: last.map_or(0, |frame| frame.place + 1),
+        });
         self.player.begin(black);
         if let Some(reference) = &mut self.reference {
             reference.outputs.next_clip();
@@ -81,24 +87,9 @@ impl Audience for Run<'_> {
     }
 
     fn look(&mut self, seen: Seen<'_>) -> Result<(), InferenceError> {
-        let frame = self.step(seen);
-        let clip = self.clips.last_mut().expect("a clip has begun");
-        self.rows.push(frame.row(&clip.name, seen, self.costs.as_ref()));
-        self.files.details.push(&clip.name, &frame, self.network, self.costs.as_ref())?;
-        clip.add(&frame);
-        if frame.is_counted {
-            self.counted.push(Counted {
-                place: self.before + frame.number,
-                clip: clip.name.clone(),
-                number: frame.number,
-                name: seen.name.to_owned(),
-                active: frame.active,
-                changed: frame.changed,
-                macs: frame.macs,
-                seconds: frame.seconds,
-                relative_rms: frame.relative_rms,
-            });
-        }
+        let (frame, layers) = self.step(seen);
+        self.files.details.push(&frame, &layers, self.network, self.costs.as_ref())?;
+        self.frames.push(frame);
         self.files.outputs.push(self.player.executor())
     }
 
@@ -126,27 +117,23 @@ impl<'a> Run<'a> {
             sums: vec![Positions::default(); network.nodes().len()],
             traffic: vec![Traffic::default(); network.nodes().len()],
             clips: Vec::new(),
-            before: 0,
-            rows: Vec::new(),
-            counted: Vec::new(),
-            seconds: 0.0,
-            overhead: 0.0,
+            frames: Vec::new(),
             not_finite: NotFinite::default(),
         }
     }
 
     /// Runs the network on a frame, and adds it to the sums if it counts.
-    fn step(&mut self, seen: Seen<'_>) -> Frame {
+    fn step(&mut self, seen: Seen<'_>) -> (Frame, Vec<LayerFrame>) {
         let start = Instant::now();
         let work = self.player.step(seen).to_vec();
         let seconds = start.elapsed().as_secs_f64();
         let (executor, is_counted) = (self.player.executor(), self.player.is_counted());
-        let clip = &self.clips.last().expect("a clip has begun").name;
-        self.not_finite.look((clip, seen.number), self.network, executor);
+        let clip = self.clips.last().expect("a clip has begun");
+        self.not_finite.look((&clip.name, seen.number), self.network, executor);
         let judge =
             |reference: &mut Reference<'_>| reference.judge(seen.values, executor, is_counted);
         let close = self.reference.as_mut().map(judge);
-        let layers = Frame::layers(self.network, executor, &work, self.costs.as_ref());
+        let layers = LayerFrame::all(self.network, executor, &work, self.costs.as_ref());
         if is_counted {
             for (node, layer) in layers.iter().enumerate() {
                 self.sums[node] += layer.positions;
@@ -155,20 +142,23 @@ impl<'a> Run<'a> {
             if let Some(costs) = &mut self.costs {
                 costs.add(layers.iter().filter_map(|layer| layer.cost));
             }
-            self.seconds += seconds;
-            self.overhead += executor.overhead().as_secs_f64();
         }
         let share = |count| ratio(count, u64::from(self.design.regions()));
-        Frame {
+        let frame = Frame {
+            place: clip.place + seen.number,
+            clip: clip.name.clone(),
             number: seen.number,
+            name: seen.name.to_owned(),
+            time_us: seen.time_us,
             is_counted,
             active: share(seen.active_regions),
             changed: share(seen.changed_regions),
-            macs: Frame::macs(self.network, &layers),
             seconds,
+            overhead: executor.overhead().as_secs_f64(),
             relative_rms: close.map(|close| close.distance.relative()),
-            layers,
-        }
+            ..Frame::default()
+        };
+        (frame.of_layers(self.network, &layers, self.costs.as_ref()), layers)
     }
 
     /// Looks at a part of a clip.
@@ -182,13 +172,13 @@ impl<'a> Run<'a> {
 
     /// Clips whose frames are missing, with the reasons.
     pub(crate) fn problems(&self) -> Vec<(String, String)> {
-        let of = |clip: &ClipSums| Some((clip.name.clone(), clip.problem.clone()?));
+        let of = |clip: &Begun| Some((clip.name.clone(), clip.problem.clone()?));
         self.clips.iter().filter_map(of).collect()
     }
 
     /// Whether a frame counted so far.
     pub(crate) fn counts(&self) -> bool {
-        !self.counted.is_empty()
+        self.frames.iter().any(|frame| frame.is_counted)
     }
 
     /// Clips so far.
@@ -202,7 +192,8 @@ impl<'a> Run<'a> {
     /// When these cannot be completed.
     pub(crate) fn end(self, told: Told) -> Result<Ended, InferenceError> {
         let executor = self.player.executor();
-        let counted_frames = self.counted.len() as u64;
+        let counted = counted(&self.frames);
+        let counted_frames = counted.len() as u64;
         let traffic: Vec<_> = self.traffic.iter().map(|sum| sum.mean(counted_frames)).collect();
         let layers = layers(
             self.network,
@@ -213,11 +204,16 @@ impl<'a> Run<'a> {
         );
         let mut all = Traffic::default();
         self.traffic.iter().for_each(|sum| all += *sum);
-        let clips: Vec<_> = self.clips.iter().map(ClipSums::summary).collect();
+        let ends = self.clips.iter().skip(1).map(|clip| clip.first).chain([self.frames.len()]);
+        let clips: Vec<_> = self
+            .clips
+            .iter()
+            .zip(ends)
+            .map(|(begun, end)| {
+                clip(&begun.name, begun.problem.as_ref(), &self.frames[begun.first..end])
+            })
+            .collect();
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
-        #[allow(clippy::cast_precision_loss, reason = "a mean")]
-        let counted = counted_frames.max(1) as f64;
-        let mean = |of: fn(&Counted) -> f64| sum(self.counted.iter().map(of)) / counted;
         let of_weights = self.network.not_finite().iter().map(|(name, count)| {
             format!(
                 "the weights `{name}` hold {count} infinite values, or such that are no numbers"
@@ -239,17 +235,17 @@ impl<'a> Run<'a> {
             mapping: told.mapping,
             width: self.design.width(),
             height: self.design.height(),
-            frames: self.rows.len() as u64,
+            frames: self.frames.len() as u64,
             counted_frames,
-            active_share: mean(|counted| counted.active),
-            changed_share: mean(|counted| counted.changed),
+            active_share: mean(&counted, |frame| frame.active),
+            changed_share: mean(&counted, |frame| frame.changed),
             macs: macs(self.network, &self.sums),
             weight_bytes: layers.iter().map(|layer| layer.weight_bytes).sum(),
             kept_bytes: self.network.kept_bytes(),
             mask_bytes: forms().map(mask_bytes).sum(),
             traffic: all.mean(counted_frames),
-            seconds_per_frame: self.seconds / counted,
-            overhead_seconds_per_frame: self.overhead / counted,
+            seconds_per_frame: mean(&counted, |frame| frame.seconds),
+            overhead_seconds_per_frame: mean(&counted, |frame| frame.overhead),
             accelerator: self
                 .costs
                 .as_ref()
@@ -266,6 +262,6 @@ impl<'a> Run<'a> {
             configuration: self.design.config(),
             layers,
         };
-        Ok(Ended { summary, frames: Table::of(self.rows.into_iter()), counted: self.counted })
+        Ok(Ended { summary, frames: self.frames })
     }
 }

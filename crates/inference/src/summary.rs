@@ -6,11 +6,9 @@ use crate::cost::{Accelerated, Costs, FrameCost};
 use crate::macs::Macs;
 use crate::positions::Positions;
 use crate::reference::Reference;
-use crate::sums::ratio;
 use crate::traffic::FrameTraffic;
 use crate::{Mapping, Recorded};
 use foveate_design::Config;
-use foveate_files::tables::{Cell, Cells, Table};
 use foveate_network::{Executor, Form, Mode, Network};
 use serde::Serialize;
 
@@ -167,6 +165,10 @@ pub struct Tuning {
 }
 
 impl Tuning {
+    /// Said of a goal that frozen outputs reach.
+    pub const SAYS_LITTLE: &'static str =
+        "outputs that never change after the first frame reach it as well, so it says little";
+
     /// Everything that was tried, with what its limits are called, in the order of its table.
     pub(crate) fn tried(&self) -> impl Iterator<Item = (&'static str, Tried)> {
         let uniform = self.uniform.iter().map(|tried| ("uniform", *tried));
@@ -246,16 +248,15 @@ pub(crate) fn layers(
 ) -> Vec<Layer> {
     let layer = |(node, sums): (usize, &Positions)| {
         let (place, form) = (&network.nodes()[node], network.form(node + 1));
-        let share = |count: u64| ratio(count, sums.all);
         let cost = costs.map(|costs| costs.of_node(node));
         Layer {
             name: place.name().to_owned(),
             operator: place.kind().to_owned(),
             shape: form.shape().to_vec(),
             macs: network.macs(node),
-            needed_share: share(sums.needed),
-            scheduled_share: share(sums.scheduled),
-            changed_share: share(sums.changed),
+            needed_share: sums.needed_share(),
+            scheduled_share: sums.scheduled_share(),
+            changed_share: sums.changed_share(),
             weight_bytes: place.weight_bytes(),
             output_bytes: form.bytes(),
             mask_bytes: mask_bytes(form),
@@ -286,6 +287,10 @@ pub(crate) fn error(reference: &Reference<'_>) -> Error {
 }
 
 impl Summary {
+    /// Said instead of shares where no frame counts.
+    pub const ONLY_FRAME: &'static str =
+        "the only frame was computed whole; savings begin with a second one";
+
     /// The share of the MACs of a whole computation, both in blocks, up to which parts are at least faster than the whole: that at which this run
     /// would have been as slow if each further block took as long as its own. It takes less, because more blocks are neighbors. Nothing without a
     /// whole computation, where nothing was computed, or where everything was.
@@ -298,64 +303,10 @@ impl Summary {
         (share.is_finite() && self.macs.scheduled < self.macs.whole).then_some(share.min(1.0))
     }
 
-    /// A row per layer.
-    pub(crate) fn layer_table(&self) -> Table {
-        let row = |(number, layer): (usize, &Layer)| -> Cells {
-            let shape = layer.shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
-            let real = |value: f64| Cell::Real(Some(value));
-            let count = |value: u64| Cell::Count(Some(value));
-            let of = |cost: Option<FrameCost>, of: fn(&FrameCost) -> f64| {
-                Cell::Real(cost.as_ref().map(of))
-            };
-            [
-                ("layer", count(number as u64)),
-                ("name", Cell::Text(layer.name.clone())),
-                ("operator", Cell::Text(layer.operator.clone())),
-                ("shape", Cell::Text(shape)),
-                ("macs", count(layer.macs)),
-                ("needed_share", real(layer.needed_share)),
-                ("scheduled_share", real(layer.scheduled_share)),
-                ("changed_share", real(layer.changed_share)),
-                ("weight_bytes", count(layer.weight_bytes)),
-                ("output_bytes", count(layer.output_bytes)),
-                ("mask_bytes", count(layer.mask_bytes)),
-                ("read_bytes", real(layer.traffic.read_bytes)),
-                ("halo_bytes", real(layer.traffic.halo_bytes)),
-                ("written_bytes", real(layer.traffic.written_bytes)),
-                ("seconds", real(layer.traffic.seconds)),
-                ("whole_cycles", of(layer.whole_cost, |cost| cost.cycles)),
-                ("cycles", of(layer.masked_cost, |cost| cost.cycles)),
-                ("whole_energy_mj", of(layer.whole_cost, |cost| cost.energy_mj)),
-                ("energy_mj", of(layer.masked_cost, |cost| cost.energy_mj)),
-                ("limit", Cell::Real(layer.limit.map(f64::from))),
-                ("relative_rms", Cell::Real(layer.relative_rms)),
-            ]
-            .map(|(name, cell)| (name.to_owned(), cell))
-            .into()
-        };
-        Table::of(self.layers.iter().enumerate().map(row))
-    }
-
-    /// A row for each limit that all layers had together, and one for what was chosen.
-    pub(crate) fn tuning_table(&self) -> Option<Table> {
-        let tuning = self.tuning.as_ref()?;
-        let row = |(limits, tried): (&str, Tried)| -> Cells {
-            let real = |value: f64| Cell::Real(Some(value));
-            [
-                ("limits", Cell::Text(limits.to_owned())),
-                ("relative_limit", Cell::Real(tried.relative_limit)),
-                ("needed_share", real(tried.needed_share)),
-                ("agreement", real(tried.outputs.agreement)),
-                ("cosine", real(tried.outputs.cosine)),
-                ("psnr", Cell::Real(tried.outputs.psnr)),
-                ("largest", real(tried.outputs.largest)),
-                ("relative_rms", real(tried.outputs.relative_rms)),
-                ("rms_of_variation", real(tried.outputs.rms_of_variation)),
-                ("holds", Cell::Flag(tried.holds)),
-            ]
-            .map(|(name, cell)| (name.to_owned(), cell))
-            .into()
-        };
-        Some(Table::of(tuning.tried().map(row)))
+    /// Whether limits were chosen on other clips than those that are reported, not on the first half of the only one.
+    #[must_use]
+    pub fn is_tuned_on_clips(&self) -> bool {
+        let is_other = |name: &String| self.clips.iter().all(|clip| clip.name != *name);
+        self.tuning.as_ref().is_some_and(|tuning| tuning.clips.iter().all(is_other))
     }
 }

@@ -1,65 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums over the frames of a clip, and frames whose outputs are not finite.
+//! Means over the frames of a clip, and frames whose outputs are not finite.
 
-use crate::frame::Frame;
+use crate::frame::{Frame, counted, mean};
 use crate::macs::Macs;
 use crate::summary::Clip;
 use foveate_network::{Executor, Network};
 
-/// Sums over the frames of a clip.
-#[derive(Clone, Debug)]
-pub(crate) struct ClipSums {
-    pub(crate) name: String,
-    pub(crate) problem: Option<String>,
-    frames: u64,
-    counted: u64,
-    active: f64,
-    changed: f64,
-    macs: Macs,
-}
-
-impl ClipSums {
-    pub(crate) fn new(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            problem: None,
-            frames: 0,
-            counted: 0,
-            active: 0.0,
-            changed: 0.0,
-            macs: Macs::default(),
-        }
-    }
-
-    pub(crate) fn add(&mut self, frame: &Frame) {
-        self.frames += 1;
-        if !frame.is_counted {
-            return;
-        }
-        self.counted += 1;
-        self.active += frame.active;
-        self.changed += frame.changed;
-        self.macs += frame.macs;
-    }
-
-    /// The means of the counted frames.
-    #[allow(clippy::cast_precision_loss, reason = "means")]
-    pub(crate) fn summary(&self) -> Clip {
-        let mean = |sum: f64| sum / self.counted.max(1) as f64;
-        Clip {
-            name: self.name.clone(),
-            frames: self.frames,
-            counted_frames: self.counted,
-            active_share: mean(self.active),
-            changed_share: mean(self.changed),
-            macs: Macs {
-                dense: mean(self.macs.dense),
-                needed: mean(self.macs.needed),
-                scheduled: mean(self.macs.scheduled),
-                whole: mean(self.macs.whole),
-            },
-            problem: self.problem.clone(),
-        }
+/// A clip with the means of its counted frames.
+pub(crate) fn clip(name: &str, problem: Option<&String>, frames: &[Frame]) -> Clip {
+    let counted = counted(frames);
+    Clip {
+        name: name.to_owned(),
+        frames: frames.len() as u64,
+        counted_frames: counted.len() as u64,
+        active_share: mean(&counted, |frame| frame.active),
+        changed_share: mean(&counted, |frame| frame.changed),
+        macs: Macs {
+            dense: mean(&counted, |frame| frame.macs.dense),
+            needed: mean(&counted, |frame| frame.macs.needed),
+            scheduled: mean(&counted, |frame| frame.macs.scheduled),
+            whole: mean(&counted, |frame| frame.macs.whole),
+        },
+        problem: problem.cloned(),
     }
 }
 

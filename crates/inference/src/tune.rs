@@ -80,7 +80,7 @@ pub(crate) fn tune(
     let chosen = if own.macs.needed < best.macs.needed { own } else { best };
     let tried = |trial: &Trial, relative_limit| Tried {
         relative_limit,
-        needed_share: trial.macs.share(trial.macs.needed),
+        needed_share: trial.macs.needed_share(),
         outputs: (&trial.closeness).into(),
         holds: goal.holds(&trial.closeness),
     };

@@ -50,8 +50,8 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-fn frames(count: u64) -> String {
-    format!("{count} {}", if count == 1 { "frame" } else { "frames" })
+fn frames(count: u64, kind: &str) -> String {
+    format!("{count} {kind}{}", if count == 1 { "frame" } else { "frames" })
 }
 
 /// A line for each of several clips.
@@ -60,7 +60,6 @@ fn clips(summary: &Summary) -> String {
         return String::new();
     }
     let line = |clip: &Clip| {
-        let macs = &clip.macs;
         let result = if clip.counted_frames == 0 {
             "none of them counted".to_owned()
         } else {
@@ -68,14 +67,14 @@ fn clips(summary: &Summary) -> String {
                 "regions active {}, changed {}; MACs needed {}",
                 percent(clip.active_share),
                 percent(clip.changed_share),
-                percent(macs.share(macs.needed))
+                percent(clip.macs.needed_share())
             )
         };
         let problem = clip.problem.as_ref().map(|problem| format!(", NOT COMPLETE: {problem}"));
         format!(
             "  {}: {}, {result}{}\n",
             clip.name,
-            frames(clip.frames),
+            frames(clip.frames, ""),
             problem.unwrap_or_default()
         )
     };
@@ -84,13 +83,11 @@ fn clips(summary: &Summary) -> String {
 
 /// How limits were chosen, and whether they hold.
 fn tuned(tuning: &Tuning, summary: &Summary) -> String {
-    let reported: Vec<&str> = summary.clips.iter().map(|clip| &clip.name[..]).collect();
-    let on = tuning.clips.join(", ");
-    // The only clip is on both sides.
-    let (of, these) = if reported == [&on] {
-        ("before these".to_owned(), "these frames".to_owned())
+    let (of, these) = if summary.is_tuned_on_clips() {
+        let reported: Vec<&str> = summary.clips.iter().map(|clip| &clip.name[..]).collect();
+        (format!("of {}", tuning.clips.join(", ")), reported.join(", "))
     } else {
-        (format!("of {on}"), reported.join(", "))
+        ("before these".to_owned(), "these frames".to_owned())
     };
     let held = if tuning.holds {
         format!("is reached on {these}, too")
@@ -98,15 +95,14 @@ fn tuned(tuning: &Tuning, summary: &Summary) -> String {
         format!("is missed on {these}")
     };
     let frozen = if tuning.frozen.holds {
-        "           outputs that never change after the first frame reach it as well, so it says little; try variation=10%\n"
+        format!("           {}; try variation=10%\n", Tuning::SAYS_LITTLE)
     } else {
-        ""
+        String::new()
     };
     format!(
-        "tuned      on {} counted {} {of}, in {} runs; there {} of the MACs were needed, {} without a limit\n\
+        "tuned      on {} {of}, in {} runs; there {} of the MACs were needed, {} without a limit\n\
          goal       {} {held}\n{frozen}",
-        tuning.frames,
-        if tuning.frames == 1 { "frame" } else { "frames" },
+        frames(tuning.frames, "counted "),
         tuning.runs,
         percent(tuning.chosen.needed_share),
         percent(tuning.exact.needed_share),
@@ -118,7 +114,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
     let mut text = format!(
         "{}: {} of {} x {} pixels, mode {}{}\n",
         folder.display(),
-        frames(summary.frames),
+        frames(summary.frames, ""),
         summary.width,
         summary.height,
         summary.mode,
@@ -130,8 +126,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
         }
     );
     if summary.counted_frames == 0 {
-        text.push_str("the only frame was computed whole; savings begin with a second one\n");
-        return text;
+        return text + Summary::ONLY_FRAME + "\n";
     }
     text.push_str(&clips(summary));
     if let Some(tuning) = &summary.tuning {
@@ -147,9 +142,9 @@ fn text(folder: &Path, summary: &Summary) -> String {
         text,
         "MACs       {:.1} M per frame; needed {}, computed {} (of a whole frame {})",
         summary.macs.dense / 1e6,
-        percent(summary.macs.share(summary.macs.needed)),
-        percent(summary.macs.share(summary.macs.scheduled)),
-        percent(summary.macs.share(summary.macs.whole))
+        percent(summary.macs.needed_share()),
+        percent(summary.macs.scheduled_share()),
+        percent(summary.macs.whole_share())
     );
     let _ = writeln!(
         text,

@@ -79,49 +79,27 @@ pub(super) fn facts(summary: &Summary) -> Vec<Fact> {
     // A value stays on its line.
     let whole = |value: String| value.replace(' ', "\u{a0}").replace('-', "\u{2011}");
     let fact = |name, value, note: String| Fact { name, value: whole(value), note };
-    let macs = &summary.macs;
     let mut facts = Vec::new();
     if summary.counted_frames > 0 {
-        facts.push(fact(
-            "MACs needed",
-            share(macs.share(macs.needed)),
-            format!("of {} per frame", many(macs.dense)),
-        ));
-        facts.push(fact(
-            "MACs computed",
-            share(macs.share(macs.scheduled)),
-            "whole blocks".to_owned(),
-        ));
-        facts.push(fact(
-            "Regions changed",
-            share(summary.changed_share),
-            format!("{} active", share(summary.active_share)),
-        ));
-        facts.push(fact(
-            "Time per frame",
-            milliseconds(summary.seconds_per_frame),
-            "on this computer".to_owned(),
-        ));
+        let (macs, active) = (&summary.macs, share(summary.active_share));
+        let (dense, time) = (many(macs.dense), milliseconds(summary.seconds_per_frame));
+        facts.extend([
+            fact("MACs needed", share(macs.needed_share()), format!("of {dense} per frame")),
+            fact("MACs computed", share(macs.scheduled_share()), "whole blocks".to_owned()),
+            fact("Regions changed", share(summary.changed_share), format!("{active} active")),
+            fact("Time per frame", time, "on this computer".to_owned()),
+        ]);
+        facts.extend(summary.accelerator.as_ref().map(|found| {
+            let [masked, all] = [found.masked, found.whole].map(|cost| millijoules(cost.energy_mj));
+            fact("Energy per frame", masked, format!("whole {all}"))
+        }));
+        facts.extend(summary.error.map(|found| {
+            let psnr = decibels(found.outputs.psnr);
+            fact("Relative RMS error", error(found.outputs.relative_rms), format!("PSNR {psnr}"))
+        }));
     }
-    if let Some(accelerator) = summary.accelerator.as_ref().filter(|_| summary.counted_frames > 0) {
-        facts.push(fact(
-            "Energy per frame",
-            millijoules(accelerator.masked.energy_mj),
-            format!("whole {}", millijoules(accelerator.whole.energy_mj)),
-        ));
-    }
-    if let Some(found) = summary.error.filter(|_| summary.counted_frames > 0) {
-        facts.push(fact(
-            "Relative RMS error",
-            error(found.outputs.relative_rms),
-            format!("PSNR {}", decibels(found.outputs.psnr)),
-        ));
-    }
-    facts.push(fact(
-        "Frames",
-        grouped(summary.frames),
-        format!("{} counted", grouped(summary.counted_frames)),
-    ));
+    let (frames, counted) = (grouped(summary.frames), grouped(summary.counted_frames));
+    facts.push(fact("Frames", frames, format!("{counted} counted")));
     facts.push(fact("Frame", format!("{}×{}", summary.width, summary.height), "pixels".to_owned()));
     facts
 }

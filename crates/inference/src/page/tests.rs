@@ -11,7 +11,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 const BAD: &str = "\"><script>alert('&amp;')</script>";
 
 /// A run, its counted frames and its camera.
-type Sample = (Summary, Vec<Counted>, Design);
+type Sample = (Summary, Vec<Frame>, Design);
 
 /// Marks say what they are and what is needed there, and lead to their rows.
 const TIP: Tip = Tip { told: r"/^(Layer|Frame|Limits).*\n.* needed/", links: 1 };
@@ -200,7 +200,7 @@ fn sample(frames: u32) -> Sample {
     };
     let frame = |number: u32| {
         let share = 0.05 + 0.04 * f64::from(number * 37 % 11) / 11.0;
-        Counted {
+        Frame {
             place: u64::from(number) + 1,
             clip: "street".to_owned(),
             number: u64::from(number) + 1,
@@ -214,6 +214,8 @@ fn sample(frames: u32) -> Sample {
             },
             seconds: 0.001,
             relative_rms: Some(0.01 * share),
+            is_counted: true,
+            ..Frame::default()
         }
     };
     let design = Config::default().for_frames(224, 224).unwrap();
@@ -475,7 +477,7 @@ fn without_a_counted_frame_no_share_is_told() {
 fn of_very_many_frames_the_peaks_are_shown() {
     let mut sample = sample(5000);
     sample.1[4321].macs.needed *= 3.0;
-    let shown = shown(&sample.1, 13);
+    let shown = shown(&counted(&sample.1), 13);
     assert_eq!(shown.len(), 385);
     assert!(shown.iter().any(|frame| frame.number == 4322));
     assert!(shown.is_sorted_by_key(|frame| frame.number));

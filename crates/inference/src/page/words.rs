@@ -21,6 +21,11 @@ fn inputs(summary: &Summary) -> String {
     some(&summary.inputs)
 }
 
+/// With a capital letter and a full stop.
+fn sentence(words: &str) -> String {
+    words[..1].to_uppercase() + &words[1..] + "."
+}
+
 /// A few names, and how many more there are.
 fn some(names: &[String]) -> String {
     let more = names.len().saturating_sub(NAMED);
@@ -48,7 +53,7 @@ pub(super) fn run(summary: &Summary, design: &Design) -> String {
 /// How many clips there are, if there are several, and which of them are reported.
 fn clips(summary: &Summary) -> String {
     let reported = summary.clips.len();
-    match summary.tuning.as_ref().filter(|tuning| is_tuned_on_clips(summary, tuning)) {
+    match summary.tuning.as_ref().filter(|_| summary.is_tuned_on_clips()) {
         Some(tuning) => format!(
             " ({} to choose limits on, then {}, which {} reported)",
             things(tuning.clips.len(), "clip"),
@@ -58,11 +63,6 @@ fn clips(summary: &Summary) -> String {
         None if reported > 1 => format!(" ({reported} clips)"),
         None => String::new(),
     }
-}
-
-/// Whether limits were chosen on other clips than those that are reported.
-fn is_tuned_on_clips(summary: &Summary, tuning: &Tuning) -> bool {
-    tuning.clips.iter().all(|name| summary.clips.iter().all(|clip| clip.name != *name))
 }
 
 /// How the model takes its inputs, if that is not the usual way.
@@ -119,11 +119,7 @@ fn mode(summary: &Summary) -> String {
         }
         _ => format!(
             "{again} a change above the limit of its layer, which was chosen on the first half of the {}",
-            if summary.tuning.as_ref().is_some_and(|tuning| is_tuned_on_clips(summary, tuning)) {
-                "clips"
-            } else {
-                "frames"
-            }
+            if summary.is_tuned_on_clips() { "clips" } else { "frames" }
         ),
     }
 }
@@ -155,10 +151,7 @@ pub(super) fn findings(summary: &Summary) -> Vec<String> {
         bytes(summary.mask_bytes)
     );
     if summary.counted_frames == 0 {
-        return vec![
-            "The only frame was computed whole. Savings begin with a second one.".to_owned(),
-            memory,
-        ];
+        return vec![sentence(Summary::ONLY_FRAME), memory];
     }
     let mut found = vec![
         format!(
@@ -170,8 +163,8 @@ pub(super) fn findings(summary: &Summary) -> Vec<String> {
         needed(summary),
         format!(
             "{} of them were computed, because the executor computes whole blocks of positions; a whole frame takes {} in such blocks.",
-            share(macs.share(macs.scheduled)),
-            share(macs.share(macs.whole))
+            share(macs.scheduled_share()),
+            share(macs.whole_share())
         ),
         memory,
         moved(summary),
@@ -200,7 +193,7 @@ fn needed(summary: &Summary) -> String {
     if summary.mode == "dense" {
         return format!("{whole} All of them are computed for every frame, so nothing is saved.");
     }
-    format!("{whole} {} of them were needed.", share(macs.share(macs.needed)))
+    format!("{whole} {} of them were needed.", share(macs.needed_share()))
 }
 
 fn time(summary: &Summary) -> String {
@@ -260,14 +253,14 @@ fn compared(summary: &Summary) -> Option<String> {
 fn tuned(summary: &Summary, tuning: &Tuning) -> String {
     let held = if tuning.holds { "is reached" } else { "is missed" };
     let frozen = if tuning.frozen.holds {
-        " Outputs that never change after the first frame reach it as well, so it says little."
+        format!(" {}", sentence(Tuning::SAYS_LITTLE))
     } else {
-        ""
+        String::new()
     };
     format!(
         "The limits were chosen on {} {}, in {} runs; there they needed {} of the MACs, and {} without a limit. The goal {} {held} on these frames.{frozen}",
         things(usize::try_from(tuning.frames).unwrap_or(usize::MAX), "counted frame"),
-        if is_tuned_on_clips(summary, tuning) {
+        if summary.is_tuned_on_clips() {
             format!("of {}", some(&tuning.clips))
         } else {
             "before these".to_owned()

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the tables say of a clip, a layer, a frame and what tuning tried: every column once, for the files and for the page.
+
+use crate::Layer;
+use crate::frame::Frame;
+use crate::summary::{Clip, Tried};
+use Value::{Count, Error, Flag, Holds, Limit, Milliseconds, Psnr, Real, Shape, Share, Words};
+use foveate_files::tables::{Cell, Cells, Table};
+
+/// A value, and what kind of value it is: each view writes the kinds in its own way.
+pub(crate) enum Value {
+    Words(String),
+    Shape(Vec<usize>),
+    Flag(bool),
+    /// Whether a goal is reached.
+    Holds(bool),
+    Count(u64),
+    /// A part of 1.
+    Share(f64),
+    /// With the digits that a reader needs.
+    Real(Option<f64>, usize),
+    /// Seconds, which a reader gets as milliseconds with so many digits.
+    Milliseconds(f64, usize),
+    Error(Option<f64>),
+    /// Changes up to this are not passed on.
+    Limit(Option<f64>),
+    /// Nothing is the best: equal outputs have none.
+    Psnr(Option<f64>),
+}
+
+/// A column of a table whose rows are of a `T`.
+pub(crate) struct Column<T> {
+    pub(crate) heading: Heading,
+    pub(crate) value: fn(&T) -> Value,
+    /// Whether it holds numbers.
+    pub(crate) numbers: bool,
+    /// Whether it is over the counted frames: of none it says nothing.
+    pub(crate) is_mean: bool,
+    is_filed: bool,
+}
+
+/// The name of a column in the files; its name on the page, its unit and its meaning.
+pub(crate) struct Heading(
+    pub(crate) &'static str,
+    pub(crate) &'static str,
+    pub(crate) &'static str,
+    pub(crate) &'static str,
+);
+
+/// A column of the files alone.
+const fn filed<T>(key: &'static str, value: fn(&T) -> Value) -> Column<T> {
+    Heading(key, "", "", "").number(value)
+}
+
+impl Heading {
+    const fn number<T>(self, value: fn(&T) -> Value) -> Column<T> {
+        Column { heading: self, value, numbers: true, is_mean: false, is_filed: true }
+    }
+
+    const fn mean<T>(self, value: fn(&T) -> Value) -> Column<T> {
+        Column { is_mean: true, ..self.number(value) }
+    }
+
+    const fn words<T>(self, value: fn(&T) -> Value) -> Column<T> {
+        Column { numbers: false, ..self.number(value) }
+    }
+
+    /// A number of the page alone.
+    const fn unfiled<T>(self, value: fn(&T) -> Value) -> Column<T> {
+        Column { is_filed: false, ..self.number(value) }
+    }
+}
+
+/// What some columns mean, whatever they are of.
+const ACTIVE: &str = "regions that were active";
+const CHANGED: &str = "regions whose rendered pixels changed";
+const NEEDED: &str = "MACs whose windows hold a change";
+const COMPUTED: &str = "MACs that were computed, in whole blocks";
+/// Their units.
+const REGIONS: &str = "% of regions";
+const MACS: &str = "% of MACs";
+
+/// What others mean: too long for a line of a list.
+const OPERATOR: &str = "what it computes; + stands before an activation of the same node";
+const OUTPUT: &str = "bytes of the output, which stays from frame to frame";
+const CYCLES: &str = "cycles per frame on the accelerator, where the masks say";
+const ENERGY: &str = "energy per frame on the accelerator, where the masks say";
+const DIFFERENCE: &str = "relative RMS difference of the outputs from a whole computation";
+const RELATIVE: &str = "share of the root mean square of each layer's values, if it is one for all";
+const AGREEMENT: &str = "frames in which every output has its largest value at the same place";
+const COSINE: &str = "cosine of the angle between all outputs and those of a whole computation";
+const LIMITS: &str = "exact: limits of 0; uniform: one relative limit; frozen: nothing after the first frame; chosen";
+const VARIATION: &str = "RMS error of the outputs, as a share of their standard deviation over the frames of their clip";
+
+/// Of a clip, for the page.
+pub(crate) const CLIPS: &[Column<Clip>] = &[
+    Heading("clip", "clip", "", "the clip or set").words(|it| Words(it.name.clone())),
+    Heading("frames", "frames", "", "frames that were seen").number(|it| Count(it.frames)),
+    Heading("counted", "counted", "", "frames that are in the means")
+        .number(|it| Count(it.counted_frames)),
+    Heading("active", "active", REGIONS, ACTIVE).mean(|it| Share(it.active_share)),
+    Heading("changed", "changed", REGIONS, CHANGED).mean(|it| Share(it.changed_share)),
+    Heading("needed", "needed", MACS, NEEDED).mean(|it| Share(it.macs.needed_share())),
+    Heading("computed", "computed", MACS, COMPUTED).mean(|it| Share(it.macs.scheduled_share())),
+    Heading("problem", "problem", "", "why frames are missing")
+        .words(|it| Words(it.problem.clone().unwrap_or_default())),
+];
+
+/// Of a layer.
+pub(crate) const LAYERS: &[Column<Layer>] = &[
+    Heading("name", "name", "", "name of the node in the model").words(|it| Words(it.name.clone())),
+    Heading("operator", "operator", "", OPERATOR).words(|it| Words(it.operator.clone())),
+    Heading("shape", "output", "", "shape of the output").words(|it| Shape(it.shape.clone())),
+    Heading("macs", "MACs", "", "multiplications and additions for a whole frame")
+        .number(|it| Count(it.macs)),
+    Heading("needed_share", "needed", "%", "positions whose windows hold a change")
+        .mean(|it| Share(it.needed_share)),
+    Heading("scheduled_share", "computed", "%", "positions that were computed, in whole blocks")
+        .mean(|it| Share(it.scheduled_share)),
+    Heading("changed_share", "passed on", "%", "positions that were passed on as changed")
+        .mean(|it| Share(it.changed_share)),
+    Heading("weight_bytes", "weights", "bytes", "bytes of the weights")
+        .number(|it| Count(it.weight_bytes)),
+    Heading("output_bytes", "output", "bytes", OUTPUT).number(|it| Count(it.output_bytes)),
+    filed("mask_bytes", |it| Count(it.mask_bytes)),
+    filed("read_bytes", |it| real(it.traffic.read_bytes)),
+    filed("halo_bytes", |it| real(it.traffic.halo_bytes)),
+    filed("written_bytes", |it| real(it.traffic.written_bytes)),
+    Heading("seconds", "time", "ms", "per frame, on this computer")
+        .mean(|it| Milliseconds(it.traffic.seconds, 3)),
+    Heading("whole_cycles", "cycles", "whole", "cycles of a whole frame on the accelerator")
+        .number(|it| Real(it.whole_cost.map(|cost| cost.cycles), 0)),
+    Heading("cycles", "cycles", "masked", CYCLES)
+        .mean(|it| Real(it.masked_cost.map(|cost| cost.cycles), 0)),
+    Heading("whole_energy_mj", "energy", "mJ, whole", "energy of a whole frame on the accelerator")
+        .number(|it| Real(it.whole_cost.map(|cost| cost.energy_mj), 4)),
+    Heading("energy_mj", "energy", "mJ, masked", ENERGY)
+        .mean(|it| Real(it.masked_cost.map(|cost| cost.energy_mj), 4)),
+    Heading("limit", "limit", "", "changes up to this are not passed on")
+        .number(|it| Limit(it.limit.map(f64::from))),
+    Heading("relative_rms", "error", "", "relative RMS difference from a whole computation")
+        .mean(|it| Error(it.relative_rms)),
+];
+
+/// Of a frame. What was added to the files later stands at the end.
+pub(crate) const FRAMES: &[Column<Frame>] = &[
+    Heading("name", "name", "", "the frame in its input").words(|it| Words(it.name.clone())),
+    filed("t_us", |it| Count(it.time_us)),
+    Heading("active_share", "active", REGIONS, ACTIVE).number(|it| Share(it.active)),
+    Heading("changed_share", "changed", REGIONS, CHANGED).number(|it| Share(it.changed)),
+    Heading("needed_share", "needed", MACS, NEEDED).unfiled(|it| Share(it.macs.needed_share())),
+    Heading("scheduled_share", "computed", MACS, COMPUTED)
+        .unfiled(|it| Share(it.macs.scheduled_share())),
+    filed("macs_dense", |it| real(it.macs.dense)),
+    filed("macs_needed", |it| real(it.macs.needed)),
+    filed("macs_scheduled", |it| real(it.macs.scheduled)),
+    filed("read_bytes", |it| real(it.traffic.read_bytes)),
+    filed("halo_bytes", |it| real(it.traffic.halo_bytes)),
+    filed("written_bytes", |it| real(it.traffic.written_bytes)),
+    Heading("seconds", "time", "ms", "time of the frame on this computer")
+        .number(|it| Milliseconds(it.seconds, 2)),
+    Heading("relative_rms", "error", "", DIFFERENCE).number(|it| Error(it.relative_rms)),
+    Heading("clip", "clip", "", "the clip or set of the frame").words(|it| Words(it.clip.clone())),
+    filed("counted", |it| Flag(it.is_counted)),
+    filed("whole_latency_seconds", |it| Real(it.whole_cost.map(|cost| cost.seconds), 0)),
+    filed("latency_seconds", |it| Real(it.masked_cost.map(|cost| cost.seconds), 0)),
+    filed("whole_energy_mj", |it| Real(it.whole_cost.map(|cost| cost.energy_mj), 4)),
+    filed("energy_mj", |it| Real(it.masked_cost.map(|cost| cost.energy_mj), 4)),
+];
+
+/// What tuning tried, with what its limits are called.
+pub(crate) type Attempt = (&'static str, Tried);
+
+/// Of what tuning tried.
+pub(crate) const TRIED: &[Column<Attempt>] = &[
+    Heading("limits", "limits", "", LIMITS).words(|it| Words(it.0.to_owned())),
+    Heading("relative_limit", "relative limit", "", RELATIVE)
+        .number(|it| Limit(it.1.relative_limit)),
+    Heading("needed_share", "needed", MACS, NEEDED).number(|it| Share(it.1.needed_share)),
+    Heading("agreement", "agreement", "% of frames", AGREEMENT)
+        .number(|it| Share(it.1.outputs.agreement)),
+    Heading("cosine", "cosine", "", COSINE).number(|it| Real(Some(it.1.outputs.cosine), 6)),
+    Heading("psnr", "PSNR", "dB", "of all outputs; = means equal")
+        .number(|it| Psnr(it.1.outputs.psnr)),
+    Heading("largest", "largest", "", "largest difference of an output")
+        .number(|it| Error(Some(it.1.outputs.largest))),
+    Heading("relative_rms", "error", "relative", "relative RMS error of the outputs")
+        .number(|it| Error(Some(it.1.outputs.relative_rms))),
+    Heading("rms_of_variation", "error", "% of variation", VARIATION)
+        .number(|it| Share(it.1.outputs.rms_of_variation)),
+    Heading("holds", "goal", "", "whether it is reached").words(|it| Holds(it.1.holds)),
+];
+
+fn real(value: f64) -> Value {
+    Real(Some(value), 0)
+}
+
+/// Numbers with a word between them.
+pub(crate) fn shape(lengths: &[usize], between: &str) -> String {
+    lengths.iter().map(ToString::to_string).collect::<Vec<_>>().join(between)
+}
+
+impl Value {
+    /// As files have it.
+    fn filed(self) -> Cell {
+        match self {
+            Words(words) => Cell::Text(words),
+            Shape(lengths) => Cell::Text(shape(&lengths, "x")),
+            Flag(flag) | Holds(flag) => Cell::Flag(flag),
+            Count(count) => Cell::Count(Some(count)),
+            Share(value) | Milliseconds(value, _) => Cell::Real(Some(value)),
+            Real(value, _) | Error(value) | Limit(value) | Psnr(value) => Cell::Real(value),
+        }
+    }
+}
+
+/// The table of a file: rows with their numbers, which it has if they have a name.
+pub(crate) fn table<'a, T: 'a>(
+    number: Option<&str>,
+    columns: &[Column<T>],
+    rows: impl Iterator<Item = (u64, &'a T)>,
+) -> Table {
+    let row = |(at, row): (u64, &T)| -> Cells {
+        let number = number.map(|name| (name.to_owned(), Cell::Count(Some(at))));
+        let filed = columns.iter().filter(|column| column.is_filed);
+        let cells = filed.map(|column| (column.heading.0.to_owned(), (column.value)(row).filed()));
+        number.into_iter().chain(cells).collect()
+    };
+    Table::of(rows.map(row))
+}
