@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""How far the clock that a netlist lets expect is from the one that nextpnr reaches on an ECP5. Prints the table of docs/clock.md.
+"""How far the clock that a netlist lets expect is from the one that nextpnr reaches on an ECP5. Prints the rows of docs/data/clock-ecp5.csv.
 
     scripts/clock.py [--seeds N] [DESIGN...]     by default 5 seeds and every design
 
