@@ -56,12 +56,11 @@ impl Netlist {
             verilog.extend(array.filter(is_new));
         }
         let array = top.array(design);
-        let parameters = array.parameters(design).into_iter();
         let job = SynthesisJob {
             sources: verilog,
             unit: prefix.name(design.unit().module),
             array: prefix.name(array.module()),
-            parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
+            parameters: array.parameters(design),
         };
         let synthesis = job.run(toolchain, cache)?;
         if wired_wrongly(&synthesis.verilog) {

@@ -206,8 +206,7 @@ fn score_bits(design: RasterDesign<'_>, kind: FeatureKind) -> u32 {
 fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static str, String)> {
     let flag = |condition: bool| u32::from(condition);
     let has = |kind| flag(design.feature(kind).is_some());
-    let edge = design.feature(FeatureKind::Edge);
-    let edge_level_bits = edge.map_or(design.pixel_bits() + 3, SpatialFeature::level_bits);
+    let edge_level_bits = level_bits(design, FeatureKind::Edge).expect("edge has a level");
     let mut list = vec![
         ("WIDTH", design.pixel_bits()),
         ("LANES", design.pixels_per_clock()),
@@ -267,13 +266,14 @@ fn parameter(kind: FeatureKind) -> &'static str {
     }
 }
 
-/// Bits of the level of a feature at the core, whether the design has that feature or not; none where it has no level.
+/// Bits of a level of the core, of a feature that the design does not have, too; none of one without a level.
 fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
-    match kind {
-        FeatureKind::Edge => Some(design.pixel_bits() + 3),
-        FeatureKind::Corner => Some(design.pixel_bits()),
-        FeatureKind::Mad | FeatureKind::Variance => None,
-    }
+    let most = match kind {
+        FeatureKind::Edge => design.pixel_bits() + 3,
+        FeatureKind::Corner => design.pixel_bits(),
+        FeatureKind::Mad | FeatureKind::Variance => return None,
+    };
+    Some(design.feature(kind).map_or(most, SpatialFeature::level_bits))
 }
 
 /// The number of its store in the core.

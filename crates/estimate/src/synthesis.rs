@@ -24,13 +24,12 @@ impl EstimateJob {
             Top::Rpu => 1,
             Top::Rcm => unit.count,
         };
-        let parameters = array.parameters(design).into_iter();
         Self {
             synthesis: SynthesisJob {
                 sources: verilog,
                 unit: unit.module.to_owned(),
                 array: array.module().to_owned(),
-                parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
+                parameters: array.parameters(design),
             },
             unit_name: unit.name.to_owned(),
             units: units.into(),

@@ -86,6 +86,8 @@ struct Clocks<'a> {
     rcm: PipelinedRcm,
     thresholds: Thresholds,
     random: Random,
+    /// What stands at the ports while no pixel comes.
+    idle: Vec<u16>,
     unrest: bool,
 }
 
@@ -96,6 +98,7 @@ impl<'a> Clocks<'a> {
             rcm: PipelinedRcm::new(design),
             thresholds: Thresholds::of(&design),
             random: Random::new(7),
+            idle: vec![0; design.regions() as usize],
             unrest,
         }
     }
@@ -136,12 +139,11 @@ impl<'a> Clocks<'a> {
     }
 
     fn step(&mut self, reset: bool, pixels: Option<&[u16]>) -> &[RpuOutput] {
-        let idle = vec![0; self.design.regions() as usize];
         self.rcm.step(&RcmInput {
             reset,
             valid: pixels.is_some(),
             sof: false,
-            pixels: pixels.unwrap_or(&idle),
+            pixels: pixels.unwrap_or(&self.idle),
             thresholds: &self.thresholds,
         })
     }

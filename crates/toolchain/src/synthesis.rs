@@ -35,7 +35,7 @@ pub struct SynthesisJob {
     /// The module of the array.
     pub array: String,
     /// Its parameters and their values.
-    pub parameters: Vec<(String, u32)>,
+    pub parameters: Vec<(&'static str, u32)>,
 }
 
 /// The netlist of an array, as it is counted and as Verilog.
@@ -110,7 +110,7 @@ impl SynthesisJob {
 
     fn whole(&self) -> YosysJob {
         let Self { unit, array, .. } = self;
-        let set = |(name, value): &(String, u32)| format!(" -set {name} {value}");
+        let set = |(name, value): &(&str, u32)| format!(" -set {name} {value}");
         let parameters: String = self.parameters.iter().map(set).collect();
         let parameters = match parameters.as_str() {
             "" => String::new(),

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use foveate_design::Design;
-use foveate_emit::Top;
+use foveate_emit::{Parameter, Top};
 use foveate_toolchain::nextpnr::{self, NextpnrJob};
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, sources_sha256};
@@ -38,7 +38,7 @@ pub struct RouteJob {
     /// The module on top. Its clock is `clk_i`.
     pub top: String,
     /// Its parameters and their values.
-    pub parameters: Vec<(String, u32)>,
+    pub parameters: Vec<Parameter>,
     /// How many seeds, from 1 on.
     pub seeds: u32,
     /// Whether the family's own memories are left out, which the Verilog has where the family is defined.
@@ -49,11 +49,10 @@ impl RouteJob {
     /// The whole array of a design, or its smallest core.
     #[must_use]
     pub fn of(design: &Design, top: Top, seeds: u32, is_portable: bool) -> Self {
-        let parameters = top.parameters(design).into_iter();
         Self {
             sources: sources(design, top),
             top: top.module().to_owned(),
-            parameters: parameters.map(|(name, value)| (name.to_owned(), value)).collect(),
+            parameters: top.parameters(design),
             seeds,
             is_portable,
         }
