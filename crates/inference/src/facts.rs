@@ -39,17 +39,29 @@ pub(crate) struct Column<T> {
     is_filed: bool,
 }
 
-/// The name of a column in the files; its name on the page, its unit and its meaning.
-pub(crate) struct Heading(
-    pub(crate) &'static str,
-    pub(crate) &'static str,
-    pub(crate) &'static str,
-    pub(crate) &'static str,
-);
+/// How a column is called.
+pub(crate) struct Heading {
+    /// In the files.
+    pub(crate) key: &'static str,
+    /// On the page.
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: &'static str,
+}
+
+/// A heading: its name in the files; its name on the page, its unit and its meaning.
+const fn heading(
+    key: &'static str,
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+) -> Heading {
+    Heading { key, name, unit, meaning }
+}
 
 /// A column of the files alone.
 const fn filed<T>(key: &'static str, value: fn(&T) -> Value) -> Column<T> {
-    Heading(key, "", "", "").number(value)
+    heading(key, "", "", "").number(value)
 }
 
 impl Heading {
@@ -94,62 +106,62 @@ const VARIATION: &str = "RMS error of the outputs, as a share of their standard 
 
 /// Of a clip, for the page.
 pub(crate) const CLIPS: &[Column<Clip>] = &[
-    Heading("clip", "clip", "", "the clip or set").words(|it| Words(it.name.clone())),
-    Heading("frames", "frames", "", "frames that were seen").number(|it| Count(it.frames)),
-    Heading("counted", "counted", "", "frames that are in the means")
+    heading("clip", "clip", "", "the clip or set").words(|it| Words(it.name.clone())),
+    heading("frames", "frames", "", "frames that were seen").number(|it| Count(it.frames)),
+    heading("counted", "counted", "", "frames that are in the means")
         .number(|it| Count(it.counted_frames)),
-    Heading("active", "active", REGIONS, ACTIVE).mean(|it| Share(it.active_share)),
-    Heading("changed", "changed", REGIONS, CHANGED).mean(|it| Share(it.changed_share)),
-    Heading("needed", "needed", MACS, NEEDED).mean(|it| Share(it.macs.needed_share())),
-    Heading("computed", "computed", MACS, COMPUTED).mean(|it| Share(it.macs.scheduled_share())),
-    Heading("problem", "problem", "", "why frames are missing")
+    heading("active", "active", REGIONS, ACTIVE).mean(|it| Share(it.active_share)),
+    heading("changed", "changed", REGIONS, CHANGED).mean(|it| Share(it.changed_share)),
+    heading("needed", "needed", MACS, NEEDED).mean(|it| Share(it.macs.needed_share())),
+    heading("computed", "computed", MACS, COMPUTED).mean(|it| Share(it.macs.scheduled_share())),
+    heading("problem", "problem", "", "why frames are missing")
         .words(|it| Words(it.problem.clone().unwrap_or_default())),
 ];
 
 /// Of a layer.
 pub(crate) const LAYERS: &[Column<Layer>] = &[
-    Heading("name", "name", "", "name of the node in the model").words(|it| Words(it.name.clone())),
-    Heading("operator", "operator", "", OPERATOR).words(|it| Words(it.operator.clone())),
-    Heading("shape", "output", "", "shape of the output").words(|it| Shape(it.shape.clone())),
-    Heading("macs", "MACs", "", "multiplications and additions for a whole frame")
+    heading("name", "name", "", "name of the node in the model").words(|it| Words(it.name.clone())),
+    heading("operator", "operator", "", OPERATOR).words(|it| Words(it.operator.clone())),
+    heading("shape", "output", "", "shape of the output").words(|it| Shape(it.shape.clone())),
+    heading("macs", "MACs", "", "multiplications and additions for a whole frame")
         .number(|it| Count(it.macs)),
-    Heading("needed_share", "needed", "%", "positions whose windows hold a change")
+    heading("needed_share", "needed", "%", "positions whose windows hold a change")
         .mean(|it| Share(it.needed_share)),
-    Heading("scheduled_share", "computed", "%", "positions that were computed, in whole blocks")
+    heading("scheduled_share", "computed", "%", "positions that were computed, in whole blocks")
         .mean(|it| Share(it.scheduled_share)),
-    Heading("changed_share", "passed on", "%", "positions that were passed on as changed")
+    heading("changed_share", "passed on", "%", "positions that were passed on as changed")
         .mean(|it| Share(it.changed_share)),
-    Heading("weight_bytes", "weights", "bytes", "bytes of the weights")
+    heading("weight_bytes", "weights", "bytes", "bytes of the weights")
         .number(|it| Count(it.weight_bytes)),
-    Heading("output_bytes", "output", "bytes", OUTPUT).number(|it| Count(it.output_bytes)),
+    heading("output_bytes", "output", "bytes", OUTPUT).number(|it| Count(it.output_bytes)),
     filed("mask_bytes", |it| Count(it.mask_bytes)),
     filed("read_bytes", |it| real(it.traffic.read_bytes)),
     filed("halo_bytes", |it| real(it.traffic.halo_bytes)),
     filed("written_bytes", |it| real(it.traffic.written_bytes)),
-    Heading("seconds", "time", "ms", "per frame, on this computer")
+    heading("seconds", "time", "ms", "per frame, on this computer")
         .mean(|it| Milliseconds(it.traffic.seconds, 3)),
-    Heading("whole_cycles", "cycles", "whole", "cycles of a whole frame on the accelerator")
+    heading("whole_cycles", "cycles", "whole", "cycles of a whole frame on the accelerator")
         .number(|it| Real(it.whole_cost.map(|cost| cost.cycles), 0)),
-    Heading("cycles", "cycles", "masked", CYCLES)
+    heading("cycles", "cycles", "masked", CYCLES)
         .mean(|it| Real(it.masked_cost.map(|cost| cost.cycles), 0)),
-    Heading("whole_energy_mj", "energy", "mJ, whole", "energy of a whole frame on the accelerator")
+    heading("whole_energy_mj", "energy", "mJ, whole", "energy of a whole frame on the accelerator")
         .number(|it| Real(it.whole_cost.map(|cost| cost.energy_mj), 4)),
-    Heading("energy_mj", "energy", "mJ, masked", ENERGY)
+    heading("energy_mj", "energy", "mJ, masked", ENERGY)
         .mean(|it| Real(it.masked_cost.map(|cost| cost.energy_mj), 4)),
-    Heading("limit", "limit", "", "changes up to this are not passed on")
+    heading("limit", "limit", "", "changes up to this are not passed on")
         .number(|it| Limit(it.limit.map(f64::from))),
-    Heading("relative_rms", "error", "", "relative RMS difference from a whole computation")
+    heading("relative_rms", "error", "", "relative RMS difference from a whole computation")
         .mean(|it| Error(it.relative_rms)),
 ];
 
 /// Of a frame. What was added to the files later stands at the end.
 pub(crate) const FRAMES: &[Column<Frame>] = &[
-    Heading("name", "name", "", "the frame in its input").words(|it| Words(it.name.clone())),
+    heading("name", "name", "", "the frame in its input").words(|it| Words(it.name.clone())),
     filed("t_us", |it| Count(it.time_us)),
-    Heading("active_share", "active", REGIONS, ACTIVE).number(|it| Share(it.active)),
-    Heading("changed_share", "changed", REGIONS, CHANGED).number(|it| Share(it.changed)),
-    Heading("needed_share", "needed", MACS, NEEDED).unfiled(|it| Share(it.macs.needed_share())),
-    Heading("scheduled_share", "computed", MACS, COMPUTED)
+    heading("active_share", "active", REGIONS, ACTIVE).number(|it| Share(it.active)),
+    heading("changed_share", "changed", REGIONS, CHANGED).number(|it| Share(it.changed)),
+    heading("needed_share", "needed", MACS, NEEDED).unfiled(|it| Share(it.macs.needed_share())),
+    heading("scheduled_share", "computed", MACS, COMPUTED)
         .unfiled(|it| Share(it.macs.scheduled_share())),
     filed("macs_dense", |it| real(it.macs.dense)),
     filed("macs_needed", |it| real(it.macs.needed)),
@@ -157,10 +169,10 @@ pub(crate) const FRAMES: &[Column<Frame>] = &[
     filed("read_bytes", |it| real(it.traffic.read_bytes)),
     filed("halo_bytes", |it| real(it.traffic.halo_bytes)),
     filed("written_bytes", |it| real(it.traffic.written_bytes)),
-    Heading("seconds", "time", "ms", "time of the frame on this computer")
+    heading("seconds", "time", "ms", "time of the frame on this computer")
         .number(|it| Milliseconds(it.seconds, 2)),
-    Heading("relative_rms", "error", "", DIFFERENCE).number(|it| Error(it.relative_rms)),
-    Heading("clip", "clip", "", "the clip or set of the frame").words(|it| Words(it.clip.clone())),
+    heading("relative_rms", "error", "", DIFFERENCE).number(|it| Error(it.relative_rms)),
+    heading("clip", "clip", "", "the clip or set of the frame").words(|it| Words(it.clip.clone())),
     filed("counted", |it| Flag(it.is_counted)),
     filed("whole_latency_seconds", |it| Real(it.whole_cost.map(|cost| cost.seconds), 0)),
     filed("latency_seconds", |it| Real(it.masked_cost.map(|cost| cost.seconds), 0)),
@@ -173,22 +185,22 @@ pub(crate) type Attempt = (&'static str, Tried);
 
 /// Of what tuning tried.
 pub(crate) const TRIED: &[Column<Attempt>] = &[
-    Heading("limits", "limits", "", LIMITS).words(|it| Words(it.0.to_owned())),
-    Heading("relative_limit", "relative limit", "", RELATIVE)
+    heading("limits", "limits", "", LIMITS).words(|it| Words(it.0.to_owned())),
+    heading("relative_limit", "relative limit", "", RELATIVE)
         .number(|it| Limit(it.1.relative_limit)),
-    Heading("needed_share", "needed", MACS, NEEDED).number(|it| Share(it.1.needed_share)),
-    Heading("agreement", "agreement", "% of frames", AGREEMENT)
+    heading("needed_share", "needed", MACS, NEEDED).number(|it| Share(it.1.needed_share)),
+    heading("agreement", "agreement", "% of frames", AGREEMENT)
         .number(|it| Share(it.1.outputs.agreement)),
-    Heading("cosine", "cosine", "", COSINE).number(|it| Real(Some(it.1.outputs.cosine), 6)),
-    Heading("psnr", "PSNR", "dB", "of all outputs; = means equal")
+    heading("cosine", "cosine", "", COSINE).number(|it| Real(Some(it.1.outputs.cosine), 6)),
+    heading("psnr", "PSNR", "dB", "of all outputs; = means equal")
         .number(|it| Psnr(it.1.outputs.psnr)),
-    Heading("largest", "largest", "", "largest difference of an output")
+    heading("largest", "largest", "", "largest difference of an output")
         .number(|it| Error(Some(it.1.outputs.largest))),
-    Heading("relative_rms", "error", "relative", "relative RMS error of the outputs")
+    heading("relative_rms", "error", "relative", "relative RMS error of the outputs")
         .number(|it| Error(Some(it.1.outputs.relative_rms))),
-    Heading("rms_of_variation", "error", "% of variation", VARIATION)
+    heading("rms_of_variation", "error", "% of variation", VARIATION)
         .number(|it| Share(it.1.outputs.rms_of_variation)),
-    Heading("holds", "goal", "", "whether it is reached").words(|it| Holds(it.1.holds)),
+    heading("holds", "goal", "", "whether it is reached").words(|it| Holds(it.1.holds)),
 ];
 
 fn real(value: f64) -> Value {
@@ -223,7 +235,8 @@ pub(crate) fn table<'a, T: 'a>(
     let row = |(at, row): (u64, &T)| -> Cells {
         let number = number.map(|name| (name.to_owned(), Cell::Count(Some(at))));
         let filed = columns.iter().filter(|column| column.is_filed);
-        let cells = filed.map(|column| (column.heading.0.to_owned(), (column.value)(row).filed()));
+        let cells =
+            filed.map(|column| (column.heading.key.to_owned(), (column.value)(row).filed()));
         number.into_iter().chain(cells).collect()
     };
     Table::of(rows.map(row))

@@ -27,13 +27,13 @@ impl Rows {
         keys: &[&str],
         of: impl Iterator<Item = Of<&'a T>>,
     ) -> Self {
-        let named = |key: &&str| facts.iter().find(|fact| fact.heading.0 == *key);
+        let named = |key: &&str| facts.iter().find(|fact| fact.heading.key == *key);
         let facts: Vec<_> =
             keys.iter().map(|key| named(key).expect("a column of the list")).collect();
         let column = |fact: &&Fact<T>| Column {
-            name: fact.heading.1.to_owned(),
-            unit: fact.heading.2,
-            title: fact.heading.3.to_owned(),
+            name: fact.heading.name.to_owned(),
+            unit: fact.heading.unit,
+            title: fact.heading.meaning.to_owned(),
             numbers: fact.numbers,
         };
         let mut rows =
