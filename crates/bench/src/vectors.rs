@@ -7,7 +7,7 @@ use std::path::Path;
 
 use foveate_cosim::{Agreement, Field, Layout, Recording};
 use foveate_design::{Design, PortRole};
-use foveate_model::Thresholds;
+use foveate_model::{CoreInput, Thresholds};
 
 use crate::error::BenchError;
 
@@ -26,16 +26,16 @@ pub(crate) struct Vectors {
 
 /// The inputs of one clock but for its pixels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Control {
-    pub(crate) reset: bool,
-    pub(crate) valid: bool,
+struct Control {
+    reset: bool,
+    valid: bool,
     /// Whether it is the first of a frame, where that is a port.
-    pub(crate) sof: bool,
+    sof: bool,
     /// Whether a reference is valid, where that is a port.
-    pub(crate) reference_valid: bool,
+    reference_valid: bool,
     /// Whether the sink takes what leaves, where that is a port.
-    pub(crate) forward_ready: bool,
-    pub(crate) thresholds: Thresholds,
+    forward_ready: bool,
+    thresholds: Thresholds,
 }
 
 impl Vectors {
@@ -70,15 +70,14 @@ impl Vectors {
         self.controls.len() as u64
     }
 
-    /// Every clock with its pixels.
-    pub(crate) fn words(&self) -> impl Iterator<Item = (&Control, &[u16])> {
-        self.controls.iter().zip(self.pixels.chunks_exact(self.width.max(1)))
-    }
-
-    /// The references of every clock; no pixels where there is no such port.
-    pub(crate) fn references(&self) -> impl Iterator<Item = &[u16]> {
-        let width = if self.references.is_empty() { 0 } else { self.width };
-        (0..self.controls.len()).map(move |clock| &self.references[clock * width..][..width])
+    /// What is applied at every clock.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = CoreInput<'_>> {
+        let reference_width = if self.references.is_empty() { 0 } else { self.width };
+        let pixels = self.pixels.chunks_exact(self.width.max(1));
+        self.controls.iter().zip(pixels).enumerate().map(move |(clock, (control, pixels))| {
+            let references = &self.references[clock * reference_width..][..reference_width];
+            control.with(pixels, references)
+        })
     }
 }
 
@@ -114,6 +113,12 @@ impl Control {
             }
         }
         Self { reset, valid, sof, reference_valid, forward_ready, thresholds }
+    }
+
+    fn with<'a>(&'a self, pixels: &'a [u16], reference_pixels: &'a [u16]) -> CoreInput<'a> {
+        let &Self { reset, valid, sof, reference_valid, forward_ready, ref thresholds } = self;
+        let idle = CoreInput::idle(pixels, thresholds);
+        CoreInput { reset, valid, sof, reference_valid, reference_pixels, forward_ready, ..idle }
     }
 }
 

@@ -51,17 +51,20 @@ impl Field {
         }
     }
 
-    /// Writes every lane, each with as many pixels as it holds: one, or those of a word, the first in the
-    /// lowest bits.
-    pub(crate) fn set_words(&self, record: &mut [u8], pixels: &[u16]) {
-        let (held, bits) = self.word(pixels.len());
-        let word = |pixels: &[u16]| {
-            pixels.iter().rev().fold(0, |word, &pixel| word << bits | u64::from(pixel))
-        };
-        self.set_all(record, pixels.chunks(held).map(word));
+    /// Writes every lane, each with as many values as it holds: one, or the pixels of a word, the first in the lowest
+    /// bits.
+    ///
+    /// # Panics
+    /// When there is not a value for each place: who should know the port does not.
+    pub(crate) fn set_values(&self, record: &mut [u8], values: &[u64]) {
+        let (held, bits) = self.word(values.len());
+        let lanes = self.port.lanes as usize;
+        assert_eq!(values.len(), lanes * held, "{}: a value for each place", self.port.name);
+        let word = |values: &[u64]| values.iter().rev().fold(0, |word, value| word << bits | value);
+        self.set_all(record, values.chunks(held).map(word));
     }
 
-    /// Reads every lane, as `set_words` has written so many pixels.
+    /// Reads every lane, as `set_values` has written so many pixels.
     pub fn words(&self, record: &[u8], count: usize) -> impl Iterator<Item = u64> {
         let (held, bits) = self.word(count);
         let lanes = (0..self.port.lanes).map(|lane| self.get(record, lane));

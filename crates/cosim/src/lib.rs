@@ -8,6 +8,7 @@
 //! the replay bench.
 
 mod cells;
+mod codec;
 mod compare;
 mod core;
 mod diagram;
@@ -39,6 +40,7 @@ mod timed;
 
 pub use self::core::{WrittenCore, write_core};
 pub use cells::{cell_models, wired_wrongly};
+pub use codec::Codec;
 pub use compare::Difference;
 pub use diagram::timing_diagram;
 pub use elaboration::{NotElaborated, not_elaborated};
@@ -58,6 +60,6 @@ pub use recording::{Recorder, Recording, Span, vectors_hex};
 pub use report::{CosimReport, Seconds};
 pub use shipped::{Losses, ShippedBench, VectorTally};
 pub use simulate::{Dut, Outcome, Run, Simulator};
-pub use stimulus::{PipelinedCodec, RasterCodec, SerialCodec, Stimulus};
+pub use stimulus::Stimulus;
 pub use summary::{FORMAT_VERSION, Left, Summary, Verdict};
 pub use timed::{Agreement, Timed};

@@ -7,7 +7,7 @@
 use std::time::{Duration, Instant};
 
 use foveate_design::{Config, Design};
-use foveate_model::{SerialInput, SerialRcm, Thresholds};
+use foveate_model::{CoreInput, SerialRcm, Thresholds};
 
 /// How long each way is measured for.
 const LASTS: Duration = Duration::from_secs(3);
@@ -39,13 +39,7 @@ fn measure(feed: &str, skips: bool) {
         for place in 0..frame {
             let at = (frames as usize % 8 * frame + place) * ports;
             let pixels = &pixels[at..at + ports];
-            rcm.step(&SerialInput {
-                reset: false,
-                valid: true,
-                sof: false,
-                pixels,
-                thresholds: &thresholds,
-            });
+            rcm.step(&CoreInput { valid: true, ..CoreInput::idle(pixels, &thresholds) });
             clocks += 1;
         }
         let working = rcm.clocks_until_ready();
@@ -54,13 +48,7 @@ fn measure(feed: &str, skips: bool) {
             rcm.skip(working);
         } else {
             let pixels = &pixels[..ports];
-            let idle = SerialInput {
-                reset: false,
-                valid: false,
-                sof: false,
-                pixels,
-                thresholds: &thresholds,
-            };
+            let idle = CoreInput::idle(pixels, &thresholds);
             (0..working).for_each(|_| {
                 std::hint::black_box(rcm.step(&idle));
             });

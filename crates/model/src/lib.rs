@@ -9,6 +9,8 @@
 //! the scores and decision of one region. Integers throughout; no files, no Verilog.
 #![forbid(unsafe_code)]
 
+mod core;
+mod cycle;
 mod decision;
 pub mod denoise;
 mod error;
@@ -29,14 +31,16 @@ mod thresholds;
 mod verdict;
 pub mod window;
 
+pub use self::core::{rcm, rpu};
+pub use cycle::{CoreInput, CycleModel};
 pub use decision::action;
 pub use error::ModelError;
 pub use functional::{FunctionalCamera, FunctionalOutcome};
-pub use pipelined::{PipelinedRcm, PipelinedRpu, RcmInput, RpuInput, RpuOutput};
-pub use raster::{RasterInput, RasterOutput, RasterRcm};
+pub use pipelined::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput};
+pub use raster::{RasterOutput, RasterRcm};
 pub use region::{pad, region_pixels};
 pub use scorer::RegionScorer;
-pub use serial::{SerialInput, SerialOutput, SerialRcm};
+pub use serial::{SerialOutput, SerialRcm};
 pub use stream::{region_border, region_stream};
 pub use sync::FrameSync;
 pub use temporal::temporal_differences;

@@ -36,6 +36,12 @@ impl FrameSync {
         Self { beats, state: State::Seek, is_error: false }
     }
 
+    /// Where nothing finds the frames: every beat is passed on.
+    #[must_use]
+    pub fn absent() -> Self {
+        Self { beats: None, state: State::Seek, is_error: false }
+    }
+
     /// One rising edge without reset, before which the array is `open`: whether the array takes a beat.
     pub fn step(&mut self, valid: bool, sof: bool, open: bool) -> bool {
         let Some(beats) = self.beats else { return valid && open };

@@ -5,7 +5,7 @@ use foveate_design::{Design, PipelinedDesign};
 use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::{
-    FunctionalCamera, PipelinedRcm, RcmInput, RpuOutput, Thresholds, region_stream,
+    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, Thresholds, region_stream,
 };
 
 use crate::pixels::Random;
@@ -139,12 +139,10 @@ impl<'a> Clocks<'a> {
     }
 
     fn step(&mut self, reset: bool, pixels: Option<&[u16]>) -> &[RpuOutput] {
-        self.rcm.step(&RcmInput {
+        self.rcm.step(&CoreInput {
             reset,
             valid: pixels.is_some(),
-            sof: false,
-            pixels: pixels.unwrap_or(&self.idle),
-            thresholds: &self.thresholds,
+            ..CoreInput::idle(pixels.unwrap_or(&self.idle), &self.thresholds)
         })
     }
 

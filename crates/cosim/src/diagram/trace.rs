@@ -3,12 +3,12 @@
 
 use crate::error::CosimError;
 use crate::level::Level;
-use crate::shipped::{Model, Record, TestPattern, model};
-use crate::stimulus::{Applied, Random};
+use crate::shipped::{Record, Rig, TestPattern};
+use crate::stimulus::Random;
 use foveate_design::{Design, Direction, Port, PortRole};
 use foveate_emit::Top;
 use foveate_frame::Frame;
-use foveate_model::Thresholds;
+use foveate_model::{CoreInput, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -50,8 +50,8 @@ impl Trace {
         let top = if part.unit().rpu_in_rcm { Top::Rpu } else { Top::Rcm };
         let mut take = Take::new(&part, top, title, cancel);
         let frame = frame(&part);
-        for _ in 0..=take.model.frames_behind() {
-            let beats = take.model.beats(&frame);
+        for _ in 0..=take.rig.frames_behind() {
+            let beats = take.rig.beats(&frame);
             take.wait()?;
             take.trace.frames.push(take.edge);
             for (number, pixels) in beats.iter().enumerate() {
@@ -60,7 +60,7 @@ impl Trace {
             }
         }
         take.wait()?;
-        let settling = take.model.settling_clocks();
+        let settling = take.rig.settling_clocks();
         (0..settling.max(2)).try_for_each(|_| take.clock(None, false))?;
         Ok(take.trace)
     }
@@ -101,7 +101,7 @@ fn frame(part: &Design) -> Frame {
 
 /// A trace under way.
 struct Take<'a> {
-    model: Box<dyn Model + 'a>,
+    rig: Rig<'a>,
     record: Record,
     thresholds: Thresholds,
     garbage: Vec<u16>,
@@ -114,14 +114,14 @@ impl<'a> Take<'a> {
     fn new(part: &'a Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
         let ports = top.ports(part);
         let record = Record::of(&ports);
-        let model = model(part, top);
+        let rig = Rig::new(part, top);
         let shown =
             record.inputs.fields().iter().chain(record.outputs.fields()).map(|field| &field.port);
         let signals = shown.filter(|port| is_shown(port)).map(signal).collect();
         Self {
-            garbage: vec![0; model.width()],
+            garbage: vec![0; rig.width()],
             record,
-            model,
+            rig,
             thresholds: Thresholds::of(part),
             edge: 0,
             trace: Trace { title, signals, stretches: Vec::new(), frames: Vec::new() },
@@ -131,12 +131,12 @@ impl<'a> Take<'a> {
 
     /// Lets clocks pass until a pixel is taken.
     fn wait(&mut self) -> Result<(), CosimError> {
-        while !self.model.is_ready() {
-            match self.model.quiet_clocks() {
+        while !self.rig.is_ready() {
+            match self.rig.quiet_clocks() {
                 0 | 1 => self.clock(None, false)?,
                 quiet => {
-                    let applied = Applied::idle(&self.garbage, &self.thresholds);
-                    self.model.skip(&applied, &mut self.record);
+                    let applied = CoreInput::idle(&self.garbage, &self.thresholds);
+                    self.rig.skip(&applied, &mut self.record);
                     self.keep(quiet);
                 }
             }
@@ -148,9 +148,9 @@ impl<'a> Take<'a> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        let idle = Applied::idle(pixels.unwrap_or(&self.garbage), &self.thresholds);
-        let applied = Applied { valid: pixels.is_some(), sof, ..idle };
-        self.model.clock(&applied, &mut self.record);
+        let idle = CoreInput::idle(pixels.unwrap_or(&self.garbage), &self.thresholds);
+        let applied = CoreInput { valid: pixels.is_some(), sof, ..idle };
+        self.rig.clock(&applied, &mut self.record);
         self.keep(1);
         Ok(())
     }

@@ -8,14 +8,12 @@
 
 mod damage;
 mod grid;
-mod model;
 mod picture;
-mod pipelined;
 mod player;
-mod raster;
+mod rig;
 mod script;
-mod serial;
 mod studio;
+mod surroundings;
 mod tally;
 mod tape;
 
@@ -24,10 +22,9 @@ use crate::harness::{bench_file, told_bench};
 use crate::level::Level;
 use foveate_design::{Design, Port, PortRole};
 use foveate_emit::{Prefix, SourceFile, Top};
-pub(crate) use model::{Model, Record};
 pub(crate) use picture::TestPattern;
 use player::Player;
-pub(crate) use player::model;
+pub(crate) use rig::{Record, Rig};
 use script::{FRAMES, Script};
 use std::sync::atomic::AtomicBool;
 use tape::Tape;

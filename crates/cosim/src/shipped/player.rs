@@ -2,15 +2,13 @@
 //! Plays a script to the cycle-level model, clock by clock, and records it.
 
 use super::damage::Delivery;
-use super::model::Model;
+use super::rig::Rig;
 use super::script::{Script, Shot};
 use super::tape::Tape;
-use super::{pipelined, raster, serial};
 use crate::error::CosimError;
-use crate::stimulus::Applied;
-use foveate_design::{Design, Hardware};
+use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_model::Thresholds;
+use foveate_model::{CoreInput, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -23,18 +21,9 @@ const MANY_BEATS: usize = 20_000;
 /// Clocks after a frame at which pixels are offered that an array at work must not take.
 const REFUSED: usize = 3;
 
-/// The model of a part of a design; the only place that lists them here.
-pub(crate) fn model(part: &Design, top: Top) -> Box<dyn Model + '_> {
-    match part.hardware() {
-        Hardware::Pipelined(own) => pipelined::model(part.on(own), top),
-        Hardware::Serial(own) => serial::model(part.on(own)),
-        Hardware::Raster(own) => raster::model(part.on(own)),
-    }
-}
-
 /// Plays scripts.
 pub(super) struct Player<'a> {
-    model: Box<dyn Model + 'a>,
+    rig: Rig<'a>,
     tape: &'a mut Tape,
     cancel: &'a AtomicBool,
     /// What is at the pixel port while it shows nothing of use.
@@ -52,10 +41,10 @@ impl<'a> Player<'a> {
         tape: &'a mut Tape,
         cancel: &'a AtomicBool,
     ) -> Self {
-        let model = model(part, top);
+        let rig = Rig::new(part, top);
         let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
         let waits = part.timing().departure().kept_rows.is_none();
-        Self { garbage: vec![max; model.width()], model, tape, cancel, stalls: false, waits }
+        Self { garbage: vec![max; rig.width()], rig, tape, cancel, stalls: false, waits }
     }
 
     /// Plays all sequences. The first begins twice: a reset forgets what was under way.
@@ -64,7 +53,7 @@ impl<'a> Player<'a> {
             let Some(first) = sequence.first() else { continue };
             if number == 0 {
                 self.reset(first)?;
-                let beats = self.model.beats(&first.frame);
+                let beats = self.rig.beats(&first.frame);
                 self.stream(&beats[..FORGOTTEN.min(beats.len())], &first.thresholds)?;
             }
             self.reset(first)?;
@@ -82,7 +71,7 @@ impl<'a> Player<'a> {
         self.stalls = false;
         self.reset(first)?;
         for (shot, delivery) in shots.iter().zip(Delivery::ALL) {
-            let beats = self.model.beats(&shot.frame);
+            let beats = self.rig.beats(&shot.frame);
             for (sof, pixels) in delivery.of(&beats, &self.garbage.clone()) {
                 self.beat(pixels, sof, &shot.thresholds)?;
             }
@@ -93,8 +82,8 @@ impl<'a> Player<'a> {
     fn reset(&mut self, shot: &Shot) -> Result<(), CosimError> {
         let garbage = self.garbage.clone();
         for valid in [true, false] {
-            let applied = Applied::idle(&garbage, &shot.thresholds);
-            self.clock(&Applied { reset: true, valid, ..applied })?;
+            let applied = CoreInput::idle(&garbage, &shot.thresholds);
+            self.clock(&CoreInput { reset: true, valid, ..applied })?;
         }
         Ok(())
     }
@@ -107,7 +96,7 @@ impl<'a> Player<'a> {
                 let is_new = before.thresholds != shot.thresholds;
                 self.settle(&before.thresholds, is_new || number % 2 == 0)?;
             }
-            let beats = self.model.beats(&shot.frame);
+            let beats = self.rig.beats(&shot.frame);
             self.stalls = shot.stalls;
             self.stream(&beats, &shot.thresholds)?;
             before = Some(shot);
@@ -137,7 +126,7 @@ impl<'a> Player<'a> {
         thresholds: &Thresholds,
     ) -> Result<(), CosimError> {
         self.wait(thresholds)?;
-        self.clock(&Applied { sof, ..Applied::valid(pixels, thresholds) })
+        self.clock(&CoreInput { sof, ..CoreInput::valid(pixels, thresholds) })
     }
 
     /// Between two frames: what must be done is done, pixels that are offered meanwhile are refused; with
@@ -146,13 +135,13 @@ impl<'a> Player<'a> {
         self.stalls &= !self.waits;
         let garbage = self.garbage.clone();
         for _ in 0..REFUSED {
-            if !self.model.is_ready() {
-                self.clock(&Applied::valid(&garbage, thresholds))?;
+            if !self.rig.is_ready() {
+                self.clock(&CoreInput::valid(&garbage, thresholds))?;
             }
         }
         self.wait(thresholds)?;
         if is_long {
-            self.idle(self.model.settling_clocks(), thresholds)?;
+            self.idle(self.rig.settling_clocks(), thresholds)?;
         }
         Ok(())
     }
@@ -160,8 +149,8 @@ impl<'a> Player<'a> {
     /// Lets everything leave.
     fn drain(&mut self, last: &Shot) -> Result<(), CosimError> {
         self.settle(&last.thresholds, true)?;
-        let beats = self.model.beats(&last.frame);
-        for _ in 0..self.model.frames_behind() {
+        let beats = self.rig.beats(&last.frame);
+        for _ in 0..self.rig.frames_behind() {
             self.stream(&beats, &last.thresholds)?;
             self.settle(&last.thresholds, true)?;
         }
@@ -170,8 +159,8 @@ impl<'a> Player<'a> {
 
     /// Lets clocks pass until a pixel is taken.
     fn wait(&mut self, thresholds: &Thresholds) -> Result<(), CosimError> {
-        while !self.model.is_ready() {
-            match self.model.quiet_clocks() {
+        while !self.rig.is_ready() {
+            match self.rig.quiet_clocks() {
                 0 | 1 => self.idle(1, thresholds)?,
                 quiet => self.skip(quiet, thresholds)?,
             }
@@ -183,24 +172,24 @@ impl<'a> Player<'a> {
         let garbage = self.garbage.clone();
         for _ in 0..clocks {
             // A mark without a pixel means nothing.
-            self.clock(&Applied { sof: true, ..Applied::idle(&garbage, thresholds) })?;
+            self.clock(&CoreInput { sof: true, ..CoreInput::idle(&garbage, thresholds) })?;
         }
         Ok(())
     }
 
-    fn clock(&mut self, applied: &Applied<'_>) -> Result<(), CosimError> {
+    fn clock(&mut self, applied: &CoreInput<'_>) -> Result<(), CosimError> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        let forward_ready = !self.stalls || self.model.takes_while_stalling();
-        let applied = Applied { forward_ready, ..*applied };
-        self.model.clock(&applied, &mut self.tape.record);
+        let forward_ready = !self.stalls || self.rig.takes_while_stalling();
+        let applied = CoreInput { forward_ready, ..*applied };
+        self.rig.clock(&applied, &mut self.tape.record);
         self.tape.push(1)
     }
 
     fn skip(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {
-        let applied = Applied::idle(&self.garbage, thresholds);
-        self.model.skip(&applied, &mut self.tape.record);
+        let applied = CoreInput::idle(&self.garbage, thresholds);
+        self.rig.skip(&applied, &mut self.tape.record);
         self.tape.push(clocks)
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Vectors under way: packed into text, and counted.
 
-use super::model::Record;
+use super::rig::Record;
 use super::tally::{Counter, VectorTally};
 use crate::error::CosimError;
 use crate::packer::Packer;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds for a frame that is to come, aimed at the scores that one of its regions will have.
+//! Thresholds aimed at data: at a frame that is to come and the scores that one of its regions will have, or at scores
+//! that are decided now.
 
 use super::aim::Ranges;
 use super::random::Random;
 use foveate_design::{Design, FeatureKind};
 use foveate_model::{RegionScorer, Thresholds, region_border};
 
-/// How the thresholds of a frame are chosen, where they are ports.
+/// How thresholds are chosen, where they are ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum FrameAim {
+pub(super) enum ThresholdAim {
     /// As the design is configured.
     Design,
     /// Levels on, just below or just above what a pixel of the frame has, minima likewise with the scores
@@ -18,6 +19,9 @@ pub(crate) enum FrameAim {
     Largest,
     /// The least that is not nothing: what is not flat is relevant, what changes has changed.
     Least,
+    /// All change at every clock; minima are exact where a decision is made. For hardware that takes thresholds at every
+    /// clock.
+    Restless,
 }
 
 /// Looks ahead.
@@ -72,6 +76,32 @@ impl Aimer {
         let count = self.scorer.temporal_count(reference, &thresholds);
         self.ranges.aim_minima(&scores, count, &mut thresholds, random);
         thresholds
+    }
+
+    /// Levels near the data of a square that is to come after another; the minima stay. With `largest` near the largest
+    /// values that there are, by turns.
+    pub(super) fn levels(
+        &self,
+        (now, before): (&[u16], &[u16]),
+        largest: Option<u32>,
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
+        match largest {
+            Some(turn) => self.ranges.aim_largest_levels(turn, thresholds),
+            None => self.ranges.aim_levels(now, before, thresholds, random),
+        }
+    }
+
+    /// Minima for scores that are decided now.
+    pub(super) fn minima(
+        &self,
+        scores: &[u64; FeatureKind::COUNT],
+        count: u32,
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
+        self.ranges.aim_minima(scores, count, thresholds, random);
     }
 
     /// Levels of 0 and minima of 1.

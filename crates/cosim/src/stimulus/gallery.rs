@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Whole frames from motifs: an artist for every region.
 
+use super::feed::FrameFeed;
 use super::motif::{Artist, Motif};
 use super::random::Random;
 use crate::error::CosimError;
-use foveate_design::Design;
 use foveate_frame::Frame;
 
-/// The artists of a frame.
+/// The artists of what is fed.
 pub(super) struct Gallery {
-    design: Design,
-    /// One per region.
+    /// One per square.
     artists: Vec<Artist>,
+    /// Side of a square.
+    side: u32,
+    /// Columns and rows of all squares together, without what is beyond the frame.
+    size: (u32, u32),
+    /// Bits of a pixel.
+    bits: u32,
 }
 
 impl Gallery {
-    pub(super) fn new(design: &Design, random: &mut Random) -> Self {
-        let artist = |_| Artist::new(design, design.region_size(), random.fork());
-        let artists = (0..design.regions()).map(artist).collect();
-        Self { design: design.clone(), artists }
+    pub(super) fn new(feed: &FrameFeed<'_>, random: &mut Random) -> Self {
+        let (design, side, size) = (feed.design(), feed.square_side(), feed.size());
+        let squares = size.0.div_ceil(side) * size.1.div_ceil(side);
+        let artists = (0..squares).map(|_| Artist::new(design, side, random.fork())).collect();
+        Self { artists, side, size, bits: design.pixel_bits() }
     }
 
     /// Lets every artist draw the next picture, with `mixed` every region another motif, and with
@@ -44,13 +50,13 @@ impl Gallery {
 
     /// What the artists have drawn.
     pub(super) fn frame(&self) -> Result<Frame, CosimError> {
-        let design = &self.design;
-        let (side, columns) = (design.region_size(), design.columns());
+        let (side, (width, height)) = (self.side, self.size);
+        let columns = width.div_ceil(side);
         let pixel = |x: u32, y: u32| {
             let artist = &self.artists[(y / side * columns + x / side) as usize];
             artist.pixels[(y % side * side + x % side) as usize]
         };
-        Frame::from_fn(design.width(), design.height(), design.pixel_bits(), pixel)
+        Frame::from_fn(width, height, self.bits, pixel)
             .map_err(|error| CosimError::Model { reason: error.to_string() })
     }
 }

@@ -8,38 +8,36 @@
 
 mod ahead;
 mod aim;
-mod applied;
 mod brush;
 mod damage;
+mod driver;
+mod feed;
 mod gallery;
 mod gauge;
-mod kinds;
 mod manners;
+mod memory;
 mod motif;
+mod pace;
 mod parts;
-mod pipelined;
+mod queue;
 mod random;
-mod raster;
-mod run;
-mod sequence;
-mod serial;
+mod scout;
+mod sequences;
+mod session;
+mod sink;
 mod turns;
 
 use crate::error::CosimError;
 use crate::level::Level;
 use crate::recording::{Recorder, Recording};
-pub(crate) use applied::Applied;
-use foveate_design::{Design, Hardware};
+pub(crate) use feed::FrameFeed;
+use foveate_design::Design;
 use foveate_frame::Frame;
 pub(crate) use motif::{Artist, Motif};
-pub(crate) use pipelined::Machine;
-pub use pipelined::PipelinedCodec;
+pub(crate) use queue::Queue;
 pub(crate) use random::Random;
-pub use raster::RasterCodec;
-pub(crate) use raster::{Queue, words};
-use run::Run;
-pub(crate) use serial::Feed;
-pub use serial::SerialCodec;
+use session::Session;
+pub(crate) use sink::ends_region;
 use std::sync::atomic::AtomicBool;
 use turns::Extent;
 
@@ -70,15 +68,6 @@ pub struct Stimulus {
 const MOST_TELLING: usize = 3;
 /// Frame times that a directed sequence takes: some frames, with gaps.
 const FRAMES_OF_A_SEQUENCE: u64 = 6;
-
-/// Runs the model of the simulated design and records; the only place that lists them here.
-fn record(simulated: &Design, run: Run<'_>) -> Result<(), CosimError> {
-    match simulated.hardware() {
-        Hardware::Pipelined(own) => pipelined::record(simulated.on(own), run),
-        Hardware::Serial(own) => serial::record(simulated.on(own), run),
-        Hardware::Raster(own) => raster::record(simulated.on(own), run),
-    }
-}
 
 impl Default for Stimulus {
     fn default() -> Self {
@@ -113,17 +102,9 @@ impl Stimulus {
         let simulated = self.level.design(design)?;
         self.check_size(&simulated)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&simulated))?;
-        let run = Run {
-            level: self.level,
-            seed: self.seed,
-            extent: self.extent(&simulated),
-            frames: &self.frames,
-            design,
-            recorder: &mut recorder,
-            cancel,
-            progress,
-        };
-        record(&simulated, run)?;
+        let plan = (self.seed, self.extent(&simulated));
+        Session::new((design, &simulated), self.level, plan, &mut recorder, cancel)
+            .run(&self.frames, progress)?;
         recorder.finish()
     }
 

@@ -1,53 +1,126 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The caller's frames, as the simulated array or core sees them.
+//! The caller's frames, as the simulated hardware sees them.
 
 use crate::error::CosimError;
-use foveate_design::{Design, SerialDesign};
+use crate::level::Level;
+use foveate_design::{Design, Hardware};
 use foveate_frame::Frame;
+use foveate_model::{region_border, region_stream};
 
 /// Clocks of all the parts that go through a single lane or core, at most; they are spread over the frame.
-pub(super) const MAX_CLOCKS: u64 = 1 << 21;
+const MAX_CLOCKS: u64 = 1 << 21;
 
-/// The first regions of the lanes of a design whose frames go through one lane: all, or as many, evenly
-/// spread, as `clocks` per part allow.
-pub(super) fn first_regions(design: SerialDesign<'_>, clocks: u64) -> Vec<u32> {
-    let lanes = u64::from(design.lanes());
-    let affordable = (MAX_CLOCKS / clocks.max(1)).clamp(1, lanes);
-    let nth = |number: u64| u32::try_from(number * lanes / affordable).expect("it is a lane");
-    (0..affordable).map(|number| nth(number) * design.fold()).collect()
+/// A part of the caller's frames, which goes through the simulated hardware as a sequence.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    /// The name of its sequence.
+    pub(super) name: String,
+    /// Its region, or its first, where it is not all of the frame.
+    pub(super) region: Option<u32>,
+    /// The sides of its region at the frame's border, where these are an input.
+    pub(super) border: u8,
+    cut: Cut,
 }
 
-/// What one lane sees of a frame: its regions, side by side. What is beyond them repeats their border, as at
-/// the border of a frame.
-pub(super) fn of_lane(
-    design: SerialDesign<'_>,
-    frame: &Frame,
-    first: u32,
-) -> Result<Frame, CosimError> {
-    let (side, fold) = (design.region_size(), design.fold());
-    cut(&design, frame, (fold * side, side), |x, y| {
-        let region = (first + x / side).min(design.regions() - 1);
-        let (column, row) = (region % design.columns(), region / design.columns());
-        (column * side + x % side, row * side + y)
-    })
+/// Which part it is. What is beyond it repeats its border, as at the border of a frame.
+#[derive(Clone, Copy, Debug)]
+enum Cut {
+    /// The upper left of the frame, as much as the simulated design takes.
+    UpperLeft,
+    /// A region with its halo.
+    Region(u32),
+    /// The regions of a lane from this one on, side by side.
+    Lane(u32),
+    /// As much as the simulated design takes from this place on.
+    Tile { left: u32, top: u32 },
 }
 
-/// The upper left of a frame, as much as a design takes.
-pub(super) fn upper_left(design: &Design, frame: &Frame) -> Result<Frame, CosimError> {
-    cut(design, frame, (design.width(), design.height()), |x, y| (x, y))
-}
+impl Part {
+    fn of(name: &str, region: Option<u32>, cut: Cut) -> Self {
+        Self { name: name.to_owned(), region, border: 0, cut }
+    }
 
-/// The part of a frame of which `place` says where its pixels are; beyond the frame they repeat its border.
-pub(super) fn cut(
-    design: &Design,
-    frame: &Frame,
-    (width, height): (u32, u32),
-    place: impl Fn(u32, u32) -> (u32, u32),
-) -> Result<Frame, CosimError> {
-    let pixel = |x, y| {
-        let (x, y) = place(x, y);
-        frame.clamped(x.into(), y.into())
-    };
-    Frame::from_fn(width, height, design.pixel_bits(), pixel)
-        .map_err(|error| CosimError::Model { reason: error.to_string() })
+    /// The parts that are simulated: of an array one; of a lone unit as many, evenly spread over the frames of the
+    /// `whole` design, as so many frames allow.
+    pub(super) fn all_of(
+        whole: &Design,
+        simulated: &Design,
+        level: Level,
+        frames: usize,
+    ) -> Vec<Self> {
+        match level {
+            _ if frames == 0 => Vec::new(),
+            Level::Rcm { .. } | Level::Full => vec![Self::of("frames", None, Cut::UpperLeft)],
+            Level::Rpu => {
+                let clocks = frames as u64 * simulated.timing().clocks_per_frame();
+                Self::of_unit(whole, simulated, MAX_CLOCKS / clocks.max(1))
+            }
+        }
+    }
+
+    /// The parts that go through a lone unit, `affordable` at most.
+    fn of_unit(whole: &Design, simulated: &Design, affordable: u64) -> Vec<Self> {
+        let spread = |all: u32| {
+            let affordable = affordable.clamp(1, all.into());
+            let nth = move |number| number * u64::from(all) / affordable;
+            (0..affordable).map(move |number| u32::try_from(nth(number)).expect("less than all"))
+        };
+        match whole.hardware() {
+            // They take a clock per pixel, and each region is another RPU.
+            Hardware::Pipelined(_) => (0..whole.regions())
+                .map(|region| {
+                    let part = Self::of("frames", Some(region), Cut::Region(region));
+                    Self { border: region_border(whole, region), ..part }
+                })
+                .collect(),
+            Hardware::Serial(own) => {
+                let fold = whole.on(own).fold();
+                spread(whole.on(own).lanes())
+                    .map(|lane| Self::of("frames", Some(lane * fold), Cut::Lane(lane * fold)))
+                    .collect()
+            }
+            Hardware::Raster(_) => {
+                let (width, height) = (simulated.width(), simulated.height());
+                let columns = whole.width().div_ceil(width);
+                spread(columns * whole.height().div_ceil(height))
+                    .map(|tile| {
+                        let (left, top) = (tile % columns * width, tile / columns * height);
+                        let name = format!("frames from x {left}, y {top} on");
+                        Self::of(&name, None, Cut::Tile { left, top })
+                    })
+                    .collect()
+            }
+        }
+    }
+
+    /// It of a frame of the `whole` design.
+    pub(super) fn cut(
+        &self,
+        whole: &Design,
+        simulated: &Design,
+        frame: &Frame,
+    ) -> Result<Frame, CosimError> {
+        let (side, columns) = (whole.region_size(), whole.columns());
+        let size = (simulated.width(), simulated.height());
+        let part = |(width, height): (u32, u32), place: &dyn Fn(u32, u32) -> (u32, u32)| {
+            Frame::from_fn(width, height, whole.pixel_bits(), |x, y| {
+                let (x, y) = place(x, y);
+                frame.clamped(x.into(), y.into())
+            })
+        };
+        let part = match self.cut {
+            Cut::UpperLeft => part(size, &|x, y| (x, y)),
+            Cut::Tile { left, top } => part(size, &|x, y| (left + x, top + y)),
+            Cut::Lane(first) => part(size, &|x, y| {
+                let region = (first + x / side).min(whole.regions() - 1);
+                (region % columns * side + x % side, region / columns * side + y)
+            }),
+            Cut::Region(region) => {
+                let (mut stream, side) = (Vec::new(), whole.stream_side());
+                region_stream(whole, frame, region, &mut stream);
+                Frame::new(side, side, whole.pixel_bits(), stream)
+            }
+        };
+        part.map_err(|error| CosimError::Model { reason: error.to_string() })
+    }
 }

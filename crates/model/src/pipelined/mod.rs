@@ -31,6 +31,6 @@ mod tail;
 mod temporal;
 mod window;
 
-pub use ports::{RcmInput, RpuInput, RpuOutput};
+pub use ports::{RpuInput, RpuOutput};
 pub use rcm::PipelinedRcm;
 pub use rpu::PipelinedRpu;

@@ -1,23 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of the array and of one RPU: what is applied at an edge, and what is shown after it.
+//! The ports of one RPU: what is applied at an edge, and what is shown after it.
 
 use super::plan::FEATURES;
-use crate::Thresholds;
-
-/// What is applied to the inputs of the array at one edge.
-#[derive(Clone, Copy, Debug)]
-pub struct RcmInput<'a> {
-    /// `rst_i`.
-    pub reset: bool,
-    /// `valid_i`.
-    pub valid: bool,
-    /// `sof_i`; without meaning where the design does not find its frames.
-    pub sof: bool,
-    /// `pixel_i`: the pixel of region i in lane i.
-    pub pixels: &'a [u16],
-    /// The threshold inputs; without meaning where the design has constants.
-    pub thresholds: &'a Thresholds,
-}
 
 /// What is applied to the inputs of an RPU at one edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The RCM: one RPU per region, all in step.
 
-use foveate_design::PipelinedDesign;
+use foveate_design::{FeatureKind, PipelinedDesign, PortRole};
 
-use super::{PipelinedRpu, RcmInput, RpuInput, RpuOutput};
-use crate::number::index;
+use super::{PipelinedRpu, RpuInput, RpuOutput};
+use crate::cycle::{CoreInput, CycleModel};
 use crate::{FrameSync, region_border};
 
 /// The cycle-level model of an RCM, as after a reset when new.
 #[derive(Clone, Debug)]
 pub struct PipelinedRcm {
+    kinds: Vec<FeatureKind>,
     sync: FrameSync,
     lanes: Vec<Lane>,
     outputs: Vec<RpuOutput>,
@@ -18,19 +19,36 @@ pub struct PipelinedRcm {
 #[derive(Clone, Debug)]
 struct Lane {
     rpu: PipelinedRpu,
-    border: u8,
+    /// None of a lone RPU, which is told at every edge.
+    border: Option<u8>,
 }
 
 impl PipelinedRcm {
     /// The RCM of the design.
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
+        let border = |region| Some(region_border(&design, region));
+        Self::of(design, FrameSync::new(&design), (0..design.regions()).map(border))
+    }
+
+    /// Module `rpu`: one RPU of the design, whose borders are an input, and in front of which nothing finds its frames.
+    #[must_use]
+    pub fn lone(design: PipelinedDesign<'_>) -> Self {
+        Self::of(design, FrameSync::absent(), std::iter::once(None))
+    }
+
+    fn of(
+        design: PipelinedDesign<'_>,
+        sync: FrameSync,
+        borders: impl Iterator<Item = Option<u8>>,
+    ) -> Self {
         let rpu = PipelinedRpu::new(design);
-        let lane = |region| Lane { rpu: rpu.clone(), border: region_border(&design, region) };
+        let lanes: Vec<_> = borders.map(|border| Lane { rpu: rpu.clone(), border }).collect();
         Self {
-            sync: FrameSync::new(&design),
-            lanes: (0..design.regions()).map(lane).collect(),
-            outputs: vec![RpuOutput::default(); index(design.regions())],
+            kinds: design.features().iter().map(|feature| feature.kind()).collect(),
+            sync,
+            outputs: vec![RpuOutput::default(); lanes.len()],
+            lanes,
         }
     }
 
@@ -39,8 +57,8 @@ impl PipelinedRcm {
     ///
     /// # Panics
     /// When there is not one pixel per region.
-    pub fn step(&mut self, input: &RcmInput<'_>) -> &[RpuOutput] {
-        let &RcmInput { reset, valid, sof, pixels, thresholds } = input;
+    pub fn step(&mut self, input: &CoreInput<'_>) -> &[RpuOutput] {
+        let &CoreInput { reset, valid, sof, pixels, thresholds, .. } = input;
         assert_eq!(pixels.len(), self.lanes.len(), "one pixel per region is needed");
         let valid = if reset {
             self.sync.reset();
@@ -49,8 +67,8 @@ impl PipelinedRcm {
             self.sync.step(valid, sof, true)
         };
         for ((lane, &pixel), output) in self.lanes.iter_mut().zip(pixels).zip(&mut self.outputs) {
-            let input = RpuInput { reset, valid, pixel, border: lane.border };
-            *output = lane.rpu.step(&input, thresholds);
+            let border = lane.border.unwrap_or(input.border);
+            *output = lane.rpu.step(&RpuInput { reset, valid, pixel, border }, thresholds);
         }
         &self.outputs
     }
@@ -65,5 +83,49 @@ impl PipelinedRcm {
     #[must_use]
     pub fn sync_error(&self) -> bool {
         self.sync.is_error()
+    }
+
+    /// Appends a value of every lane.
+    fn lanes(&self, values: &mut Vec<u64>, value: impl Fn(&RpuOutput) -> u64) {
+        values.extend(self.outputs.iter().map(value));
+    }
+}
+
+impl CycleModel for PipelinedRcm {
+    fn clock(&mut self, input: &CoreInput<'_>) {
+        self.step(input);
+    }
+
+    fn show(&self, role: PortRole, values: &mut Vec<u64>) {
+        match role {
+            PortRole::SyncError => values.push(self.sync_error().into()),
+            // All lanes decide at once.
+            PortRole::DecisionValid => values.push(self.outputs[0].decision_valid.into()),
+            PortRole::Srs => self.lanes(values, |shown| shown.srs.into()),
+            PortRole::Trs => self.lanes(values, |shown| shown.trs.into()),
+            PortRole::Active => self.lanes(values, |shown| shown.active.into()),
+            PortRole::Score(kind) => {
+                if let Some(place) = self.kinds.iter().position(|&own| own == kind) {
+                    self.lanes(values, |shown| shown.scores[place]);
+                }
+            }
+            PortRole::TemporalCount => self.lanes(values, |shown| shown.temporal_count.into()),
+            PortRole::ForwardValid => self.lanes(values, |shown| shown.forward_valid.into()),
+            PortRole::ForwardPixel => self.lanes(values, |shown| shown.forward_pixel.into()),
+            // Inputs, and what an RCM does not have.
+            _ => {}
+        }
+    }
+
+    fn is_ready(&self) -> bool {
+        true
+    }
+
+    fn reference(&self, _region: u32) -> Option<&[u16]> {
+        None
+    }
+
+    fn duplicate(&self) -> Box<dyn CycleModel> {
+        Box::new(self.clone())
     }
 }

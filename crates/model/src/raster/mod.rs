@@ -34,5 +34,5 @@ mod readout;
 mod regions;
 mod staleness;
 
-pub use ports::{RasterInput, RasterOutput};
+pub use ports::RasterOutput;
 pub use rcm::RasterRcm;

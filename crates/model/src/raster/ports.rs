@@ -1,33 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of the core.
+//! The output ports of the core.
 
-use foveate_design::{FRAME_NUMBERS, FeatureKind};
+use foveate_design::{FRAME_NUMBERS, FeatureKind, PortRole};
 
 use super::decisions::Judged;
 use super::outside::Stored;
 use super::readout::{Loss, Word};
-use crate::Thresholds;
-
-/// What is applied to the inputs of the core at one edge.
-#[derive(Clone, Copy, Debug)]
-pub struct RasterInput<'a> {
-    /// `rst_i`.
-    pub reset: bool,
-    /// `valid_i`.
-    pub valid: bool,
-    /// `sof_i`; without meaning where the design does not find its frames.
-    pub sof: bool,
-    /// `pixel_i`: a word of K pixels, the left one first.
-    pub pixels: &'a [u16],
-    /// `reference_valid_i`; without meaning where the frame store is inside, as the next.
-    pub reference_valid: bool,
-    /// `reference_pixel_i`: a word of K pixels, the left one first.
-    pub reference_pixels: &'a [u16],
-    /// `forward_ready_i`; without meaning where no pixels leave.
-    pub forward_ready: bool,
-    /// The threshold inputs; without meaning where the design has constants.
-    pub thresholds: &'a Thresholds,
-}
 
 /// What the outputs of the core show after an edge. A port that means nothing, or that the core does not have,
 /// shows 0.
@@ -169,6 +147,49 @@ impl RasterOutput {
         self.lost_region = loss.map_or(0, |loss| loss.region);
         self.lost_frame = loss.map_or(0, |loss| number(loss.frame));
     }
+
+    /// Appends what the port of a role shows; features are those of the design in its order.
+    pub(super) fn show(&self, role: PortRole, kinds: &[FeatureKind], values: &mut Vec<u64>) {
+        let value = match role {
+            PortRole::Ready => self.ready.into(),
+            PortRole::SyncError => self.sync_error.into(),
+            PortRole::ReferenceReady => self.reference_ready.into(),
+            PortRole::StoreValid => self.store_valid.into(),
+            PortRole::StorePixel => return extend(values, &self.store_pixels),
+            PortRole::StoreLast => self.store_last.into(),
+            PortRole::Underrun => self.underrun.into(),
+            PortRole::DecisionValid => self.decision_valid.into(),
+            PortRole::Region => self.region.into(),
+            PortRole::Srs => self.srs.into(),
+            PortRole::Trs => self.trs.into(),
+            PortRole::Active => self.active.into(),
+            PortRole::Score(kind) => match kinds.iter().position(|&own| own == kind) {
+                Some(place) => self.scores[place],
+                None => return,
+            },
+            PortRole::TemporalCount => self.temporal_count.into(),
+            PortRole::ForwardValid => self.forward_valid.into(),
+            PortRole::ForwardRegion => self.forward_region.into(),
+            PortRole::ForwardPosition => self.forward_position.into(),
+            PortRole::ForwardPixel => return extend(values, &self.forward_pixels),
+            PortRole::ForwardFirst => self.forward_first.into(),
+            PortRole::ForwardLast => self.forward_last.into(),
+            PortRole::ForwardAbort => self.forward_abort.into(),
+            PortRole::ForwardFrame => self.forward_frame.into(),
+            PortRole::Lost => self.lost.into(),
+            PortRole::LostCount => self.lost_count.into(),
+            PortRole::LostValid => self.lost_valid.into(),
+            PortRole::LostRegion => self.lost_region.into(),
+            PortRole::LostFrame => self.lost_frame.into(),
+            // Inputs, and what a core does not have.
+            _ => return,
+        };
+        values.push(value);
+    }
+}
+
+fn extend(values: &mut Vec<u64>, word: &[u16]) {
+    values.extend(word.iter().map(|&pixel| u64::from(pixel)));
 }
 
 /// The number of a frame as it is shown.

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The core: what an edge does to each of its parts, and what its outputs show after it.
 
-use foveate_design::{RasterDesign, RasterTiming, Store};
+use foveate_design::{FeatureKind, PortRole, RasterDesign, RasterTiming, Store};
 
 use super::advances::{Advances, Place};
 use super::decisions::{Complete, Decisions, Judged};
 use super::outside::Outside;
 use super::picture::IncomingFrame;
-use super::ports::{RasterInput, RasterOutput};
+use super::ports::RasterOutput;
 use super::readout::Readout;
 use super::regions::Regions;
 use super::staleness::Staleness;
+use crate::cycle::{CoreInput, CycleModel};
 use crate::number::index;
 use crate::{FrameSync, Thresholds};
 
 /// The cycle-level model of a raster core, as after a reset when new.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterRcm {
+    kinds: Vec<FeatureKind>,
     timing: RasterTiming,
     /// Regions side by side.
     columns: u32,
@@ -50,6 +52,7 @@ impl RasterRcm {
     pub fn new(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
         Self {
+            kinds: design.features().iter().map(|feature| feature.kind()).collect(),
             timing,
             columns: design.columns(),
             side: design.region_size(),
@@ -74,7 +77,7 @@ impl RasterRcm {
     ///
     /// # Panics
     /// When there are not as many pixels as `pixel_i` has, or as `reference_pixel_i` where that is a port.
-    pub fn step(&mut self, input: &RasterInput<'_>) -> &RasterOutput {
+    pub fn step(&mut self, input: &CoreInput<'_>) -> &RasterOutput {
         let word = index(self.timing.word_pixels);
         assert_eq!(input.pixels.len(), word, "a word has K pixels");
         if input.reset {
@@ -148,7 +151,7 @@ impl RasterRcm {
         self.output = RasterOutput::fresh(index(self.timing.word_pixels));
     }
 
-    fn advance(&mut self, input: &RasterInput<'_>) {
+    fn advance(&mut self, input: &CoreInput<'_>) {
         let takes = self.sync.step(input.valid, input.sof, self.is_open);
         let Some(advance) = self.advances.step(takes) else { return };
         if let Some(place) = advance.word {
@@ -187,7 +190,7 @@ impl RasterRcm {
     }
 
     /// An edge of the stream from outside.
-    fn take_reference(&mut self, input: &RasterInput<'_>) {
+    fn take_reference(&mut self, input: &CoreInput<'_>) {
         let Some(outside) = &mut self.outside else { return };
         let pixels = input.reference_pixels;
         assert_eq!(pixels.len(), index(self.timing.word_pixels), "a word has K pixels");
@@ -246,5 +249,39 @@ impl RasterRcm {
         self.output.show_decision(self.decided.as_ref());
         self.output.show_word(self.readout.shown());
         self.output.show_lost(self.readout.lost());
+    }
+}
+
+impl CycleModel for RasterRcm {
+    fn clock(&mut self, input: &CoreInput<'_>) {
+        self.step(input);
+    }
+
+    fn show(&self, role: PortRole, values: &mut Vec<u64>) {
+        self.output.show(role, &self.kinds, values);
+    }
+
+    fn is_ready(&self) -> bool {
+        self.output.ready
+    }
+
+    fn is_pending(&self) -> bool {
+        self.is_pending()
+    }
+
+    fn holds_thresholds(&self) -> bool {
+        self.timing.second_pass.is_some() && self.is_deciding()
+    }
+
+    fn aborts_next(&self) -> bool {
+        self.aborts_next()
+    }
+
+    fn reference(&self, region: u32) -> Option<&[u16]> {
+        self.reference(region)
+    }
+
+    fn duplicate(&self) -> Box<dyn CycleModel> {
+        Box::new(self.clone())
     }
 }

@@ -27,5 +27,5 @@ mod regions;
 mod schedule;
 mod streams;
 
-pub use ports::{SerialInput, SerialOutput};
+pub use ports::SerialOutput;
 pub use rcm::SerialRcm;

@@ -1,22 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of the array.
+//! The output ports of the array.
 
-use crate::Thresholds;
-
-/// What is applied to the inputs of the array at one edge.
-#[derive(Clone, Copy, Debug)]
-pub struct SerialInput<'a> {
-    /// `rst_i`.
-    pub reset: bool,
-    /// `valid_i`.
-    pub valid: bool,
-    /// `sof_i`; without meaning where the design does not find its frames.
-    pub sof: bool,
-    /// `pixel_i`: one pixel per lane, or one with `feed = "raster"`.
-    pub pixels: &'a [u16],
-    /// The threshold inputs; without meaning where the design has constants.
-    pub thresholds: &'a Thresholds,
-}
+use foveate_design::PortRole;
 
 /// What the outputs of the array show after an edge. A port that means nothing shows 0.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -70,5 +55,33 @@ impl SerialOutput {
         let forward_valid = std::mem::take(&mut self.forward_valid);
         let forward_pixel = std::mem::take(&mut self.forward_pixel);
         *self = Self { forward_valid, forward_pixel, ..Self::default() };
+    }
+
+    /// Appends what the port of a role shows.
+    pub(super) fn show(&self, role: PortRole, values: &mut Vec<u64>) {
+        let value = match role {
+            PortRole::Ready => self.ready.into(),
+            PortRole::SyncError => self.sync_error.into(),
+            PortRole::ScoreValid => self.score_valid.into(),
+            PortRole::ScoreIndex => self.score_index.into(),
+            PortRole::Region => self.region.into(),
+            PortRole::AnyScore => self.score,
+            PortRole::DecisionValid => self.decision_valid.into(),
+            PortRole::Srs => self.srs.into(),
+            PortRole::Trs => self.trs.into(),
+            PortRole::Active => self.active.into(),
+            PortRole::ForwardPosition => self.forward_position.into(),
+            PortRole::ForwardSlot => self.forward_slot.into(),
+            PortRole::ForwardRegion => self.forward_region.into(),
+            PortRole::ForwardValid => {
+                return values.extend(self.forward_valid.iter().map(|&valid| u64::from(valid)));
+            }
+            PortRole::ForwardPixel => {
+                return values.extend(self.forward_pixel.iter().map(|&pixel| u64::from(pixel)));
+            }
+            // Inputs, and what an array does not have.
+            _ => return,
+        };
+        values.push(value);
     }
 }

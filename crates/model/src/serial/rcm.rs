@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array: where in a frame it is, and what its outputs show there.
 
-use foveate_design::{Payload, SerialDesign};
+use foveate_design::{Payload, PortRole, SerialDesign};
 
 use super::intake::Intake;
-use super::ports::{SerialInput, SerialOutput};
+use super::ports::SerialOutput;
 use super::regions::Regions;
 use super::schedule::{Schedule, Seen};
+use crate::cycle::{CoreInput, CycleModel};
 use crate::number::index;
 use crate::{FrameSync, Thresholds, region_border};
 
@@ -66,7 +67,7 @@ impl SerialRcm {
     ///
     /// # Panics
     /// When there are not as many pixels as `pixel_i` has.
-    pub fn step(&mut self, input: &SerialInput<'_>) -> &SerialOutput {
+    pub fn step(&mut self, input: &CoreInput<'_>) -> &SerialOutput {
         assert_eq!(
             input.pixels.len(),
             self.intake.width(),
@@ -156,7 +157,7 @@ impl SerialRcm {
         self.stage = Stage::EMPTY;
     }
 
-    fn take(&mut self, input: &SerialInput<'_>) {
+    fn take(&mut self, input: &CoreInput<'_>) {
         let clocks = self.intake.take(input.pixels);
         if self.intake.is_full() {
             // The thresholds stay still from here, and nobody sees the scores before they are due.
@@ -265,5 +266,39 @@ impl SerialRcm {
             Payload::Denoised => self.regions.scored(region, position),
             Payload::Raw => self.intake.pixel(region, position),
         }
+    }
+}
+
+impl CycleModel for SerialRcm {
+    fn clock(&mut self, input: &CoreInput<'_>) {
+        self.step(input);
+    }
+
+    fn show(&self, role: PortRole, values: &mut Vec<u64>) {
+        self.output.show(role, values);
+    }
+
+    fn is_ready(&self) -> bool {
+        self.output.ready
+    }
+
+    fn clocks_until_ready(&self) -> u64 {
+        self.clocks_until_ready()
+    }
+
+    fn quiet_clocks(&self) -> u64 {
+        self.quiet_clocks()
+    }
+
+    fn skip_quiet_clocks(&mut self) {
+        self.skip(self.quiet_clocks());
+    }
+
+    fn reference(&self, region: u32) -> Option<&[u16]> {
+        self.reference(region)
+    }
+
+    fn duplicate(&self) -> Box<dyn CycleModel> {
+        Box::new(self.clone())
     }
 }

@@ -5,7 +5,7 @@
 use foveate_design::PipelinedTiming;
 use foveate_frame::Frame;
 use foveate_model::{
-    FunctionalCamera, PipelinedRcm, RcmInput, RpuOutput, Thresholds, region_pixels, region_stream,
+    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream,
 };
 use proptest::prelude::*;
 
@@ -91,13 +91,7 @@ fn run(
         let pixels = now.map_or(idle, |(_, frame, place)| {
             streams[frame].iter().map(|stream| stream[place]).collect()
         });
-        let input = RcmInput {
-            reset: false,
-            valid: now.is_some(),
-            sof: false,
-            pixels: &pixels,
-            thresholds: &thresholds,
-        };
+        let input = CoreInput { valid: now.is_some(), ..CoreInput::idle(&pixels, &thresholds) };
         shown.push(rcm.step(&input).to_vec());
     }
     shown
@@ -229,7 +223,7 @@ proptest! {
             // A pixel at an edge with reset is not taken.
             let thresholds = &Thresholds::of(&design);
             let valid = edge == 0;
-            let input = RcmInput { reset: true, valid, sof: false, pixels: &pixels, thresholds };
+            let input = CoreInput { reset: true, valid, ..CoreInput::idle(&pixels, thresholds) };
             let outputs = rcm.step(&input);
             prop_assert!(outputs.iter().all(|output| *output == RpuOutput::default()));
         }

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 
 use foveate_design::{RasterStream, RasterTiming, RowDeparture};
 use foveate_frame::Frame;
-use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
 use super::camera::recipe;
 use super::driver::words;
@@ -46,7 +46,7 @@ fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<Ras
     while left > 0 {
         let now = shown.len() as u64;
         let word = words.front().filter(|(read, _)| *read <= now).map(|(_, word)| word.clone());
-        let input = RasterInput {
+        let input = CoreInput {
             reset: false,
             valid: word.is_some(),
             sof: false,
@@ -55,6 +55,7 @@ fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<Ras
             reference_pixels: &[],
             forward_ready: true,
             thresholds: &thresholds,
+            border: 0,
         };
         if word.is_some() && rcm.output().ready {
             words.pop_front();

@@ -4,7 +4,7 @@
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
 use super::memory::{Faults, Memory};
 use super::recipe::RasterRecipe;
@@ -108,7 +108,7 @@ impl Driver {
         for _ in 0..clocks {
             let (word, thresholds) = (self.junk(), self.noise());
             let (valid, forward_ready) = (self.random.below(2) > 0, self.random.below(2) > 0);
-            let input = RasterInput {
+            let input = CoreInput {
                 reset: true,
                 valid,
                 sof: false,
@@ -117,6 +117,7 @@ impl Driver {
                 reference_pixels: &word,
                 forward_ready,
                 thresholds: &thresholds,
+                border: 0,
             };
             self.rcm.step(&input);
         }
@@ -186,7 +187,7 @@ impl Driver {
         self.left -= 1;
         let forward_ready = self.sink();
         let (reference_valid, reference) = self.memory.show(self.rcm.output());
-        let input = RasterInput {
+        let input = CoreInput {
             reset: false,
             valid,
             sof: false,
@@ -195,6 +196,7 @@ impl Driver {
             reference_pixels: &reference,
             forward_ready,
             thresholds,
+            border: 0,
         };
         let shown = self.rcm.step(&input).clone();
         self.memory.store(&shown);

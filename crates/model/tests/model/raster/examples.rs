@@ -5,7 +5,7 @@
 use std::ops::RangeInclusive;
 
 use foveate_design::{Config, Design, RasterTiming};
-use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
 /// A design with one feature, all of whose regions are active in every frame.
 fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
@@ -29,7 +29,7 @@ fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<Raste
     for edge in 1..=last {
         let (valid, forward_ready) = (left > 0, sink(edge));
         left -= u64::from(valid && rcm.output().ready);
-        let input = RasterInput {
+        let input = CoreInput {
             reset: false,
             valid,
             sof: false,
@@ -38,6 +38,7 @@ fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<Raste
             reference_pixels: &[],
             forward_ready,
             thresholds: &thresholds,
+            border: 0,
         };
         outputs.push(rcm.step(&input).clone());
     }
@@ -228,7 +229,7 @@ fn frames_have_numbers() {
             whole.push((before.forward_frame, before.forward_region));
         }
         taken += u32::from(before.ready);
-        let input = RasterInput {
+        let input = CoreInput {
             reset: false,
             valid: true,
             sof: false,
@@ -237,6 +238,7 @@ fn frames_have_numbers() {
             reference_pixels: &[],
             forward_ready,
             thresholds: &thresholds,
+            border: 0,
         };
         let output = rcm.step(&input);
         decided += usize::from(output.decision_valid);
@@ -259,7 +261,7 @@ fn after_a_reset_nothing_is_shown() {
     let mut rcm = RasterRcm::new(design.raster().unwrap());
     let fresh = rcm.clone();
     let thresholds = Thresholds::of(&design);
-    let input = RasterInput {
+    let input = CoreInput {
         reset: false,
         valid: true,
         sof: false,
@@ -268,6 +270,7 @@ fn after_a_reset_nothing_is_shown() {
         reference_pixels: &[],
         forward_ready: false,
         thresholds: &thresholds,
+        border: 0,
     };
     // A decision, a word and a loss are on the ports.
     for _ in 0..152 {
@@ -275,7 +278,7 @@ fn after_a_reset_nothing_is_shown() {
     }
     let shown = rcm.output();
     assert!(shown.decision_valid && shown.forward_valid && shown.lost);
-    rcm.step(&RasterInput { reset: true, ..input });
+    rcm.step(&CoreInput { reset: true, ..input });
     assert_eq!(rcm.output(), fresh.output());
     let quiet = [!rcm.output().forward_valid, !rcm.output().lost, !rcm.output().decision_valid];
     assert!(rcm.output().ready && quiet == [true; 3] && !rcm.is_pending());

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use std::ops::RangeInclusive;
 
 use foveate_design::{Config, Design};
-use foveate_model::{RasterInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
 /// A design with one feature and regions of 4x4 pixels, all of which are relevant.
 fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
@@ -72,7 +72,7 @@ impl Play {
                 self.queue.pop_front();
             }
             taken += u64::from(valid && self.rcm.output().ready);
-            let input = RasterInput {
+            let input = CoreInput {
                 reset: false,
                 valid,
                 sof: false,
@@ -81,6 +81,7 @@ impl Play {
                 reference_pixels: &reference,
                 forward_ready: true,
                 thresholds: &self.thresholds,
+                border: 0,
             };
             let shown = self.rcm.step(&input).clone();
             self.queue.extend(shown.store_valid.then(|| shown.store_pixels.clone()));
@@ -90,7 +91,7 @@ impl Play {
 
     fn reset(&mut self) {
         let word = vec![0; self.pixels];
-        let input = RasterInput {
+        let input = CoreInput {
             reset: true,
             valid: true,
             sof: false,
@@ -99,6 +100,7 @@ impl Play {
             reference_pixels: &word,
             forward_ready: true,
             thresholds: &self.thresholds,
+            border: 0,
         };
         self.outputs = vec![self.rcm.step(&input).clone()];
         self.queue.clear();

@@ -3,7 +3,7 @@
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::{SerialInput, SerialRcm, Thresholds, pad, region_stream};
+use foveate_model::{CoreInput, SerialRcm, Thresholds, pad, region_stream};
 
 use super::recipe::SerialRecipe;
 use super::waveform::{Facts, Shown, Timeline};
@@ -142,7 +142,7 @@ impl Bench {
 
     fn step(&mut self, reset: bool, valid: bool, pixels: &[u16], thresholds: &Thresholds) -> Check {
         self.edge += 1;
-        self.rcm.step(&SerialInput { reset, valid, sof: false, pixels, thresholds });
+        self.rcm.step(&CoreInput { reset, valid, ..CoreInput::idle(pixels, thresholds) });
         self.compare()
     }
 

@@ -5,7 +5,7 @@
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::{
-    FunctionalCamera, FunctionalOutcome, RegionScorer, SerialInput, SerialRcm, Thresholds,
+    CoreInput, FunctionalCamera, FunctionalOutcome, RegionScorer, SerialRcm, Thresholds,
     region_border, region_stream,
 };
 
@@ -40,13 +40,7 @@ fn play(
         }
         let valid = now.is_some();
         let pixels = now.unwrap_or_else(|| idle.clone());
-        let output = rcm.step(&SerialInput {
-            reset: false,
-            valid,
-            sof: false,
-            pixels: &pixels,
-            thresholds: &thresholds,
-        });
+        let output = rcm.step(&CoreInput { valid, ..CoreInput::idle(&pixels, &thresholds) });
         clocks += 1;
         let at = output.region as usize;
         if output.score_valid {

@@ -5,7 +5,7 @@
 use std::ops::RangeInclusive;
 
 use foveate_design::{Config, Design};
-use foveate_model::{SerialInput, SerialOutput, SerialRcm, Thresholds};
+use foveate_model::{CoreInput, SerialOutput, SerialRcm, Thresholds};
 
 fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()
@@ -23,13 +23,7 @@ fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
             taken.push(outputs.len());
         }
         // A pixel is there even when the array is not ready.
-        let input = SerialInput {
-            reset: false,
-            valid: true,
-            sof: false,
-            pixels: &ones,
-            thresholds: &thresholds,
-        };
+        let input = CoreInput { valid: true, ..CoreInput::idle(&ones, &thresholds) };
         outputs.push(rcm.step(&input).clone());
     }
     (outputs, taken)
@@ -164,13 +158,7 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
     let mut leaves = Vec::new();
     for edge in 1..=2 * ready {
         let pixels = [if edge < ready { 100 } else { 7 }];
-        let input = SerialInput {
-            reset: false,
-            valid: true,
-            sof: false,
-            pixels: &pixels,
-            thresholds: &thresholds,
-        };
+        let input = CoreInput { valid: true, ..CoreInput::idle(&pixels, &thresholds) };
         let output = rcm.step(&input);
         assert_eq!(
             output.ready,
@@ -192,7 +180,7 @@ fn a_reset_takes_no_pixel_and_makes_ready() {
     let thresholds = Thresholds::of(&design);
     let mut rcm = SerialRcm::new(design.serial().unwrap());
     let mut step = |reset, valid| {
-        let input = SerialInput { reset, valid, sof: false, pixels: &[9], thresholds: &thresholds };
+        let input = CoreInput { reset, valid, ..CoreInput::idle(&[9], &thresholds) };
         rcm.step(&input).ready
     };
     assert!((0..63).all(|_| step(false, true)));
@@ -232,13 +220,7 @@ fn quiet_clocks_are_quiet_and_can_be_skipped() {
         let pixels = vec![1; rcm.output().forward_valid.len()];
         let thresholds = Thresholds::of(&design);
         while rcm.output().ready {
-            rcm.step(&SerialInput {
-                reset: false,
-                valid: true,
-                sof: false,
-                pixels: &pixels,
-                thresholds: &thresholds,
-            });
+            rcm.step(&CoreInput { valid: true, ..CoreInput::idle(&pixels, &thresholds) });
         }
         let mut skipped = 0;
         while !rcm.output().ready {

@@ -3,7 +3,7 @@
 //! taken, thresholds that change between frames, skipped clocks, and resets at any edge.
 
 use foveate_design::FeatureKind;
-use foveate_model::{SerialInput, SerialRcm, Thresholds};
+use foveate_model::{CoreInput, SerialRcm, Thresholds};
 use proptest::prelude::*;
 
 use super::bench::{Bench, Check, Job, Manner, applied};
@@ -118,7 +118,7 @@ proptest! {
         let (mut stepped, mut skipped) = (bench.rcm.clone(), bench.rcm);
         let (pixels, thresholds) = (vec![0; recipe.ports() as usize], jobs[0].thresholds);
         let idle =
-            SerialInput { reset: false, valid: false, sof: false, pixels: &pixels, thresholds: &thresholds };
+            CoreInput::idle(&pixels, &thresholds);
         let ready_in = stepped.clocks_until_ready();
         for clock in 0..clocks {
             prop_assert_eq!(stepped.output().ready, clock >= ready_in);

@@ -2,7 +2,7 @@
 //! Lanes that are given any streams, with halos that no frame has: what the serial array says of them
 //! is what the pipelined array says.
 
-use foveate_model::{PipelinedRcm, RcmInput, SerialRcm, Thresholds};
+use foveate_model::{CoreInput, PipelinedRcm, SerialRcm, Thresholds};
 use proptest::prelude::*;
 
 use super::bench::{Bench, Job, Manner, by_port};
@@ -44,7 +44,7 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
         };
         let pixels: Vec<u16> = (0..regions).map(at).collect();
         let (pixels, thresholds) = (&pixels[..], &thresholds);
-        let input = RcmInput { reset: false, valid: true, sof: false, pixels, thresholds };
+        let input = CoreInput { valid: true, ..CoreInput::idle(pixels, thresholds) };
         for (region, output) in rcm.step(&input).iter().enumerate() {
             if output.decision_valid {
                 let count = std::iter::once(output.temporal_count.into());

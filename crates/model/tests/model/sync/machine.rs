@@ -3,9 +3,7 @@
 
 use foveate_design::{Design, Feed, Hardware};
 use foveate_frame::Frame;
-use foveate_model::{
-    PipelinedRcm, RasterInput, RasterRcm, RcmInput, SerialInput, SerialRcm, Thresholds,
-};
+use foveate_model::{CoreInput, PipelinedRcm, RasterRcm, SerialRcm, Thresholds};
 
 /// What an array decides of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +48,7 @@ impl Machine {
     ) -> Seen {
         match self {
             Self::Pipelined(rcm) => {
-                let input = RcmInput { reset, valid, sof, pixels, thresholds };
+                let input = CoreInput { reset, valid, sof, ..CoreInput::idle(pixels, thresholds) };
                 let outputs = rcm.step(&input).iter().zip(0..);
                 let outputs = outputs.filter(|(output, _)| output.decision_valid);
                 let decided = outputs.map(|(output, region)| Decided {
@@ -63,7 +61,12 @@ impl Machine {
                 Seen { ready: true, sync_error: rcm.sync_error(), decided, left: 0 }
             }
             Self::Serial(rcm) => {
-                let shown = rcm.step(&SerialInput { reset, valid, sof, pixels, thresholds });
+                let shown = rcm.step(&CoreInput {
+                    reset,
+                    valid,
+                    sof,
+                    ..CoreInput::idle(pixels, thresholds)
+                });
                 let decided = shown.decision_valid.then_some(Decided {
                     region: shown.region,
                     srs: shown.srs,
@@ -78,7 +81,7 @@ impl Machine {
                 }
             }
             Self::Raster(rcm) => {
-                let shown = rcm.step(&RasterInput {
+                let shown = rcm.step(&CoreInput {
                     reset,
                     valid,
                     sof,
@@ -87,6 +90,7 @@ impl Machine {
                     reference_pixels: &vec![0; pixels.len()],
                     forward_ready: true,
                     thresholds,
+                    border: 0,
                 });
                 let decided = shown.decision_valid.then_some(Decided {
                     region: shown.region,

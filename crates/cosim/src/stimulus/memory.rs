@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The memory outside of a core, which sometimes has not the word that the core asks for, or another.
 
-use super::super::random::Random;
 use super::queue::Queue;
-use foveate_design::{RasterDesign, RasterTiming, Store};
-use foveate_model::RasterOutput;
+use super::random::Random;
+use foveate_design::{Design, Hardware, PortRole, RasterTiming, Store};
+use foveate_model::CycleModel;
 
 /// A wrong word comes once in so many.
 const WRONG: u64 = 5;
@@ -37,7 +37,11 @@ pub(super) struct Memory {
 
 impl Memory {
     /// None where the frame store is inside, so that nothing is drawn.
-    pub(super) fn of(design: RasterDesign<'_>, max: u16, random: &mut Random) -> Option<Self> {
+    pub(super) fn of(design: &Design, max: u16, random: &mut Random) -> Option<Self> {
+        let design = match design.hardware() {
+            Hardware::Raster(own) => design.on(own),
+            Hardware::Pipelined(_) | Hardware::Serial(_) => return None,
+        };
         (design.store() == Store::External).then(|| Self {
             queue: Queue::default(),
             lapse: Lapse::None,
@@ -61,10 +65,10 @@ impl Memory {
         self.missing = [directed, words + self.random.up_to(words - 1)];
     }
 
-    /// What is at the ports of references at the next edge, where the outputs show this before it.
-    pub(super) fn show(&mut self, before: &RasterOutput) -> (bool, Vec<u16>) {
+    /// What is at the ports of references at the next edge, where the core shows this before it.
+    pub(super) fn show(&mut self, before: &dyn CycleModel) -> (bool, Vec<u16>) {
         let oldest = self.queue.oldest().map(<[u16]>::to_vec);
-        if !before.reference_ready {
+        if !before.is_high(PortRole::ReferenceReady) {
             // Nobody may look at it.
             let word = oldest.filter(|_| self.random.one_in(2));
             return (self.random.one_in(2), word.unwrap_or_else(|| self.garbage()));
@@ -85,7 +89,7 @@ impl Memory {
     }
 
     /// Keeps what the core shows after an edge.
-    pub(super) fn keep(&mut self, after: &RasterOutput) {
+    pub(super) fn keep(&mut self, after: &dyn CycleModel) {
         self.queue.keep(after);
     }
 

@@ -2,7 +2,8 @@
 //! The queue in front of a frame store outside of a core: it keeps the words that the core stores, and gives them
 //! back in the frame after.
 
-use foveate_model::RasterOutput;
+use foveate_design::PortRole;
+use foveate_model::CycleModel;
 use std::collections::VecDeque;
 
 /// Words that were stored and not taken back, the oldest first.
@@ -26,9 +27,12 @@ impl Queue {
     }
 
     /// Keeps the word that the core shows after an edge, if it shows one.
-    pub(crate) fn keep(&mut self, after: &RasterOutput) {
-        if after.store_valid {
-            self.0.push_back(after.store_pixels.clone());
+    pub(crate) fn keep(&mut self, after: &dyn CycleModel) {
+        if after.is_high(PortRole::StoreValid) {
+            let mut word = Vec::new();
+            after.show(PortRole::StorePixel, &mut word);
+            let pixel = |value| u16::try_from(value).expect("a pixel has at most 16 bits");
+            self.0.push_back(word.into_iter().map(pixel).collect());
         }
     }
 }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What goes into a core and what comes out, in records.
+
+use crate::layout::Layout;
+use foveate_design::{Design, FeatureKind, PortRole};
+use foveate_model::{CoreInput, CycleModel};
+
+/// Puts what is applied to a core, and what its model shows, into records.
+#[derive(Clone, Debug)]
+pub struct Codec {
+    /// The features of the design in their order.
+    kinds: Vec<FeatureKind>,
+    /// What one port shows.
+    values: Vec<u64>,
+}
+
+impl Codec {
+    /// The codec of a design.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
+        let kinds = design.features().iter().map(|feature| feature.kind()).collect();
+        Self { kinds, values: Vec::new() }
+    }
+
+    /// What is applied at an edge.
+    pub fn inputs(&mut self, layout: &Layout, input: &CoreInput<'_>, record: &mut [u8]) {
+        for field in layout.fields() {
+            self.values.clear();
+            self.apply(field.port.role, input);
+            field.set_values(record, &self.values);
+        }
+    }
+
+    /// What the outputs show after an edge.
+    pub fn outputs(&mut self, layout: &Layout, model: &dyn CycleModel, record: &mut [u8]) {
+        for field in layout.fields() {
+            self.values.clear();
+            model.show(field.port.role, &mut self.values);
+            field.set_values(record, &self.values);
+        }
+    }
+
+    /// Appends what is applied to the input of a role.
+    fn apply(&mut self, role: PortRole, input: &CoreInput<'_>) {
+        let place = |kind| {
+            let place = self.kinds.iter().position(|&own| own == kind);
+            place.expect("a port is of a feature of the design")
+        };
+        let thresholds = input.thresholds;
+        let value = match role {
+            PortRole::Reset => input.reset.into(),
+            PortRole::Valid => input.valid.into(),
+            PortRole::StartOfFrame => input.sof.into(),
+            PortRole::Border => input.border.into(),
+            PortRole::ReferenceValid => input.reference_valid.into(),
+            PortRole::ForwardReady => input.forward_ready.into(),
+            PortRole::Level(kind) => thresholds.level[place(kind)].into(),
+            PortRole::MinScore(kind) => thresholds.min_score[place(kind)],
+            PortRole::TemporalLevel => thresholds.temporal_level.into(),
+            PortRole::TemporalMinCount => thresholds.temporal_min_count.into(),
+            PortRole::Pixel => return self.apply_pixels(input.pixels),
+            PortRole::ReferencePixel => return self.apply_pixels(input.reference_pixels),
+            // The clock, which is in no record, and outputs.
+            _ => return,
+        };
+        self.values.push(value);
+    }
+
+    fn apply_pixels(&mut self, pixels: &[u16]) {
+        self.values.extend(pixels.iter().map(|&pixel| u64::from(pixel)));
+    }
+}

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Offers frames to the model of a core, clock by clock, in the middle of what surrounds it, and records what goes in
+//! and what comes out.
+
+use super::ahead::{Aimer, ThresholdAim};
+use super::damage::Delivery;
+use super::feed::FrameFeed;
+use super::manners::Manners;
+use super::memory::{Lapse, Memory};
+use super::random::Random;
+use super::scout::Scout;
+use super::sequences::Gaps;
+use super::sink::Sink;
+use crate::codec::Codec;
+use crate::error::CosimError;
+use crate::level::Level;
+use crate::recording::Recorder;
+use foveate_design::{Design, PortRole, Thresholds as Mode};
+use foveate_frame::Frame;
+use foveate_model::{CoreInput, CycleModel, Thresholds, rcm, region_stream, rpu};
+use foveate_toolchain::ToolError;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How much of a frame is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Until {
+    /// All of it.
+    End,
+    /// So many beats, and no clock more.
+    Beat(usize),
+    /// As much as comes before the edge at which a region is lost in the middle.
+    Loss,
+}
+
+/// Offers frames to the model.
+pub(super) struct Driver<'a> {
+    design: &'a Design,
+    /// Side of the squares at which levels are aimed.
+    square_side: u32,
+    core: Box<dyn CycleModel>,
+    aimer: Aimer,
+    /// Where thresholds may change at every clock.
+    scout: Option<Scout>,
+    /// Where what takes the pixels that leave may stall.
+    sink: Option<Sink>,
+    /// The frame store, where it is outside.
+    memory: Option<Memory>,
+    cancel: &'a AtomicBool,
+    recorder: &'a mut Recorder,
+    codec: Codec,
+    random: Random,
+    configured: Thresholds,
+    /// Thresholds as they are now.
+    thresholds: Thresholds,
+    /// Whether a frame is under way, so that thresholds must stay still.
+    is_under_way: bool,
+    /// Whether the next reset must find what is under way.
+    is_cut: bool,
+    /// Whether the simulated hardware finds its frames.
+    finds_frames: bool,
+    aim: ThresholdAim,
+    /// Frames since the sequence began.
+    turn: u32,
+    /// The square of the frame before at which levels are aimed, as [`Driver::square`] cuts it.
+    before: Vec<u16>,
+    border: u8,
+    manners: Manners,
+    max: u16,
+    garbage: Vec<u16>,
+    input: Vec<u8>,
+    expected: Vec<u8>,
+}
+
+impl<'a> Driver<'a> {
+    pub(super) fn new(
+        design: &'a Design,
+        level: Level,
+        is_brief: bool,
+        recorder: &'a mut Recorder,
+        mut random: Random,
+        cancel: &'a AtomicBool,
+    ) -> Self {
+        let configured = Thresholds::of(design);
+        let max = u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits");
+        let feed = FrameFeed::at(level, design);
+        let mut outputs = recorder.outputs().fields().iter();
+        let finds_frames = outputs.any(|field| field.port.role == PortRole::SyncError);
+        Self {
+            design,
+            core: match level {
+                Level::Rpu => rpu(design),
+                Level::Rcm { .. } | Level::Full => rcm(design),
+            },
+            aimer: Aimer::new(design),
+            scout: Scout::of(design, finds_frames),
+            sink: Sink::of(design, is_brief),
+            memory: Memory::of(design, max, &mut random),
+            cancel,
+            input: recorder.inputs().record(),
+            expected: recorder.outputs().record(),
+            recorder,
+            codec: Codec::new(design),
+            random,
+            configured,
+            thresholds: configured,
+            is_under_way: false,
+            is_cut: false,
+            finds_frames,
+            aim: ThresholdAim::Design,
+            turn: 0,
+            before: vec![0; (feed.square_side() * feed.square_side()) as usize],
+            border: 0,
+            manners: Manners::Quiet,
+            max,
+            garbage: vec![0; feed.width()],
+            square_side: feed.square_side(),
+        }
+    }
+
+    /// The reset that comes next meets a pixel, and has one clock: a second would find nothing under way any more.
+    pub(super) fn cut(&mut self) {
+        self.is_cut = true;
+    }
+
+    /// Starts over: a reset, during which anything may be on the other inputs. `turn` chooses the sink.
+    pub(super) fn begin(
+        &mut self,
+        aim: ThresholdAim,
+        (stalls, turn): (bool, usize),
+        lapse: Lapse,
+        border: u8,
+    ) -> Result<(), CosimError> {
+        self.aim = match self.design.thresholds() {
+            Mode::Constant => ThresholdAim::Design,
+            Mode::Runtime => aim,
+        };
+        if let Some(sink) = &mut self.sink {
+            sink.begin(stalls, turn);
+        }
+        self.is_under_way = false;
+        self.turn = 0;
+        self.border = border;
+        for _ in 0..=self.random.up_to(u64::from(!self.is_cut)) {
+            let valid = self.random.one_in(2) || self.is_cut;
+            self.clock(true, valid, None, None)?;
+        }
+        self.is_cut = false;
+        if let Some(memory) = &mut self.memory {
+            memory.begin(lapse);
+        }
+        let pause = self.random.up_to(2);
+        self.idle(pause)
+    }
+
+    /// Any sides at the frame's border, where these are an input.
+    pub(super) fn any_border(&self, random: &mut Random) -> u8 {
+        let mut inputs = self.recorder.inputs().fields().iter();
+        match inputs.any(|field| field.port.role == PortRole::Border) {
+            true => u8::try_from(random.up_to(15)).expect("four bits"),
+            false => 0,
+        }
+    }
+
+    /// Whether what takes the pixels that leave may stall.
+    pub(super) fn has_sink(&self) -> bool {
+        self.sink.is_some()
+    }
+
+    /// From here on the sink is ready at every clock.
+    pub(super) fn calm_sink(&mut self) {
+        if let Some(sink) = &mut self.sink {
+            sink.calm();
+        }
+    }
+
+    /// Whether the thresholds are those of the design, so that the data must meet them.
+    pub(super) fn thresholds_are_configured(&self) -> bool {
+        self.aim == ThresholdAim::Design
+    }
+
+    /// Whether the simulated hardware finds its frames.
+    pub(super) fn finds_frames(&self) -> bool {
+        self.finds_frames
+    }
+
+    /// Names the clocks from here on.
+    pub(super) fn name(&mut self, sequence: &str, frame: u64, region: Option<u32>) {
+        self.recorder.begin_frame(sequence, frame, region);
+    }
+
+    /// The model.
+    pub(super) fn core(&self) -> &dyn CycleModel {
+        &*self.core
+    }
+
+    /// The beats of a frame, as its feed says, each as soon as it is taken and its gap is over.
+    pub(super) fn take(
+        &mut self,
+        frame: &Frame,
+        beats: &[Vec<u16>],
+        until: Until,
+        gaps: Gaps,
+    ) -> Result<(), CosimError> {
+        self.manners = Manners::any(&mut self.random);
+        self.wait(beats.first().map(Vec::as_slice))?;
+        self.is_under_way &= self.core.holds_thresholds();
+        for (place, pixels) in beats.iter().enumerate() {
+            if until == Until::Beat(place) {
+                break;
+            }
+            self.wait(Some(pixels))?;
+            if until == Until::Loss && self.core.aborts_next() {
+                break;
+            }
+            let pause = gaps.before_pixel(&mut self.random);
+            self.idle(pause)?;
+            if !self.is_under_way {
+                self.choose_thresholds(frame);
+            }
+            self.clock(false, true, Some(place == 0), Some(pixels))?;
+        }
+        Ok(())
+    }
+
+    /// What comes of a frame on its way, each beat as soon as it is taken and its gap is over. Thresholds stay those
+    /// of the design: nobody says here when a frame begins.
+    pub(super) fn deliver(
+        &mut self,
+        beats: &[Vec<u16>],
+        delivery: Delivery,
+        gaps: Gaps,
+    ) -> Result<(), CosimError> {
+        self.manners = Manners::any(&mut self.random);
+        self.thresholds = self.configured;
+        for (sof, place) in delivery.beats(beats.len(), &mut self.random) {
+            self.beat(place.map(|place| beats[place].as_slice()), sof, gaps)?;
+        }
+        Ok(())
+    }
+
+    /// A frame that comes so that what is before it leaves, under the thresholds that are there.
+    pub(super) fn push_out(&mut self, beats: &[Vec<u16>], gaps: Gaps) -> Result<(), CosimError> {
+        for (place, pixels) in beats.iter().enumerate() {
+            self.beat(Some(pixels), place == 0, gaps)?;
+        }
+        Ok(())
+    }
+
+    /// A beat as soon as it is taken and its gap is over.
+    fn beat(&mut self, pixels: Option<&[u16]>, sof: bool, gaps: Gaps) -> Result<(), CosimError> {
+        self.wait(pixels)?;
+        let pause = gaps.before_pixel(&mut self.random);
+        self.idle(pause)?;
+        self.clock(false, true, Some(sof), pixels)
+    }
+
+    fn choose_thresholds(&mut self, frame: &Frame) {
+        let largest = (self.aim == ThresholdAim::Largest).then_some(self.turn);
+        self.turn += 1;
+        self.is_under_way = true;
+        match self.aim {
+            ThresholdAim::Design => self.thresholds = self.configured,
+            ThresholdAim::Least => self.thresholds = Aimer::least(),
+            ThresholdAim::Restless => {}
+            ThresholdAim::Exact | ThresholdAim::Largest => self.aim_at(frame, largest),
+        }
+    }
+
+    /// Levels for a frame that comes, and minima, too, where these must stand still.
+    fn aim_at(&mut self, frame: &Frame, largest: Option<u32>) {
+        if self.scout.is_some() {
+            let now = self.square(frame);
+            let squares = (now.as_slice(), self.before.as_slice());
+            self.aimer.levels(squares, largest, &mut self.thresholds, &mut self.random);
+            self.before = now;
+            return;
+        }
+        let region = self.aimer.any_region(&mut self.random);
+        let mut stream = Vec::new();
+        region_stream(self.design, frame, region, &mut stream);
+        let reference = self.core.reference(region);
+        self.thresholds = self.aimer.exact(region, &stream, reference, largest, &mut self.random);
+    }
+
+    /// The first square of a frame: its first region, or all of a region with its halo.
+    fn square(&self, frame: &Frame) -> Vec<u16> {
+        let side = self.square_side;
+        let places = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
+        places.map(|(x, y)| frame.clamped(x.into(), y.into())).collect()
+    }
+
+    /// Lets clocks pass until the core takes the next beat, which is `next`.
+    fn wait(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
+        while !self.core.is_ready() {
+            self.busy(next)?;
+        }
+        Ok(())
+    }
+
+    /// Lets everything leave of the frames that were taken, as far as it needs no further frame.
+    pub(super) fn drain(&mut self) -> Result<(), CosimError> {
+        while !self.core.is_ready() || self.core.is_pending() {
+            self.busy(None)?;
+        }
+        self.is_under_way = false;
+        Ok(())
+    }
+
+    /// Lets the core work until only so many clocks are left until it is ready.
+    pub(super) fn work_until(&mut self, left: u64) -> Result<(), CosimError> {
+        while self.core.clocks_until_ready() > left {
+            self.busy(None)?;
+        }
+        self.is_under_way &= !self.core.is_ready();
+        Ok(())
+    }
+
+    /// Lets the core work on its frame until a score is at the ports.
+    pub(super) fn work_until_score(&mut self) -> Result<(), CosimError> {
+        while !self.core.is_ready() && !self.core.is_high(PortRole::ScoreValid) {
+            self.busy(None)?;
+        }
+        Ok(())
+    }
+
+    /// One clock at which nothing is taken.
+    pub(super) fn busy(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
+        if self.core.is_ready() {
+            return self.clock(false, false, None, None);
+        }
+        let (valid, offered) = self.manners.offer(next, &mut self.random);
+        self.clock(false, valid, None, offered)
+    }
+
+    /// Clocks without a beat; the pixel port shows anything.
+    pub(super) fn idle(&mut self, clocks: u64) -> Result<(), CosimError> {
+        for _ in 0..clocks {
+            self.clock(false, false, None, None)?;
+        }
+        Ok(())
+    }
+
+    /// One edge. Without pixels garbage is applied, and without a mark any.
+    fn clock(
+        &mut self,
+        reset: bool,
+        valid: bool,
+        sof: Option<bool>,
+        pixels: Option<&[u16]>,
+    ) -> Result<(), CosimError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted.into());
+        }
+        if pixels.is_none() {
+            for pixel in &mut self.garbage {
+                *pixel = self.random.pixel(self.max);
+            }
+        }
+        if self.thresholds_are_restless() {
+            self.aimer.shake(&mut self.thresholds, &mut self.random);
+        }
+        let sof = sof.unwrap_or_else(|| self.finds_frames && self.random.one_in(2));
+        let sink = self.sink.as_mut();
+        let forward_ready = sink.is_none_or(|sink| sink.next(&*self.core, &mut self.random));
+        let (reference_valid, reference) = match &mut self.memory {
+            Some(memory) => memory.show(&*self.core),
+            None => (false, Vec::new()),
+        };
+        let shown = self.thresholds;
+        let input = CoreInput {
+            reset,
+            valid,
+            sof,
+            pixels: pixels.unwrap_or(&self.garbage),
+            border: self.border,
+            reference_valid,
+            reference_pixels: &reference,
+            forward_ready,
+            thresholds: &shown,
+        };
+        if let Some(scout) = &mut self.scout
+            && self.aim != ThresholdAim::Design
+        {
+            let lane = self.random.index(self.garbage.len() - 1);
+            if scout.decides(&input) {
+                let (scores, count) = scout.look_ahead(&*self.core, &input, lane);
+                self.aimer.minima(&scores, count, &mut self.thresholds, &mut self.random);
+            }
+        }
+        let input = CoreInput { thresholds: &self.thresholds, ..input };
+        self.core.clock(&input);
+        if let Some(memory) = &mut self.memory {
+            memory.keep(&*self.core);
+        }
+        self.codec.inputs(self.recorder.inputs(), &input, &mut self.input);
+        self.codec.outputs(self.recorder.outputs(), &*self.core, &mut self.expected);
+        self.recorder.push(&self.input, &self.expected)
+    }
+
+    /// Whether thresholds have no relation to the data at this clock.
+    fn thresholds_are_restless(&self) -> bool {
+        match self.aim {
+            ThresholdAim::Design => false,
+            ThresholdAim::Restless => true,
+            ThresholdAim::Exact | ThresholdAim::Largest | ThresholdAim::Least => {
+                self.scout.is_none() && !self.is_under_way
+            }
+        }
+    }
+}

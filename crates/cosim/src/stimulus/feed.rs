@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A frame as the pixel port takes it.
+
+use crate::level::Level;
+use foveate_design::{Design, Feed, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
+use foveate_frame::Frame;
+use foveate_model::region_stream;
+
+/// In which order, and how many at a time, the pixel port takes the pixels of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum FrameFeed<'a> {
+    /// One at a time of a square that is a region with its halo.
+    Square(PipelinedDesign<'a>),
+    /// One of every region, with their halos.
+    Regions(PipelinedDesign<'a>),
+    /// One of every lane, slot by slot.
+    Lanes(SerialDesign<'a>),
+    /// One at a time, row by row.
+    Pixels(SerialDesign<'a>),
+    /// A word at a time, row by row.
+    Words(RasterDesign<'a>),
+}
+
+impl<'a> FrameFeed<'a> {
+    /// That of module `rcm`, and of an array of one unit.
+    pub(crate) fn of(design: &'a Design) -> Self {
+        match design.hardware() {
+            Hardware::Pipelined(own) => Self::Regions(design.on(own)),
+            Hardware::Serial(own) => match design.on(own).feed() {
+                Feed::Parallel => Self::Lanes(design.on(own)),
+                Feed::Raster => Self::Pixels(design.on(own)),
+            },
+            Hardware::Raster(own) => Self::Words(design.on(own)),
+        }
+    }
+
+    /// That of what is simulated at a level.
+    pub(super) fn at(level: Level, design: &'a Design) -> Self {
+        match (level, Self::of(design)) {
+            (Level::Rpu, Self::Regions(design)) => Self::Square(design),
+            (_, feed) => feed,
+        }
+    }
+
+    /// Pixels that the port takes at once.
+    pub(crate) fn width(&self) -> usize {
+        let width = match self {
+            Self::Square(_) | Self::Pixels(_) => 1,
+            Self::Regions(design) => design.regions(),
+            Self::Lanes(design) => design.lanes(),
+            Self::Words(design) => design.pixels_per_clock(),
+        };
+        width as usize
+    }
+
+    /// The design.
+    pub(super) fn design(&self) -> &'a Design {
+        match self {
+            Self::Square(design) | Self::Regions(design) => design.design(),
+            Self::Lanes(design) | Self::Pixels(design) => design.design(),
+            Self::Words(design) => design.design(),
+        }
+    }
+
+    /// Columns and rows of what is fed: the frame, or the square.
+    pub(super) fn size(&self) -> (u32, u32) {
+        match self {
+            Self::Square(design) => (design.stream_side(), design.stream_side()),
+            Self::Regions(_) | Self::Lanes(_) | Self::Pixels(_) | Self::Words(_) => {
+                (self.design().width(), self.design().height())
+            }
+        }
+    }
+
+    /// Side of the squares that are drawn, each by itself: a region, or all of the square.
+    pub(super) fn square_side(&self) -> u32 {
+        match self {
+            Self::Square(design) => design.stream_side(),
+            Self::Regions(_) | Self::Lanes(_) | Self::Pixels(_) | Self::Words(_) => {
+                self.design().region_size()
+            }
+        }
+    }
+
+    /// What the port takes of a frame, one after the other. What it shows in places without a pixel is `nothing`.
+    pub(crate) fn beats(&self, frame: &Frame, nothing: impl FnMut() -> u16) -> Vec<Vec<u16>> {
+        match *self {
+            Self::Square(_) => frame.pixels().iter().map(|&pixel| vec![pixel]).collect(),
+            Self::Regions(design) => regions(&design, frame),
+            Self::Lanes(design) => lanes(design, frame, nothing),
+            Self::Pixels(design) => rows(design, frame),
+            Self::Words(design) => words(design, frame, nothing),
+        }
+    }
+}
+
+/// The streams of all regions, one after the other.
+fn streams(design: &Design, frame: &Frame) -> Vec<u16> {
+    let mut streams = Vec::new();
+    for region in 0..design.regions() {
+        region_stream(design, frame, region, &mut streams);
+    }
+    streams
+}
+
+fn regions(design: &Design, frame: &Frame) -> Vec<Vec<u16>> {
+    let (streams, length) = (streams(design, frame), design.stream_pixels() as usize);
+    let beat = |at| streams.iter().skip(at).step_by(length).copied().collect();
+    (0..length).map(beat).collect()
+}
+
+/// The stream of slot 0 of every lane, then that of slot 1, ...
+fn lanes(
+    design: SerialDesign<'_>,
+    frame: &Frame,
+    mut nothing: impl FnMut() -> u16,
+) -> Vec<Vec<u16>> {
+    let (streams, length) = (streams(&design, frame), design.stream_pixels() as usize);
+    let (lanes, fold) = (design.lanes() as usize, design.fold() as usize);
+    let places = (0..fold).flat_map(|slot| (0..length).map(move |at| (slot, at)));
+    let mut pixel = |place: usize| streams.get(place).copied().unwrap_or_else(&mut nothing);
+    places
+        .map(|(slot, at)| {
+            (0..lanes).map(|lane| pixel((lane * fold + slot) * length + at)).collect()
+        })
+        .collect()
+}
+
+/// The padded frame, row by row.
+fn rows(design: SerialDesign<'_>, frame: &Frame) -> Vec<Vec<u16>> {
+    let side = i64::from(design.region_size());
+    let (width, height) = (i64::from(design.columns()) * side, i64::from(design.rows()) * side);
+    let row = |y| (0..width).map(move |x| vec![frame.clamped(x, y)]);
+    (0..height).flat_map(row).collect()
+}
+
+/// The words of a frame, row by row. Pixels of the last word of a row that lie beyond the frame are `nothing`.
+fn words(
+    design: RasterDesign<'_>,
+    frame: &Frame,
+    mut nothing: impl FnMut() -> u16,
+) -> Vec<Vec<u16>> {
+    let pixels = design.pixels_per_clock() as usize;
+    let mut words = Vec::new();
+    for y in 0..frame.height() {
+        for word in frame.row(y).chunks(pixels) {
+            let mut word = word.to_vec();
+            word.resize_with(pixels, &mut nothing);
+            words.push(word);
+        }
+    }
+    words
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The sequences of a pipelined RPU, and of an array of them.
+
+use super::super::ahead::ThresholdAim;
+use super::super::motif::Motif::*;
+use super::super::pace::settling_clocks;
+use super::{End, Sequence};
+use foveate_design::PipelinedDesign;
+
+/// Every sequence, the most telling first.
+pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
+    let mixed = Sequence::mixed;
+    let flushing = End::Flushing(settling_clocks(design));
+    // At once, while most is under way.
+    let loading = End::Loading(0);
+    let aimed = |aim, name, motifs| Sequence { aim, ..mixed(name, motifs) };
+    let cut = |end, sequence| Sequence { end, ..sequence };
+    let configured = ThresholdAim::Design;
+    vec![
+        mixed("extremes", &[Max, Zero, Max, Max, Checkerboard, TwoPoint]),
+        mixed("noise", &[Noise, Noise, Binary, Noise]),
+        aimed(configured, "configured", &[Smooth, Bump, Ramp, Bump, Flat, Same, Step, LightStep]),
+        cut(loading, mixed("reset in a frame", &[Noise, Ramp, Noise])),
+        mixed("steps", &[Step, Ring, Step, Ramp, Step]),
+        cut(flushing, mixed("reset in a flush", &[Max, Binary])),
+        mixed("changes", &[Smooth, Bump, Bump, LightStep, Bump, Same]),
+        cut(flushing, aimed(configured, "reset after one frame", &[Ramp])),
+        mixed("halves", &[HalfMean, TwoPoint, HalfMean, TwoPoint]),
+        aimed(ThresholdAim::Restless, "restless", &[Noise, Smooth, Binary, Ramp]),
+        mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Flat, Same, Noise]),
+        mixed("corners", &[HotCorner, Ring, HotCorner, Ring]),
+        cut(loading, aimed(configured, "reset in a frame, full", &[Max, Max])),
+        mixed("flicker", &[Smooth, Flicker, Flicker, Same]),
+        mixed("fade", &[Binary, Fade, Fade, Fade]),
+        mixed("moving pixel", &[Flat, MovingPixel, MovingPixel, MovingPixel]),
+        aimed(
+            ThresholdAim::Largest,
+            "largest",
+            &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
+        ),
+    ]
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The sequences of a raster core.
+
+use super::super::ahead::ThresholdAim;
+use super::super::memory::Lapse;
+use super::super::motif::Motif::*;
+use super::{End, Sequence};
+use foveate_design::{RasterDesign, RasterTiming, Store};
+
+/// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
+/// that what they leave behind meets another kind of frame each time.
+pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
+    let (mixed, cut, loading) = (Sequence::mixed, Sequence::cut, End::Loading(2));
+    let timing = RasterTiming::of(design);
+    let flushing = End::Flushing(timing.edges_to_ready());
+    let leaving = End::Leaving(2 * u64::from(timing.region_words));
+    let mut sequences = vec![
+        Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
+        cut("reset while loading", &[Noise, Ramp], loading),
+        Sequence {
+            stalls: true,
+            ..cut("losses", &[Noise, Same, Binary, Same, Same, Noise], End::Drained)
+        },
+        cut("reset in the flush", &[Noise, Binary], flushing),
+        mixed("steps", &[Step, Ring, HotCorner, Ramp]),
+        Sequence { stalls: true, ..cut("reset after losses", &[Noise, Max, Binary], leaving) },
+        Sequence { stalls: true, ..cut("reset at a loss", &[Noise, Binary, Max], End::Losing) },
+        mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
+        cut("reset while pixels leave", &[Noise], leaving),
+        Sequence {
+            aim: ThresholdAim::Design,
+            ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same])
+        },
+        cut("reset after one frame", &[TwoPoint], flushing),
+        Sequence {
+            aim: ThresholdAim::Least,
+            ..mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel])
+        },
+        Sequence {
+            aim: ThresholdAim::Least,
+            stalls: true,
+            ..mixed("blanked and lost", &[Noise, Zero, Noise, Same, Zero, Noise, Same])
+        },
+        mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
+        mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
+        Sequence {
+            mixed: false,
+            aim: ThresholdAim::Largest,
+            ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
+        },
+    ];
+    if design.store() == Store::External {
+        sequences.extend(failing(flushing));
+    }
+    sequences
+}
+
+/// What a core must survive whose frame store is outside.
+fn failing(flushing: End) -> [Sequence; 7] {
+    let (mixed, cut, loading) = (Sequence::mixed, Sequence::cut, End::Loading(2));
+    [
+        Sequence {
+            lapse: Lapse::Late,
+            ..mixed("late references", &[Smooth, Bump, Same, Noise, Same])
+        },
+        Sequence {
+            lapse: Lapse::Late,
+            ..cut("reset after an underrun", &[Noise, Binary, Ramp, Noise], loading)
+        },
+        Sequence {
+            lapse: Lapse::Gone,
+            aim: ThresholdAim::Least,
+            ..mixed("lost references", &[Noise, Same, Same, Noise])
+        },
+        cut("reset while references come", &[Noise, Same, Same], loading),
+        Sequence {
+            lapse: Lapse::Wrong,
+            ..mixed("wrong references", &[Ramp, Same, Same, Noise, Same])
+        },
+        Sequence {
+            lapse: Lapse::Wrong,
+            mixed: false,
+            aim: ThresholdAim::Design,
+            ..mixed("wrong references of extremes", &[Max, Max, Zero, Zero])
+        },
+        cut("reset after wrong references", &[Smooth, Same], flushing),
+    ]
+}

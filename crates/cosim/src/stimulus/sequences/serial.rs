@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The sequences of a serial array.
+
+use super::super::ahead::ThresholdAim;
+use super::super::motif::Motif::*;
+use super::{End, Sequence};
+use foveate_design::{Phase, SerialDesign, SerialTiming};
+
+/// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
+/// that what they leave behind meets another kind of frame each time.
+pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
+    let (mixed, cut, loading) = (Sequence::mixed, Sequence::cut, End::Loading(2));
+    let timing = SerialTiming::of(design);
+    let before = |&&(phase, _): &&(Phase, u64)| phase != Phase::RotateCount;
+    let steps: u64 = timing.phases().iter().take_while(before).map(|&(_, steps)| steps).sum();
+    let first_score = timing.edges_to_ready() - timing.edges_to_step(steps);
+    let working = End::Working { first_score };
+    let rotating = End::Rotating(design.lanes().into());
+    // The pixels of the last slot leave last.
+    let unloading = End::Finishing(timing.phases().last().expect("a frame has phases").1);
+    let ready = End::Finishing(2);
+    vec![
+        Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
+        cut("reset while loading", &[Noise, Ramp], loading),
+        mixed("steps", &[Step, Ring, HotCorner, Ramp]),
+        cut("reset at the start", &[Binary], End::Begun),
+        mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
+        cut("reset in a rotation", &[Noise, Binary], rotating),
+        Sequence {
+            aim: ThresholdAim::Design,
+            ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same])
+        },
+        cut("reset while unloading", &[Noise], unloading),
+        cut("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel], End::Drained),
+        cut("reset at work", &[TwoPoint, Max], working),
+        mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
+        cut("reset when ready", &[Max], ready),
+        mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
+        Sequence {
+            mixed: false,
+            aim: ThresholdAim::Largest,
+            ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
+        },
+    ]
+}
