@@ -3,7 +3,7 @@
 //! decisions of every region of every frame, whenever they come.
 
 use foveate_cosim::{Agreement, Layout, Recording};
-use foveate_design::{Design, PortRole};
+use foveate_design::{BeatRegion, Design, PortRole, StreamRole};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 
@@ -34,6 +34,10 @@ struct Judge<'a> {
     design: &'a Design,
     layout: &'a Layout,
     outcomes: Vec<FunctionalOutcome>,
+    /// Whether scores come one after the other, and not with their decision.
+    has_scores: bool,
+    /// How a decision names its region.
+    decided_by: BeatRegion,
     /// Decisions that have been seen, by region.
     decided: Vec<usize>,
     agreement: Agreement,
@@ -41,31 +45,42 @@ struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     fn new(design: &'a Design, layout: &'a Layout, outcomes: Vec<FunctionalOutcome>) -> Self {
-        let decided = vec![0; design.regions() as usize];
-        Self { design, layout, outcomes, decided, agreement: Agreement::default() }
+        let interface = design.rcm_interface();
+        let decisions = interface.stream(StreamRole::Decisions).expect("every core decides");
+        Self {
+            design,
+            layout,
+            outcomes,
+            has_scores: interface.stream(StreamRole::Scores).is_some(),
+            decided_by: decisions.region,
+            decided: vec![0; design.regions() as usize],
+            agreement: Agreement::default(),
+        }
     }
 
     fn look(&mut self, record: &[u8]) {
-        match (field(self.layout, PortRole::Region), field(self.layout, PortRole::AnyScore)) {
-            (None, _) => self.look_at_all(record),
-            (Some(_), Some(_)) => self.look_at_one(record),
-            (Some(region), None) => {
-                if self.value(record, PortRole::DecisionValid, 0) == Some(1) {
-                    let region = usize::try_from(region.get(record, 0));
-                    self.look_at_scores(record, region.expect("regions have 32 bits"), 0);
+        if self.has_scores {
+            return self.look_at_one(record);
+        }
+        if self.value(record, PortRole::DecisionValid, 0) != Some(1) {
+            return;
+        }
+        match self.decided_by {
+            BeatRegion::Number(role) => self.look_at_scores(record, self.number(record, role), 0),
+            BeatRegion::Lane => {
+                for lane in 0..self.design.regions() {
+                    self.look_at_scores(record, lane as usize, lane);
                 }
+            }
+            BeatRegion::None | BeatRegion::Slot(_) => {
+                unreachable!("a decision names its region by its lane or its number")
             }
         }
     }
 
-    /// A decision of all regions at once.
-    fn look_at_all(&mut self, record: &[u8]) {
-        if self.value(record, PortRole::DecisionValid, 0) != Some(1) {
-            return;
-        }
-        for lane in 0..self.design.regions() {
-            self.look_at_scores(record, lane as usize, lane);
-        }
+    fn number(&self, record: &[u8], role: PortRole) -> usize {
+        let value = self.value(record, role, 0).expect("the port is there");
+        usize::try_from(value).expect("a number of at most 32 bits")
     }
 
     /// The decision of a region with all its scores, in a lane of the ports.
@@ -84,12 +99,8 @@ impl<'a> Judge<'a> {
         if self.value(record, PortRole::ScoreValid, 0) != Some(1) {
             return;
         }
-        let number = |role| {
-            let value = self.value(record, role, 0).expect("what numbers regions numbers scores");
-            usize::try_from(value).expect("a number of at most 32 bits")
-        };
-        let region = number(PortRole::Region);
-        let place = number(PortRole::ScoreIndex);
+        let region = self.number(record, PortRole::Region);
+        let place = self.number(record, PortRole::ScoreIndex);
         let score = self.value(record, PortRole::AnyScore, 0);
         self.check(region, score, |outcome| match place.checked_sub(1) {
             None => outcome.temporal_count[region].into(),

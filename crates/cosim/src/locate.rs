@@ -2,10 +2,9 @@
 //! Which region a differing value belongs to.
 
 use crate::compare::Difference;
-use crate::field::Field;
 use crate::layout::Layout;
 use crate::level::Level;
-use foveate_design::{Design, PortRole};
+use foveate_design::{BeatRegion, Design};
 
 /// The region of a difference, as far as the expected outputs of that clock tell. `first` is the region of
 /// the frame that goes through the only RPU, or lane, if it is one of a frame of the caller.
@@ -25,7 +24,7 @@ pub(crate) fn region(
     }
 }
 
-/// The ports tell: those that number regions, else the lane of the port.
+/// The stream of the port tells, by its lane or by the port that names the region of a beat.
 fn in_array(
     design: &Design,
     layout: &Layout,
@@ -33,48 +32,24 @@ fn in_array(
     difference: &Difference,
 ) -> Option<u32> {
     let fields = layout.fields();
-    let of_role = |role| fields.iter().find(|field| field.port.role == role);
     let says = |role| {
-        let field: &Field = of_role(role)?;
+        let field = fields.iter().find(|field| field.port.role == role)?;
         let mut lanes = layout.compared_lanes(field, expected);
-        let value = field.get(expected, lanes.next()?);
-        u32::try_from(value).ok()
+        u32::try_from(field.get(expected, lanes.next()?)).ok()
     };
-    let has = |role| of_role(role).is_some();
     let role = fields.iter().find(|field| field.port.name == difference.port)?.port.role;
-    match role {
-        // A word of a frame store outside is of no region that is shown.
-        PortRole::ReferenceReady
-        | PortRole::StoreValid
-        | PortRole::StorePixel
-        | PortRole::StoreLast
-        | PortRole::Underrun => None,
-        PortRole::ForwardPosition
-        | PortRole::ForwardSlot
-        | PortRole::ForwardRegion
-        | PortRole::ForwardFirst
-        | PortRole::ForwardLast
-        | PortRole::ForwardAbort
-        | PortRole::ForwardFrame => says(PortRole::ForwardRegion),
-        PortRole::LostValid | PortRole::LostRegion | PortRole::LostFrame => {
-            says(PortRole::LostRegion)
-        }
-        PortRole::ForwardValid | PortRole::ForwardPixel if has(PortRole::ForwardRegion) => {
-            says(PortRole::ForwardRegion)
-        }
-        PortRole::ForwardValid | PortRole::ForwardPixel if has(PortRole::ForwardSlot) => {
-            Some(difference.lane * design.slots() + says(PortRole::ForwardSlot)?)
-        }
-        PortRole::ForwardValid | PortRole::ForwardPixel => Some(difference.lane),
-        _ if has(PortRole::Region) => says(PortRole::Region),
-        _ => Some(difference.lane),
+    match design.rcm_interface().stream_of(role)?.region {
+        BeatRegion::None => None,
+        BeatRegion::Lane => Some(difference.lane),
+        BeatRegion::Slot(slot) => Some(difference.lane * design.slots() + says(slot)?),
+        BeatRegion::Number(region) => says(region),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_design::Config;
+    use foveate_design::{Config, PortRole};
 
     fn design(hardware: &str) -> Design {
         let toml = format!(

@@ -11,6 +11,7 @@ mod config;
 mod design;
 mod fingerprint;
 mod hardware;
+mod interface;
 mod keys;
 mod organization;
 mod pipelined;
@@ -33,6 +34,7 @@ pub use foveate_camera::{
     Variance, Written, bits_for, index_bits, mad_score_max,
 };
 pub use hardware::Hardware;
+pub use interface::{BeatRegion, Interface, Stream, StreamRole};
 pub use pipelined::{Pipelined, PipelinedTiming};
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};

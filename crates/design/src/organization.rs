@@ -5,7 +5,7 @@
 //! Each organization answers in a module of its own, as an implementation of [`crate::rules::Rules`].
 
 use crate::rules::{Rules, Unit};
-use crate::{Design, Feed, Hardware, HardwareConfig, Organization, Port, Timing};
+use crate::{Design, Feed, Hardware, HardwareConfig, Interface, Organization, Port, Timing};
 
 impl Organization {
     /// What people call a unit of the array, such as "RPU".
@@ -57,16 +57,28 @@ impl Design {
         self.rules().timing()
     }
 
+    /// The interface of module `rpu`.
+    #[must_use]
+    pub fn rpu_interface(&self) -> Interface {
+        self.rules().rpu_interface()
+    }
+
+    /// The interface of module `rcm`.
+    #[must_use]
+    pub fn rcm_interface(&self) -> Interface {
+        self.rules().rcm_interface()
+    }
+
     /// The ports of module `rpu`, inputs first.
     #[must_use]
     pub fn rpu_ports(&self) -> Vec<Port> {
-        self.rules().rpu_ports()
+        self.rpu_interface().ports()
     }
 
     /// The ports of module `rcm`, inputs first.
     #[must_use]
     pub fn rcm_ports(&self) -> Vec<Port> {
-        self.rules().rcm_ports()
+        self.rcm_interface().ports()
     }
 
     /// What every organization answers.

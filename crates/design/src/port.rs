@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of an RPU and of an RCM. Module headers, harnesses, vectors and benches all follow
-//! from these lists. Each organization makes its own, from what is here.
+//! One port of an RPU or an RCM. Each organization says in its [`crate::Interface`] which there are, from what is here.
 
 use crate::{Design, FeatureKind, Thresholds};
 
@@ -105,6 +104,59 @@ pub enum PortRole {
     LostRegion,
     /// Number of its frame, modulo [`crate::FRAME_NUMBERS`] (`raster`).
     LostFrame,
+}
+
+impl PortRole {
+    /// Whether it is a number, or pixels; else a flag.
+    #[must_use]
+    pub fn is_number(self) -> bool {
+        match self {
+            Self::Pixel
+            | Self::Border
+            | Self::Level(_)
+            | Self::MinScore(_)
+            | Self::TemporalLevel
+            | Self::TemporalMinCount
+            | Self::ReferencePixel
+            | Self::StorePixel
+            | Self::ScoreIndex
+            | Self::Region
+            | Self::AnyScore
+            | Self::Score(_)
+            | Self::TemporalCount
+            | Self::ForwardPixel
+            | Self::ForwardPosition
+            | Self::ForwardSlot
+            | Self::ForwardRegion
+            | Self::ForwardFrame
+            | Self::LostCount
+            | Self::LostRegion
+            | Self::LostFrame => true,
+            Self::Clock
+            | Self::Reset
+            | Self::Valid
+            | Self::StartOfFrame
+            | Self::ReferenceValid
+            | Self::ForwardReady
+            | Self::Ready
+            | Self::SyncError
+            | Self::ReferenceReady
+            | Self::StoreValid
+            | Self::StoreLast
+            | Self::Underrun
+            | Self::ScoreValid
+            | Self::DecisionValid
+            | Self::Srs
+            | Self::Trs
+            | Self::Active
+            | Self::ForwardValid
+            | Self::ForwardFirst
+            | Self::ForwardLast
+            | Self::ForwardAbort
+            | Self::Lost
+            | Self::LostValid => false,
+        }
+    }
 }
 
 /// When the value of an output means something. Otherwise it may be anything, and is not compared.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The questions that every organization answers of its designs; [`crate::organization`] asks them.
 
-use crate::{Design, Port, Timing};
+use crate::{Design, Interface, Timing};
 
 /// The unit that an array repeats: an RPU, a lane; or the one core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,10 +29,10 @@ pub(crate) trait Rules {
     fn lone_unit(&self) -> Design;
     /// When it says what.
     fn timing(&self) -> Timing;
-    /// The ports of module `rpu`, inputs first: where it is no part of the array, those of an array of one unit.
-    fn rpu_ports(&self) -> Vec<Port> {
-        self.lone_unit().rcm_ports()
+    /// The interface of module `rpu`: where it is no part of the array, that of an array of one unit.
+    fn rpu_interface(&self) -> Interface {
+        self.lone_unit().rcm_interface()
     }
-    /// The ports of module `rcm`, inputs first.
-    fn rcm_ports(&self) -> Vec<Port>;
+    /// The interface of module `rcm`.
+    fn rcm_interface(&self) -> Interface;
 }

@@ -13,7 +13,7 @@ use crate::{Prefix, Top, banner, latency};
 use askama::Template;
 use foveate_design::{
     Design, Direction, Feed, MemoryKind, PipelinedDesign, PipelinedTiming, Port, SerialDesign,
-    SerialTiming, Thresholds,
+    SerialTiming, Stream, Thresholds,
 };
 
 #[derive(Template)]
@@ -43,6 +43,7 @@ struct Readme {
     sync: String,
     border: bool,
     runtime: bool,
+    streams: Vec<StreamRow>,
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
@@ -93,6 +94,7 @@ struct SerialReadme {
     sync: String,
     stream_pixels: u32,
     runtime: bool,
+    streams: Vec<StreamRow>,
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
@@ -103,8 +105,21 @@ struct SerialReadme {
     has_rpu: bool,
 }
 
+/// A stream of the core.
+struct StreamRow {
+    name: &'static str,
+    direction: &'static str,
+    beat: &'static str,
+    /// The ports that say that a beat is there, and that it is taken.
+    handshake: String,
+    /// The ports that mark first and last beats.
+    marks: String,
+}
+
 struct PortRow {
     name: String,
+    /// The stream, or what the port is for.
+    of: &'static str,
     direction: &'static str,
     bits: String,
     doc: String,
@@ -168,7 +183,8 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         sync: sync::section(&design, "pixel", fed(design)),
         stream_pixels: design.stream_pixels(),
         runtime: design.thresholds() == Thresholds::Runtime,
-        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        streams: stream_rows(&design),
+        rcm_ports: port_rows(&design),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
@@ -229,7 +245,8 @@ fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: Pipeline
         sync: sync::section(&design, "pixel", " of every region"),
         border: design.needs_border(),
         runtime: design.thresholds() == Thresholds::Runtime,
-        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        streams: stream_rows(&design),
+        rcm_ports: port_rows(&design),
         thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
@@ -238,18 +255,49 @@ fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: Pipeline
     }
 }
 
-fn port_row(port: &Port) -> PortRow {
-    PortRow {
+fn stream_rows(design: &Design) -> Vec<StreamRow> {
+    let ports = |ports: &[Option<&str>]| {
+        let names: Vec<_> = ports.iter().flatten().map(|name| format!("`{name}`")).collect();
+        names.join(", ")
+    };
+    let row = |stream: &Stream| {
+        let name = |port: &Option<Port>| port.as_ref().map(|port| port.name.clone());
+        let last = stream.payload.iter().find(|port| Some(port.role) == stream.last);
+        let (ready, start) = (name(&stream.ready), name(&stream.start));
+        StreamRow {
+            name: stream.role.name(),
+            direction: direction(stream.direction),
+            beat: stream.beat,
+            handshake: ports(&[Some(&stream.valid.name), ready.as_deref()]),
+            marks: ports(&[start.as_deref(), last.map(|port| port.name.as_str())]),
+        }
+    };
+    design.rcm_interface().streams.iter().map(row).collect()
+}
+
+fn port_rows(design: &Design) -> Vec<PortRow> {
+    let interface = design.rcm_interface();
+    let row = |port: &Port| PortRow {
         name: port.name.clone(),
-        direction: match port.direction {
-            Direction::Input => "in",
-            Direction::Output => "out",
+        of: match interface.stream_of(port.role) {
+            Some(stream) => stream.role.name(),
+            None if interface.controls.contains(port) => "control",
+            None => "",
         },
+        direction: direction(port.direction),
         bits: match port.lanes {
             1 => port.width.to_string(),
             lanes => format!("{lanes} x {}", port.width),
         },
         doc: port.doc.clone(),
+    };
+    interface.ports().iter().map(row).collect()
+}
+
+fn direction(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Input => "in",
+        Direction::Output => "out",
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The two modules that may be on top of a design.
 
-use foveate_design::{Design, Hardware, Port};
+use foveate_design::{Design, Hardware, Interface, Port};
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
@@ -59,12 +59,18 @@ impl Top {
         }
     }
 
+    /// Its interface.
+    #[must_use]
+    pub fn interface(self, design: &Design) -> Interface {
+        match self {
+            Self::Rpu => design.rpu_interface(),
+            Self::Rcm => design.rcm_interface(),
+        }
+    }
+
     /// Its ports.
     #[must_use]
     pub fn ports(self, design: &Design) -> Vec<Port> {
-        match self {
-            Self::Rpu => design.rpu_ports(),
-            Self::Rcm => design.rcm_ports(),
-        }
+        self.interface(design).ports()
     }
 }

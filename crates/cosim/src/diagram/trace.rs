@@ -5,7 +5,7 @@ use crate::error::CosimError;
 use crate::level::Level;
 use crate::shipped::{Record, Rig, TestPattern};
 use crate::stimulus::Random;
-use foveate_design::{Design, Direction, Port, PortRole};
+use foveate_design::{Design, Direction, Interface, Port, Stream};
 use foveate_emit::Top;
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, Thresholds};
@@ -107,17 +107,18 @@ struct Take<'a> {
     garbage: Vec<u16>,
     edge: u64,
     trace: Trace,
+    interface: Interface,
     cancel: &'a AtomicBool,
 }
 
 impl<'a> Take<'a> {
     fn new(part: &'a Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
-        let ports = top.ports(part);
-        let record = Record::of(&ports);
+        let interface = top.interface(part);
+        let record = Record::of(&interface.ports());
         let rig = Rig::new(part, top);
         let shown =
             record.inputs.fields().iter().chain(record.outputs.fields()).map(|field| &field.port);
-        let signals = shown.filter(|port| is_shown(port)).map(signal).collect();
+        let signals = shown.filter(|port| is_shown(&interface, port)).map(signal).collect();
         Self {
             garbage: vec![0; rig.width()],
             record,
@@ -125,6 +126,7 @@ impl<'a> Take<'a> {
             thresholds: Thresholds::of(part),
             edge: 0,
             trace: Trace { title, signals, stretches: Vec::new(), frames: Vec::new() },
+            interface,
             cancel,
         }
     }
@@ -161,12 +163,12 @@ impl<'a> Take<'a> {
             let valid = inputs.fields().iter().find(|field| field.port.role == role);
             valid.is_some_and(|field| field.get(input, 0) == 1)
         };
-        let input = inputs.fields().iter().filter(|field| is_shown(&field.port)).map(|field| {
-            let says = match field.port.role {
-                PortRole::Pixel | PortRole::StartOfFrame => is_high(PortRole::Valid),
-                PortRole::ReferencePixel => is_high(PortRole::ReferenceValid),
-                _ => true,
-            };
+        let interface = &self.interface;
+        let shown = inputs.fields().iter().filter(|field| is_shown(interface, &field.port));
+        let input = shown.map(|field| {
+            let role = field.port.role;
+            let valid = interface.stream_of(role).map(|stream| stream.valid.role);
+            let says = valid.is_none_or(|valid| valid == role || is_high(valid));
             says.then(|| field.get(input, 0))
         });
         let output = outputs.fields().iter().map(|field| {
@@ -183,12 +185,10 @@ impl<'a> Take<'a> {
     }
 }
 
-/// Thresholds, resets and borders stand still.
-fn is_shown(port: &Port) -> bool {
-    use PortRole::{Pixel, ReferencePixel, ReferenceValid, StartOfFrame, Valid};
-    let is_stream =
-        matches!(port.role, Valid | StartOfFrame | Pixel | ReferenceValid | ReferencePixel);
-    port.direction == Direction::Output || is_stream
+/// Thresholds, resets and borders stand still; a sink is always ready.
+fn is_shown(interface: &Interface, port: &Port) -> bool {
+    let brings = |stream: &Stream| stream.direction == Direction::Input;
+    port.direction == Direction::Output || interface.stream_of(port.role).is_some_and(brings)
 }
 
 fn signal(port: &Port) -> Signal {
@@ -197,24 +197,5 @@ fn signal(port: &Port) -> Signal {
         (_, 1) => "[0]".to_owned(),
         (_, width) => format!("[{}:0]", width - 1),
     };
-    let is_number = matches!(
-        port.role,
-        PortRole::Pixel
-            | PortRole::ReferencePixel
-            | PortRole::StorePixel
-            | PortRole::Score(_)
-            | PortRole::TemporalCount
-            | PortRole::ForwardPixel
-            | PortRole::ScoreIndex
-            | PortRole::Region
-            | PortRole::AnyScore
-            | PortRole::ForwardPosition
-            | PortRole::ForwardSlot
-            | PortRole::ForwardRegion
-            | PortRole::ForwardFrame
-            | PortRole::LostCount
-            | PortRole::LostRegion
-            | PortRole::LostFrame
-    );
-    Signal { name: format!("{}{lane}", port.name), is_bit: !is_number }
+    Signal { name: format!("{}{lane}", port.name), is_bit: !port.role.is_number() }
 }

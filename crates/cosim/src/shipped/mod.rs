@@ -20,7 +20,7 @@ mod tape;
 use crate::error::CosimError;
 use crate::harness::{bench_file, told_bench};
 use crate::level::Level;
-use foveate_design::{Design, Port, PortRole};
+use foveate_design::{Design, Port, StreamRole};
 use foveate_emit::{Prefix, SourceFile, Top};
 pub(crate) use picture::TestPattern;
 use player::Player;
@@ -163,7 +163,8 @@ impl Take {
 
 /// Whether somebody takes the pixels that leave, and may stall.
 fn has_sink(design: &Design) -> bool {
-    design.rcm_ports().iter().any(|port| port.role == PortRole::ForwardReady)
+    let interface = design.rcm_interface();
+    interface.stream(StreamRole::Forwarded).is_some_and(|stream| stream.ready.is_some())
 }
 
 /// Whether the frames of a bench are few enough clocks and lines.

@@ -3,7 +3,7 @@
 
 use super::{PipelinedTiming, ports};
 use crate::rules::{Rules, Unit};
-use crate::{Design, Organization, PipelinedDesign, Port, Timing};
+use crate::{Design, Interface, Organization, PipelinedDesign, Timing};
 
 impl Rules for PipelinedDesign<'_> {
     fn unit(&self) -> Unit {
@@ -25,11 +25,11 @@ impl Rules for PipelinedDesign<'_> {
         PipelinedTiming::of(*self).answers()
     }
 
-    fn rpu_ports(&self) -> Vec<Port> {
+    fn rpu_interface(&self) -> Interface {
         ports::rpu(self)
     }
 
-    fn rcm_ports(&self) -> Vec<Port> {
+    fn rcm_interface(&self) -> Interface {
         ports::rcm(self)
     }
 }

@@ -2,9 +2,9 @@
 //! What a raster design answers; see [`crate::organization`].
 
 use super::hardware::least_columns;
-use super::{RasterTiming, ports::ports};
+use super::{RasterTiming, ports::interface};
 use crate::rules::{Rules, Unit};
-use crate::{Design, Organization, Port, RasterDesign, Store, Timing};
+use crate::{Design, Interface, Organization, RasterDesign, Store, Timing};
 
 /// Regions one below the other of the lone core.
 const LONE_ROWS: u32 = 3;
@@ -50,7 +50,7 @@ impl Rules for RasterDesign<'_> {
         RasterTiming::of(*self).answers()
     }
 
-    fn rcm_ports(&self) -> Vec<Port> {
-        ports(*self)
+    fn rcm_interface(&self) -> Interface {
+        interface(*self)
     }
 }

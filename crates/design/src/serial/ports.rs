@@ -1,15 +1,99 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of a serial array.
+//! The interface of a serial array.
 
+use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
 use crate::port::{sync_input, sync_output, threshold_ports};
-use crate::{Direction, Feed, Port, PortRole, Qualifier, SerialDesign};
+use crate::{Direction, Feed, Port, PortRole, SerialDesign};
 
-/// The ports of the array, inputs first.
-pub(crate) fn ports(design: SerialDesign<'_>) -> Vec<Port> {
-    use Direction::{Input, Output};
-    let pixel = design.pixel_bits();
-    // What there is one of per lane with parallel feed, and one of with raster feed.
-    let fed = |mut port: Port| match design.feed() {
+/// The interface of the array.
+pub(crate) fn interface(design: SerialDesign<'_>) -> Interface {
+    let input = |role, width, doc| Port::single(Direction::Input, role, width, doc);
+    let output = |role, width, doc| Port::single(Direction::Output, role, width, doc);
+
+    let pixel = input(PortRole::Pixel, design.pixel_bits(), "pixel, row by row");
+    let pixels = Stream {
+        ready: Some(output(PortRole::Ready, 1, "a pixel would be taken at the next edge")),
+        start: sync_input(&design),
+        status: sync_output(&design).into_iter().collect(),
+        ..Stream::into_core(
+            StreamRole::Pixels,
+            match design.feed() {
+                Feed::Parallel => "a pixel of a region of every lane",
+                Feed::Raster => "a pixel of the frame",
+            },
+            input(PortRole::Valid, 1, "a pixel is taken at this edge, if ready_o"),
+            vec![fed(design, pixel)],
+        )
+    };
+    let score = |role, width, doc| Port::with(PortRole::ScoreValid, role, width, doc);
+    let which = "which: 0 the temporal count, 1.. the features; only with score_valid_o";
+    let region = BeatRegion::Number(PortRole::Region);
+    let scores = Stream::out_of_core(
+        StreamRole::Scores,
+        "a score of a region",
+        output(PortRole::ScoreValid, 1, "a score of one region"),
+        vec![
+            score(PortRole::ScoreIndex, design.score_index_bits(), which),
+            score(PortRole::Region, design.region_bits(), "its region; only with score_valid_o"),
+            score(PortRole::AnyScore, design.any_score_bits(), "it; only with score_valid_o"),
+        ],
+    );
+    let decisions = Stream::out_of_core(
+        StreamRole::Decisions,
+        "the decision of the region of the score",
+        output(PortRole::DecisionValid, 1, "the decision for region_o; comes with its last score"),
+        vec![
+            output(PortRole::Srs, 1, "spatial relevance; 0 unless decision_valid_o"),
+            output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
+            output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
+        ],
+    );
+    let doc = "a pixel of an active region leaves";
+    let forwarded = Stream::out_of_core(
+        StreamRole::Forwarded,
+        match design.feed() {
+            Feed::Parallel => "a pixel of the active regions of one slot",
+            Feed::Raster => "a pixel of an active region",
+        },
+        fed(design, output(PortRole::ForwardValid, 1, doc)),
+        leaving(design),
+    );
+    let (scores, decisions) = (Stream { region, ..scores }, Stream { region, ..decisions });
+    let region = match (design.feed(), design.fold()) {
+        (Feed::Parallel, 1) => BeatRegion::Lane,
+        (Feed::Parallel, _) => BeatRegion::Slot(PortRole::ForwardSlot),
+        (Feed::Raster, _) => BeatRegion::Number(PortRole::ForwardRegion),
+    };
+    let forwarded = Stream { region, ..forwarded };
+    Interface::new(vec![pixels, scores, decisions, forwarded], threshold_ports(&design))
+}
+
+/// What comes with a pixel that leaves.
+fn leaving(design: SerialDesign<'_>) -> Vec<Port> {
+    let with = |role, width, doc| Port::with(PortRole::ForwardValid, role, width, doc);
+    let position = "its number in its region; only with forward_valid_o";
+    let pixel = "that pixel; only with forward_valid_o";
+    let mut list = vec![
+        fed(design, with(PortRole::ForwardPixel, design.pixel_bits(), pixel)),
+        with(PortRole::ForwardPosition, design.position_bits(), position),
+    ];
+    match design.feed() {
+        Feed::Parallel if design.fold() > 1 => {
+            let doc = "slot of its region in its lane; only with forward_valid_o";
+            list.push(with(PortRole::ForwardSlot, design.slot_bits(), doc));
+        }
+        Feed::Parallel => {}
+        Feed::Raster => {
+            let doc = "its region; only with forward_valid_o";
+            list.push(with(PortRole::ForwardRegion, design.region_bits(), doc));
+        }
+    }
+    list
+}
+
+/// What there is one of per lane with parallel feed, and one of with raster feed.
+fn fed(design: SerialDesign<'_>, mut port: Port) -> Port {
+    match design.feed() {
         Feed::Raster => port,
         Feed::Parallel => {
             port.lanes = design.lanes();
@@ -17,56 +101,5 @@ pub(crate) fn ports(design: SerialDesign<'_>) -> Vec<Port> {
             port.doc.push_str("; element i is lane i");
             port
         }
-    };
-    let with = |role, mut port: Port| {
-        port.qualifier = Qualifier::With(role);
-        port
-    };
-    let single = Port::single;
-
-    let mut list = vec![
-        single(Input, PortRole::Clock, 1, "clock, rising edge"),
-        single(Input, PortRole::Reset, 1, "synchronous reset, active high"),
-        single(Input, PortRole::Valid, 1, "a pixel is taken at this edge, if ready_o"),
-    ];
-    list.extend(sync_input(&design));
-    list.push(fed(single(Input, PortRole::Pixel, pixel, "pixel, row by row")));
-    list.extend(threshold_ports(&design));
-    list.push(single(Output, PortRole::Ready, 1, "a pixel would be taken at the next edge"));
-    list.extend(sync_output(&design));
-
-    let score = |role, width, doc| with(PortRole::ScoreValid, single(Output, role, width, doc));
-    list.push(single(Output, PortRole::ScoreValid, 1, "a score of one region"));
-    let doc = "which: 0 the temporal count, 1.. the features; only with score_valid_o";
-    list.push(score(PortRole::ScoreIndex, design.score_index_bits(), doc));
-    list.push(score(PortRole::Region, design.region_bits(), "its region; only with score_valid_o"));
-    list.push(score(PortRole::AnyScore, design.any_score_bits(), "it; only with score_valid_o"));
-    let doc = "the decision for region_o; comes with its last score";
-    list.push(single(Output, PortRole::DecisionValid, 1, doc));
-    let doc = "spatial relevance; 0 unless decision_valid_o";
-    list.push(single(Output, PortRole::Srs, 1, doc));
-    let doc = "temporal relevance; 0 unless decision_valid_o";
-    list.push(single(Output, PortRole::Trs, 1, doc));
-    list.push(single(Output, PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"));
-
-    let leaving = |role, width, doc| with(PortRole::ForwardValid, single(Output, role, width, doc));
-    let doc = "a pixel of an active region leaves";
-    list.push(fed(single(Output, PortRole::ForwardValid, 1, doc)));
-    let doc = "that pixel; only with forward_valid_o";
-    list.push(fed(leaving(PortRole::ForwardPixel, pixel, doc)));
-    let doc = "its number in its region; only with forward_valid_o";
-    list.push(leaving(PortRole::ForwardPosition, design.position_bits(), doc));
-    match design.feed() {
-        Feed::Parallel => {
-            if design.fold() > 1 {
-                let doc = "slot of its region in its lane; only with forward_valid_o";
-                list.push(leaving(PortRole::ForwardSlot, design.slot_bits(), doc));
-            }
-        }
-        Feed::Raster => {
-            let doc = "its region; only with forward_valid_o";
-            list.push(leaving(PortRole::ForwardRegion, design.region_bits(), doc));
-        }
     }
-    list
 }

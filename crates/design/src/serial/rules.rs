@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a serial design answers; see [`crate::organization`].
 
-use super::{SerialTiming, ports::ports};
+use super::{SerialTiming, ports::interface};
 use crate::rules::{Rules, Unit};
-use crate::{Design, Organization, Port, SerialDesign, Timing};
+use crate::{Design, Interface, Organization, SerialDesign, Timing};
 
 impl Rules for SerialDesign<'_> {
     fn unit(&self) -> Unit {
@@ -26,7 +26,7 @@ impl Rules for SerialDesign<'_> {
         SerialTiming::of(*self).answers()
     }
 
-    fn rcm_ports(&self) -> Vec<Port> {
-        ports(*self)
+    fn rcm_interface(&self) -> Interface {
+        interface(*self)
     }
 }

@@ -5,4 +5,5 @@
 mod configuration;
 mod depth;
 mod fuzz;
+mod interface;
 mod sync;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The README of a raster core: how long a source waits, and when a region is lost.
 
-use super::{PortRow, ThresholdRow, port_row, score_names, sync, threshold};
+use super::{
+    PortRow, StreamRow, ThresholdRow, port_rows, score_names, stream_rows, sync, threshold,
+};
 use crate::camera::is_last_sent;
 use crate::instance::instance;
 use crate::text::text_of;
@@ -67,6 +69,7 @@ struct Readme {
     last_sent: bool,
     store: &'static str,
     runtime: bool,
+    streams: Vec<StreamRow>,
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
@@ -128,7 +131,8 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         last_sent: is_last_sent(&design),
         store: design.store().name(),
         runtime: design.thresholds() == Thresholds::Runtime,
-        rcm_ports: design.rcm_ports().iter().map(port_row).collect(),
+        streams: stream_rows(&design),
+        rcm_ports: port_rows(&design),
         thresholds: design.rcm_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),

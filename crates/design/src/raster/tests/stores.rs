@@ -115,10 +115,10 @@ fn a_store_outside_has_two_streams() {
     let outputs = [
         ("ready_o", 1),
         ("reference_ready_o", 1),
+        ("underrun_o", 1),
         ("store_valid_o", 1),
         ("store_pixel_o", 32),
         ("store_last_o", 1),
-        ("underrun_o", 1),
         ("decision_valid_o", 1),
         ("region_o", 6),
         ("srs_o", 1),
