@@ -234,6 +234,11 @@ impl<'a> Driver<'a> {
         self.thresholds = self.configured;
         for (sof, place) in delivery.beats(beats.len(), &mut self.random) {
             self.beat(place.map(|place| beats[place].as_slice()), sof, gaps)?;
+            // A frame that the core completes by itself goes on without beats.
+            if self.core.is_high(PortRole::SyncError) && self.random.one_in(2) {
+                let pause = 1 + self.random.up_to(2);
+                self.idle(pause)?;
+            }
         }
         Ok(())
     }
