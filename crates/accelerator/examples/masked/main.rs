@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is left of multiplications, cycles and energy where only a square of a layer is computed, on every preset, as
-//! `docs/accelerators.md` shows it.
+//! What is left of multiplications, cycles and energy where only a square of a layer is computed, on every preset: in
+//! Markdown what `docs/data/accelerators-masked.csv` holds.
 
 mod table;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table of the page `docs/accelerators.md` on masks, in Markdown.
+//! The table to which the page `docs/accelerators.md` links on masks, in Markdown.
 
 use foveate_accelerator::{Accelerator, Cost, Layer, PRESETS, Shape, Window};
 use std::fmt::Write;
