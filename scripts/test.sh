@@ -40,7 +40,7 @@ RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
 step "book"
 scripts/book.sh
 step "build of the tests"
-cargo test --workspace --locked --quiet --no-run
+cargo test --workspace --locked --quiet --no-run --lib --bins --tests
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
 step "Python package"
