@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use foveate_cosim::{Agreement, Job, Level as Simulated, Simulator, Stimulus};
-use foveate_design::Design;
+use foveate_design::{Array, Design};
 use foveate_frame::Frame;
 
 use crate::error::BenchError;
@@ -61,11 +61,12 @@ pub(crate) fn netlist(
 
 /// The design for a frame of the regions of one unit, or of fewer where that unit is the whole array.
 fn part(design: &Design) -> Result<Design, BenchError> {
-    if design.unit().count == 1 {
-        return Ok(design.lone_unit());
+    match design.unit().array {
+        Array::Copies => {
+            let (side, mut config) = (design.region_size(), design.config());
+            (config.camera.frame.width, config.camera.frame.height) = (Some(side), Some(side));
+            Ok(config.validate()?)
+        }
+        Array::Whole => Ok(design.lone_unit()),
     }
-    let (side, mut config) = (design.region_size(), design.config());
-    config.camera.frame.width = Some(design.unit().regions * side);
-    config.camera.frame.height = Some(side);
-    Ok(config.validate()?)
 }

@@ -68,15 +68,6 @@ impl FeatureKind {
         }
     }
 
-    /// Clocks of a plain pipelined RPU from the step of the last pixel until the score is final.
-    #[must_use]
-    pub fn score_latency(self) -> u32 {
-        match self {
-            Self::Edge | Self::Corner => 1,
-            Self::Mad | Self::Variance => 2,
-        }
-    }
-
     /// What the score counts or measures.
     #[must_use]
     pub fn measure(self) -> Measure {

@@ -2,7 +2,7 @@
 //! How much of the hardware is simulated.
 
 use crate::hierarchy::declares;
-use foveate_design::{ConfigError, Design};
+use foveate_design::{Array, ConfigError, Design};
 use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -47,18 +47,14 @@ impl Level {
         Self::Rcm { columns, rows: rows_for(columns) }
     }
 
-    /// Whether the array is copies of module `rpu` and nothing else: its size says only how many there
-    /// are, and none of them knows of it.
-    #[must_use]
-    pub fn is_copies(design: &Design) -> bool {
-        design.unit().rpu_in_rcm
-    }
-
     /// Whether the design's own array is simulated by default: its widths, memories and counters follow from its
     /// size, and it has no more lanes than Verilator builds in a minute or two.
     #[must_use]
     pub fn is_whole_affordable(design: &Design) -> bool {
-        !Self::is_copies(design) && design.unit().count <= MAX_UNITS
+        match design.unit().array {
+            Array::Copies => false,
+            Array::Whole => design.unit().count <= MAX_UNITS,
+        }
     }
 
     /// The levels that between them simulate Verilog that somebody gives: one for each of the modules

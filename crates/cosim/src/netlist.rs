@@ -7,7 +7,7 @@
 
 use crate::cells::{cell_models, wired_wrongly};
 use crate::error::CosimError;
-use foveate_design::Design;
+use foveate_design::{Array, Design};
 use foveate_emit::{Prefix, Top};
 use foveate_toolchain::{
     Cache, Source, SynthesisJob, ToolRecord, Toolchain, sources_sha256, yosys,
@@ -48,12 +48,15 @@ impl Netlist {
         toolchain: &Toolchain,
         cache: &Cache,
     ) -> Result<Self, CosimError> {
-        if design.unit().rpu_in_rcm {
-            // Verilog of one RPU lacks the array around it, which comes last.
-            let array = prefix.apply(foveate_emit::verilog(design, Top::Rcm));
-            let array = array.into_iter().next_back().map(Source::from);
-            let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
-            verilog.extend(array.filter(is_new));
+        match design.unit().array {
+            Array::Copies => {
+                // Verilog of one RPU lacks the array around it, which comes last.
+                let array = prefix.apply(foveate_emit::verilog(design, Top::Rcm));
+                let array = array.into_iter().next_back().map(Source::from);
+                let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
+                verilog.extend(array.filter(is_new));
+            }
+            Array::Whole => {}
         }
         let array = top.array(design);
         let job = SynthesisJob {

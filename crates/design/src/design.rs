@@ -95,8 +95,10 @@ impl Design {
         let mut config = self.config();
         let hardware = &mut config.hardware;
         hardware.pipelining = Some(self.pipelining());
-        // What has a frame store may forward.
-        hardware.forward = hardware.store.map(|_| self.forwards());
+        hardware.forward = match self.hardware {
+            Hardware::Pipelined(_) | Hardware::Serial(_) => None,
+            Hardware::Raster(_) => Some(self.forwards()),
+        };
         config
     }
 

@@ -20,6 +20,7 @@ mod preset;
 mod raster;
 mod rules;
 mod serial;
+mod takes;
 mod timing;
 mod validate;
 mod view;
@@ -41,7 +42,7 @@ pub use preset::{PRESETS, Preset};
 pub use raster::{
     FRAME_NUMBERS, Raster, RasterMemory, RasterStream, RasterTiming, RowDeparture, SecondPass,
 };
-pub use rules::Unit;
+pub use rules::{Array, Unit};
 pub use serial::{
     Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, Serial, SerialTiming,
 };

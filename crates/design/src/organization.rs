@@ -38,7 +38,7 @@ impl Organization {
 }
 
 impl Design {
-    /// What the array is made of.
+    /// The unit that the array repeats, and what the array is made of.
     #[must_use]
     pub fn unit(&self) -> Unit {
         self.rules().unit()

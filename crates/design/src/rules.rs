@@ -3,6 +3,16 @@
 
 use crate::{Design, Interface, Timing};
 
+/// What an array is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Array {
+    /// Copies of module `rpu` and nothing else: its size says only how many there are, and none of them knows of it.
+    Copies,
+    /// Units that share what is there once, or one core: widths, memories and counters follow from its size. Module
+    /// `rpu` is no part of it, but an array of its own, with one unit.
+    Whole,
+}
+
 /// The unit that an array repeats: an RPU, a lane; or the one core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
@@ -14,16 +24,15 @@ pub struct Unit {
     pub count: u32,
     /// Regions that one serves, the last perhaps fewer.
     pub regions: u32,
-    /// Whether the array `rcm` instantiates the module `rpu`. If not, `rpu` is an array of its own, with
-    /// one unit.
-    pub rpu_in_rcm: bool,
+    /// What the array is made of.
+    pub array: Array,
     /// The Verilog module whose instances say where the area goes.
     pub split: &'static str,
 }
 
 /// What a [`crate::DesignOn`] some hardware answers.
 pub(crate) trait Rules {
-    /// What the array is made of.
+    /// The unit that the array repeats.
     fn unit(&self) -> Unit;
     /// The design whose ports module `rpu` has.
     fn lone_unit(&self) -> Design;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Checks every range and combination of a configuration, and makes it a design.
 
-use crate::pipelined::Pipelined;
-use crate::raster::Raster;
-use crate::serial::Serial;
+use crate::takes::taken;
 use crate::{Config, Design, Hardware, HardwareConfig, Organization};
 use foveate_camera::{ConfigError, MAX_SIDE};
 
@@ -31,9 +29,9 @@ impl Config {
         let camera = self.camera.validate_up_to(max_side)?;
         let asked = &self.hardware;
         let hardware = match asked.organization {
-            Organization::Pipelined => Hardware::Pipelined(Pipelined::validate(asked)?),
-            Organization::Serial => Hardware::Serial(Serial::validate(asked, &camera)?),
-            Organization::Raster => Hardware::Raster(Raster::validate(asked, &camera)?),
+            Organization::Pipelined => Hardware::Pipelined(taken(asked, &camera)?),
+            Organization::Serial => Hardware::Serial(taken(asked, &camera)?),
+            Organization::Raster => Hardware::Raster(taken(asked, &camera)?),
         };
         let syncs = asked.sync.unwrap_or_default();
         Ok(Design::new(camera, hardware, syncs, asked.thresholds))

@@ -9,9 +9,9 @@
 //! parameter for unused whose only use is an instance of what is not there: it is told so.
 
 use crate::Leaf;
-use crate::camera::is_last_sent;
 use foveate_design::{
-    Design, Feed, Filter, MemoryKind, Pipelining, RasterDesign, RasterTiming, SerialDesign, Store,
+    Design, Feed, Filter, MemoryKind, Pipelining, RasterDesign, RasterTiming, Reference,
+    SerialDesign, Store, Written,
 };
 
 /// Whether a leaf of a serial array has `part` inside.
@@ -22,7 +22,7 @@ pub(crate) fn of_serial(design: SerialDesign<'_>, leaf: &str, part: &str) -> boo
         ("serial_array", "serial_sides") => design.needs_border() && design.fold() > 1,
         ("serial_raster_feed", _) => design.halo() > 0,
         ("serial_memory", "frame_store") => design.lane_memory().kind == MemoryKind::Distributed,
-        ("serial_decision", "frame_store") => is_last_sent(&design),
+        ("serial_decision", "frame_store") => marks_regions(&design),
         _ => true,
     }
 }
@@ -49,7 +49,7 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
         ("raster_core", "raster_ring") => design.forwards() || mean(),
         ("raster_core", "raster_forward") => design.forwards(),
         ("raster_core", "raster_line") => design.forwards() && design.keeps_raw() && window(),
-        ("raster_decision", "raster_valid") => is_last_sent(&design),
+        ("raster_decision", "raster_valid") => marks_regions(&design),
         ("raster_store", "raster_pairs") => design.store() == Store::SinglePort,
         ("raster_store", "raster_ring") => design.store() != Store::SinglePort,
         ("raster_store", "raster_banks") => is_in_banks(design),
@@ -57,6 +57,19 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
             design.store() != Store::SinglePort && !is_in_banks(design)
         }
         _ => true,
+    }
+}
+
+/// Whether there is a memory of which regions have a reference.
+fn marks_regions(design: &Design) -> bool {
+    design.temporal().reference.bits_per_region() > 0
+}
+
+/// Whether references are written in the order of the frame.
+fn is_in_order(reference: Reference) -> bool {
+    match reference.written() {
+        Written::WithEveryFrame => true,
+        Written::WhenSent => false,
     }
 }
 
@@ -73,7 +86,7 @@ const BANK_WORDS: u64 = 1 << 14;
 fn is_in_banks(design: RasterDesign<'_>) -> bool {
     design.pipelining() == Pipelining::Deep
         && design.store() == Store::Block
-        && !is_last_sent(&design)
+        && is_in_order(design.temporal().reference)
         && RasterTiming::of(design).words() > BANK_WORDS
         && (design.filter() != Filter::None || design.has_feature_window())
 }

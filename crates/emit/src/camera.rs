@@ -4,11 +4,12 @@
 
 use foveate_camera::{Camera, Irrelevant, Reference};
 
-/// `LAST_SENT`: a region is compared with what was sent of it last, and not with the frame before.
-pub(crate) fn is_last_sent(camera: &Camera) -> bool {
+/// `LAST_SENT` of a serial array or a raster core, which know two references. What else follows from the reference asks
+/// it, and not this.
+pub(crate) fn last_sent(camera: &Camera) -> u32 {
     match camera.temporal().reference {
-        Reference::Previous => false,
-        Reference::LastSent => true,
+        Reference::Previous => 0,
+        Reference::LastSent => 1,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::organization::emitter;
 use crate::text::text_of;
 use crate::{Prefix, SourceFile, Top, banner, synth, verilog};
 use askama::Template;
-use foveate_design::Design;
+use foveate_design::{Array, Design};
 
 #[derive(Template)]
 #[template(path = "fusesoc.core")]
@@ -79,8 +79,11 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
 
 fn replay(design: &Design, prefix: &Prefix) -> Replay {
     let unit = design.unit();
-    // Of an array of copies the bench simulates a few.
-    let lanes = if unit.rpu_in_rcm { 1 } else { u64::from(unit.count) };
+    let lanes = match unit.array {
+        // The bench simulates a few.
+        Array::Copies => 1,
+        Array::Whole => u64::from(unit.count),
+    };
     let is_long = design.timing().clocks_per_frame().saturating_mul(lanes) > ICARUS_CLOCKS;
     Replay {
         banner: banner(design),

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules, and which of them a design needs.
 
-use crate::camera::is_last_sent;
-use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining};
+use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining, Reference};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -156,8 +155,12 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
             FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
         }
     }
-    let last_sent = is_last_sent(design);
-    need(last_sent, &[if deep { "deep_last_sent" } else { "last_sent" }]);
-    need(last_sent && design.has_second_pass(), &["candidate_count"]);
+    match design.temporal().reference {
+        Reference::Previous => {}
+        Reference::LastSent => {
+            need(true, &[if deep { "deep_last_sent" } else { "last_sent" }]);
+            need(design.has_second_pass(), &["candidate_count"]);
+        }
+    }
     names
 }

@@ -2,7 +2,7 @@
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
 use crate::branch::Values;
-use crate::camera::{blanks, is_last_sent};
+use crate::camera::{blanks, last_sent};
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
@@ -217,7 +217,7 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
     list.extend(FeatureKind::ALL.iter().map(|&kind| (parameter(kind), has(kind))));
     list.extend([
         ("ALL", flag(design.combine() == Combine::All)),
-        ("LAST_SENT", flag(is_last_sent(&design))),
+        ("LAST_SENT", last_sent(&design)),
         ("BLANKS", flag(blanks(&design))),
         ("RAW", flag(design.keeps_raw())),
         ("FORWARD", flag(design.forwards())),

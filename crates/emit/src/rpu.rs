@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `rpu.v`: every number and name of the template is worked out here, from the design.
 
-use crate::camera::{blanks, is_last_sent};
+mod temporal;
+
+use self::temporal::{Candidate, candidates, compared, keeps_second, keeps_sent, unused};
+use crate::camera::blanks;
 use crate::text::{PortLine, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, Filter, Neighborhood, PipelinedDesign, PipelinedTiming, Pipelining, PortRole,
-    SpatialFeature, bits_for, index_bits,
+    Combine, FeatureKind, Filter, Mean, Neighborhood, PipelinedDesign, PipelinedTiming, Pipelining,
+    PortRole, SpatialFeature, Variance, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -63,6 +66,16 @@ struct Rpu {
     unused: Vec<&'static str>,
 }
 
+/// What the features of a design need.
+#[derive(Default)]
+struct Spatial {
+    windowed: Vec<Windowed>,
+    /// Whether the pixels of a region are added up.
+    sums: bool,
+    mad: Option<Mad>,
+    variance: Option<VarianceWidths>,
+}
+
 /// A feature that counts hits of a window.
 struct Windowed {
     name: &'static str,
@@ -88,13 +101,6 @@ struct VarianceWidths {
     score_bits: u32,
 }
 
-/// Something that the temporal score may have to compare with.
-struct Candidate {
-    name: &'static str,
-    /// Whether a pixel counts as changed.
-    hit: &'static str,
-}
-
 /// A score on its way to its port and its vote.
 struct Score {
     name: String,
@@ -110,13 +116,14 @@ pub(crate) fn render(design: PipelinedDesign<'_>) -> String {
 
 fn view(design: PipelinedDesign<'_>) -> Rpu {
     let second_pass = design.has_second_pass();
-    let last_sent = is_last_sent(&design);
+    let reference = design.temporal().reference;
     let keeps_raw = design.keeps_raw();
     let shared = design.neighborhood() == Neighborhood::Shared;
     let features = design.features();
     let window_side = design.denoised_side();
     let timing = PipelinedTiming::of(design);
     let deep = design.pipelining() == Pipelining::Deep;
+    let Spatial { windowed, sums, mad, variance } = Spatial::of(design);
     Rpu {
         banner: banner(&design),
         summary: summary(&design),
@@ -139,21 +146,21 @@ fn view(design: PipelinedDesign<'_>) -> Rpu {
         median: design.filter() != Filter::None,
         window: design.has_feature_window(),
         keeps_raw,
-        keeps_second: second_pass && (last_sent || !keeps_raw),
-        tail_delay: timing.tail_delay > 0,
+        keeps_second: keeps_second(design),
+        tail_delay: has_tail_registers(&timing, deep),
         deep,
         median_registers: timing.median_registers,
         count: if deep { "count" } else { "tail" },
         second_pass,
-        last_sent,
+        last_sent: keeps_sent(reference),
         blanks: u32::from(blanks(&design)),
-        windowed: features.iter().filter_map(|f| windowed(design, f)).collect(),
-        sums: features.iter().any(|f| f.mean().is_some() || f.variance().is_some()),
+        windowed,
+        sums,
         sum_bits: design.pixel_sum_bits(),
-        mad: features.iter().find_map(mad),
-        variance: features.iter().find_map(variance),
-        compared: compared(deep, last_sent, second_pass),
-        references: candidates(deep, last_sent, second_pass),
+        mad,
+        variance,
+        compared: compared(reference, second_pass, deep),
+        references: candidates(reference, second_pass, deep),
         temporal_level: signal(&design, PortRole::TemporalLevel),
         scores: scores(design),
         votes: features.iter().map(|f| format!("{}_score", f.kind())).collect(),
@@ -165,24 +172,55 @@ fn view(design: PipelinedDesign<'_>) -> Rpu {
             (true, false) => "second_pixel",
             (true, true) => "second_raw",
         },
-        unused: unused(last_sent, second_pass),
+        unused: unused(reference, second_pass),
     }
 }
 
-fn windowed(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Option<Windowed> {
+/// Whether the tail begins with registers: one in front of the store, and in a deep design one behind it.
+fn has_tail_registers(timing: &PipelinedTiming, deep: bool) -> bool {
+    match (timing.tail_delay, deep) {
+        (0, false) => false,
+        (1, false) | (2, true) => true,
+        (clocks, _) => unreachable!("the template has no tail of {clocks} clocks"),
+    }
+}
+
+impl Spatial {
+    fn of(design: PipelinedDesign<'_>) -> Self {
+        let mut own = Self::default();
+        for feature in design.features() {
+            match feature.kind() {
+                FeatureKind::Edge | FeatureKind::Corner => {
+                    own.windowed.push(windowed(design, feature));
+                }
+                FeatureKind::Mad => {
+                    own.sums = true;
+                    own.mad = Some(mad(feature, feature.mean().expect("mad has a mean")));
+                }
+                FeatureKind::Variance => {
+                    own.sums = true;
+                    let widths = feature.variance().expect("variance has accumulators");
+                    own.variance = Some(variance(feature, widths));
+                }
+            }
+        }
+        own
+    }
+}
+
+fn windowed(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Windowed {
     let kind = feature.kind();
-    feature.level()?;
     // A level that is no pixel has a width of its own.
     let parameters = match feature.level_bits() {
         bits if bits == design.pixel_bits() => String::new(),
         bits => format!(", .LEVEL_BITS({bits})"),
     };
     let level = signal(&design, PortRole::Level(kind));
-    Some(Windowed { name: kind.name(), level, parameters })
+    Windowed { name: kind.name(), level, parameters }
 }
 
-fn mad(feature: &SpatialFeature) -> Option<Mad> {
-    feature.mean().map(|mean| Mad {
+fn mad(feature: &SpatialFeature, mean: &Mean) -> Mad {
+    Mad {
         fraction: mean.fraction_bits,
         mean_bits: mean.mean_bits,
         dividend_bits: mean.dividend_bits,
@@ -190,44 +228,15 @@ fn mad(feature: &SpatialFeature) -> Option<Mad> {
         factor_bits: bits_for(mean.reciprocal.multiplier()),
         shift: mean.reciprocal.shift(),
         score_bits: feature.score_bits(),
-    })
+    }
 }
 
-fn variance(feature: &SpatialFeature) -> Option<VarianceWidths> {
-    feature.variance().map(|widths| VarianceWidths {
+fn variance(feature: &SpatialFeature, widths: &Variance) -> VarianceWidths {
+    VarianceWidths {
         square_bits: widths.square_bits,
         square_sum_bits: widths.square_sum_bits,
         product_bits: widths.product_bits,
         score_bits: feature.score_bits(),
-    })
-}
-
-/// With a second pass the decision of the previous frame comes too late to choose between the
-/// previous frame and what was sent before, so both are counted.
-fn candidates(deep: bool, last_sent: bool, second_pass: bool) -> Vec<Candidate> {
-    let previous = |hit| Candidate { name: "previous", hit };
-    let sent = |hit| Candidate { name: "sent", hit };
-    match (last_sent, second_pass, deep) {
-        (false, _, _) => vec![previous("!stored || previous_changed")],
-        (true, false, false) => vec![sent("!sent_valid || sent_changed")],
-        (true, false, true) => {
-            vec![sent("!sent_valid || (forward ? previous_changed : sent_changed)")]
-        }
-        (true, true, false) => vec![previous("previous_changed"), sent("sent_changed")],
-        (true, true, true) => {
-            vec![previous("previous_changed"), sent("forward ? second_changed : sent_changed")]
-        }
-    }
-}
-
-/// What a pixel is compared with. A deep RPU compares before it is decided whether the pixel sent last is that
-/// of the frame decided last, so it compares with both.
-fn compared(deep: bool, last_sent: bool, second_pass: bool) -> Vec<&'static str> {
-    match (last_sent, second_pass, deep) {
-        (false, _, _) => vec!["previous"],
-        (true, false, false) => vec!["sent"],
-        (true, true, false) | (true, false, true) => vec!["previous", "sent"],
-        (true, true, true) => vec!["previous", "second", "sent"],
     }
 }
 
@@ -250,16 +259,4 @@ fn scores(design: PipelinedDesign<'_>) -> Vec<Score> {
         held: second_pass,
     });
     list
-}
-
-/// Flags that this design has no use for.
-fn unused(last_sent: bool, second_pass: bool) -> Vec<&'static str> {
-    let mut names = Vec::new();
-    if !second_pass {
-        names.push("second");
-    }
-    if last_sent && !second_pass {
-        names.push("stored");
-    }
-    names
 }

@@ -2,7 +2,7 @@
 //! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
 
 use crate::branch::Values;
-use crate::camera::{blanks, is_last_sent};
+use crate::camera::{blanks, last_sent};
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
@@ -200,7 +200,7 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ("DENOISED_SIDE", if median { design.denoised_side() } else { region }),
         ("MEDIAN", flag(median)),
         ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
-        ("LAST_SENT", flag(is_last_sent(&design))),
+        ("LAST_SENT", last_sent(&design)),
         ("BLANKS", flag(blanks(&design))),
         ("RAW_PAYLOAD", flag(design.keeps_raw())),
         ("RASTER", flag(design.feed() == Feed::Raster)),

@@ -7,7 +7,7 @@
 use crate::text::text_of;
 use crate::{Prefix, SourceFile, Top, banner};
 use askama::Template;
-use foveate_design::{Design, Direction, Port, PortRole};
+use foveate_design::{Array, Design, Direction, Port, PortRole};
 
 /// What scripts of a family of devices differ in.
 pub(crate) struct Family {
@@ -168,7 +168,10 @@ impl WrappedPort {
 
 /// What is placed unless something else is asked for: arrays of hundreds of RPUs fit no such device.
 pub(crate) fn top(design: &Design) -> Top {
-    if design.unit().rpu_in_rcm { Top::Rpu } else { Top::Rcm }
+    match design.unit().array {
+        Array::Copies => Top::Rpu,
+        Array::Whole => Top::Rcm,
+    }
 }
 
 /// What nextpnr is told for the first device of a family, as a list of FuseSoC.

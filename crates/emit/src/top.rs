@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The two modules that may be on top of a design.
 
-use foveate_design::{Design, Hardware, Interface, Port};
+use foveate_design::{Array, Design, Hardware, Interface, Port};
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
@@ -29,9 +29,9 @@ impl Top {
     /// The top that is an array with this one inside: this one, where its module is an array of its own.
     #[must_use]
     pub fn array(self, design: &Design) -> Self {
-        match self {
-            Self::Rpu if !design.unit().rpu_in_rcm => Self::Rpu,
-            Self::Rpu | Self::Rcm => Self::Rcm,
+        match (self, design.unit().array) {
+            (Self::Rpu, Array::Whole) => Self::Rpu,
+            (Self::Rpu, Array::Copies) | (Self::Rcm, Array::Copies | Array::Whole) => Self::Rcm,
         }
     }
 

@@ -5,7 +5,7 @@ use crate::error::CosimError;
 use crate::level::Level;
 use crate::shipped::{Record, Rig, TestPattern};
 use crate::stimulus::Random;
-use foveate_design::{Design, Direction, Interface, Port, Stream};
+use foveate_design::{Array, Design, Direction, Interface, Port, Stream};
 use foveate_emit::Top;
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, Thresholds};
@@ -47,7 +47,10 @@ impl Trace {
     /// and a clock more.
     pub(super) fn of(design: &Design, cancel: &AtomicBool) -> Result<Self, CosimError> {
         let (part, title) = part(design)?;
-        let top = if part.unit().rpu_in_rcm { Top::Rpu } else { Top::Rcm };
+        let top = match part.unit().array {
+            Array::Copies => Top::Rpu,
+            Array::Whole => Top::Rcm,
+        };
         let mut take = Take::new(&part, top, title, cancel);
         let frame = frame(&part);
         for _ in 0..=take.rig.frames_behind() {
@@ -69,9 +72,13 @@ impl Trace {
 /// What is played: one region where all are alike at every clock, else the array, or a lane of a huge one.
 fn part(design: &Design) -> Result<(Design, String), CosimError> {
     let size = design.region_size();
-    if design.unit().rpu_in_rcm {
-        let part = Level::Rcm { columns: 1, rows: 1 }.design(design)?;
-        return Ok((part, format!("One of {} regions of {size}x{size} pixels", design.regions())));
+    match design.unit().array {
+        Array::Copies => {
+            let part = Level::Rcm { columns: 1, rows: 1 }.design(design)?;
+            let title = format!("One of {} regions of {size}x{size} pixels", design.regions());
+            return Ok((part, title));
+        }
+        Array::Whole => {}
     }
     if design.regions() <= MAX_REGIONS {
         let words = format!("{} regions of {size}x{size} pixels", design.regions());

@@ -12,7 +12,7 @@ mod xml;
 
 use crate::error::CosimError;
 use crate::level::Level;
-use foveate_design::{ConfigError, Design};
+use foveate_design::{Array, ConfigError, Design};
 use foveate_emit::{Parameter, Prefix, SourceFile, Top};
 use foveate_toolchain::{Source, Toolchain, verilator};
 use std::collections::BTreeSet;
@@ -82,8 +82,12 @@ pub fn not_elaborated(
     let mut left = Vec::new();
     for top in open {
         let whole = elaborate(top, design)?;
-        let is_wired = Level::is_copies(design)
-            && wiring::is_right(design, &whole.tiles, &prefix.name(Top::Rpu.module()));
+        let is_wired = match design.unit().array {
+            Array::Copies => {
+                wiring::is_right(design, &whole.tiles, &prefix.name(Top::Rpu.module()))
+            }
+            Array::Whole => false,
+        };
         let is_own = |variant: &Variant| variant.module == prefix.name(top.module());
         let unseen = whole.variants.into_iter().filter(|variant| !seen.contains(variant));
         let unseen = unseen.filter(|variant| !(is_wired && is_own(variant)));

@@ -3,7 +3,7 @@
 
 use crate::error::CosimError;
 use crate::level::Level;
-use foveate_design::{Design, Neighborhood};
+use foveate_design::{Array, Design, Neighborhood};
 use foveate_emit::Top;
 
 /// Side of a region from which an array of nine is too slow in Icarus.
@@ -13,15 +13,15 @@ const MANY_SLOTS: u32 = 1024;
 
 /// The design for the grid that the bench of `top` simulates: of `rpu` one region or lane; of `rcm` the
 /// whole frame, because widths, memories and counters follow from its size. Only where the array is
-/// copies of `rpu` ([`Level::is_copies`]), or has more lanes than a simulator builds, it is a small grid: one with
+/// copies of `rpu`, or has more lanes than a simulator builds, it is a small grid: one with
 /// more than two lanes and, where regions see their neighbors and are not large, with a region that has
 /// neighbors on all sides.
 pub(super) fn part(design: &Design, top: Top) -> Result<Design, CosimError> {
     match top {
-        Top::Rpu if design.unit().rpu_in_rcm => {
-            Ok(Level::Rcm { columns: 1, rows: 1 }.design(design)?)
-        }
-        Top::Rpu => Ok(design.lone_unit()),
+        Top::Rpu => match design.unit().array {
+            Array::Copies => Ok(Level::Rcm { columns: 1, rows: 1 }.design(design)?),
+            Array::Whole => Ok(design.lone_unit()),
+        },
         Top::Rcm if Level::is_whole_affordable(design) => Ok(design.clone()),
         Top::Rcm => {
             let (least, rows) = array(design);

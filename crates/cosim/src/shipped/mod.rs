@@ -20,7 +20,7 @@ mod tape;
 use crate::error::CosimError;
 use crate::harness::{bench_file, told_bench};
 use crate::level::Level;
-use foveate_design::{Design, Port, StreamRole};
+use foveate_design::{Array, Design, Port, StreamRole};
 use foveate_emit::{Prefix, SourceFile, Top};
 pub(crate) use picture::TestPattern;
 use player::Player;
@@ -93,8 +93,11 @@ impl ShippedBench {
         let Take { tally, clocks, vectors, is_played } = take;
         let remarks = tally::impossible(&part);
         let grid = |of: &Design| (of.columns(), of.rows());
-        let is_left_out =
-            top == Top::Rcm && !Level::is_copies(design) && grid(&part) != grid(design);
+        let is_left_out = top == Top::Rcm
+            && match design.unit().array {
+                Array::Copies => false,
+                Array::Whole => grid(&part) != grid(design),
+            };
         let shortcoming = if is_played && is_left_out {
             Some(format!(
                 "{} lanes are too many for a bench, and these vectors are for {} x {} regions of {} x {}",

@@ -2,7 +2,7 @@
 //! The benches that come with a core: what their vectors show, and that they fail when any output does.
 
 use foveate_cosim::ShippedBench;
-use foveate_design::{Config, Design, FeatureKind, Organization};
+use foveate_design::{Array, Config, Design, FeatureKind, Organization};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
@@ -256,7 +256,7 @@ fn the_benches_of_arrays_that_find_their_frames_lose_some_and_go_on() {
         let design = design(&format!("{}hardware.sync = true\n{more}\n", frame((4, 3), 8)));
         for &top in Top::all_of(&design) {
             let ShippedBench { grid, tally, shortcoming, files, .. } = bench(&design, top);
-            let is_found = top == Top::Rcm || !design.unit().rpu_in_rcm;
+            let is_found = top == Top::Rcm || design.unit().array == Array::Whole;
             assert_eq!(shortcoming, None, "{top:?} {more}");
             assert_eq!(tally.sync_errors, if is_found { 2 } else { 0 }, "{top:?} {more}");
             // What is left of the frame that is cut short, and two whole ones.

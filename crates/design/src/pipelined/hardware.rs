@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a pipelined array has of its own, and what of a configuration it takes.
 
-use crate::{Feed, HardwareConfig, Organization, Pipelining};
-use foveate_camera::ConfigError;
+use crate::takes::Takes;
+use crate::{Feed, HardwareConfig, Organization, Pipelining, Thresholds};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Reference};
 
 /// What a pipelined array has of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,10 +12,33 @@ pub struct Pipelined {
     pub pipelining: Pipelining,
 }
 
-impl Pipelined {
-    /// What is asked for, if a pipelined array takes it.
-    pub(crate) fn validate(asked: &HardwareConfig) -> Result<Self, ConfigError> {
-        // Those without a name are refused first, or are for every organization.
+impl Takes for Pipelined {
+    fn takes_feature(kind: FeatureKind) -> bool {
+        match kind {
+            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad | FeatureKind::Variance => {
+                true
+            }
+        }
+    }
+
+    fn takes_reference(reference: Reference) -> bool {
+        match reference {
+            Reference::Previous | Reference::LastSent => true,
+        }
+    }
+
+    fn takes_thresholds(thresholds: Thresholds) -> bool {
+        match thresholds {
+            Thresholds::Runtime | Thresholds::Constant => true,
+        }
+    }
+
+    fn takes_sync() -> bool {
+        true
+    }
+
+    fn validate(asked: &HardwareConfig, _: &Camera) -> Result<Self, ConfigError> {
+        // Those without a name are refused first, or were asked for before.
         let &HardwareConfig {
             fold,
             feed,
@@ -46,7 +70,9 @@ impl Pipelined {
             }
         }
     }
+}
 
+impl Pipelined {
     /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The pipelined organization: one RPU per region, one pixel per clock; see `docs/timing.md`.
 
+mod feature;
 mod hardware;
 mod ports;
 mod rules;

@@ -2,7 +2,7 @@
 //! What a pipelined design answers; see [`crate::organization`].
 
 use super::{PipelinedTiming, ports};
-use crate::rules::{Rules, Unit};
+use crate::rules::{Array, Rules, Unit};
 use crate::{Design, Interface, Organization, PipelinedDesign, Timing};
 
 impl Rules for PipelinedDesign<'_> {
@@ -12,7 +12,7 @@ impl Rules for PipelinedDesign<'_> {
             module: "rpu",
             count: self.regions(),
             regions: 1,
-            rpu_in_rcm: true,
+            array: Array::Copies,
             split: "rpu",
         }
     }

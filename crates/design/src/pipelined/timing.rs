@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! When a pipelined design says what: the numbers behind `docs/timing.md`.
 
+use super::feature::score_latency;
 use crate::timing::Departure;
 use crate::{Filter, Neighborhood, PipelinedDesign, Pipelining, Timing};
 
@@ -8,8 +9,10 @@ use crate::{Filter, Neighborhood, PipelinedDesign, Pipelining, Timing};
 const MEDIAN_REGISTERS: u32 = 2;
 /// Of a deep design: window, rows, result.
 const DEEP_MEDIAN_REGISTERS: u32 = 3;
-/// Clocks from a step of the last window to the tail step of a deep design: pixel, difference.
-const DEEP_TAIL_DELAY: u32 = 2;
+/// Clocks from the step of the last pixel until the temporal count is final, plain: the count.
+const COUNT_LATENCY: u32 = 1;
+/// Of a deep design: pixel, difference, count.
+const DEEP_COUNT_LATENCY: u32 = 3;
 
 /// Latencies of a pipelined RPU, in clocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,12 +43,14 @@ impl PipelinedTiming {
             Neighborhood::Isolated => design.region_size() + 1,
             Neighborhood::Shared => 0,
         };
-        let slowest = design.features().iter().map(|f| f.kind().score_latency()).max();
-        let slowest = slowest.expect("a design has a feature");
-        let (median_registers, tail_delay) = match design.pipelining() {
-            Pipelining::Plain => (MEDIAN_REGISTERS, slowest - 1),
-            Pipelining::Deep => (DEEP_MEDIAN_REGISTERS, DEEP_TAIL_DELAY),
+        let pipelining = design.pipelining();
+        let (median_registers, count_latency) = match pipelining {
+            Pipelining::Plain => (MEDIAN_REGISTERS, COUNT_LATENCY),
+            Pipelining::Deep => (DEEP_MEDIAN_REGISTERS, DEEP_COUNT_LATENCY),
         };
+        let latencies = design.features().iter().map(|f| score_latency(f.kind(), pipelining));
+        // The tail is so late that every score is final when it is done.
+        let tail_delay = latencies.fold(count_latency, u32::max) - 1;
         let median = match design.filter() {
             Filter::None => 0,
             Filter::Median3x3 => flush + median_registers,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a raster core has of its own, and which frames and keys of a configuration it takes.
 
-use crate::{HardwareConfig, Organization, Pipelining, Store};
-use foveate_camera::{Camera, ConfigError, Reference, Written, in_range};
+use crate::takes::Takes;
+use crate::{HardwareConfig, Organization, Pipelining, Store, Thresholds};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Reference, Written, in_range};
 
 /// Pixels that a word may have.
 const WORDS: [u32; 3] = [1, 2, 4];
@@ -26,10 +27,33 @@ pub struct Raster {
     pub forwards: bool,
 }
 
-impl Raster {
-    /// What is asked for, if a raster core takes it.
-    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused first, or are for every organization.
+impl Takes for Raster {
+    fn takes_feature(kind: FeatureKind) -> bool {
+        match kind {
+            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad | FeatureKind::Variance => {
+                true
+            }
+        }
+    }
+
+    fn takes_reference(reference: Reference) -> bool {
+        match reference {
+            Reference::Previous | Reference::LastSent => true,
+        }
+    }
+
+    fn takes_thresholds(thresholds: Thresholds) -> bool {
+        match thresholds {
+            Thresholds::Runtime | Thresholds::Constant => true,
+        }
+    }
+
+    fn takes_sync() -> bool {
+        true
+    }
+
+    fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
+        // Those without a name are refused first, or were asked for before.
         let &HardwareConfig {
             pixels_per_clock,
             pipelining,
@@ -65,7 +89,9 @@ impl Raster {
             forwards: forward.unwrap_or(true),
         })
     }
+}
 
+impl Raster {
     /// `[hardware]`. That pixels leave is left out, so that designs have the fingerprints from before there was the key.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {

@@ -70,7 +70,10 @@ impl Sizes {
     fn of(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
         let rows = u64::from(timing.buffer_rows * design.region_size());
-        let counts = |feature: &&SpatialFeature| SummedUp::of(feature.kind()) == SummedUp::Hits;
+        let counts = |feature: &&SpatialFeature| match SummedUp::of(feature.kind()) {
+            SummedUp::Hits => true,
+            SummedUp::Deviations | SummedUp::Squares => false,
+        };
         let hits = design.features().iter().filter(counts).count();
         Self {
             word: design.pixels_per_clock() * design.pixel_bits(),

@@ -3,7 +3,7 @@
 
 use super::hardware::least_columns;
 use super::{RasterTiming, ports::interface};
-use crate::rules::{Rules, Unit};
+use crate::rules::{Array, Rules, Unit};
 use crate::{Design, Interface, Organization, RasterDesign, Store, Timing};
 
 /// Regions one below the other of the lone core.
@@ -30,7 +30,7 @@ impl Rules for RasterDesign<'_> {
             module: "raster_core",
             count: 1,
             regions: self.regions(),
-            rpu_in_rcm: false,
+            array: Array::Whole,
             // The core by itself has the numbers of no design.
             split: "rcm",
         }

@@ -5,7 +5,7 @@
 mod stores;
 
 use super::*;
-use crate::{Config, Design, Direction, Pipelining, PortRole, Qualifier, Store};
+use crate::{Array, Config, Design, Direction, Pipelining, PortRole, Qualifier, Store};
 
 fn config(overrides: &[&str]) -> Config {
     Config::from_toml_with("[hardware]\norganization = \"raster\"\n", overrides).unwrap()
@@ -352,7 +352,7 @@ fn ports_stand_in_the_order_of_the_page() {
 fn one_core_serves_all_regions_and_the_lone_one_the_smallest_frame() {
     let unit = design(&[]).unit();
     assert_eq!((unit.name, unit.module, unit.count), ("core", "raster_core", 1));
-    assert_eq!((unit.regions, unit.rpu_in_rcm), (784, false));
+    assert_eq!((unit.regions, unit.array), (784, Array::Whole));
     for (size, pixels, columns) in
         [(8, 1, 4), (8, 4, 8), (2, 1, 8), (2, 2, 16), (64, 4, 4), (12, 4, 6), (5, 1, 4)]
     {

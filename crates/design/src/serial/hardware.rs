@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a serial array has of its own, and what of a configuration it takes.
 
-use crate::{Feed, HardwareConfig, MemoryKind, Organization, Pipelining};
-use foveate_camera::{Camera, ConfigError, in_range};
+use crate::takes::Takes;
+use crate::{Feed, HardwareConfig, MemoryKind, Organization, Pipelining, Thresholds};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Reference, in_range};
 
 /// Smallest side of a region.
 const MIN_SIDE: u32 = 4;
@@ -20,10 +21,33 @@ pub struct Serial {
     pub pipelining: Pipelining,
 }
 
-impl Serial {
-    /// What is asked for, if a serial array takes it.
-    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused first, or are for every organization.
+impl Takes for Serial {
+    fn takes_feature(kind: FeatureKind) -> bool {
+        match kind {
+            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad | FeatureKind::Variance => {
+                true
+            }
+        }
+    }
+
+    fn takes_reference(reference: Reference) -> bool {
+        match reference {
+            Reference::Previous | Reference::LastSent => true,
+        }
+    }
+
+    fn takes_thresholds(thresholds: Thresholds) -> bool {
+        match thresholds {
+            Thresholds::Runtime | Thresholds::Constant => true,
+        }
+    }
+
+    fn takes_sync() -> bool {
+        true
+    }
+
+    fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
+        // Those without a name are refused first, or were asked for before.
         let &HardwareConfig {
             fold,
             feed,
@@ -51,7 +75,9 @@ impl Serial {
             pipelining: pipelining.unwrap_or_default(),
         })
     }
+}
 
+impl Serial {
     /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {

@@ -100,7 +100,8 @@ impl LaneMemory {
             Filter::None => false,
             Filter::Median3x3 => true,
         };
-        let keeps_reference = match design.temporal().reference {
+        let reference = design.temporal().reference;
+        let keeps_reference = match reference {
             Reference::Previous => !denoises,
             Reference::LastSent => true,
         };
@@ -117,7 +118,9 @@ impl LaneMemory {
         }
         let slot_words = words.next_power_of_two();
         let depth = u64::from(design.fold()) * u64::from(slot_words);
-        let bits = u64::from(design.pixel_bits());
+        // Words hold pixels, and of each what the reference keeps of it.
+        let pixel = design.pixel_bits();
+        let bits = u64::from(pixel.max(reference.bits_per_pixel(pixel)));
         let luts = bits * depth.div_ceil(LUT_WORDS);
         let blocks = RAMB18.map(|(wide, words)| bits.div_ceil(wide) * depth.div_ceil(words));
         let blocks = blocks.into_iter().min().expect("a block has words");

@@ -2,7 +2,7 @@
 //! What a serial design answers; see [`crate::organization`].
 
 use super::{SerialTiming, ports::interface};
-use crate::rules::{Rules, Unit};
+use crate::rules::{Array, Rules, Unit};
 use crate::{Design, Interface, Organization, SerialDesign, Timing};
 
 impl Rules for SerialDesign<'_> {
@@ -12,7 +12,7 @@ impl Rules for SerialDesign<'_> {
             module: "serial_lane",
             count: self.lanes(),
             regions: self.fold(),
-            rpu_in_rcm: false,
+            array: Array::Whole,
             // The sequencer is as much of an array as its lanes.
             split: "rcm",
         }

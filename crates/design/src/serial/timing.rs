@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::feature;
 use crate::timing::Departure;
-use crate::{FeatureKind, Feed, Filter, Pipelining, Reference, SerialDesign, Timing};
+use crate::{FeatureKind, Feed, Filter, Pipelining, Reference, SerialDesign, Timing, Written};
 
 /// What the lanes do for one slot, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -215,31 +215,40 @@ fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
     let lanes = u64::from(design.lanes());
     let read = u64::from(read_latency(design));
     let rotation = u64::from(settling(design)) + lanes;
-    let last_sent = match design.temporal().reference {
-        Reference::Previous => false,
-        Reference::LastSent => true,
-    };
+    let reference = design.temporal().reference;
     let mut list = Vec::new();
     match design.filter() {
         Filter::Median3x3 => {
             let pixels = u64::from(design.denoised_side()).pow(2);
-            let median = 10 * u64::from(design.pixel_bits()) + 3 + read + u64::from(last_sent);
+            let looked_up = match reference {
+                // It is what the median is written over.
+                Reference::Previous => 0,
+                Reference::LastSent => 1,
+            };
+            let median = 10 * u64::from(design.pixel_bits()) + 3 + read + looked_up;
             list.push((Phase::DenoiseTemporal, pixels * median));
             if design.needs_border() {
                 let side = u64::from(design.denoised_side());
                 list.push((Phase::Border, 4 * side * (2 + read)));
             }
         }
-        Filter::None if last_sent => list.push((Phase::Temporal, 3 * n)),
-        Filter::None => list.push((Phase::Temporal, n * (3 + read))),
+        Filter::None => {
+            let compared = match reference {
+                // The pixel is written over it.
+                Reference::Previous => 3 + read,
+                Reference::LastSent => 3,
+            };
+            list.push((Phase::Temporal, n * compared));
+        }
     }
     list.push((Phase::RotateCount, rotation));
     for feature in design.features() {
         list.push((Phase::Pass(feature.kind()), feature::pass_steps(&design, feature)));
         list.push((Phase::RotateScore(feature.kind()), rotation));
     }
-    if last_sent {
-        list.push((Phase::Copy, n * (2 + read)));
+    match reference.written() {
+        Written::WithEveryFrame => {}
+        Written::WhenSent => list.push((Phase::Copy, n * (2 + read))),
     }
     let unload = match design.feed() {
         Feed::Parallel => n,

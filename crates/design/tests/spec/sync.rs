@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hardware.sync`: where its ports are, and what a design without it looks like.
 
-use foveate_design::{Config, Design, Direction, PRESETS, Port, PortRole};
+use foveate_design::{Array, Config, Design, Direction, PRESETS, Port, PortRole};
 
 const ORGANIZATIONS: [&str; 4] = [
     "organization='pipelined'",
@@ -41,11 +41,14 @@ fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
             .collect();
         assert_eq!(others, names(&plain), "{organization}");
 
-        // An RPU is a part of its array, a lane or core by itself an array.
-        let is_part = with.unit().rpu_in_rcm;
+        let finds_frames = match with.unit().array {
+            Array::Copies => false,
+            // A lane or core by itself is an array.
+            Array::Whole => true,
+        };
         let unit = with.rpu_ports();
-        assert_eq!(names(&unit).contains(&"sof_i"), !is_part, "{organization}");
-        assert_eq!(names(&unit).contains(&"sync_error_o"), !is_part, "{organization}");
+        assert_eq!(names(&unit).contains(&"sof_i"), finds_frames, "{organization}");
+        assert_eq!(names(&unit).contains(&"sync_error_o"), finds_frames, "{organization}");
 
         assert!(with.syncs() && !without.syncs());
         assert_eq!(with.timing(), without.timing(), "no clock changes");

@@ -4,7 +4,6 @@
 use super::{
     PortRow, StreamRow, ThresholdRow, port_rows, score_names, stream_rows, sync, threshold,
 };
-use crate::camera::is_last_sent;
 use crate::instance::instance;
 use crate::text::text_of;
 use crate::{Prefix, Top, banner};
@@ -66,7 +65,8 @@ struct Readme {
     forwards: bool,
     /// More registers, which those of block RAM can be.
     deep: bool,
-    last_sent: bool,
+    /// Whether memories say which regions have a reference.
+    marks_regions: bool,
     store: &'static str,
     runtime: bool,
     streams: Vec<StreamRow>,
@@ -87,6 +87,8 @@ pub(crate) fn raster_readme(design: RasterDesign<'_>, prefix: &Prefix) -> String
 fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Readme {
     let n = design.region_size();
     let memories = RasterMemory::all_of(design);
+    let reference = design.temporal().reference;
+    let reference_bits = reference.bits_per_pixel(design.pixel_bits());
     Readme {
         banner: banner(&design),
         before: prefix.name(""),
@@ -99,7 +101,7 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         regions: design.regions(),
         scores: score_names(&design),
         combine: design.combine().name(),
-        reference: design.temporal().reference.name(),
+        reference: reference.name(),
         neighborhood: design.neighborhood().name(),
         filter: design.filter().name(),
         word_pixels: timing.word_pixels,
@@ -122,13 +124,13 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         sink_stall: timing.stall_clocks(),
         memory_bits: memories.iter().map(RasterMemory::total_bits).sum(),
         store_words: timing.words(),
-        store_bits: timing.words() * u64::from(design.pixels_per_clock() * design.pixel_bits()),
+        store_bits: timing.words() * u64::from(design.pixels_per_clock() * reference_bits),
         outside: design.store() == Store::External,
         single_port: design.store() == Store::SinglePort,
         forwards: design.forwards(),
         memories,
         deep: design.pipelining() == Pipelining::Deep,
-        last_sent: is_last_sent(&design),
+        marks_regions: reference.bits_per_region() > 0,
         store: design.store().name(),
         runtime: design.thresholds() == Thresholds::Runtime,
         streams: stream_rows(&design),
