@@ -5,7 +5,7 @@ use foveate_camera::Action;
 use foveate_camera::{Camera, Filter, Payload};
 use foveate_frame::Raster;
 
-use crate::feature::{Scratch, score};
+use crate::feature::{Scratch, changed, score};
 use crate::grid::Grid;
 use crate::median::{Columns, median};
 use crate::memory::Memory;
@@ -99,12 +99,12 @@ impl IdealCamera {
     }
 
     fn score(&mut self) {
-        let Self { camera, grid, rules, memory, denoised, scratch, outcome, .. } = self;
+        let Self { grid, rules, memory, denoised, scratch, outcome, .. } = self;
+        let view = memory.before(denoised, grid);
         for (feature, scores) in rules.features.iter().zip(&mut outcome.scores) {
-            score((feature.kind, feature.level), denoised, grid, scratch, scores);
+            score((feature.kind, feature.level), &view, scratch, scores);
         }
-        let all = f64::from(camera.region_pixels());
-        memory.compare(denoised, grid, all, &mut outcome.changed);
+        changed(rules.level, &view, scratch, &mut outcome.changed);
     }
 
     fn decide(&mut self, region: usize) {

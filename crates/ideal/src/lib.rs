@@ -16,6 +16,7 @@ mod memory;
 mod outcome;
 mod plane;
 mod rules;
+mod view;
 
 pub use camera::IdealCamera;
 pub use error::IdealError;

@@ -4,18 +4,15 @@
 use foveate_camera::Action;
 use foveate_camera::{Camera, Reference};
 
-use crate::feature::add_up;
 use crate::grid::Grid;
 use crate::plane::Plane;
+use crate::view::{FrameView, References};
 
-/// The reference of every region.
+/// Keeps the reference of every region.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
     kind: Reference,
-    level: f64,
-    plane: Plane,
-    valid: Vec<bool>,
-    line: Vec<f64>,
+    references: References,
 }
 
 impl Memory {
@@ -23,48 +20,36 @@ impl Memory {
     pub(crate) fn new(camera: &Camera, grid: &Grid) -> Self {
         Self {
             kind: camera.temporal().reference,
-            level: f64::from(camera.temporal().level),
-            plane: Plane::black(grid),
-            valid: vec![false; grid.regions()],
-            line: vec![0.0; grid.padded().0],
+            references: References {
+                plane: Plane::black(grid),
+                valid: vec![false; grid.regions()],
+            },
         }
     }
 
     pub(crate) fn forget(&mut self) {
-        self.valid.fill(false);
+        self.references.valid.fill(false);
     }
 
-    /// Changed pixels of every region; all of them where there is no valid reference.
-    pub(crate) fn compare(&mut self, now: &Plane, grid: &Grid, all: f64, changed: &mut [f64]) {
-        changed.fill(0.0);
-        for y in 0..now.height() {
-            let pairs = now.row(y).iter().zip(self.plane.row(y));
-            for (hit, (now, then)) in self.line.iter_mut().zip(pairs) {
-                *hit = if (now - then).abs() > self.level { 1.0 } else { 0.0 };
-            }
-            add_up(&self.line, grid.side, &mut changed[grid.across(y)]);
-        }
-        for (changed, valid) in changed.iter_mut().zip(&self.valid) {
-            if !valid {
-                *changed = all;
-            }
-        }
+    /// A frame beside what its regions are compared with.
+    pub(crate) fn before<'a>(&'a self, now: &'a Plane, grid: &'a Grid) -> FrameView<'a> {
+        FrameView { grid, now, before: &self.references }
     }
 
     /// Takes what the next frame will be compared with.
     pub(crate) fn keep(&mut self, now: &Plane, grid: &Grid, region: usize, action: Action) {
+        let References { plane, valid } = &mut self.references;
         match (self.kind, action) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => {
                 let (columns, rows) = grid.area(region);
                 for y in rows {
-                    self.plane.row_mut(y)[columns.clone()]
-                        .copy_from_slice(&now.row(y)[columns.clone()]);
+                    plane.row_mut(y)[columns.clone()].copy_from_slice(&now.row(y)[columns.clone()]);
                 }
-                self.valid[region] = true;
+                valid[region] = true;
             }
             (Reference::LastSent, Action::Hold) => {}
             // What was sent is no longer on the screen.
-            (Reference::LastSent, Action::Blank) => self.valid[region] = false,
+            (Reference::LastSent, Action::Blank) => valid[region] = false,
         }
     }
 }

@@ -19,6 +19,8 @@ pub(crate) struct Feature {
 pub(crate) struct Rules {
     pub(crate) features: Vec<Feature>,
     combine: Combine,
+    /// A pixel has changed when it differs by more grey levels than this.
+    pub(crate) level: f64,
     min_count: f64,
     irrelevant: Irrelevant,
 }
@@ -34,6 +36,7 @@ impl Rules {
         Self {
             features: camera.config().spatial.iter().map(feature).collect(),
             combine: camera.combine(),
+            level: f64::from(camera.temporal().level),
             min_count: f64::from(camera.temporal().min_count),
             irrelevant: camera.irrelevant(),
         }

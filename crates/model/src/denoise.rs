@@ -6,7 +6,8 @@ use std::ops::Range;
 use foveate_camera::{Camera, Filter};
 
 use crate::region::{Area, black_padded};
-use crate::window::{RegionView, Window};
+use crate::view::FrameRegion;
+use crate::window::Window;
 use foveate_frame::Frame;
 
 /// The fifth of the nine sorted values.
@@ -67,7 +68,7 @@ pub(crate) fn denoised_run(
     match camera.filter() {
         Filter::None => columns.map(|x| padded.get(x, y)).collect(),
         Filter::Median3x3 => {
-            let view = RegionView::new(camera, padded, region);
+            let view = FrameRegion::new(camera, padded, region);
             columns.map(|x| median(&view.window(x, y))).collect()
         }
     }

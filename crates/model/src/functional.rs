@@ -3,13 +3,15 @@
 
 use foveate_camera::{Camera, Payload};
 
+use crate::ModelError;
 use crate::decision::{action, combined};
 use crate::denoise::denoise_into;
+use crate::feature::score;
 use crate::number::index;
 use crate::region::{Area, black, black_padded, check_kind, pad_into};
 use crate::render::Screen;
-use crate::temporal::References;
-use crate::{ModelError, feature};
+use crate::temporal::{References, changed_pixels};
+use crate::view::FrameRegion;
 use foveate_camera::Action;
 use foveate_frame::Frame;
 
@@ -125,8 +127,11 @@ impl FunctionalCamera {
     fn decide(&mut self, region: u32) {
         let Self { camera, references, outcome, .. } = self;
         let at = index(region);
+        let seen = FrameRegion::new(camera, &outcome.denoised, region);
+        let seen = seen.after(references.frame(region));
         for (feature, scores) in camera.features().iter().zip(&mut outcome.scores) {
-            scores[at] = feature::of_region(camera, feature, &outcome.denoised, region);
+            // A feature without a level does not ask for one.
+            scores[at] = score(feature, feature.level().unwrap_or(0), &seen);
         }
         let votes = camera
             .features()
@@ -134,7 +139,7 @@ impl FunctionalCamera {
             .zip(&outcome.scores)
             .map(|(feature, scores)| scores[at] >= feature.min_score());
         let srs = combined(camera.combine(), votes);
-        let count = references.count(camera, &outcome.denoised, region);
+        let count = changed_pixels(&seen, camera.temporal().level);
         let trs = count >= camera.temporal().min_count;
         outcome.srs[at] = srs;
         outcome.trs[at] = trs;

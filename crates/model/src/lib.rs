@@ -29,6 +29,7 @@ mod sync;
 mod temporal;
 mod thresholds;
 mod verdict;
+mod view;
 pub mod window;
 
 pub use self::core::{rcm, rpu};
@@ -43,5 +44,6 @@ pub use scorer::RegionScorer;
 pub use serial::{SerialOutput, SerialRcm};
 pub use stream::{region_border, region_stream};
 pub use sync::FrameSync;
-pub use temporal::temporal_differences;
+pub use temporal::{changed_pixels, temporal_differences};
 pub use thresholds::Thresholds;
+pub use view::RegionView;

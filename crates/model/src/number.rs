@@ -7,6 +7,11 @@ pub(crate) const fn index(value: u32) -> usize {
     value as usize
 }
 
+/// A number of items as it is calculated with. Lossless: no platform has a `usize` of more than 64 bits.
+pub(crate) const fn amount(items: usize) -> u64 {
+    items as u64
+}
+
 /// One for true: how a hit is counted.
 pub(crate) fn hit(hit: bool) -> u64 {
     u64::from(hit)

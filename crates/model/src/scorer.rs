@@ -6,8 +6,11 @@ use foveate_camera::{Camera, FeatureKind, Filter, SpatialFeature};
 use crate::Thresholds;
 use crate::denoise::median;
 use crate::feature::score;
-use crate::number::{count, index};
+use crate::number::{amount, index};
 use crate::square::Square;
+use crate::temporal::changed_pixels;
+use crate::view::RegionView;
+use crate::window::Window;
 
 /// Scores one region after the other. Whoever wants to know a frame's scores before the array
 /// says them, to aim thresholds at them, asks this.
@@ -61,30 +64,54 @@ impl RegionScorer {
         self.scored.middle(self.side)
     }
 
-    /// The scores of the features, in the order of the camera.
+    /// The scores of the features, in the order of the camera; `reference` is `None` where there is no valid one.
     #[must_use]
-    pub fn scores(&self, thresholds: &Thresholds) -> [u64; FeatureKind::COUNT] {
+    pub fn scores(
+        &self,
+        reference: Option<&[u16]>,
+        thresholds: &Thresholds,
+    ) -> [u64; FeatureKind::COUNT] {
+        let seen = self.seen(reference);
         let mut scores = [0; FeatureKind::COUNT];
         let features = self.features.iter().zip(&thresholds.level);
-        for (score, (feature, &level)) in scores.iter_mut().zip(features) {
-            *score = self.score(feature, level);
+        for (own, (feature, &level)) in scores.iter_mut().zip(features) {
+            *own = score(feature, level, &seen);
         }
         scores
     }
 
     /// Pixels that differ from the reference; all where there is none.
+    #[must_use]
     pub fn temporal_count(&self, reference: Option<&[u16]>, thresholds: &Thresholds) -> u32 {
-        let changed = |(now, before): (u16, &u16)| {
-            u32::from(now.abs_diff(*before)) > thresholds.temporal_level
-        };
-        match reference {
-            Some(reference) => count(self.pixels().zip(reference).map(changed)),
-            None => count(self.pixels().map(|_| true)),
-        }
+        changed_pixels(&self.seen(reference), thresholds.temporal_level)
     }
 
-    fn score(&self, feature: &SpatialFeature, level: u32) -> u64 {
-        let n = u64::from(count(self.pixels().map(|_| true)));
-        score(feature, level, n, || self.pixels(), self.scored.windows(self.side))
+    fn seen<'a>(&'a self, reference: Option<&'a [u16]>) -> Seen<'a> {
+        Seen { scored: &self.scored, side: self.side, reference }
+    }
+}
+
+/// A region that was taken, and what it is compared with.
+struct Seen<'a> {
+    scored: &'a Square,
+    side: usize,
+    reference: Option<&'a [u16]>,
+}
+
+impl RegionView for Seen<'_> {
+    fn n(&self) -> u64 {
+        amount(self.side * self.side)
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = u16> {
+        self.scored.middle(self.side)
+    }
+
+    fn windows(&self) -> impl Iterator<Item = Window> {
+        self.scored.windows(self.side)
+    }
+
+    fn before(&self) -> Option<impl Iterator<Item = u16>> {
+        self.reference.map(|pixels| pixels.iter().copied())
     }
 }

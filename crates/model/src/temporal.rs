@@ -6,6 +6,7 @@ use foveate_camera::{Camera, Reference};
 
 use crate::number::{count, index};
 use crate::region::{Area, black_padded};
+use crate::view::RegionView;
 use foveate_camera::Action;
 use foveate_frame::Frame;
 
@@ -21,12 +22,21 @@ pub fn temporal_differences(
     reference: &Frame,
     region: u32,
 ) -> Vec<u32> {
-    differences(Area::of(camera, region), now, reference).collect()
+    let area = Area::of(camera, region);
+    let pairs = area.pixels(now).zip(area.pixels(reference));
+    pairs.map(|(now, reference)| now.abs_diff(reference).into()).collect()
 }
 
-fn differences(area: Area, now: &Frame, reference: &Frame) -> impl Iterator<Item = u32> {
-    let pairs = area.pixels(now).zip(area.pixels(reference));
-    pairs.map(|(now, reference)| now.abs_diff(reference).into())
+/// Changed pixels of a region: those that differ from its reference by more than the level; all of them where there is
+/// no valid reference.
+pub fn changed_pixels(region: &impl RegionView, level: u32) -> u32 {
+    match region.before() {
+        Some(before) => {
+            let pairs = region.pixels().zip(before);
+            count(pairs.map(|(now, before)| u32::from(now.abs_diff(before)) > level))
+        }
+        None => count(region.pixels().map(|_| true)),
+    }
 }
 
 /// The reference of every region: its denoised pixels as they once were.
@@ -44,17 +54,12 @@ impl References {
 
     /// The reference of a region, row by row, if it is valid.
     pub(crate) fn pixels(&self, camera: &Camera, region: u32) -> Option<Vec<u16>> {
-        self.valid[index(region)].then(|| Area::of(camera, region).pixels(&self.frame).collect())
+        self.frame(region).map(|frame| Area::of(camera, region).pixels(frame).collect())
     }
 
-    /// Changed pixels of a region; all of them where there is no valid reference.
-    pub(crate) fn count(&self, camera: &Camera, denoised: &Frame, region: u32) -> u32 {
-        if !self.valid[index(region)] {
-            return camera.region_pixels();
-        }
-        let level = camera.temporal().level;
-        let differences = differences(Area::of(camera, region), denoised, &self.frame);
-        count(differences.map(|difference| difference > level))
+    /// A padded frame with the reference of a region in its place, if that is valid.
+    pub(crate) fn frame(&self, region: u32) -> Option<&Frame> {
+        self.valid[index(region)].then_some(&self.frame)
     }
 
     /// What the next frame will be compared with, now that this frame's action is known.

@@ -24,7 +24,7 @@ impl Verdict {
         reference: Option<&[u16]>,
         thresholds: &Thresholds,
     ) -> Self {
-        let scores = scorer.scores(thresholds);
+        let scores = scorer.scores(reference, thresholds);
         let temporal_count = scorer.temporal_count(reference, thresholds);
         let minima = camera.features().iter().zip(&thresholds.min_score);
         let votes = minima.zip(&scores).map(|((_, min), score)| score >= min);

@@ -272,11 +272,11 @@ fn is_telling(
 ) -> bool {
     let (side, max) = size(part);
     let flat = TestPattern::Flat.draw(side, max, false, random);
-    let flat = studio.look(&flat, thresholds);
+    let flat = studio.look(&flat, None, thresholds);
     let least = thresholds.temporal_min_count;
     let mut good = TEXTURES.iter().filter(|texture| {
         let picture = texture.draw(side, max, false, random);
-        let look = studio.look(&picture, thresholds);
+        let look = studio.look(&picture, Some(&flat), thresholds);
         look.is_relevant && look.changes(&flat, thresholds) >= least
     });
     !flat.is_relevant && least > 0 && good.next().is_some()
@@ -294,7 +294,7 @@ fn least(part: &Design, studio: &mut Studio, random: &mut Random) -> ThresholdPa
     let mut usual = blank;
     let looks: Vec<Look> = TEXTURES
         .iter()
-        .map(|texture| studio.look(&texture.draw(side, max, false, random), &blank))
+        .map(|texture| studio.look(&texture.draw(side, max, false, random), None, &blank))
         .collect();
     let is_needed = part.combine() == Combine::All || part.features().len() == 1;
     for (feature, minimum) in usual.min_score.iter_mut().enumerate().take(part.features().len()) {
@@ -315,13 +315,13 @@ fn actor(
 ) -> Actor {
     let (side, max) = size(part);
     let flat = TestPattern::Flat.draw(side, max, false, random);
-    let nothing = studio.look(&flat, thresholds);
+    let nothing = studio.look(&flat, None, thresholds);
     let least = thresholds.temporal_min_count;
     let mut pick = |from: usize, before: &Look, wanted: RangeInclusive<u32>| {
         for step in 0..2 * TRIALS * TEXTURES.len() {
             let texture = TEXTURES[(from + step / (2 * TRIALS)) % TEXTURES.len()];
             let picture = texture.draw(side, max, step % 2 == 1, random);
-            let look = studio.look(&picture, thresholds);
+            let look = studio.look(&picture, Some(before), thresholds);
             let changes = look.changes(before, thresholds);
             if look.is_relevant && wanted.contains(&changes) {
                 return Some((picture, look));
@@ -339,7 +339,7 @@ fn actor(
     let last = pick(number + 2, &nothing, least..=all).map_or_else(|| first.clone(), |last| last.0);
     let (other, look) = other.unwrap_or_else(|| {
         let negative: Vec<u16> = first.iter().map(|&pixel| max - pixel).collect();
-        let look = studio.look(&negative, thresholds);
+        let look = studio.look(&negative, Some(&seen), thresholds);
         (negative, look)
     });
     let (changes, scores) = (look.changes(&seen, thresholds), look.scores);

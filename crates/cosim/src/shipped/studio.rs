@@ -36,15 +36,21 @@ impl Studio {
         }
     }
 
-    /// Scores a picture, and says what becomes of it with these thresholds.
-    pub(super) fn look(&mut self, picture: &[u16], thresholds: &Thresholds) -> Look {
+    /// Scores a picture that follows another, and says what becomes of it with these thresholds.
+    pub(super) fn look(
+        &mut self,
+        picture: &[u16],
+        before: Option<&Look>,
+        thresholds: &Thresholds,
+    ) -> Look {
         let (side, halo) = (self.side, self.halo);
         // Beyond the frame its border repeats.
         let inside = |at: usize| at.saturating_sub(halo).min(side - 1);
         let reach = side + 2 * halo;
         let places = (0..reach * reach).map(|at| (inside(at % reach), inside(at / reach)));
         self.scorer.take(places.map(|(x, y)| picture[y * side + x]), ALL_SIDES);
-        let scores = self.scorer.scores(thresholds)[..self.features].to_vec();
+        let reference = before.map(|before| before.denoised.as_slice());
+        let scores = self.scorer.scores(reference, thresholds)[..self.features].to_vec();
         let mut votes = scores.iter().zip(&thresholds.min_score).map(|(score, min)| score >= min);
         let is_relevant = match self.combine {
             Combine::Any => votes.any(|vote| vote),

@@ -72,7 +72,7 @@ impl Aimer {
         if let Some(turn) = largest {
             self.ranges.aim_largest_levels(turn, &mut thresholds);
         }
-        let scores = self.scorer.scores(&thresholds);
+        let scores = self.scorer.scores(reference, &thresholds);
         let count = self.scorer.temporal_count(reference, &thresholds);
         self.ranges.aim_minima(&scores, count, &mut thresholds, random);
         thresholds

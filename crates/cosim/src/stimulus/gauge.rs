@@ -6,6 +6,8 @@ use foveate_design::{Design, Filter, SpatialFeature};
 use foveate_model::denoise::median;
 use foveate_model::feature::score;
 use foveate_model::window::Window;
+use foveate_model::{RegionView, changed_pixels};
+use std::ops::Range;
 
 /// Reads the scores of squares of one size.
 #[derive(Clone, Debug)]
@@ -51,31 +53,67 @@ impl Gauge {
         }
     }
 
-    /// A score of a square that follows another.
-    pub(super) fn read(&self, meter: usize, now: &[u16], before: &[u16]) -> u64 {
-        let now = self.scored(now);
-        let places = || {
-            let own = self.margin..self.side - self.margin;
-            own.clone().flat_map(move |y| own.clone().map(move |x| y * self.side + x))
-        };
-        match &self.meters[meter] {
-            Meter::Spatial(feature) => {
-                let n = places().count() as u64;
-                let windows = places().map(|at| window(&now, at));
-                // Of a feature without a level it means nothing.
-                let level = feature.level().unwrap_or(0);
-                score(feature, level, n, || places().map(|at| now[at]), windows)
-            }
-            &Meter::Changes { level, .. } => {
-                let before = self.scored(before);
-                let changed = |at: &usize| u32::from(now[*at].abs_diff(before[*at])) > level;
-                places().filter(changed).count() as u64
-            }
-        }
+    /// Squares that follow this one.
+    pub(super) fn after(&self, before: &[u16]) -> Following<'_> {
+        Following { gauge: self, before: self.scored(before) }
     }
 
     fn scored(&self, square: &[u16]) -> Vec<u16> {
         if self.denoise { filtered(square) } else { square.to_vec() }
+    }
+}
+
+/// Squares that follow another.
+pub(super) struct Following<'a> {
+    gauge: &'a Gauge,
+    before: Vec<u16>,
+}
+
+impl Following<'_> {
+    /// A score of such a square.
+    pub(super) fn read(&self, meter: usize, now: &[u16]) -> u64 {
+        let Gauge { meters, side, margin, .. } = self.gauge;
+        let own = *margin..side - margin;
+        let now = self.gauge.scored(now);
+        let seen = Seen { now: &now, before: &self.before, side: *side, own };
+        match &meters[meter] {
+            // Of a feature without a level it means nothing.
+            Meter::Spatial(feature) => score(feature, feature.level().unwrap_or(0), &seen),
+            &Meter::Changes { level, .. } => changed_pixels(&seen, level).into(),
+        }
+    }
+}
+
+/// The region in the middle of a square that follows another.
+struct Seen<'a> {
+    now: &'a [u16],
+    before: &'a [u16],
+    side: usize,
+    /// Its columns, and its rows.
+    own: Range<usize>,
+}
+
+impl Seen<'_> {
+    fn places(&self) -> impl Iterator<Item = usize> {
+        self.own.clone().flat_map(move |y| self.own.clone().map(move |x| y * self.side + x))
+    }
+}
+
+impl RegionView for Seen<'_> {
+    fn n(&self) -> u64 {
+        (self.own.len() as u64).pow(2)
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = u16> {
+        self.places().map(|at| self.now[at])
+    }
+
+    fn windows(&self) -> impl Iterator<Item = Window> {
+        self.places().map(|at| window(self.now, at))
+    }
+
+    fn before(&self) -> Option<impl Iterator<Item = u16>> {
+        Some(self.places().map(|at| self.before[at]))
     }
 }
 

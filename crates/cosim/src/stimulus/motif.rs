@@ -177,7 +177,8 @@ impl Artist {
             pairs.map(|(at, (&new, &old))| if self.rank(at) < kept { new } else { old }).collect()
         };
         let trials = (0..=self.count / step).map(|trial| mixed(offset + trial * step));
-        let distance = |square: &Vec<u16>| self.gauge.read(meter, square, &before).abs_diff(wanted);
+        let following = self.gauge.after(&before);
+        let distance = |square: &Vec<u16>| following.read(meter, square).abs_diff(wanted);
         self.pixels = trials.min_by_key(distance).expect("there is a first trial");
     }
 }

@@ -3,16 +3,10 @@
 //! brighter than `p + level`, or all darker than `p - level`.
 
 use super::{Scratch, add_up};
-use crate::grid::Grid;
-use crate::plane::Plane;
+use crate::view::FrameView;
 
-pub(super) fn score(
-    level: f64,
-    plane: &Plane,
-    grid: &Grid,
-    scratch: &mut Scratch,
-    scores: &mut [f64],
-) {
+pub(super) fn score(level: f64, view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
+    let FrameView { grid, now: plane, .. } = *view;
     let [hits, ..] = &mut scratch.lines;
     hits.resize(plane.width(), 0.0);
     scores.fill(0.0);

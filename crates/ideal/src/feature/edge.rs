@@ -8,18 +8,12 @@
 //! ```
 
 use super::{Scratch, add_up};
-use crate::grid::Grid;
-use crate::plane::Plane;
+use crate::view::FrameView;
 
 /// Both filters are a smoothing along one axis and a difference along the other; the vertical part is
 /// done once per column.
-pub(super) fn score(
-    level: f64,
-    plane: &Plane,
-    grid: &Grid,
-    scratch: &mut Scratch,
-    scores: &mut [f64],
-) {
+pub(super) fn score(level: f64, view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
+    let FrameView { grid, now: plane, .. } = *view;
     let [smooth, slope, hits] = &mut scratch.lines;
     smooth.resize(plane.width() + 2, 0.0);
     slope.resize(plane.width() + 2, 0.0);

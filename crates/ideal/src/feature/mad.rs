@@ -5,10 +5,10 @@
 //! the division is a whole number below 2^53, so the one rounding is that of the division.
 
 use super::{Scratch, pixel_sums, pixels_of};
-use crate::grid::Grid;
-use crate::plane::Plane;
+use crate::view::FrameView;
 
-pub(super) fn score(plane: &Plane, grid: &Grid, scratch: &mut Scratch, scores: &mut [f64]) {
+pub(super) fn score(view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
+    let FrameView { grid, now: plane, .. } = *view;
     let [sums, _] = &mut scratch.regions;
     pixel_sums(plane, grid, sums);
     let n = pixels_of(grid);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The spatial features: one score per region of a denoised frame, in natural units.
+//! The scores: one per region of a denoised frame for each spatial feature, in natural units, and the temporal one.
 
+mod change;
 mod corner;
 mod edge;
 mod mad;
@@ -10,6 +11,9 @@ use foveate_camera::FeatureKind;
 
 use crate::grid::Grid;
 use crate::plane::Plane;
+use crate::view::FrameView;
+
+pub(crate) use change::changed;
 
 /// Lines and regions of numbers that are used again.
 #[derive(Clone, Debug, Default)]
@@ -22,21 +26,20 @@ pub(crate) struct Scratch {
 /// `variance`. `level` is for those that count hits.
 pub(crate) fn score(
     (kind, level): (FeatureKind, f64),
-    plane: &Plane,
-    grid: &Grid,
+    view: &FrameView,
     scratch: &mut Scratch,
     scores: &mut [f64],
 ) {
     match kind {
-        FeatureKind::Edge => edge::score(level, plane, grid, scratch, scores),
-        FeatureKind::Corner => corner::score(level, plane, grid, scratch, scores),
-        FeatureKind::Mad => mad::score(plane, grid, scratch, scores),
-        FeatureKind::Variance => variance::score(plane, grid, scratch, scores),
+        FeatureKind::Edge => edge::score(level, view, scratch, scores),
+        FeatureKind::Corner => corner::score(level, view, scratch, scores),
+        FeatureKind::Mad => mad::score(view, scratch, scores),
+        FeatureKind::Variance => variance::score(view, scratch, scores),
     }
 }
 
 /// Adds the values of one row to the sums of the regions that it goes through.
-pub(crate) fn add_up(values: &[f64], side: usize, sums: &mut [f64]) {
+fn add_up(values: &[f64], side: usize, sums: &mut [f64]) {
     for (part, sum) in values.chunks_exact(side).zip(sums) {
         *sum += part.iter().sum::<f64>();
     }

@@ -7,10 +7,10 @@
 //! but for those the one rounding is that of the division.
 
 use super::{Scratch, pixel_sums, pixels_of};
-use crate::grid::Grid;
-use crate::plane::Plane;
+use crate::view::FrameView;
 
-pub(super) fn score(plane: &Plane, grid: &Grid, scratch: &mut Scratch, scores: &mut [f64]) {
+pub(super) fn score(view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
+    let FrameView { grid, now: plane, .. } = *view;
     let [sums, squares] = &mut scratch.regions;
     pixel_sums(plane, grid, sums);
     squares.clear();

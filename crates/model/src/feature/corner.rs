@@ -3,7 +3,8 @@
 
 use foveate_camera::Camera;
 
-use crate::window::{CENTER, RegionView, Window};
+use crate::view::{FrameRegion, RegionView};
+use crate::window::{CENTER, Window};
 use foveate_frame::Frame;
 
 /// The neighbors of the center, clockwise from the upper left.
@@ -36,7 +37,7 @@ pub fn strength(window: &Window) -> Option<u32> {
 /// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn corner_strengths(camera: &Camera, denoised: &Frame, region: u32) -> Vec<Option<u32>> {
-    RegionView::new(camera, denoised, region).windows().map(|window| strength(&window)).collect()
+    FrameRegion::new(camera, denoised, region).windows().map(|window| strength(&window)).collect()
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 
 use foveate_camera::Camera;
 
-use crate::window::{RegionView, Window};
+use crate::view::{FrameRegion, RegionView};
+use crate::window::Window;
 use foveate_frame::Frame;
 
 /// `|Gx| + |Gy|` of the center.
@@ -29,7 +30,7 @@ pub fn magnitude(window: &Window) -> u32 {
 /// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn edge_magnitudes(camera: &Camera, denoised: &Frame, region: u32) -> Vec<u32> {
-    RegionView::new(camera, denoised, region).windows().map(|window| magnitude(&window)).collect()
+    FrameRegion::new(camera, denoised, region).windows().map(|window| magnitude(&window)).collect()
 }
 
 #[cfg(test)]

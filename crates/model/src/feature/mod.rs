@@ -8,46 +8,31 @@ pub mod variance;
 
 use foveate_camera::{Camera, FeatureKind, SpatialFeature};
 
-use crate::window::{RegionView, Window};
+use crate::number::count;
+use crate::view::{FrameRegion, RegionView};
+use crate::window::Window;
 use foveate_frame::Frame;
 
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;
 
-/// The score of a region of `n` pixels, from these and the windows around them. `level` is without meaning
-/// for a feature that counts no hits.
-pub fn score<P: Iterator<Item = u16>>(
-    feature: &SpatialFeature,
-    level: u32,
-    n: u64,
-    pixels: impl Fn() -> P,
-    windows: impl Iterator<Item = Window>,
-) -> u64 {
-    let sum = || pixels().map(u64::from).sum();
+/// The score of a region. `level` is without meaning for a feature that counts no hits.
+pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> u64 {
+    let sum = || region.pixels().map(u64::from).sum();
     match feature.kind() {
         kind @ (FeatureKind::Edge | FeatureKind::Corner) => {
-            crate::number::count(windows.map(|window| is_hit(kind, &window, level))).into()
+            count(region.windows().map(|window| is_hit(kind, &window, level))).into()
         }
         FeatureKind::Mad => {
             let fraction_bits = feature.mean().expect("mad has a mean").fraction_bits;
-            let mean = mad::mean(sum(), n, fraction_bits);
-            pixels().map(|pixel| mad::deviation(pixel, mean, fraction_bits)).sum()
+            let mean = mad::mean(sum(), region.n(), fraction_bits);
+            region.pixels().map(|pixel| mad::deviation(pixel, mean, fraction_bits)).sum()
         }
-        FeatureKind::Variance => variance::score(n, sum(), pixels().map(variance::square).sum()),
+        FeatureKind::Variance => {
+            let square_sum = region.pixels().map(variance::square).sum();
+            variance::score(region.n(), sum(), square_sum)
+        }
     }
-}
-
-/// The score of one region of a denoised padded frame.
-pub(crate) fn of_region(
-    camera: &Camera,
-    feature: &SpatialFeature,
-    denoised: &Frame,
-    region: u32,
-) -> u64 {
-    let view = RegionView::new(camera, denoised, region);
-    let n = u64::from(camera.region_pixels());
-    // A feature without a level does not ask for one.
-    score(feature, feature.level().unwrap_or(0), n, || view.pixels(), view.windows())
 }
 
 /// Which pixels of a region of a denoised padded frame are hits, row by row; `None` for a feature that counts
@@ -63,8 +48,8 @@ pub fn hits(
     region: u32,
 ) -> Option<Vec<bool>> {
     let level = feature.level()?;
-    let windows = RegionView::new(camera, denoised, region).windows();
-    Some(windows.map(|window| is_hit(feature.kind(), &window, level)).collect())
+    let region = FrameRegion::new(camera, denoised, region);
+    Some(region.windows().map(|window| is_hit(feature.kind(), &window, level)).collect())
 }
 
 /// Whether the center of a window is a hit; never for features that do not count hits.

@@ -83,10 +83,13 @@ fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: 
         let mut stream = Vec::new();
         region_stream(design, frame, region, &mut stream);
         scorer.take(stream.into_iter(), region_border(design, region));
-        let count = scorer.temporal_count(rcm.reference(region), &thresholds);
+        let reference = rcm.reference(region);
+        let count = scorer.temporal_count(reference, &thresholds);
         assert_eq!(count, outcome.temporal_count[region as usize]);
         let scores = outcome.scores.iter().map(|scores| scores[region as usize]);
-        assert!(scores.eq(scorer.scores(&thresholds).into_iter().take(outcome.scores.len())));
+        assert!(
+            scores.eq(scorer.scores(reference, &thresholds).into_iter().take(outcome.scores.len()))
+        );
     }
 }
 
