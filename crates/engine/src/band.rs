@@ -38,10 +38,10 @@ fn features<T: Lane>(
     columns: &mut Columns<T>,
     run: &Range<usize>,
 ) {
-    if let Some(half) = plan.edge {
+    if let Some(half) = plan.passes.edge {
         edge::count(windows, sides, half, &mut columns.edge.blocks_mut()[run.clone()]);
     }
-    if let Some(level) = plan.corner {
+    if let Some(level) = plan.passes.corner {
         corner::count(windows, sides, level, &mut columns.corner.blocks_mut()[run.clone()]);
     }
 }
@@ -68,7 +68,7 @@ impl<T: Lane> Band<'_, T> {
             self.first_pass(scratch, run);
         }
         self.columns_to_regions(&scratch.columns, &mut scratch.sums);
-        if let Some(fraction_bits) = self.plan.mad {
+        if let Some(fraction_bits) = self.plan.passes.mad {
             self.spread_means(scratch, fraction_bits);
             for run in &runs {
                 self.second_pass(&mut scratch.columns, run, fraction_bits);
@@ -103,7 +103,7 @@ impl<T: Lane> Band<'_, T> {
             let rows = first..(first + batch).min(plan.side);
             let [above, ..] = denoiser.around(top + rows.start);
             let [.., below] = denoiser.around(top + rows.end - 1);
-            if plan.has_windows {
+            if plan.passes.has_windows {
                 denoiser.ensure(above..below + 1);
                 for y in top + rows.start..top + rows.end {
                     let windows = denoiser.windows(y);
@@ -140,10 +140,10 @@ impl<T: Lane> Band<'_, T> {
                 temporal::count_and_store(now, reference, plan.level, changed, store);
             }
         }
-        if plan.mad.is_some() || plan.variance {
+        if plan.passes.sums {
             sums::add(now, &mut columns.sum.blocks_mut()[run.clone()]);
         }
-        if plan.variance {
+        if plan.passes.squares {
             sums::add_squares(now, &mut columns.square.blocks_mut()[run.clone()]);
         }
     }
@@ -152,16 +152,16 @@ impl<T: Lane> Band<'_, T> {
     fn columns_to_regions(&self, columns: &Columns<T>, regions: &mut Sums) {
         let (plan, side) = (self.plan, self.plan.side);
         sums::by_region(&columns.changed, side, &mut regions.changed);
-        if plan.edge.is_some() {
+        if plan.passes.edge.is_some() {
             sums::by_region(&columns.edge, side, &mut regions.edge);
         }
-        if plan.corner.is_some() {
+        if plan.passes.corner.is_some() {
             sums::by_region(&columns.corner, side, &mut regions.corner);
         }
-        if plan.mad.is_some() || plan.variance {
+        if plan.passes.sums {
             sums::by_region(&columns.sum, side, &mut regions.sum);
         }
-        if plan.variance {
+        if plan.passes.squares {
             sums::by_region(&columns.square, side, &mut regions.square);
         }
     }
@@ -202,16 +202,16 @@ impl<T: Lane> Columns<T> {
     #[inline(always)]
     fn clear(&mut self, plan: &CameraPlan<T>, run: &Range<usize>) {
         self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
-        if plan.edge.is_some() {
+        if plan.passes.edge.is_some() {
             self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
         }
-        if plan.corner.is_some() {
+        if plan.passes.corner.is_some() {
             self.corner.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
         }
-        if plan.mad.is_some() || plan.variance {
+        if plan.passes.sums {
             self.sum.blocks_mut()[run.clone()].fill([T::Sum::default(); BLOCK]);
         }
-        if plan.variance {
+        if plan.passes.squares {
             self.square.blocks_mut()[run.clone()].fill([T::Square::default(); BLOCK]);
         }
     }

@@ -28,7 +28,7 @@ impl<T: Lane> CameraPlan<T> {
                 FeatureKind::Edge => fill(scores, affected, |at| sums.edge[at]),
                 FeatureKind::Corner => fill(scores, affected, |at| sums.corner[at]),
                 FeatureKind::Mad => {
-                    let bits = self.mad.expect("the plan has what its features need");
+                    let bits = self.passes.mad.expect("the plan has what its features need");
                     let score =
                         |at| mad::score(n, bits, sums.sum[at], sums.above[at], sums.over[at]);
                     fill(scores, affected, score);

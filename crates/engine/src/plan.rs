@@ -29,15 +29,7 @@ pub(crate) struct CameraPlan<T: Lane> {
     pub(crate) median: bool,
     /// Where regions begin and end that do not see each other.
     pub(crate) seams: Option<SeamMasks<T>>,
-    /// Half of the level of `edge`.
-    pub(crate) edge: Option<T::Signed>,
-    /// The level of `corner`.
-    pub(crate) corner: Option<T>,
-    /// Fraction bits of the mean of `mad`.
-    pub(crate) mad: Option<u32>,
-    pub(crate) variance: bool,
-    /// Whether a feature looks at windows.
-    pub(crate) has_windows: bool,
+    pub(crate) passes: Passes<T>,
     pub(crate) features: Vec<Feature>,
     pub(crate) combine: Combine,
     pub(crate) level: T,
@@ -45,6 +37,23 @@ pub(crate) struct CameraPlan<T: Lane> {
     pub(crate) reference: Reference,
     pub(crate) irrelevant: Irrelevant,
     pub(crate) payload: Payload,
+}
+
+/// What has to be done with the pixels of a band for the features.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passes<T: Lane> {
+    /// Half of the level of `edge`.
+    pub(crate) edge: Option<T::Signed>,
+    /// The level of `corner`.
+    pub(crate) corner: Option<T>,
+    /// Whether one of those looks at windows.
+    pub(crate) has_windows: bool,
+    /// Whether pixels are added up.
+    pub(crate) sums: bool,
+    /// Whether their squares are.
+    pub(crate) squares: bool,
+    /// Fraction bits of the mean of `mad`.
+    pub(crate) mad: Option<u32>,
 }
 
 /// A feature in the order of the camera.
@@ -66,11 +75,6 @@ impl<T: Lane> CameraPlan<T> {
         let side = index(camera.region_size());
         let columns = index(camera.columns());
         let blocks = (columns * side).div_ceil(BLOCK);
-        let level = |kind| {
-            camera
-                .feature(kind)
-                .map(|feature| feature.level().expect("a feature that counts hits has a level"))
-        };
         Self {
             width: index(camera.width()),
             height: index(camera.height()),
@@ -81,13 +85,7 @@ impl<T: Lane> CameraPlan<T> {
             median: camera.filter() == Filter::Median3x3,
             seams: (camera.neighborhood() == Neighborhood::Isolated)
                 .then(|| SeamMasks::new(side, blocks)),
-            edge: level(FeatureKind::Edge).map(half),
-            corner: level(FeatureKind::Corner).map(threshold),
-            mad: camera
-                .feature(FeatureKind::Mad)
-                .map(|feature| feature.mean().expect("mad has a mean").fraction_bits),
-            variance: camera.feature(FeatureKind::Variance).is_some(),
-            has_windows: camera.has_feature_window(),
+            passes: Passes::of(camera),
             features: camera
                 .features()
                 .iter()
@@ -146,6 +144,32 @@ impl<T: Lane> CameraPlan<T> {
             Some(_) => (band * self.side, (band + 1) * self.side - 1),
             None => (0, self.rows * self.side - 1),
         }
+    }
+}
+
+impl<T: Lane> Passes<T> {
+    fn of(camera: &Camera) -> Self {
+        let mut passes = Self {
+            edge: None,
+            corner: None,
+            has_windows: camera.has_feature_window(),
+            sums: false,
+            squares: false,
+            mad: None,
+        };
+        for feature in camera.features() {
+            let level = || feature.level().expect("a feature that counts hits has a level");
+            match feature.kind() {
+                FeatureKind::Edge => passes.edge = Some(half(level())),
+                FeatureKind::Corner => passes.corner = Some(threshold(level())),
+                FeatureKind::Mad => {
+                    passes.sums = true;
+                    passes.mad = Some(feature.mean().expect("mad has a mean").fraction_bits);
+                }
+                FeatureKind::Variance => (passes.sums, passes.squares) = (true, true),
+            }
+        }
+        passes
     }
 }
 

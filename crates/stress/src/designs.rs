@@ -34,18 +34,26 @@ pub(crate) fn design(config: &Config) -> Design {
     config.validate().unwrap_or_else(|error| unreachable!("the matrix holds designs: {error}"))
 }
 
+/// A feature, alone or among others.
+fn among_others(kind: FeatureKind) -> &'static [FeatureKind] {
+    use FeatureKind::{Corner, Edge, Mad, Variance};
+    match kind {
+        Edge => &[Edge],
+        Corner => &[Edge, Corner],
+        Mad => &[Mad, Edge],
+        Variance => &[Variance, Corner, Edge, Mad],
+    }
+}
+
 /// Every neighborhood, filter, reference and payload, with the features by turns.
 pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
-    use FeatureKind::{Corner, Edge, Mad, Variance};
-    let features: [&[FeatureKind]; 4] =
-        [&[Edge], &[Edge, Corner], &[Mad, Edge], &[Variance, Corner, Edge, Mad]];
     let mut designs = Vec::new();
     for &neighborhood in Neighborhood::ALL {
         for &filter in Filter::ALL {
             for &reference in Reference::ALL {
                 for &payload in Payload::ALL {
-                    let turn = designs.len() % features.len();
-                    let mut config = config(size, side, bits, features[turn]);
+                    let turn = FeatureKind::ALL[designs.len() % FeatureKind::COUNT];
+                    let mut config = config(size, side, bits, among_others(turn));
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;

@@ -259,31 +259,57 @@ fn synthesize(
 /// pipelined array is a way, and at a planned clock also fold 1. Raster cores come with the fewest pixels per clock that
 /// are fast enough; at a planned clock with the most, if none is.
 fn ways(look: &CameraConfig, asked: &HardwareConfig, bounds: Bounds) -> Vec<Design> {
-    let with = |organization: Organization, own: HardwareConfig| {
-        let (thresholds, sync) = (asked.thresholds, asked.sync);
-        let hardware = HardwareConfig { organization, thresholds, sync, ..own };
-        Config { camera: look.clone(), hardware }.validate().ok()
+    let (arrays, is_fast) = serial_arrays(look, asked, bounds);
+    let of = |organization| match organization {
+        Organization::Serial => arrays.clone(),
+        Organization::Pipelined if is_fast => Vec::new(),
+        Organization::Pipelined => {
+            let array = way(look, asked, organization, HardwareConfig::default());
+            array.into_iter().collect()
+        }
+        Organization::Raster => {
+            let core = |pixels| {
+                let pixels_per_clock = Some(pixels);
+                let own = HardwareConfig { pixels_per_clock, ..HardwareConfig::default() };
+                way(look, asked, organization, own)
+            };
+            let cores = [1, 2, 4].into_iter().filter_map(core).collect();
+            fewest_words(cores, bounds).into_iter().collect()
+        }
     };
+    Organization::ALL.iter().flat_map(|&organization| of(organization)).collect()
+}
+
+/// A design of that organization, if it can be one.
+fn way(
+    look: &CameraConfig,
+    asked: &HardwareConfig,
+    organization: Organization,
+    own: HardwareConfig,
+) -> Option<Design> {
+    let (thresholds, sync) = (asked.thresholds, asked.sync);
+    let hardware = HardwareConfig { organization, thresholds, sync, ..own };
+    Config { camera: look.clone(), hardware }.validate().ok()
+}
+
+/// The serial arrays of every feed, and whether one is fast enough.
+fn serial_arrays(
+    look: &CameraConfig,
+    asked: &HardwareConfig,
+    bounds: Bounds,
+) -> (Vec<Design>, bool) {
+    let (mut found, mut is_fast) = (Vec::new(), false);
     let fed = |&feed| {
         let (feed, memory) = (Some(feed), bounds.memory);
         let own = HardwareConfig { feed, memory, ..HardwareConfig::default() };
-        with(Organization::Serial, own)
+        way(look, asked, Organization::Serial, own)
     };
-    let (mut found, mut is_fast) = (Vec::new(), false);
     for single in Feed::ALL.iter().filter_map(fed) {
         let (folds, enough) = folded(&single, bounds);
         is_fast |= enough;
         found.extend(folds);
     }
-    if !is_fast {
-        found.extend(with(Organization::Pipelined, HardwareConfig::default()));
-    }
-    let words = [1, 2, 4].into_iter().filter_map(|pixels| {
-        let own = HardwareConfig { pixels_per_clock: Some(pixels), ..HardwareConfig::default() };
-        with(Organization::Raster, own)
-    });
-    found.extend(fewest_words(words.collect(), bounds));
-    found
+    (found, is_fast)
 }
 
 /// The folds of a serial array, and whether one is fast enough.
