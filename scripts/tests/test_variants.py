@@ -20,6 +20,11 @@ class Variants(unittest.TestCase):
         self.lines("let is = matches!(design.hardware(), Hardware::Serial(_));", [1])
         self.lines("let is = matches!(\n    kind,\n    FeatureKind::Edge | FeatureKind::Corner\n);", [1])
 
+    def test_what_variants_are_asked_for_is_found_too(self):
+        self.lines("if reference.written() == Written::WhenSent {}", [1])
+        self.lines("match unit.array {\n    Array::Copies => 1,\n    _ => 2,\n}", [3])
+        self.lines("match unit.array {\n    Array::Copies => 1,\n    Array::Whole => 2,\n}", [])
+
     def test_arms_that_catch_all_are_found(self):
         self.lines("match design.hardware() {\n    Hardware::Raster(own) => own.words(),\n    _ => 1,\n}", [3])
         self.lines("match kind {\n    FeatureKind::Edge => { a(b, c) }\n    other => d(other),\n}", [3])
