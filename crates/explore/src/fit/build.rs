@@ -264,14 +264,14 @@ fn ways(look: &CameraConfig, asked: &HardwareConfig, bounds: Bounds) -> Vec<Desi
         Organization::Serial => arrays.clone(),
         Organization::Pipelined if is_fast => Vec::new(),
         Organization::Pipelined => {
-            let array = way(look, asked, organization, HardwareConfig::default());
+            let array = way(look, asked, organization, &HardwareConfig::default());
             array.into_iter().collect()
         }
         Organization::Raster => {
             let core = |pixels| {
                 let pixels_per_clock = Some(pixels);
                 let own = HardwareConfig { pixels_per_clock, ..HardwareConfig::default() };
-                way(look, asked, organization, own)
+                way(look, asked, organization, &own)
             };
             let cores = [1, 2, 4].into_iter().filter_map(core).collect();
             fewest_words(cores, bounds).into_iter().collect()
@@ -285,10 +285,10 @@ fn way(
     look: &CameraConfig,
     asked: &HardwareConfig,
     organization: Organization,
-    own: HardwareConfig,
+    own: &HardwareConfig,
 ) -> Option<Design> {
     let (thresholds, sync) = (asked.thresholds, asked.sync);
-    let hardware = HardwareConfig { organization, thresholds, sync, ..own };
+    let hardware = HardwareConfig { organization, thresholds, sync, ..*own };
     Config { camera: look.clone(), hardware }.validate().ok()
 }
 
@@ -302,7 +302,7 @@ fn serial_arrays(
     let fed = |&feed| {
         let (feed, memory) = (Some(feed), bounds.memory);
         let own = HardwareConfig { feed, memory, ..HardwareConfig::default() };
-        way(look, asked, Organization::Serial, own)
+        way(look, asked, Organization::Serial, &own)
     };
     for single in Feed::ALL.iter().filter_map(fed) {
         let (folds, enough) = folded(&single, bounds);
