@@ -3,7 +3,7 @@
 
 use crate::takes::Takes;
 use crate::{HardwareConfig, Organization, Pipelining, Store, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Reference, Written, in_range};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Reference, in_range};
 
 /// Pixels that a word may have.
 const WORDS: [u32; 3] = [1, 2, 4];
@@ -140,11 +140,12 @@ fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), Conf
     Err(asked.clash(key, pixels.to_string(), &remedy))
 }
 
-/// Refuses what cannot keep references that are written when regions are sent.
+/// Refuses stores that cannot keep the reference.
 fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), ConfigError> {
-    match reference.written() {
-        Written::WithEveryFrame => return Ok(()),
-        Written::WhenSent => {}
+    match reference {
+        // What is stored anyway is the reference of the next frame.
+        Reference::Previous => return Ok(()),
+        Reference::LastSent => {}
     }
     let clash = |key: &str, value: String, remedy: &str| {
         Err(ConfigError::Combination {
