@@ -8,7 +8,7 @@ use foveate_camera::Reference;
 use crate::denoised::Denoiser;
 use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};
 use crate::pixels::Pixels;
-use crate::plan::CameraPlan;
+use crate::plan::{CameraPlan, Passes};
 use crate::scratch::{Columns, Scratch, Sums};
 use foveate_lanes::{BLOCK, Block, Lane, threshold};
 
@@ -150,18 +150,20 @@ impl<T: Lane> Band<'_, T> {
 
     #[inline(always)]
     fn columns_to_regions(&self, columns: &Columns<T>, regions: &mut Sums) {
-        let (plan, side) = (self.plan, self.plan.side);
+        let side = self.plan.side;
+        // Each of them, so that a new one is not forgotten; what `mad` adds up comes in a second pass.
+        let Passes { edge, corner, has_windows: _, sums, squares, mad: _ } = self.plan.passes;
         sums::by_region(&columns.changed, side, &mut regions.changed);
-        if plan.passes.edge.is_some() {
+        if edge.is_some() {
             sums::by_region(&columns.edge, side, &mut regions.edge);
         }
-        if plan.passes.corner.is_some() {
+        if corner.is_some() {
             sums::by_region(&columns.corner, side, &mut regions.corner);
         }
-        if plan.passes.sums {
+        if sums {
             sums::by_region(&columns.sum, side, &mut regions.sum);
         }
-        if plan.passes.squares {
+        if squares {
             sums::by_region(&columns.square, side, &mut regions.square);
         }
     }
@@ -201,17 +203,18 @@ impl<T: Lane> Columns<T> {
     /// Zero in every sum that the first pass of a run uses.
     #[inline(always)]
     fn clear(&mut self, plan: &CameraPlan<T>, run: &Range<usize>) {
+        let Passes { edge, corner, has_windows: _, sums, squares, mad: _ } = plan.passes;
         self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
-        if plan.passes.edge.is_some() {
+        if edge.is_some() {
             self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
         }
-        if plan.passes.corner.is_some() {
+        if corner.is_some() {
             self.corner.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
         }
-        if plan.passes.sums {
+        if sums {
             self.sum.blocks_mut()[run.clone()].fill([T::Sum::default(); BLOCK]);
         }
-        if plan.passes.squares {
+        if squares {
             self.square.blocks_mut()[run.clone()].fill([T::Square::default(); BLOCK]);
         }
     }

@@ -108,7 +108,7 @@ impl<T: Lane> CameraPlan<T> {
     }
 }
 
-/// Puts new scores where regions are affected.
+/// Puts new scores where regions are affected: where no pixel has changed, no score of these pixels has.
 #[inline(always)]
 fn fill(scores: &mut [u64], affected: &[bool], new: impl Fn(usize) -> u64) {
     for (at, (score, &affected)) in scores.iter_mut().zip(affected).enumerate() {
