@@ -278,7 +278,7 @@ fn the_readme_of_every_core_says_where_frames_start() {
         assert!(with.contains(beats) && without.contains(beats), "{beats}: {with}");
         for part in [
             "## Where a frame starts",
-            "| `sof_i` | in | 1 |",
+            "| `sof_i` | pixels | in | 1 |",
             ".sof_i(sof),",
             "`sync_error_o` is 1",
         ] {
