@@ -35,8 +35,8 @@ module properties #(
     wire [POSITION_BITS-1:0] position_o;
     raster_readout #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(2),
-        .ROW_WORDS(ROW_WORDS), .START_BITS(4), .BANKS(BANKS), .FRAME_BITS(1), .EXTRA_BITS(1), .QUEUE_WORDS(QUEUE_WORDS),
-        .QUEUE_BITS(2), .DEEP(DEEP)
+        .ROW_WORDS(ROW_WORDS), .START_BITS(4), .BANKS(BANKS), .FRAME_BITS(1), .EXTRA_BITS(1), .QUEUE_BITS(2),
+        .DEEP(DEEP)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter), .row_i(watched ? row : some_row),
         .region_i(watched ? region : some_region), .start_i(watched ? start : some_start),

@@ -76,8 +76,7 @@ module raster_deviation #(
     raster_pass #(
         .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS),
         .ROW_WORDS(ROW_WORDS), .PLACE_BITS(START_BITS), .FRACTION(FRACTION), .MEAN_BITS(MEAN_BITS),
-        .SUM_BITS(MAD_BITS), .EXTRA_BITS(OTHER_BITS), .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS),
-        .DEEP(DEEP)
+        .SUM_BITS(MAD_BITS), .EXTRA_BITS(OTHER_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
     ) u_pass (
         .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter), .mean_i(settled_mean), .start_i(start), .extra_i(entering),
         .read_o(read), .place_o(place), .word_i(word), .done_o(judged_o), .sum_o(mad_o), .extra_o(other_o)

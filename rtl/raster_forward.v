@@ -114,7 +114,7 @@ module raster_forward #(
     raster_readout #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
         .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .FRAME_BITS(FRAME_BITS),
-        .EXTRA_BITS(EXTRA_BITS), .QUEUE_WORDS(1 << QUEUE_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
+        .EXTRA_BITS(EXTRA_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
     ) u_readout (
         .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i), .row_i(decided_row), .region_i(region_i),
         .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .frame_i(held_frame),

@@ -17,8 +17,7 @@ module raster_pass #(
     parameter MEAN_BITS = 8,      // bits of the mean
     parameter SUM_BITS = 14,      // bits of the sum of deviations
     parameter EXTRA_BITS = 14,    // bits that travel with a region
-    parameter QUEUE_WORDS = 512,  // regions that can wait, a power of two
-    parameter QUEUE_BITS = 9,     // log2 of them
+    parameter QUEUE_BITS = 9,     // log2 of the regions that can wait
     parameter DEEP = 0            // 1: a sum one clock later
 ) (
     input  wire                   clk_i,    // clock, rising edge
@@ -39,15 +38,15 @@ module raster_pass #(
     localparam READ_CLOCKS = 1 + DEEP;
     localparam TERM_BITS = MEAN_BITS + $clog2(LANES);
 
-    // The queue. Its oldest entry is read ahead.
-    reg [QUEUE_BITS-1:0] enter_q, leave_q;
-    reg oldest_valid_q;
+    // The queue.
     wire take;
+    wire unused_queued;
+    wire oldest_valid;
     wire [ENTRY_BITS-1:0] oldest;
 
-    raster_memory #(.WIDTH(ENTRY_BITS), .WORDS(QUEUE_WORDS), .ADDRESS_BITS(QUEUE_BITS)) u_queue (
-        .clk_i(clk_i), .write_i(enter_i), .write_address_i(enter_q), .data_i({extra_i, start_i, mean_i}),
-        .read_i(1'b1), .read_address_i(leave_q), .data_o(oldest)
+    raster_queue #(.WIDTH(ENTRY_BITS), .BITS(QUEUE_BITS)) u_queue (
+        .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter_i), .entry_i({extra_i, start_i, mean_i}), .take_i(take),
+        .valid_o(oldest_valid), .oldest_o(oldest), .waits_o(unused_queued)
     );
 
     // The region that is read.
@@ -56,23 +55,15 @@ module raster_pass #(
     reg [MEAN_BITS-1:0] mean_q;
     reg [EXTRA_BITS-1:0] extra_q;
 
-    assign take = oldest_valid_q && (!reading_q || last);
+    assign take = oldest_valid && (!reading_q || last);
 
     always @(posedge clk_i) begin
-        if (enter_i) enter_q <= enter_q + 1'b1;
-        if (take) leave_q <= leave_q + 1'b1;
-        oldest_valid_q <= enter_q != leave_q && !take;
-        reading_q      <= take || (reading_q && !last);
+        reading_q <= take || (reading_q && !last);
         if (take) begin
             mean_q  <= oldest[MEAN_BITS-1:0];
             extra_q <= oldest[MEAN_BITS+PLACE_BITS+:EXTRA_BITS];
         end
-        if (rst_i) begin
-            enter_q        <= {QUEUE_BITS{1'b0}};
-            leave_q        <= {QUEUE_BITS{1'b0}};
-            oldest_valid_q <= 1'b0;
-            reading_q      <= 1'b0;
-        end
+        if (rst_i) reading_q <= 1'b0;
     end
 
     wire [POSITION_BITS-1:0] unused_position;

@@ -17,8 +17,7 @@ module raster_readout #(
     parameter BANKS = 2,          // rows of regions in the buffer, 2 or 3
     parameter FRAME_BITS = 8,     // bits of the number of a frame
     parameter EXTRA_BITS = 1,     // bits that travel with a region
-    parameter QUEUE_WORDS = 512,  // regions that can wait, a power of two
-    parameter QUEUE_BITS = 9,     // log2 of them
+    parameter QUEUE_BITS = 9,     // log2 of the regions that can wait
     parameter DEEP = 0            // 0: a region can be held two clocks after it entered the queue; 1: three
 ) (
     input  wire                     clk_i,           // clock, rising edge
@@ -54,67 +53,21 @@ module raster_readout #(
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
         if (BANKS != 2 && BANKS != 3) begin : g_banks BANKS_must_be_2_or_3 u_refused (); end
-        if (QUEUE_WORDS != 1 << QUEUE_BITS) begin : g_queue QUEUE_WORDS_must_be_2_to_the_QUEUE_BITS u_refused (); end
     endgenerate
 
     localparam ENTRY_BITS = 3 + REGION_BITS + START_BITS + EXTRA_BITS;
     localparam [2:0] AGE = BANKS;
 
-    // The queue. Its oldest entry is read ahead.
-    reg [QUEUE_BITS-1:0] enter_q, leave_q;
-    wire waits = enter_q != leave_q;
+    // The queue.
     wire take;
-    wire leave;         // an entry leaves the memory
     wire queued;        // a region waits
     wire oldest_valid;
-    wire [ENTRY_BITS-1:0] read, oldest;
+    wire [ENTRY_BITS-1:0] oldest;
 
-    raster_memory #(.WIDTH(ENTRY_BITS), .WORDS(QUEUE_WORDS), .ADDRESS_BITS(QUEUE_BITS)) u_queue (
-        .clk_i(clk_i), .write_i(enter_i), .write_address_i(enter_q),
-        .data_i({extra_i, start_i, region_i, row_i}),
-        .read_i(!DEEP || leave), .read_address_i(leave_q), .data_o(read)
+    raster_queue #(.WIDTH(ENTRY_BITS), .BITS(QUEUE_BITS), .DEEP(DEEP)) u_queue (
+        .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter_i), .entry_i({extra_i, start_i, region_i, row_i}),
+        .take_i(take), .valid_o(oldest_valid), .oldest_o(oldest), .waits_o(queued)
     );
-
-    generate
-        if (DEEP) begin : g_deep
-            // The word that was read moves on to a register of its own, where nothing else is.
-            reg read_valid_q, oldest_valid_q;
-            reg [ENTRY_BITS-1:0] oldest_q;
-            wire move = read_valid_q && !oldest_valid_q;
-            assign leave = waits && !read_valid_q;
-            always @(posedge clk_i) begin
-                if (move) oldest_q <= read;
-                read_valid_q   <= leave || (read_valid_q && !move);
-                oldest_valid_q <= move || (oldest_valid_q && !take);
-                if (rst_i) begin
-                    read_valid_q   <= 1'b0;
-                    oldest_valid_q <= 1'b0;
-                end
-            end
-            assign oldest = oldest_q;
-            assign oldest_valid = oldest_valid_q;
-            assign queued = waits || read_valid_q || oldest_valid_q;
-        end else begin : g_plain
-            reg oldest_valid_q;
-            always @(posedge clk_i) begin
-                oldest_valid_q <= waits && !take;
-                if (rst_i) oldest_valid_q <= 1'b0;
-            end
-            assign leave = take;
-            assign oldest = read;
-            assign oldest_valid = oldest_valid_q;
-            assign queued = waits;
-        end
-    endgenerate
-
-    always @(posedge clk_i) begin
-        if (enter_i) enter_q <= enter_q + 1'b1;
-        if (leave) leave_q <= leave_q + 1'b1;
-        if (rst_i) begin
-            enter_q <= {QUEUE_BITS{1'b0}};
-            leave_q <= {QUEUE_BITS{1'b0}};
-        end
-    end
 
     wire [2:0] oldest_row = oldest[2:0];
     wire [REGION_BITS-1:0] oldest_region = oldest[3+:REGION_BITS];

@@ -16,6 +16,7 @@ rtl/raster_counts.v
 rtl/raster_store.v
 rtl/raster_start.v
 rtl/raster_walk.v
+rtl/raster_queue.v
 rtl/raster_readout.v
 rtl/raster_decision.v
 rtl/raster_forward.v

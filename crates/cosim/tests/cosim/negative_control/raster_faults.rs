@@ -127,6 +127,11 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Moments, "raster_variance", "multiple_q - square_q", "multiple_q + square_q"),
     fault("constant", Moments, "raster_variance", "factor * square_sum;", "square_sum;"),
 
+    fault("operator", Lost, "raster_queue", "oldest_valid_q <= stored && !take_i", "oldest_valid_q <= stored"),
+    fault("operator", Sent, "raster_queue", "stored && !read_valid_q", "stored"),
+    fault("operator", Sent, "raster_queue", "if (move) oldest_q <= read;", "oldest_q <= read;"),
+    fault("operator", Sent, "raster_queue", "stored || read_valid_q || oldest_valid_q", "stored"),
+
     fault("operator", Moments, "raster_pass", "scaled < mean ? mean - scaled : scaled - mean", "scaled - mean"),
     fault("operator", Moments, "raster_pass", "(!reading_q || last);", "!reading_q;"),
     fault("constant", Moments, "raster_pass", "first_2q ? {SUM_BITS{1'b0}} : sum_q", "sum_q"),
@@ -145,9 +150,6 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Paper, "raster_readout", "begin_o          <= fetched_first_q;", "begin_o          <= first_o;"),
     fault("index", Paper, "raster_readout", "frame_o          <= fetched_frame_q;", "frame_o          <= frame_i;"),
     fault("index", Paper, "raster_readout", "held_region_o = held_region_q;", "held_region_o = oldest_region;"),
-    fault("operator", Sent, "raster_readout", "waits && !read_valid_q", "waits"),
-    fault("operator", Sent, "raster_readout", "if (move) oldest_q <= read;", "oldest_q <= read;"),
-    fault("operator", Sent, "raster_readout", "waits || read_valid_q || oldest_valid_q", "waits"),
 
     fault("operator", Sent, "raster_decision", "srs = ALL ? &(decided_votes | ~PRESENT)", "srs = ALL ? |(decided_votes & PRESENT)"),
     fault("constant", Sent, "raster_decision", "blanked = BLANKS && !srs;", "blanked = 1'b0;"),

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// A queue of regions, of which one less than 2^BITS may wait. Its oldest entry is read ahead: it is on the port from two
+// clocks (deep: three) after it entered on, and from two clocks after the one before was taken.
+`default_nettype none
+
+module raster_queue #(
+    parameter WIDTH = 32,  // bits of an entry
+    parameter BITS = 9,    // log2 of the entries
+    parameter DEEP = 0     // 1: the oldest entry has a register of its own, where nothing else is
+) (
+    input  wire             clk_i,     // clock, rising edge
+    input  wire             rst_i,     // synchronous reset, active high
+    input  wire             enter_i,   // an entry enters
+    input  wire [WIDTH-1:0] entry_i,   // that entry
+    input  wire             take_i,    // the oldest entry is taken; only with valid_o
+    output wire             valid_o,   // the oldest entry is on the port
+    output wire [WIDTH-1:0] oldest_o,  // that entry
+    output wire             waits_o    // an entry waits, on the port or not
+);
+
+    reg [BITS-1:0] enter_q, leave_q;
+    wire stored = enter_q != leave_q;  // an entry is in the memory
+    wire leave;                        // the oldest of the memory leaves it
+    wire [WIDTH-1:0] read;
+    reg oldest_valid_q;
+
+    raster_memory #(.WIDTH(WIDTH), .WORDS(1 << BITS), .ADDRESS_BITS(BITS)) u_entries (
+        .clk_i(clk_i), .write_i(enter_i), .write_address_i(enter_q), .data_i(entry_i), .read_i(!DEEP || leave),
+        .read_address_i(leave_q), .data_o(read)
+    );
+
+    generate
+        if (DEEP) begin : g_deep
+            reg read_valid_q;
+            reg [WIDTH-1:0] oldest_q;
+            wire move = read_valid_q && !oldest_valid_q;
+            always @(posedge clk_i) begin
+                if (move) oldest_q <= read;
+                read_valid_q   <= leave || (read_valid_q && !move);
+                oldest_valid_q <= move || (oldest_valid_q && !take_i);
+                if (rst_i) begin
+                    read_valid_q   <= 1'b0;
+                    oldest_valid_q <= 1'b0;
+                end
+            end
+            assign leave = stored && !read_valid_q;
+            assign oldest_o = oldest_q;
+            assign waits_o = stored || read_valid_q || oldest_valid_q;
+        end else begin : g_plain
+            always @(posedge clk_i) begin
+                oldest_valid_q <= stored && !take_i;
+                if (rst_i) oldest_valid_q <= 1'b0;
+            end
+            assign leave = take_i;
+            assign oldest_o = read;
+            assign waits_o = stored;
+        end
+    endgenerate
+
+    always @(posedge clk_i) begin
+        if (enter_i) enter_q <= enter_q + 1'b1;
+        if (leave) leave_q <= leave_q + 1'b1;
+        if (rst_i) begin
+            enter_q <= {BITS{1'b0}};
+            leave_q <= {BITS{1'b0}};
+        end
+    end
+
+    assign valid_o = oldest_valid_q;
+
+endmodule
+
+`default_nettype wire
