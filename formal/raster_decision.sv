@@ -5,33 +5,33 @@
 module properties #(
     parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 0, parameter DEEP = 0
 ) (
-    input wire clk_i, rst_i, judged, lost, input wire [8:0] counts, input wire [2:0] edge_min, corner_min, temporal_min
+    input wire clk_i, rst_i, judged, lost, input wire [10:0] scores, input wire [2:0] edge_min, corner_min, temporal_min,
+    input wire [1:0] sum_min
 );
     `include "reset.vh"
     localparam REGIONS = 8, PIXELS = 4;
-    localparam WIDTH = 12 + 3;  // of what is on the ports with a decision
+    localparam WIDTH = 14 + 3;  // of what is on the ports with a decision
     wire decided, will_be_active, mark, decision_valid, last_region, srs, trs, active;
     wire [2:0] region, edges, corners, changes;
-    wire unused_mad, unused_variance;
+    wire [1:0] sum;
     raster_decision #(
-        .EDGE(1), .CORNER(1), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(PIXELS),
-        .COUNT_BITS(3), .REGIONS(REGIONS), .REGION_BITS(3), .MAD_BITS(1), .VARIANCE_BITS(1)
+        .FEATURES(3), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(PIXELS), .COUNT_BITS(3),
+        .REGIONS(REGIONS), .REGION_BITS(3), .SCORE_BITS(11), .ENDS({32'd11, 32'd9, 32'd6, 32'd3})
     ) dut (
-        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .counts_i(counts), .mad_i(1'b0), .variance_i(1'b0),
-        .edge_min_i(edge_min), .corner_min_i(corner_min), .mad_min_i(1'b1), .variance_min_i(1'b0),
-        .temporal_min_i(temporal_min), .lost_i(lost), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
+        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i({sum_min, corner_min, edge_min, temporal_min}),
+        .lost_i(lost), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
         .will_be_active_o(will_be_active), .mark_o(mark), .decision_valid_o(decision_valid), .region_o(region),
-        .last_region_o(last_region), .srs_o(srs), .trs_o(trs), .active_o(active), .edge_score_o(edges), .corner_score_o(corners),
-        .mad_score_o(unused_mad), .variance_score_o(unused_variance), .temporal_count_o(changes)
+        .last_region_o(last_region), .srs_o(srs), .trs_o(trs), .active_o(active), .scores_o({sum, corners, edges, changes})
     );
 
-    // By the contract. Corners are the upper count.
+    // By the contract. Above the changed pixels are two counts and a sum of two bits.
     reg [2:0] turn = 3'd0;
-    wire edge_vote = counts[5:3] >= edge_min;
-    wire corner_vote = counts[8:6] >= corner_min;
-    wire relevant = ALL ? edge_vote && corner_vote : edge_vote || corner_vote;
+    wire edge_vote = scores[5:3] >= edge_min;
+    wire corner_vote = scores[8:6] >= corner_min;
+    wire sum_vote = scores[10:9] >= sum_min;
+    wire relevant = ALL ? edge_vote && corner_vote && sum_vote : edge_vote || corner_vote || sum_vote;
     reg [REGIONS-1:0] referenced = 0;
-    wire [2:0] changed = !LAST_SENT || referenced[turn] ? counts[2:0] : PIXELS;
+    wire [2:0] changed = !LAST_SENT || referenced[turn] ? scores[2:0] : PIXELS;
     wire changes_enough = changed >= temporal_min;
     reg [(1+DEEP)*WIDTH-1:0] expected = 0;
     reg [DEEP:0] due = 0;
@@ -41,7 +41,7 @@ module properties #(
             if (relevant && changes_enough) referenced[turn] <= 1'b1;
             else if (BLANKS && !relevant) referenced[turn] <= 1'b0;
         end
-        expected <= {expected, {relevant, changes_enough, relevant && changes_enough, turn, counts[8:3], changed}};
+        expected <= {expected, {relevant, changes_enough, relevant && changes_enough, turn, scores[10:3], changed}};
         due <= {due, judged};
         if (rst_i) begin
             turn <= 3'd0;
@@ -58,7 +58,7 @@ module properties #(
     always @* if (started) begin
         assert(decision_valid == due[DEEP]);
         if (decision_valid)
-            assert({srs, trs, active, region, corners, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
+            assert({srs, trs, active, region, sum, corners, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
         if (decision_valid) assert(last_region == (region == REGIONS - 1));
         else assert(!srs && !trs && !active);
     end

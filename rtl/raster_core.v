@@ -20,10 +20,8 @@ module raster_core #(
     parameter FRAME_HEIGHT = 1080,   // rows of the frame
     parameter ISOLATED = 0,          // 1: windows end at the borders of regions, not of the frame
     parameter MEDIAN = 1,            // 1: pixels are denoised
-    parameter EDGE = 1,              // 1: edges are counted
-    parameter CORNER = 0,            // 1: corners are counted
-    parameter MAD = 0,               // 1: the mean absolute deviation is a score
-    parameter VARIANCE = 0,          // 1: the variance is a score
+    parameter FEATURES = 1,          // spatial features, 1 to 4
+    parameter [7:0] KINDS = 8'd0,    // two bits for each, the first lowest: edge, corner, mad, variance; counts first, mad last
     parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
@@ -33,21 +31,21 @@ module raster_core #(
     parameter DEEP = 0,              // 1: more registers, for a faster clock
     parameter SETTLE = 11,           // clocks from the last advance of a frame to its last decision
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
+    parameter SCORE_BITS = 14,       // bits of all scores of a region: the changed pixels lowest, then every feature
+    parameter [32*FEATURES+31:0] ENDS = 64'h0000000E_00000007,  // where each of them ends in these, the first lowest
     parameter EDGE_LEVEL_BITS = 11,  // bits of the level of edges
     parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
     parameter FRAME_BITS = 8,        // bits of the number of a frame, 2 or more (FORWARD)
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
-    parameter FRACTION = 0,          // fraction bits of the mean (MAD)
+    parameter FRACTION = 0,          // fraction bits of the mean (mad)
     parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum + half of the pixels
     parameter MEAN_BITS = 8,         // bits of the mean
     parameter FACTOR_BITS = 1,       // bits of FACTOR
     parameter [FACTOR_BITS-1:0] FACTOR = 1,  // dividend * FACTOR >> SHIFT is dividend / pixels
     parameter SHIFT = 6,             // bits that are dropped of the product
-    parameter MAD_BITS = 14,         // bits of the score of MAD
-    parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (VARIANCE)
-    parameter PRODUCT_BITS = 28,     // bits of its products
-    parameter VARIANCE_BITS = 26     // bits of its score
+    parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (variance)
+    parameter PRODUCT_BITS = 28      // bits of its products
 ) (
     input  wire                       clk_i,               // clock, rising edge
     input  wire                       rst_i,               // synchronous reset, active high
@@ -57,21 +55,13 @@ module raster_core #(
     input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a pixel is an edge above this
     input  wire [          WIDTH-1:0] corner_level_i,      // ... a corner
     input  wire [          WIDTH-1:0] temporal_level_i,    // ... has changed
-    input  wire [     COUNT_BITS-1:0] edge_min_i,          // edges vote from this count on
-    input  wire [     COUNT_BITS-1:0] corner_min_i,        // corners
-    input  wire [       MAD_BITS-1:0] mad_min_i,           // the mean absolute deviation
-    input  wire [  VARIANCE_BITS-1:0] variance_min_i,      // the variance
-    input  wire [     COUNT_BITS-1:0] temporal_min_i,      // TRS from this count on
+    input  wire [     SCORE_BITS-1:0] minima_i,            // from which on each score votes, that of the changed pixels for TRS
     output wire                       decision_valid_o,    // the decision for region_o
     output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
     output wire                       srs_o,               // spatial relevance
     output wire                       trs_o,               // temporal relevance
     output wire                       active_o,            // both
-    output wire [     COUNT_BITS-1:0] edge_score_o,        // edges
-    output wire [     COUNT_BITS-1:0] corner_score_o,      // corners
-    output wire [       MAD_BITS-1:0] mad_score_o,         // mean absolute deviation, times pixels and 2^FRACTION
-    output wire [  VARIANCE_BITS-1:0] variance_score_o,    // variance, times the square of the pixels
-    output wire [     COUNT_BITS-1:0] temporal_count_o,    // changed pixels
+    output wire [     SCORE_BITS-1:0] scores_o,            // its scores
     output wire                       reference_ready_o,   // the reference on the port is taken at the next edge (STORE 3)
     input  wire                       reference_valid_i,   // a reference is on the port
     input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // that reference
@@ -121,7 +111,7 @@ module raster_core #(
         if (LAST_SENT && !FORWARD) begin : g_forward_limit FORWARD_must_be_1_with_LAST_SENT u_refused (); end
         if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
         if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
-        if (EDGE + CORNER + MAD + VARIANCE < 1) begin : g_feature a_feature_must_be_1 u_refused (); end
+        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
     endgenerate
 
     localparam WORD = LANES * WIDTH;
@@ -130,7 +120,14 @@ module raster_core #(
     localparam TAKEN_WORDS = (FRAME_WIDTH + LANES - 1) / LANES;
     localparam REGIONS = COLUMNS * ROWS;
     localparam WORD_BITS = $clog2(ROW_WORDS);
-    localparam HITS = EDGE + CORNER;
+    // The list of features: counts of hits, then the sums. The score of mad comes last, that of variance before it.
+    localparam [9:0] KINDS_BEFORE = {KINDS, 2'd0};  // of the features before each
+    localparam MAD = KINDS_BEFORE[2*FEATURES+:2] == 2 ? 1 : 0;
+    localparam VARIANCE = KINDS_BEFORE[2*(FEATURES-MAD)+:2] == 3 ? 1 : 0;
+    localparam HITS = FEATURES - MAD - VARIANCE;
+    localparam COUNTS_BITS = (HITS + 1) * COUNT_BITS;
+    localparam integer SETTLED_BITS = ENDS[32*(FEATURES-MAD)+:32];  // of all scores but that of mad
+    localparam VARIANCE_BITS = VARIANCE ? SETTLED_BITS - COUNTS_BITS : 1;
     localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
     localparam BANKS = MAD ? 3 : 2;
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
@@ -253,9 +250,10 @@ module raster_core #(
     endgenerate
 
     // ---- The windows of the features
-    wire [LANES-1:0] edges;
-    wire [LANES-1:0] corners;
-    wire [WORD-1:0] center_word;  // the center of the last window
+    wire [(HITS+1)*LANES-1:0] hits;  // changed pixels lowest, then those of every feature that counts
+    wire [WORD-1:0] center_word;     // the center of the last window
+    wire unused_levels = |edge_level_i || |corner_level_i;
+    genvar i;
     generate
         if (HITS > 0) begin : g_window
             wire column_step;
@@ -281,29 +279,24 @@ module raster_core #(
                 .bottom_o(column_bottom), .upper_o(upper), .middle_o(middle), .lower_o(lower)
             );
 
-            if (EDGE) begin : g_edge
-                raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
-                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                    .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(edge_level_i), .hit_o(edges)
-                );
-            end else begin : g_no_edge
-                wire unused_edge_level = |edge_level_i || |edge_min_i;
-                assign edges = {LANES{1'b0}};
-            end
-            if (CORNER) begin : g_corner
-                raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
-                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                    .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .level_i(corner_level_i), .hit_o(corners)
-                );
-            end else begin : g_no_corner
-                wire unused_corner_level = |corner_level_i || |corner_min_i;
-                assign corners = {LANES{1'b0}};
+            for (i = 0; i < HITS; i = i + 1) begin : g_feature
+                if (KINDS[2*i+:2] > 1) begin : g_kind KINDS_must_be_counts_then_variance_then_mad u_refused (); end
+                if (KINDS[2*i+:2] == 0) begin : g_edge
+                    raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
+                        .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                        .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
+                        .level_i(edge_level_i), .hit_o(hits[(i+1)*LANES+:LANES])
+                    );
+                end else begin : g_corner
+                    raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
+                        .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                        .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
+                        .level_i(corner_level_i), .hit_o(hits[(i+1)*LANES+:LANES])
+                    );
+                end
             end
         end else begin : g_no_window
-            wire unused_window = |edge_level_i || |edge_min_i || |corner_level_i || |corner_min_i || scored_step
-                                 || scored_repeated || |top || |bottom || |left || |right;
-            assign edges = {LANES{1'b0}};
-            assign corners = {LANES{1'b0}};
+            wire unused_window = scored_step || scored_repeated || |top || |bottom || |left || |right;
             assign center_word = scored_word;
         end
     endgenerate
@@ -376,20 +369,9 @@ module raster_core #(
     );
 
     // ---- Scores of a region whose last word has come
-    wire [(HITS+1)*LANES-1:0] hits;
-    wire [LANES-1:0] changed = LAST_SENT ? changes : changes | {LANES{first_frame_q}};
+    assign hits[LANES-1:0] = LAST_SENT ? changes : changes | {LANES{first_frame_q}};
     wire done;
-    wire [(HITS+1)*COUNT_BITS-1:0] counts;
-    generate
-        if (EDGE && CORNER) begin : g_both
-            assign hits = {corners, edges, changed};
-        end else if (HITS > 0) begin : g_one
-            assign hits = {EDGE ? edges : corners, changed};
-        end else begin : g_changes
-            wire unused_hits = |edges || |corners;
-            assign hits = changed;
-        end
-    endgenerate
+    wire [COUNTS_BITS-1:0] counts;
 
     always @(posedge clk_i) begin
         if (rst_i) first_frame_q <= 1'b1;
@@ -407,15 +389,15 @@ module raster_core #(
 
     localparam VARIANCE_CLOCKS = VARIANCE ? 3 : 0;
     wire [SUM_BITS-1:0] sum;
-    wire [VARIANCE_BITS-1:0] variance;
-    wire settled;  // all scores but that of MAD are there
-    wire [(HITS+1)*COUNT_BITS-1:0] settled_counts;
+    wire settled;  // all scores but that of mad are there
+    wire [SETTLED_BITS-1:0] settled_scores;
     bit_delay #(.DEPTH(VARIANCE_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
-    word_delay #(.WIDTH((HITS + 1) * COUNT_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
-        .clk_i(clk_i), .data_i(counts), .data_o(settled_counts)
+    word_delay #(.WIDTH(COUNTS_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
+        .clk_i(clk_i), .data_i(counts), .data_o(settled_scores[COUNTS_BITS-1:0])
     );
     generate
         if (MAD || VARIANCE) begin : g_moments
+            wire [VARIANCE_BITS-1:0] variance;
             // Hits come two clocks behind the center.
             raster_moments #(
                 .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .COLUMNS(COLUMNS), .VARIANCE(VARIANCE),
@@ -425,9 +407,13 @@ module raster_core #(
                 .clk_i(clk_i), .rst_i(rst_i), .word_i(center), .step_i(hit_step), .segment_end_i(hit_segment_end),
                 .row_end_i(hit_row_end), .region_top_i(hit_region_top), .sum_o(sum), .variance_o(variance)
             );
+            if (VARIANCE) begin : g_variance
+                assign settled_scores[COUNTS_BITS+:VARIANCE_BITS] = variance;
+            end else begin : g_mad
+                wire unused_variance = |variance;
+            end
         end else begin : g_no_moments
             assign sum = {SUM_BITS{1'b0}};
-            assign variance = {VARIANCE_BITS{1'b0}};
         end
     endgenerate
 
@@ -444,30 +430,25 @@ module raster_core #(
         end
     endgenerate
 
-    localparam JUDGED_BITS = VARIANCE_BITS + (HITS + 1) * COUNT_BITS;
     wire judged;  // all scores are there
-    wire [MAD_BITS-1:0] judged_mad;
-    wire [VARIANCE_BITS-1:0] judged_variance;
-    wire [(HITS+1)*COUNT_BITS-1:0] judged_counts;
+    wire [SCORE_BITS-1:0] scores;
     generate
         if (MAD) begin : g_deviation
             raster_deviation #(
                 .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
-                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(MAD_BITS),
-                .OTHER_BITS(JUDGED_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
+                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(SCORE_BITS - SETTLED_BITS),
+                .OTHER_BITS(SETTLED_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
             ) u_deviation (
                 .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .word_i(center),
-                .done_i(done), .sum_i(sum), .settled_i(settled), .other_i({variance, settled_counts}),
-                .judged_o(judged), .mad_o(judged_mad), .other_o({judged_variance, judged_counts})
+                .done_i(done), .sum_i(sum), .settled_i(settled), .other_i(settled_scores), .judged_o(judged),
+                .mad_o(scores[SCORE_BITS-1:SETTLED_BITS]), .other_o(scores[SETTLED_BITS-1:0])
             );
         end else begin : g_no_deviation
             wire unused_sum = |sum;
             assign judged = settled;
-            assign judged_mad = {MAD_BITS{1'b0}};
-            assign judged_variance = variance;
-            assign judged_counts = settled_counts;
+            assign scores = settled_scores;
         end
     endgenerate
 
@@ -481,18 +462,14 @@ module raster_core #(
     wire lost_mark;
 
     raster_decision #(
-        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .ALL(ALL), .LAST_SENT(LAST_SENT),
-        .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS), .REGIONS(REGIONS),
-        .REGION_BITS(REGION_BITS), .MAD_BITS(MAD_BITS), .VARIANCE_BITS(VARIANCE_BITS)
+        .FEATURES(FEATURES), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(SIDE * SIDE),
+        .COUNT_BITS(COUNT_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .SCORE_BITS(SCORE_BITS), .ENDS(ENDS)
     ) u_decision (
-        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .counts_i(judged_counts), .mad_i(judged_mad),
-        .variance_i(judged_variance), .edge_min_i(edge_min_i), .corner_min_i(corner_min_i), .mad_min_i(mad_min_i),
-        .variance_min_i(variance_min_i), .temporal_min_i(temporal_min_i),
+        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i(minima_i),
         .lost_i(lost_reference), .lost_region_i(lost_reference_region), .lost_mark_i(lost_mark),
         .decided_o(decided), .will_be_active_o(will_be_active), .mark_o(mark),
         .decision_valid_o(decision_valid_o), .region_o(region_o), .last_region_o(last_region), .srs_o(srs_o),
-        .trs_o(trs_o), .active_o(active_o), .edge_score_o(edge_score_o), .corner_score_o(corner_score_o), .mad_score_o(mad_score_o),
-        .variance_score_o(variance_score_o), .temporal_count_o(temporal_count_o)
+        .trs_o(trs_o), .active_o(active_o), .scores_o(scores_o)
     );
 
     // ---- Pixels that leave

@@ -34,14 +34,12 @@ module {= module =} #(
 {%- endfor %}
     ) u_core (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i({= valid =}), .pixel_i(pixel_i), .ready_o({= ready =}),
-{%- for threshold in thresholds %}
-        .{= threshold.0 =}({= threshold.1 =}),
+{%- for level in levels %}
+        .{= level.0 =}({= level.1 =}),
 {%- endfor %}
+        .minima_i({ {%- for minimum in minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
         .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
-{%- for score in scores %}
-        .{= score.0 =}({= score.1 =}),
-{%- endfor %}
-        .temporal_count_o(temporal_count_o),
+        .scores_o({ {%- for score in scores %}{% if !loop.first %}, {% endif %}{= score =}{% endfor -%} }),
 {%- for stream in streams %}
         .{= stream.0 =}({= stream.1 =}){% if !loop.last %},{% endif %}
 {%- endfor %}

@@ -10,6 +10,7 @@ mod camera;
 mod core;
 mod error;
 mod instance;
+mod kinds;
 mod leaf;
 mod organization;
 mod prefix;

@@ -3,6 +3,7 @@
 
 use crate::branch::Values;
 use crate::camera::{blanks, last_sent};
+use crate::kinds::kinds;
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
@@ -33,9 +34,11 @@ struct Raster {
     /// Outputs of the core that the design does not have.
     unused: Vec<Unused>,
     parameters: Vec<(&'static str, String)>,
-    thresholds: Vec<(String, String)>,
-    /// The scores of the core, and what they are connected to.
-    scores: Vec<(String, String)>,
+    /// The inputs of the core for the levels of pixels, and what is connected to them.
+    levels: Vec<(String, String)>,
+    /// Minima and scores, those of the last feature first.
+    minima: Vec<String>,
+    scores: Vec<String>,
     /// The ports of the core to a frame store outside and for pixels that leave, and what they are connected to.
     streams: Vec<(&'static str, String)>,
     sync: Option<Sync>,
@@ -89,19 +92,6 @@ fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> Raster {
     let timing = RasterTiming::of(design);
     let n = design.region_size();
     let mut unused = Vec::new();
-    let mut scores = Vec::new();
-    for &kind in FeatureKind::ALL {
-        let port = format!("{kind}_score_o");
-        let connected = match design.feature(kind) {
-            Some(_) => port.clone(),
-            None => {
-                let range = bits(score_bits(design, kind));
-                unused.push(Unused { name: kind.to_string(), range });
-                format!("unused_{kind}")
-            }
-        };
-        scores.push((port, connected));
-    }
     let streams = streams(design, &mut unused);
     Raster {
         banner: banner(named),
@@ -123,8 +113,9 @@ fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> Raster {
         constants: constants(&design),
         unused,
         parameters: parameters(design, &timing),
-        thresholds: thresholds(design),
-        scores,
+        levels: levels(design),
+        minima: minima(design),
+        scores: scores(design),
         streams,
         sync: Sync::with_ready(&design, beats(design)),
         valid: sync::valid(&design),
@@ -198,14 +189,28 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
     list
 }
 
-/// Bits of a score of the core; of one that the design does not have, some.
-fn score_bits(design: RasterDesign<'_>, kind: FeatureKind) -> u32 {
-    design.feature(kind).map_or(design.count_bits(), SpatialFeature::score_bits)
+/// The features in the order in which the core has their scores: counts, sums, that of a second pass.
+fn features(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
+    let mut list: Vec<_> = design.design().features().iter().collect();
+    list.sort_by_key(|feature| (feature.kind().has_second_pass(), !feature.kind().has_window()));
+    list
+}
+
+/// Where each score ends in the bits of all.
+fn ends(design: RasterDesign<'_>) -> Vec<u32> {
+    let widths = features(design).into_iter().map(SpatialFeature::score_bits);
+    let widths = [design.count_bits()].into_iter().chain(widths);
+    widths
+        .scan(0, |end, width| {
+            *end += width;
+            Some(*end)
+        })
+        .collect()
 }
 
 fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static str, String)> {
     let flag = |condition: bool| u32::from(condition);
-    let has = |kind| flag(design.feature(kind).is_some());
+    let ends = ends(design);
     let edge_level_bits = level_bits(design, FeatureKind::Edge).expect("edge has a level");
     let mut list = vec![
         ("WIDTH", design.pixel_bits()),
@@ -213,9 +218,6 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
         ("SIDE", design.region_size()),
         ("ISOLATED", flag(design.neighborhood() == Neighborhood::Isolated)),
         ("MEDIAN", flag(design.filter() == Filter::Median3x3)),
-    ];
-    list.extend(FeatureKind::ALL.iter().map(|&kind| (parameter(kind), has(kind))));
-    list.extend([
         ("ALL", flag(design.combine() == Combine::All)),
         ("LAST_SENT", last_sent(&design)),
         ("BLANKS", flag(blanks(&design))),
@@ -225,13 +227,17 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
         ("DEEP", flag(design.pipelining() == Pipelining::Deep)),
         ("SETTLE", timing.decision_latency),
         ("COUNT_BITS", design.count_bits()),
+        ("SCORE_BITS", *ends.last().expect("changed pixels are a score")),
         ("EDGE_LEVEL_BITS", edge_level_bits),
         ("POSITION_BITS", design.position_bits()),
         ("FRAME_BITS", FRAME_NUMBERS.ilog2()),
-        ("MAD_BITS", score_bits(design, FeatureKind::Mad)),
-        ("VARIANCE_BITS", score_bits(design, FeatureKind::Variance)),
-    ]);
-    let mut wide = Vec::new();
+    ];
+    let ends: Vec<_> = ends.iter().rev().map(|end| format!("32'd{end}")).collect();
+    let mut wide = vec![
+        ("FEATURES", features(design).len().to_string()),
+        ("KINDS", kinds(features(design).into_iter())),
+        ("ENDS", format!("{{{}}}", ends.join(", "))),
+    ];
     if design.features().iter().any(|feature| !feature.kind().has_window()) {
         list.push(("SUM_BITS", design.pixel_sum_bits()));
     }
@@ -256,16 +262,6 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
     list.chain(wide).collect()
 }
 
-/// The parameter of the core that says whether it has a feature.
-fn parameter(kind: FeatureKind) -> &'static str {
-    match kind {
-        FeatureKind::Edge => "EDGE",
-        FeatureKind::Corner => "CORNER",
-        FeatureKind::Mad => "MAD",
-        FeatureKind::Variance => "VARIANCE",
-    }
-}
-
 /// Bits of a level of the core, of a feature that the design does not have, too; none of one without a level.
 fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
     let most = match kind {
@@ -286,23 +282,29 @@ fn store(design: RasterDesign<'_>) -> u32 {
     }
 }
 
-/// What is connected to the threshold inputs of the core.
-fn thresholds(design: RasterDesign<'_>) -> Vec<(String, String)> {
-    let mut list = vec![
-        ("temporal_level_i".to_owned(), signal(&design, PortRole::TemporalLevel)),
-        ("temporal_min_i".to_owned(), signal(&design, PortRole::TemporalMinCount)),
-    ];
-    let mut add = |name: String, role, kind, width: u32| {
-        let given = design.feature(kind).map(|_| signal(&design, role));
-        list.push((name, given.unwrap_or_else(|| format!("{width}'d0"))));
-    };
+/// What is connected to the inputs of the core for the levels of pixels.
+fn levels(design: RasterDesign<'_>) -> Vec<(String, String)> {
+    let temporal = signal(&design, PortRole::TemporalLevel);
+    let mut list = vec![("temporal_level_i".to_owned(), temporal)];
     for &kind in FeatureKind::ALL {
         if let Some(width) = level_bits(design, kind) {
-            add(format!("{kind}_level_i"), PortRole::Level(kind), kind, width);
+            let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));
+            list.push((format!("{kind}_level_i"), given.unwrap_or_else(|| format!("{width}'d0"))));
         }
     }
-    for &kind in FeatureKind::ALL {
-        add(format!("{kind}_min_i"), PortRole::MinScore(kind), kind, score_bits(design, kind));
-    }
     list
+}
+
+/// The minima of all scores, that of the changed pixels last.
+fn minima(design: RasterDesign<'_>) -> Vec<String> {
+    let roles = features(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
+    let roles = roles.chain([PortRole::TemporalMinCount]);
+    roles.map(|role| signal(&design, role)).collect()
+}
+
+/// The ports of all scores, that of the changed pixels last.
+fn scores(design: RasterDesign<'_>) -> Vec<String> {
+    let features = features(design).into_iter().rev();
+    let ports = features.map(|feature| format!("{}_score_o", feature.kind()));
+    ports.chain(["temporal_count_o".to_owned()]).collect()
 }

@@ -3,6 +3,7 @@
 
 use crate::branch::Values;
 use crate::camera::{blanks, last_sent};
+use crate::kinds::kinds;
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
@@ -190,8 +191,6 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
     let region = design.region_size();
     let base = |kind| memory.area(kind).map_or(0, |area| area.base);
     let fraction = design.features().iter().find_map(SpatialFeature::mean);
-    let kinds: Vec<u32> = design.features().iter().map(|f| kind(f.kind())).collect();
-    let kinds = kinds.iter().rev().fold(0, |sum, kind| sum << KIND_BITS | kind);
     let flag = |condition: bool| u32::from(condition);
     let numbers = [
         ("WIDTH", design.pixel_bits()),
@@ -225,22 +224,8 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ("CHAIN_BITS", widths.chain),
     ];
     let mut list: Vec<_> = numbers.iter().map(|(name, value)| (*name, value.to_string())).collect();
-    list.push(("KINDS", format!("{}'d{kinds}", KIND_BITS << KIND_BITS)));
+    list.push(("KINDS", kinds(design.features().iter())));
     list
-}
-
-/// Bits of the number of a feature in parameter KINDS, which has a place for each of as many as there are numbers.
-const KIND_BITS: usize = 2;
-const _: () = assert!(FeatureKind::COUNT <= 1 << KIND_BITS, "widen KINDS of serial_sequencer.v");
-
-/// How the Verilog numbers the features.
-fn kind(kind: FeatureKind) -> u32 {
-    match kind {
-        FeatureKind::Edge => 0,
-        FeatureKind::Corner => 1,
-        FeatureKind::Mad => 2,
-        FeatureKind::Variance => 3,
-    }
 }
 
 /// floor(level / 2) of `edge`, in two bits more than a pixel.

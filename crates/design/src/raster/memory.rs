@@ -166,9 +166,8 @@ impl Sizes {
             ));
         }
         if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
-            // A design without variance has as many bits for it as a count.
             let variance = design.features().iter().find(|feature| feature.variance().is_some());
-            let variance = variance.map_or(design.count_bits(), SpatialFeature::score_bits);
+            let variance = variance.map_or(0, SpatialFeature::score_bits);
             let judged = variance + (self.hits + 1) * design.count_bits();
             list.push(queue(
                 "regions that wait for the second pass",

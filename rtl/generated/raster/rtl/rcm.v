@@ -46,9 +46,6 @@ module rcm #(
     output wire [$clog2(COLUMNS*ROWS)-1:0] lost_region_o,       // that region; only with lost_valid_o
     output wire [7:0]                      lost_frame_o         // number of its frame since reset, modulo 256; only with lost_valid_o
 );
-    wire [6:0] unused_corner;
-    wire [6:0] unused_mad;
-    wire [6:0] unused_variance;
     wire unused_reference_ready;
     wire unused_store_valid;
     wire [7:0] unused_store_pixel;
@@ -74,10 +71,6 @@ module rcm #(
         .SIDE(8),
         .ISOLATED(1),
         .MEDIAN(1),
-        .EDGE(1),
-        .CORNER(0),
-        .MAD(0),
-        .VARIANCE(0),
         .ALL(0),
         .LAST_SENT(0),
         .BLANKS(1),
@@ -87,27 +80,21 @@ module rcm #(
         .DEEP(0),
         .SETTLE(11),
         .COUNT_BITS(7),
+        .SCORE_BITS(14),
         .EDGE_LEVEL_BITS(11),
         .POSITION_BITS(6),
         .FRAME_BITS(8),
-        .MAD_BITS(7),
-        .VARIANCE_BITS(7)
+        .FEATURES(1),
+        .KINDS(8'd0),
+        .ENDS({32'd14, 32'd7})
     ) u_core (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(beat), .pixel_i(pixel_i), .ready_o(open),
         .temporal_level_i(temporal_level_i),
-        .temporal_min_i(temporal_min_i),
         .edge_level_i(edge_level_i),
         .corner_level_i(8'd0),
-        .edge_min_i(edge_min_i),
-        .corner_min_i(7'd0),
-        .mad_min_i(7'd0),
-        .variance_min_i(7'd0),
+        .minima_i({edge_min_i, temporal_min_i}),
         .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
-        .edge_score_o(edge_score_o),
-        .corner_score_o(unused_corner),
-        .mad_score_o(unused_mad),
-        .variance_score_o(unused_variance),
-        .temporal_count_o(temporal_count_o),
+        .scores_o({edge_score_o, temporal_count_o}),
         .reference_valid_i(1'd0),
         .reference_pixel_i(8'd0),
         .forward_ready_i(forward_ready_i),

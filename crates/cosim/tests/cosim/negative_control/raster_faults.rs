@@ -151,10 +151,10 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Paper, "raster_readout", "frame_o          <= fetched_frame_q;", "frame_o          <= frame_i;"),
     fault("index", Paper, "raster_readout", "held_region_o = held_region_q;", "held_region_o = oldest_region;"),
 
-    fault("operator", Sent, "raster_decision", "srs = ALL ? &(decided_votes | ~PRESENT)", "srs = ALL ? |(decided_votes & PRESENT)"),
+    fault("operator", Sent, "raster_decision", "srs = ALL ? &decided_votes", "srs = ALL ? |decided_votes"),
     fault("constant", Sent, "raster_decision", "blanked = BLANKS && !srs;", "blanked = 1'b0;"),
     fault("index", Sent, "raster_decision", "last_region_o    <= decided_last;", "last_region_o    <= last_region_q;"),
-    fault("constant", Sent, "raster_decision", "!LAST_SENT || reference_valid ? counts_i", "1'b1 ? counts_i"),
+    fault("constant", Sent, "raster_decision", "!LAST_SENT || reference_valid ? scores_i", "1'b1 ? scores_i"),
 
     fault("reset", Paper, "raster_forward", "            lost_o       <= 1'b0;\n", ""),
     fault("reset", Paper, "raster_forward", "            lost_valid_o <= 1'b0;\n", ""),
