@@ -2,9 +2,8 @@
 // The controls of the sequencer, registered for a group of lanes, so that no net reaches all of them. Every
 // group has registers of its own, which synthesis is to keep.
 //
-// This is the table of all controls: what each is for, and which designs use it. Those that go with the
-// address come in its clock, those that work on the word read come in the word's clock, and those that work
-// on the accumulator come in its clock.
+// What goes with the address comes in its clock, what works on the word read comes in the word's clock, and what
+// works on the accumulator comes in its clock.
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)
@@ -37,32 +36,9 @@ module serial_group #(
     // With the address.
     input  wire [ADDRESS_BITS-1:0] address_i,       // in the memory of a lane
     input  wire                    write_i,         // write the accumulator there
-    input  wire                    write_active_i,  // write if the first flag is set
-    input  wire                    write_border_i,  // write if the side is on the frame's border
-    input  wire [             1:0] side_i,          // left, right, top, bottom
-    // With the word read, or with the accumulator.
-    input  wire [    ACC_BITS-1:0] constant_i,      // the operand, unless from_memory
-    input  wire                    from_memory_i,   // the operand is the word read
-    input  wire                    subtract_i,      // invert the operand
-    input  wire                    by_sign_i,       // invert it if the accumulator is not negative
-    input  wire                    by_run_i,        // invert it if five were counted
-    input  wire                    carry_i,         // add one to an inverted operand
-    input  wire                    enable_i,        // the accumulator takes the sum
-    input  wire                    clear_i,         // the accumulator becomes 0
-    input  wire                    run_i,           // count in unary
-    input  wire                    run_corner_i,    // ... equal ones in a row
-    input  wire                    run_clear_i,     // the unary count becomes 0
-    input  wire                    count_i,         // score a hit
-    input  wire                    count_corner_i,  // ... of `corner`
-    input  wire                    double_i,        // the operand is the accumulator itself
-    input  wire                    divide_i,        // keep the sum only if it is not negative
-    input  wire                    deviate_i,       // the operand is |2^FRACTION * word - aux|
-    input  wire                    masked_i,        // do not add it unless its bit under the constant is 1
-    input  wire                    from_aux_i,      // the operand is aux
-    input  wire                    shift_i,         // scores move on by one lane
-    input  wire                    keep_i,          // the score becomes the accumulator
-    input  wire                    fetch_i,         // the score becomes the word read
-    input  wire                    unload_i,        // the word read leaves if its region is active
+    // What the lanes do.
+    input  wire [    ACC_BITS-1:0] constant_i,      // the constant
+    input  wire [            24:0] controls_i,      // the control word, see serial_controls
     // To the lanes: loading, the rest as above.
     output wire                    loading_o,       // pixels come from outside
     output wire [       WIDTH-1:0] pixel_o,         // the pixel taken last
@@ -70,31 +46,8 @@ module serial_group #(
     output wire [             7:0] columns_o,       // ... its column
     output wire [ADDRESS_BITS-1:0] address_o,       // address_i, or of the next pixel
     output wire                    write_o,         // write_i, or a pixel that comes in
-    output wire                    write_active_o,  // write_active_i, registered
-    output wire                    write_border_o,  // write_border_i, registered
-    output wire [             1:0] side_o,          // side_i, registered
-    output wire [    ACC_BITS-1:0] constant_o,      // constant_i, registered
-    output wire                    from_memory_o,   // from_memory_i, registered
-    output wire                    subtract_o,      // subtract_i, registered
-    output wire                    by_sign_o,       // by_sign_i, registered
-    output wire                    by_run_o,        // by_run_i, registered
-    output wire                    carry_o,         // carry_i, registered
-    output wire                    enable_o,        // enable_i, registered
-    output wire                    clear_o,         // clear_i, registered
-    output wire                    run_o,           // run_i, registered
-    output wire                    run_corner_o,    // run_corner_i, registered
-    output wire                    run_clear_o,     // run_clear_i, registered
-    output wire                    count_o,         // count_i, registered
-    output wire                    count_corner_o,  // count_corner_i, registered
-    output wire                    double_o,        // double_i, registered
-    output wire                    divide_o,        // divide_i, registered
-    output wire                    deviate_o,       // deviate_i, registered
-    output wire                    masked_o,        // masked_i, registered
-    output wire                    from_aux_o,      // from_aux_i, registered
-    output wire                    shift_o,         // shift_i, registered
-    output wire                    keep_o,          // keep_i, registered
-    output wire                    fetch_o,         // fetch_i, registered
-    output wire                    unload_o         // unload_i, registered
+    output wire [    ACC_BITS-1:0] constant_o,      // constant_i, in its clock
+    output wire [            24:0] controls_o       // controls_i, each in its clock
 );
 
     generate
@@ -154,89 +107,28 @@ module serial_group #(
         end
     endgenerate
 
-    // Which designs use a control, if not all.
-    localparam SUMS = MAD != 0 || VARIANCE != 0;
-    localparam RUNS = MEDIAN != 0 || EDGE != 0 || CORNER != 0;
+    // Which designs use a control, in the order of the control word.
+    localparam [0:0] SUMS = MAD != 0 || VARIANCE != 0;
+    localparam [0:0] RUNS = MEDIAN != 0 || EDGE != 0 || CORNER != 0;
+    localparam [3:0] WITH_ADDRESS = {COPIES != 0, {3{BORDERS != 0}}};   // write_active, write_border, side
+    localparam [3:0] WITH_WORD = {1'b1, MAD != 0, {2{VARIANCE != 0}}};  // from_memory, deviate, masked, from_aux
+    localparam [16:0] WITH_ACCUMULATOR = {
+        2'b11, MEDIAN != 0, 3'b111,                       // subtract, by_sign, by_run, carry, enable, clear
+        RUNS, CORNER != 0, RUNS, 1'b1, CORNER != 0,       // run, run_corner, run_clear, count, count_corner
+        SUMS, SUMS, 1'b1, SUMS, RASTER != 0, RASTER == 0  // twice, divide, shift, keep, fetch, unload
+    };
 
-    // With the address.
-    serial_control #(.USED(COPIES)) u_write_active (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(write_active_i), .bits_o(write_active_o)
+    serial_control #(.WIDTH(4), .USED(WITH_ADDRESS)) u_with_address (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[24:21]), .bits_o(controls_o[24:21])
     );
-    serial_control #(.USED(BORDERS)) u_write_border (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(write_border_i), .bits_o(write_border_o)
+    serial_control #(.WIDTH(4), .USED(WITH_WORD), .LATE(WORD)) u_with_word (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[20:17]), .bits_o(controls_o[20:17])
     );
-    serial_control #(.WIDTH(2), .USED(BORDERS)) u_side (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(side_i), .bits_o(side_o)
-    );
-
-    // With the word read.
-    serial_control #(.WIDTH(ACC_BITS), .LATE(WORD)) u_constant (
+    serial_control #(.WIDTH(ACC_BITS), .USED({ACC_BITS{1'b1}}), .LATE(WORD)) u_constant (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(constant_i), .bits_o(constant_o)
     );
-    serial_control #(.LATE(WORD)) u_from_memory (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(from_memory_i), .bits_o(from_memory_o)
-    );
-    serial_control #(.USED(MAD), .LATE(WORD)) u_deviate (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(deviate_i), .bits_o(deviate_o)
-    );
-    serial_control #(.USED(VARIANCE), .LATE(WORD)) u_masked (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(masked_i), .bits_o(masked_o)
-    );
-    serial_control #(.USED(VARIANCE), .LATE(WORD)) u_from_aux (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(from_aux_i), .bits_o(from_aux_o)
-    );
-
-    // With the accumulator.
-    serial_control #(.LATE(LATE)) u_subtract (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(subtract_i), .bits_o(subtract_o)
-    );
-    serial_control #(.LATE(LATE)) u_by_sign (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(by_sign_i), .bits_o(by_sign_o)
-    );
-    serial_control #(.USED(MEDIAN), .LATE(LATE)) u_by_run (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(by_run_i), .bits_o(by_run_o)
-    );
-    serial_control #(.LATE(LATE)) u_carry (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(carry_i), .bits_o(carry_o)
-    );
-    serial_control #(.LATE(LATE)) u_enable (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(enable_i), .bits_o(enable_o)
-    );
-    serial_control #(.LATE(LATE)) u_clear (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(clear_i), .bits_o(clear_o)
-    );
-    serial_control #(.USED(RUNS), .LATE(LATE)) u_run (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_i), .bits_o(run_o)
-    );
-    serial_control #(.USED(CORNER), .LATE(LATE)) u_run_corner (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_corner_i), .bits_o(run_corner_o)
-    );
-    serial_control #(.USED(RUNS), .LATE(LATE)) u_run_clear (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(run_clear_i), .bits_o(run_clear_o)
-    );
-    serial_control #(.LATE(LATE)) u_count (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(count_i), .bits_o(count_o)
-    );
-    serial_control #(.USED(CORNER), .LATE(LATE)) u_count_corner (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(count_corner_i), .bits_o(count_corner_o)
-    );
-    serial_control #(.USED(SUMS), .LATE(LATE)) u_double (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(double_i), .bits_o(double_o)
-    );
-    serial_control #(.USED(SUMS), .LATE(LATE)) u_divide (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(divide_i), .bits_o(divide_o)
-    );
-    serial_control #(.LATE(LATE)) u_shift (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(shift_i), .bits_o(shift_o)
-    );
-    serial_control #(.USED(SUMS), .LATE(LATE)) u_keep (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(keep_i), .bits_o(keep_o)
-    );
-    serial_control #(.USED(RASTER), .LATE(LATE)) u_fetch (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(fetch_i), .bits_o(fetch_o)
-    );
-    serial_control #(.USED(RASTER == 0), .LATE(LATE)) u_unload (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(unload_i), .bits_o(unload_o)
+    serial_control #(.WIDTH(17), .USED(WITH_ACCUMULATOR), .LATE(LATE)) u_with_accumulator (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[16:0]), .bits_o(controls_o[16:0])
     );
 
 endmodule

@@ -16,6 +16,8 @@ always @* begin
 end
 
 // Places. A frame enters or is worked on, never both.
+wire f_write_active = controls[24];
+wire f_write_border = controls[23];
 wire f_in_reference = F_HAS_REFERENCE && word >= REFERENCE_BASE && word < REFERENCE_BASE + F_N;
 wire f_in_denoised = MEDIAN != 0 && word >= DENOISED_BASE && word < DENOISED_BASE + F_DENOISED;
 always @* if (started) begin
@@ -31,10 +33,10 @@ always @* if (started) begin
         assert(word < F_WORDS || (BORDERS && LAST_SENT != 0 && word == F_WORDS));
         assert(slot < FOLD);
     end
-    if (write || write_active || write_border) assert(working);
+    if (write || f_write_active || f_write_border) assert(working);
     if (write) assert(MEDIAN != 0 ? f_in_denoised : f_in_reference);
-    if (write_border) assert(f_in_denoised);
-    if (write_active) assert(f_in_reference);
+    if (f_write_border) assert(f_in_denoised);
+    if (f_write_active) assert(f_in_reference);
 end
 
 // Rotations: for each slot, each score, each lane, without a gap from lane to lane. Then the pixels of the slot.

@@ -57,7 +57,14 @@ leaves! {
     "serial_lane" => ["serial_memory", "carry_adder"],
     "serial_control" => [],
     "serial_group" => ["serial_control"],
-    "serial_sequencer" => [],
+    "serial_states" => [],
+    "serial_regions" => [],
+    "serial_addresses" => [],
+    "serial_constant" => [],
+    "serial_controls" => [],
+    "serial_sequencer" => [
+        "serial_states", "serial_regions", "serial_addresses", "serial_constant", "serial_controls"
+    ],
     "serial_parallel_feed" => [],
     "serial_places" => [],
     "serial_neighbor" => [],

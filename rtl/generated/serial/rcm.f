@@ -4,6 +4,11 @@ rtl/serial_memory.v
 rtl/serial_lane.v
 rtl/serial_control.v
 rtl/serial_group.v
+rtl/serial_states.v
+rtl/serial_regions.v
+rtl/serial_addresses.v
+rtl/serial_constant.v
+rtl/serial_controls.v
 rtl/serial_sequencer.v
 rtl/serial_parallel_feed.v
 rtl/serial_shown.v

@@ -187,7 +187,7 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
     let faults = [
         ("serial_decision", "score_o >= minimum", "score_o < minimum", "_o expected"),
         (
-            "serial_sequencer",
+            "serial_addresses",
             "REFERENCE_AT + position",
             "REFERENCE_AT + position + 1",
             "forward_pixel_o",

@@ -147,6 +147,7 @@ module serial_array #(
         || (FEATURES > 2 && KINDS[5:4] == 3) || (FEATURES > 3 && KINDS[7:6] == 3);
     localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
     localparam FLAGS = FEATURES > 1 ? 2 : 1;
+    localparam CONTROL_BITS = 25;  // of the control word
     // Clocks from an address to the word in hand, and to the accumulator.
     localparam WORD = (BLOCK != 0 ? 1 : 0) + (DEEP != 0 ? 1 : 0);
     localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE) ? 1 : 0);
@@ -190,12 +191,7 @@ module serial_array #(
     wire [REGION_BITS-1:0] region;
     wire [POSITION_BITS-1:0] position;
     wire [ACC_BITS-1:0] constant;
-    wire from_memory, subtract, by_sign, by_run, carry, enable, clear;
-    wire run, run_corner, run_clear, count, count_corner;
-    wire double, divide, deviate, masked, from_aux;
-    wire shift, keep, fetch;
-    wire write_active, write_border;
-    wire [1:0] side;
+    wire [CONTROL_BITS-1:0] controls;
 
     serial_sequencer #(
         .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN),
@@ -209,15 +205,9 @@ module serial_array #(
     ) u_sequencer (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start), .temporal_level_i(temporal_level_i),
         .edge_half_i(edge_half_i), .corner_level_i(corner_level_i), .working_o(working),
-        .reopen_o(reopen), .slot_o(slot), .address_o(word), .write_o(write),
-        .write_active_o(write_active), .write_border_o(write_border), .side_o(side),
-        .constant_o(constant), .from_memory_o(from_memory), .subtract_o(subtract), .by_sign_o(by_sign),
-        .by_run_o(by_run), .carry_o(carry), .enable_o(enable), .clear_o(clear), .run_o(run),
-        .run_corner_o(run_corner), .run_clear_o(run_clear), .count_o(count),
-        .count_corner_o(count_corner), .double_o(double), .divide_o(divide), .deviate_o(deviate),
-        .masked_o(masked), .from_aux_o(from_aux), .shift_o(shift), .keep_o(keep), .fetch_o(fetch),
-        .rotate_o(rotate), .unload_o(unload), .index_o(index),
-        .region_o(region), .position_o(position)
+        .reopen_o(reopen), .slot_o(slot), .address_o(word), .write_o(write), .constant_o(constant),
+        .controls_o(controls), .rotate_o(rotate), .unload_o(unload), .index_o(index), .region_o(region),
+        .position_o(position)
     );
 
     wire [SLOT_BITS+WORD_BITS-1:0] full_address =
@@ -244,13 +234,8 @@ module serial_array #(
     wire [GROUPS-1:0] writes;
     wire [GROUPS*ADDRESS_BITS-1:0] addresses;
     wire [GROUPS*WIDTH-1:0] pixels;
-    // Their controls, a value for each group.
     wire [GROUPS*ACC_BITS-1:0] all_constant;
-    wire [GROUPS*2-1:0] all_side;
-    wire [GROUPS-1:0] all_write_active, all_write_border, all_from_memory, all_subtract,
-        all_by_sign, all_by_run, all_carry, all_enable, all_clear, all_run, all_run_corner,
-        all_run_clear, all_count, all_count_corner, all_double, all_divide, all_deviate, all_masked,
-        all_from_aux, all_shift, all_keep, all_fetch, all_unload;
+    wire [GROUPS*CONTROL_BITS-1:0] all_controls;
 
     genvar i;
     generate
@@ -263,25 +248,11 @@ module serial_array #(
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
                 .pixel_i(pixel_i[WIDTH-1:0]), .place_i(place), .lane_i(place_lane),
                 .address_i(full_address[ADDRESS_BITS-1:0]), .write_i(write),
-                .write_active_i(write_active), .write_border_i(write_border), .side_i(side),
-                .constant_i(constant), .from_memory_i(from_memory), .subtract_i(subtract),
-                .by_sign_i(by_sign), .by_run_i(by_run), .carry_i(carry), .enable_i(enable),
-                .clear_i(clear), .run_i(run), .run_corner_i(run_corner), .run_clear_i(run_clear),
-                .count_i(count), .count_corner_i(count_corner), .double_i(double), .divide_i(divide),
-                .deviate_i(deviate), .masked_i(masked), .from_aux_i(from_aux), .shift_i(shift),
-                .keep_i(keep), .fetch_i(fetch), .unload_i(unload),
+                .constant_i(constant), .controls_i(controls),
                 .loading_o(loading[i]), .pixel_o(pixels[i*WIDTH+:WIDTH]), .rows_o(rows[i*8+:8]),
                 .columns_o(columns[i*8+:8]), .address_o(addresses[i*ADDRESS_BITS+:ADDRESS_BITS]),
-                .write_o(writes[i]), .write_active_o(all_write_active[i]),
-                .write_border_o(all_write_border[i]), .side_o(all_side[i*2+:2]),
-                .constant_o(all_constant[i*ACC_BITS+:ACC_BITS]), .from_memory_o(all_from_memory[i]),
-                .subtract_o(all_subtract[i]), .by_sign_o(all_by_sign[i]), .by_run_o(all_by_run[i]),
-                .carry_o(all_carry[i]), .enable_o(all_enable[i]), .clear_o(all_clear[i]),
-                .run_o(all_run[i]), .run_corner_o(all_run_corner[i]), .run_clear_o(all_run_clear[i]),
-                .count_o(all_count[i]), .count_corner_o(all_count_corner[i]), .double_o(all_double[i]),
-                .divide_o(all_divide[i]), .deviate_o(all_deviate[i]), .masked_o(all_masked[i]),
-                .from_aux_o(all_from_aux[i]), .shift_o(all_shift[i]), .keep_o(all_keep[i]),
-                .fetch_o(all_fetch[i]), .unload_o(all_unload[i])
+                .write_o(writes[i]), .constant_o(all_constant[i*ACC_BITS+:ACC_BITS]),
+                .controls_o(all_controls[i*CONTROL_BITS+:CONTROL_BITS])
             );
         end
     endgenerate
@@ -324,18 +295,8 @@ module serial_array #(
                 .clk_i(clk_i), .loading_i(loading[GROUP]), .pixel_i(pixel), .address_i(address),
                 .write_i(writes[GROUP]), .select_row_i(rows[GROUP*8+(i%64)/8]),
                 .select_column_i(columns[GROUP*8+i%8]), .sides_i(sides),
-                .write_active_i(all_write_active[GROUP]), .write_border_i(all_write_border[GROUP]),
-                .side_i(all_side[GROUP*2+:2]), .constant_i(all_constant[GROUP*ACC_BITS+:ACC_BITS]),
-                .from_memory_i(all_from_memory[GROUP]), .subtract_i(all_subtract[GROUP]),
-                .by_sign_i(all_by_sign[GROUP]), .by_run_i(all_by_run[GROUP]),
-                .carry_i(all_carry[GROUP]), .enable_i(all_enable[GROUP]), .clear_i(all_clear[GROUP]),
-                .run_i(all_run[GROUP]), .run_corner_i(all_run_corner[GROUP]),
-                .run_clear_i(all_run_clear[GROUP]), .count_i(all_count[GROUP]),
-                .count_corner_i(all_count_corner[GROUP]), .double_i(all_double[GROUP]),
-                .divide_i(all_divide[GROUP]), .deviate_i(all_deviate[GROUP]),
-                .masked_i(all_masked[GROUP]), .from_aux_i(all_from_aux[GROUP]),
-                .shift_i(all_shift[GROUP]), .keep_i(all_keep[GROUP]), .fetch_i(all_fetch[GROUP]),
-                .unload_i(all_unload[GROUP]),
+                .constant_i(all_constant[GROUP*ACC_BITS+:ACC_BITS]),
+                .controls_i(all_controls[GROUP*CONTROL_BITS+:CONTROL_BITS]),
                 .word_i(ring[(i+1)*CHAIN_BITS+:CHAIN_BITS]), .flags_i(flags[(i+1)*FLAGS+:FLAGS]),
                 .word_o(ring[i*CHAIN_BITS+:CHAIN_BITS]), .flags_o(flags[i*FLAGS+:FLAGS]),
                 .leaves_o(lane_leaves), .pixel_o(words[i*WIDTH+:WIDTH])

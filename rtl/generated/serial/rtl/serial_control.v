@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// One control of the lanes, registered for a group of them: once, and once more for every clock that what it
-// works on comes later. A control that the design does not use has no register and is 0.
+// Controls of the lanes, registered for a group of them: once, and once more for every clock that what they
+// work on comes later. A control that the design does not use is 0, so that synthesis leaves no register of it.
 `default_nettype none
 
 module serial_control #(
-    parameter WIDTH = 1,  // bits of the control, at least 1
-    parameter USED = 1,   // 0: the design does not use it
-    parameter LATE = 0    // clocks by which it is later
+    parameter WIDTH = 1,                // bits of the controls, at least 1
+    parameter [WIDTH-1:0] USED = 1'b1,  // those that the design uses
+    parameter LATE = 0                  // clocks by which they are later
 ) (
     input  wire             clk_i,   // clock, rising edge
     input  wire             rst_i,   // synchronous reset, active high
@@ -17,24 +17,19 @@ module serial_control #(
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (LATE < 0) begin : g_late LATE_must_be_0_or_more u_refused (); end
-
-        if (USED == 0) begin : g_unused
-            wire unused_inputs = clk_i && rst_i && |bits_i;
-            assign bits_o = {WIDTH{1'b0}};
-        end else begin : g_used
-            // The newest lowest.
-            reg [(LATE+1)*WIDTH-1:0] bits_q;
-            wire [(LATE+2)*WIDTH-1:0] bits = {bits_q, bits_i};
-            wire unused_last = |bits[(LATE+1)*WIDTH+:WIDTH];
-
-            always @(posedge clk_i) begin
-                if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};
-                else bits_q <= bits[(LATE+1)*WIDTH-1:0];
-            end
-
-            assign bits_o = bits_q[LATE*WIDTH+:WIDTH];
-        end
     endgenerate
+
+    // The newest lowest.
+    reg [(LATE+1)*WIDTH-1:0] bits_q;
+    wire [(LATE+2)*WIDTH-1:0] bits = {bits_q, bits_i & USED};
+    wire unused_last = |bits[(LATE+1)*WIDTH+:WIDTH];
+
+    always @(posedge clk_i) begin
+        if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};
+        else bits_q <= bits[(LATE+1)*WIDTH-1:0];
+    end
+
+    assign bits_o = bits_q[LATE*WIDTH+:WIDTH];
 
 endmodule
 

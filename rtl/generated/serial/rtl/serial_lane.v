@@ -43,42 +43,16 @@ module serial_lane #(
     input  wire                    write_i,          // write the accumulator
     input  wire                    select_row_i,     // `raster`: write the pixel if this
     input  wire                    select_column_i,  // ... and this one
-    input  wire                    write_active_i,   // write if the first flag is set
-    input  wire                    write_border_i,   // write if the side is on the frame's border
-    input  wire [             1:0] side_i,           // left, right, top, bottom
     input  wire [             3:0] sides_i,          // {bottom, top, right, left}
-    // Accumulator.
-    input  wire [    ACC_BITS-1:0] constant_i,       // the operand, unless from_memory_i
-    input  wire                    from_memory_i,    // the operand is the word read
-    input  wire                    subtract_i,       // invert the operand
-    input  wire                    by_sign_i,        // invert it if the accumulator is not negative
-    input  wire                    by_run_i,         // invert it if five were counted
-    input  wire                    carry_i,          // add one to an inverted operand
-    input  wire                    enable_i,         // the accumulator takes the sum
-    input  wire                    clear_i,          // the accumulator becomes 0
-    // Counts.
-    input  wire                    run_i,            // count in unary
-    input  wire                    run_corner_i,     // ... equal ones in a row
-    input  wire                    run_clear_i,      // the unary count becomes 0
-    input  wire                    count_i,          // score a hit
-    input  wire                    count_corner_i,   // ... of `corner`
-    // Sums.
-    input  wire                    double_i,         // the operand is the accumulator itself
-    input  wire                    divide_i,         // keep the sum only if it is not negative
-    input  wire                    deviate_i,        // the operand is |2^FRACTION * word - aux|
-    input  wire                    masked_i,         // do not add it unless its bit under the constant is 1
-    input  wire                    from_aux_i,       // the operand is aux
-    // Chain of scores. Nothing clears it: scores that move on leave zeros behind. What is in it after a reset
-    // moves on with the temporal counts of the first frame, which are not shown.
-    input  wire                    shift_i,          // take score and flags of the lane behind
-    input  wire                    keep_i,           // the score becomes the accumulator
-    input  wire                    fetch_i,          // the score becomes the word read
+    // What to do.
+    input  wire [    ACC_BITS-1:0] constant_i,       // the constant
+    input  wire [            24:0] controls_i,       // the control word, see serial_controls
+    // Chain of scores.
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane behind
     input  wire [       FLAGS-1:0] flags_i,          // flags of the lane behind: active or TRS; SRS so far
     output wire [  CHAIN_BITS-1:0] word_o,           // the score
     output wire [       FLAGS-1:0] flags_o,          // its flags
     // Unloading.
-    input  wire                    unload_i,         // `parallel`: the word read leaves if the region is active
     output wire                    leaves_o,         // the word read is a pixel of an active region
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
@@ -104,6 +78,19 @@ module serial_lane #(
         end
     endgenerate
 
+    // The control word.
+    wire write_active, write_border, from_memory, deviate, masked, from_aux;
+    wire subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner;
+    wire twice, divide, shift, keep, fetch, unload;
+    wire [1:0] side;
+    assign {
+        write_active, write_border, side,
+        from_memory, deviate, masked, from_aux,
+        subtract, by_sign, by_run, carry, enable, clear,
+        run, run_corner, run_clear, count, count_corner,
+        twice, divide, shift, keep, fetch, unload
+    } = controls_i;
+
     reg  [  ACC_BITS-1:0] acc_q;
     reg  [CHAIN_BITS-1:0] chain_q;
     reg  [     FLAGS-1:0] flags_q;
@@ -118,12 +105,12 @@ module serial_lane #(
 
     assign word_o  = chain_q;
     assign flags_o = flags_q;
-    assign leaves_o = RASTER == 0 && unload_i && flags_q[0];
+    assign leaves_o = RASTER == 0 && unload && flags_q[0];
 
     // Memory.
     wire selected = RASTER != 0 && select_row_i && select_column_i;
-    wire copied   = COPIES != 0 && write_active_i && flags_q[0];
-    wire repeated = BORDERS != 0 && write_border_i && sides_i[side_i];
+    wire copied   = COPIES != 0 && write_active && flags_q[0];
+    wire repeated = BORDERS != 0 && write_border && sides_i[side];
 
     serial_memory #(
         .WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK),
@@ -153,7 +140,7 @@ module serial_lane #(
             localparam MEAN_BITS = WIDTH + FRACTION;
             wire [ACC_BITS-1:0] deviation;
             wire [ACC_BITS-1:0] choice;
-            wire                deviates = MAD != 0 && deviate_i;
+            wire                deviates = MAD != 0 && deviate;
             wire                negative;
             wire                takes;     // the accumulator takes the sum, if it is enabled
 
@@ -164,16 +151,16 @@ module serial_lane #(
                 assign negative = difference[MEAN_BITS];
                 assign deviation = {{(ACC_BITS - MEAN_BITS) {1'b0}}, difference[MEAN_BITS-1:0]};
             end else begin : g_no_deviation
-                wire unused_deviate = deviate_i;
+                wire unused_deviate = deviate;
                 assign negative = 1'b0;
                 assign deviation = {ACC_BITS{1'b0}};
             end
 
             if (VARIANCE != 0) begin : g_masked
                 wire [ACC_BITS-1:0] wide_aux = {{(ACC_BITS - AUX_BITS) {1'b0}}, aux};
-                wire [ACC_BITS-1:0] plain = from_aux_i ? wide_aux : wide_word;
-                wire chosen = !masked_i || |(plain & constant_i);
-                assign choice = (from_memory_i || from_aux_i) ? plain : constant_i;
+                wire [ACC_BITS-1:0] plain = from_aux ? wide_aux : wide_word;
+                wire chosen = !masked || |(plain & constant_i);
+                assign choice = (from_memory || from_aux) ? plain : constant_i;
                 if (DEEP != 0) begin : g_late
                     reg chosen_q;
                     always @(posedge clk_i) chosen_q <= chosen;
@@ -182,8 +169,8 @@ module serial_lane #(
                     assign takes = chosen;
                 end
             end else begin : g_plain
-                wire unused_masked = masked_i || from_aux_i;
-                assign choice = from_memory_i ? wide_word : constant_i;
+                wire unused_masked = masked || from_aux;
+                assign choice = from_memory ? wide_word : constant_i;
                 assign takes  = 1'b1;
             end
 
@@ -202,42 +189,42 @@ module serial_lane #(
 
             wire [ACC_BITS-1:0] inverted =
                 source ^ {{(ACC_BITS - MEAN_BITS) {invert}}, {MEAN_BITS{turned}}};
-            assign operand = double_i ? acc_q : inverted;
+            assign operand = twice ? acc_q : inverted;
 
             carry_adder #(.WIDTH(ACC_BITS)) u_sum (
-                .plain_i(acc_q), .other_i(operand), .carry_i(turned && carry_i), .sum_o(sum)
+                .plain_i(acc_q), .other_i(operand), .carry_i(turned && carry), .sum_o(sum)
             );
 
             reg [AUX_BITS-1:0] aux_q;
             always @(posedge clk_i) begin
-                if (shift_i) aux_q <= {AUX_BITS{1'b0}};
-                else if (divide_i) aux_q <= {aux_q[AUX_BITS-2:0], stays};
+                if (shift) aux_q <= {AUX_BITS{1'b0}};
+                else if (divide) aux_q <= {aux_q[AUX_BITS-2:0], stays};
             end
             assign aux = aux_q;
 
             always @(posedge clk_i) begin
-                if (clear_i) acc_q <= {ACC_BITS{1'b0}};
-                else if (enable_i && takes && (!divide_i || stays)) acc_q <= sum;
+                if (clear) acc_q <= {ACC_BITS{1'b0}};
+                else if (enable && takes && (!divide || stays)) acc_q <= sum;
             end
         end else begin : g_no_sums
-            wire unused_sums = double_i || divide_i || deviate_i || masked_i || from_aux_i;
+            wire unused_sums = twice || divide || deviate || masked || from_aux;
             wire unused_aux = |aux;
             assign aux = {AUX_BITS{1'b0}};
-            assign found = from_memory_i ? wide_word : constant_i;
+            assign found = from_memory ? wide_word : constant_i;
             assign operand = source ^ {ACC_BITS{invert}};
 
             carry_adder #(.WIDTH(ACC_BITS)) u_sum (
-                .plain_i(acc_q), .other_i(operand), .carry_i(invert && carry_i), .sum_o(sum)
+                .plain_i(acc_q), .other_i(operand), .carry_i(invert && carry), .sum_o(sum)
             );
 
             always @(posedge clk_i) begin
-                if (clear_i) acc_q <= {ACC_BITS{1'b0}};
-                else if (enable_i) acc_q <= sum;
+                if (clear) acc_q <= {ACC_BITS{1'b0}};
+                else if (enable) acc_q <= sum;
             end
         end
     endgenerate
 
-    assign invert = subtract_i || (by_sign_i && !acc_q[ACC_BITS-1]) || (MEDIAN != 0 && by_run_i && five);
+    assign invert = subtract || (by_sign && !acc_q[ACC_BITS-1]) || (MEDIAN != 0 && by_run && five);
 
     // Counts.
     generate
@@ -246,16 +233,16 @@ module serial_lane #(
             // without. Once it has been five long it stays.
             reg  [4:0] run_q;
             reg        negative_q;
-            wire       on = !run_corner_i || (stays && negative_q == acc_q[ACC_BITS-1]);
+            wire       on = !run_corner || (stays && negative_q == acc_q[ACC_BITS-1]);
             wire       reaches = run_q[3] && on;
             assign five = run_q[4];
-            assign hit = count_corner_i ? five || reaches : stays || run_q[0];
+            assign hit = count_corner ? five || reaches : stays || run_q[0];
 
             always @(posedge clk_i) begin
-                if (run_clear_i) run_q <= 5'b00000;
-                else if (run_i && !five && (stays || run_corner_i))
+                if (run_clear) run_q <= 5'b00000;
+                else if (run && !five && (stays || run_corner))
                     run_q <= {reaches, run_q[2:0] & {3{on}}, stays};
-                if (run_i) negative_q <= acc_q[ACC_BITS-1];
+                if (run) negative_q <= acc_q[ACC_BITS-1];
             end
         end else if (MEDIAN != 0) begin : g_run
             reg [4:0] run_q;
@@ -263,24 +250,24 @@ module serial_lane #(
             assign hit = stays || (EDGE != 0 && run_q[0]);
 
             always @(posedge clk_i) begin
-                if (run_clear_i) run_q <= 5'b00000;
-                else if (run_i && stays) run_q <= {run_q[3:0], 1'b1};
+                if (run_clear) run_q <= 5'b00000;
+                else if (run && stays) run_q <= {run_q[3:0], 1'b1};
             end
-            wire unused_corner = run_corner_i || count_corner_i;
+            wire unused_corner = run_corner || count_corner;
         end else if (EDGE != 0) begin : g_run_edge
             reg run_q;
             assign five = 1'b0;
             assign hit = stays || run_q;
 
             always @(posedge clk_i) begin
-                if (run_clear_i) run_q <= 1'b0;
-                else if (run_i) run_q <= stays;
+                if (run_clear) run_q <= 1'b0;
+                else if (run) run_q <= stays;
             end
-            wire unused_corner = run_corner_i || count_corner_i;
+            wire unused_corner = run_corner || count_corner;
         end else begin : g_no_run
             assign five = 1'b0;
             assign hit = stays;
-            wire unused_run = run_i || run_clear_i || run_corner_i || count_corner_i;
+            wire unused_run = run || run_clear || run_corner || count_corner;
         end
     endgenerate
 
@@ -288,8 +275,8 @@ module serial_lane #(
     // moves on with the temporal counts of the first frame, which are not shown.
     wire [CHAIN_BITS-1:0] summed;
     wire [CHAIN_BITS-1:0] fetched;
-    wire [CHAIN_BITS-1:0] moved = shift_i ? word_i : fetch_i ? fetched : keep_i ? summed : chain_q;
-    wire scores = count_i && hit;
+    wire [CHAIN_BITS-1:0] moved = shift ? word_i : fetch ? fetched : keep ? summed : chain_q;
+    wire scores = count && hit;
     wire scored;
     wire [CHAIN_BITS-1:0] counted;
 
@@ -322,7 +309,7 @@ module serial_lane #(
 
     always @(posedge clk_i) begin
         chain_q <= counted;
-        if (shift_i) flags_q <= flags_i;
+        if (shift) flags_q <= flags_i;
     end
 
 endmodule

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The constant of a step of the serial array: a level, or a number that is shifted from step to step until all of its
+// bits have been tried.
+`default_nettype none
+
+module serial_constant #(
+    parameter WIDTH = 8,       // bits of a pixel
+    parameter SIDE = 8,        // of a region
+    parameter MEDIAN = 1,      // 1: pixels are denoised
+    parameter MAD = 0,         // 1: the design has the feature `mad`
+    parameter VARIANCE = 0,    // ... `variance`
+    parameter FRACTION = 0,    // fraction bits of the mean of `mad`
+    parameter SUM_BITS = 14,   // of the sum of a region
+    parameter COUNT_BITS = 7,  // of the pixels of a region
+    parameter SCALE_BITS = 8,  // of the number that is shifted
+    parameter ACC_BITS = 11    // of the accumulator
+) (
+    input  wire                clk_i,             // clock, rising edge
+    input  wire [        29:0] step_i,            // what goes on, see serial_states
+    input  wire                last_center_i,     // the center is the last of its square
+    input  wire                squares_i,         // the feature under way is `variance`
+    input  wire [   WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
+    input  wire [   WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
+    input  wire [   WIDTH-1:0] corner_level_i,    // level of `corner`
+    output wire [ACC_BITS-1:0] constant_o,        // the constant
+    output wire                spent_o,           // the number is shifted out
+    output wire                divided_o,         // the quotient has all its bits
+    output wire                last_place_o,      // of `variance`: this is the last place of the sum
+    output wire                corrects_o,        // ... the square of the sum has a bit there
+    output wire                any_pairs_o,       // ... squares of words have
+    output wire                more_pairs_o       // ... another one than that under way
+);
+
+    localparam PIXELS = SIDE * SIDE;
+    localparam PLACES = WIDTH + COUNT_BITS;  // bits that the sum of `variance` has places for
+    localparam SUMS = MAD || VARIANCE;
+    /* verilator lint_off WIDTH */
+    localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
+    localparam [SCALE_BITS-1:0] UNIT = 1;
+    localparam [SCALE_BITS-1:0] DIVISOR = PIXELS;
+    localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
+    /* verilator lint_on WIDTH */
+
+    // The step.
+    wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
+    wire starting, searching, adjusting, reading, writing, relating, testing;
+    wire gradient, gradient_test, ring, ring_test, ring_last;
+    wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping;
+    assign {
+        loading, draining, rotating, unloading, shifting,
+        denoising, bordering, temporal, copying,
+        starting, searching, adjusting, reading, writing, relating, testing,
+        gradient, gradient_test, ring, ring_test, ring_last,
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping
+    } = step_i;
+    wire unused_step = draining || rotating || denoising || bordering || temporal || copying || searching || reading
+        || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping;
+
+    // The squares of `variance`: bit by bit of the result from above, all pairs of bits of n and of
+    // a word that meet there. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
+    reg [SCALE_BITS-1:0] scale_q;
+    wire [WIDTH-1:0] lowest;
+    wire             place_ends;
+
+    generate
+        if (VARIANCE) begin : g_pairs
+            reg  [PLACES-1:0] zip_q;
+            reg  [ WIDTH-1:0] pairs_q;
+            wire [ WIDTH-1:0] others = pairs_q & (pairs_q - 1'b1);
+            wire [COUNT_BITS-1:0] mirrored;
+
+            genvar i;
+            for (i = 0; i < COUNT_BITS; i = i + 1) begin : g_mirror
+                assign mirrored[i] = FACTOR[COUNT_BITS-1-i];
+            end
+
+            assign lowest = pairs_q & ~others;
+            assign more_pairs_o = |others;
+            assign any_pairs_o = |zip_q[WIDTH-1:0];
+            assign corrects_o = SUM_BITS == PLACES || !scale_q[PLACES-1];
+            assign place_ends = squares_i
+                && (correcting
+                    || (!corrects_o && ((doubling && !any_pairs_o)
+                        || (squaring && last_center_i && !more_pairs_o))));
+
+            always @(posedge clk_i) begin
+                if (clearing) zip_q <= {mirrored, {WIDTH{1'b0}}};
+                else if (place_ends) zip_q <= zip_q >> 1;
+                if (doubling) pairs_q <= zip_q[WIDTH-1:0];
+                else if (squaring && last_center_i) pairs_q <= others;
+            end
+        end else begin : g_no_pairs
+            wire unused_pairs = last_center_i || doubling || correcting;
+            assign corrects_o = 1'b0;
+            assign lowest = {WIDTH{1'b0}};
+            assign more_pairs_o = 1'b0;
+            assign any_pairs_o = 1'b0;
+            assign place_ends = 1'b0;
+        end
+    endgenerate
+
+    // The number that is shifted.
+    assign spent_o = scale_q == 0;
+    assign divided_o = scale_q == (squares_i ? UNIT : MAD ? DIVISOR : UNIT);
+    assign last_place_o = scale_q[0];
+
+    always @(posedge clk_i) begin
+        // Made ready in the states that come before it is needed, so that it does not wait for the next state.
+        if (MEDIAN != 0 && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
+        else if (summing) scale_q <= squares_i ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
+        else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);
+        else if (starting || adjusting || dividing || place_ends) scale_q <= scale_q >> 1;
+    end
+
+    // The constant.
+    reg [ACC_BITS-1:0] constant;
+    wire [ACC_BITS+SCALE_BITS-1:0] wide_scale = {{ACC_BITS{1'b0}}, scale_q};
+    wire [ACC_BITS+WIDTH-1:0] wide_temporal = {{ACC_BITS{1'b0}}, temporal_level_i};
+    wire [ACC_BITS+WIDTH-1:0] wide_corner = {{ACC_BITS{1'b0}}, corner_level_i};
+    wire [ACC_BITS+WIDTH+1:0] wide_half = {{ACC_BITS{1'b0}}, edge_half_i};
+    wire [ACC_BITS+WIDTH-1:0] wide_lowest = {{ACC_BITS{1'b0}}, lowest};
+    wire unused_wide = |wide_scale || |wide_temporal || |wide_corner || |wide_half || |wide_lowest;
+
+    always @* begin
+        constant = {ACC_BITS{1'b0}};
+        if (testing) constant = wide_temporal[ACC_BITS-1:0];
+        else if (gradient) constant = wide_half[ACC_BITS-1:0];
+        else if (ring) constant = wide_corner[ACC_BITS-1:0];
+        else if (halving) constant = HALF_PIXELS;
+        else if (squaring) constant = wide_lowest[ACC_BITS-1:0];
+        else if (MEDIAN != 0 || SUMS) constant = wide_scale[ACC_BITS-1:0];
+    end
+
+    assign constant_o = constant;
+
+endmodule
+
+`default_nettype wire

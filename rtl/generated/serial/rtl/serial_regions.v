@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Whose turn it is in the serial array: the slot that is worked on, the score that passes, and the region that it is of.
+`default_nettype none
+
+module serial_regions #(
+    parameter FOLD = 1,             // regions per lane
+    parameter LANES = 784,          // lanes of the array
+    parameter FEATURES = 1,         // spatial features, 1 to 4
+    parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
+    parameter MAD = 0,              // 1: `mad` is one of them
+    parameter VARIANCE = 0,         // ... `variance`
+    parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
+    parameter REGION_BITS = 10,     // of the number of a region, empty slots included
+    parameter INDEX_BITS = 1        // of the number of a score
+) (
+    input  wire                   clk_i,         // clock, rising edge
+    input  wire                   loading_i,     // a frame enters
+    input  wire                   rotating_i,    // a score passes
+    input  wire                   shifting_i,    // ... or a pixel, lane by lane
+    input  wire                   slot_ends_i,   // the slot is done
+    output wire [  SLOT_BITS-1:0] slot_o,        // the slot
+    output wire                   last_slot_o,   // it is the last of the frame
+    output wire [ INDEX_BITS-1:0] index_o,       // number of the score
+    output wire                   last_score_o,  // it is the last of the slot
+    output wire [            1:0] next_kind_o,   // the feature that comes next: edge, corner, mad, variance
+    output wire                   squares_o,     // the feature under way is `variance`
+    output wire [REGION_BITS-1:0] region_o,      // the region that passes
+    output wire                   last_lane_o    // it is that of the last lane
+);
+
+    /* verilator lint_off WIDTH */
+    localparam [REGION_BITS-1:0] LAST_LANE = (LANES - 1) * FOLD;
+    localparam [REGION_BITS-1:0] REGION_STEP = FOLD;
+    localparam [INDEX_BITS-1:0] LAST_SCORE = FEATURES;
+    /* verilator lint_on WIDTH */
+
+    // Scores.
+    reg [INDEX_BITS-1:0] index_q;
+    reg squares_q;
+    wire [7:0] kinds = KINDS >> {index_q, 1'b0};
+    wire unused_kinds = |kinds;
+
+    assign index_o = index_q;
+    assign last_score_o = index_q == LAST_SCORE;
+    assign next_kind_o = FEATURES == 1 ? KINDS[1:0] : kinds[1:0];
+    assign squares_o = VARIANCE && (!MAD || squares_q);
+
+    always @(posedge clk_i) begin
+        if (loading_i || slot_ends_i) index_q <= {INDEX_BITS{1'b0}};
+        else if (rotating_i && last_lane_o && !last_score_o) begin
+            index_q   <= index_q + 1'b1;
+            squares_q <= next_kind_o == 2'd3;
+        end
+    end
+
+    // Slots.
+    generate
+        if (FOLD > 1) begin : g_slot
+            localparam LAST_SLOT = FOLD - 1;
+            reg [SLOT_BITS-1:0] slot_q;
+            assign last_slot_o = slot_q == LAST_SLOT[SLOT_BITS-1:0];
+            assign slot_o = slot_q;
+
+            always @(posedge clk_i) begin
+                if (loading_i) slot_q <= {SLOT_BITS{1'b0}};
+                else if (slot_ends_i) slot_q <= slot_q + 1'b1;
+            end
+        end else begin : g_no_slot
+            assign last_slot_o = 1'b1;
+            assign slot_o = {SLOT_BITS{1'b0}};
+        end
+    endgenerate
+
+    // Regions.
+    reg [REGION_BITS-1:0] region_q;
+    wire [REGION_BITS-1:0] first_region;
+    assign region_o = region_q;
+
+    always @(posedge clk_i) begin
+        if (rotating_i || shifting_i) region_q <= region_q + REGION_STEP;
+        else region_q <= first_region;
+    end
+
+    generate
+        if (REGION_BITS > SLOT_BITS) begin : g_first
+            assign first_region = {{(REGION_BITS - SLOT_BITS) {1'b0}}, slot_o};
+        end else begin : g_first_narrow
+            assign first_region = slot_o;
+        end
+        if (LANES > 1) begin : g_lanes
+            assign last_lane_o = region_q >= LAST_LANE;
+        end else begin : g_lane
+            assign last_lane_o = 1'b1;
+            wire unused_region = |LAST_LANE;
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Where a step of the serial array works: a pass walks over the centers of a square inside a larger square.
+//
+// `center_q` is the address of the center, neighbors lie at a constant distance from it. Where a window must not leave
+// the square the distance is cut.
+`default_nettype none
+
+module serial_addresses #(
+    parameter SIDE = 8,             // of a region
+    parameter RAW_SIDE = 8,         // of the square that is loaded
+    parameter DENOISED_SIDE = 8,    // of the square that is denoised
+    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter CLAMPS = 1,           // 1: a window repeats the border of its square
+    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
+    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
+    parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
+    parameter REFERENCE_BASE = 64,  // where the reference starts
+    parameter WORD_BITS = 7,        // of an address inside a slot
+    parameter POSITION_BITS = 6     // of the number of a pixel in the larger square of centers
+) (
+    input  wire                     clk_i,          // clock, rising edge
+    input  wire [             29:0] step_i,         // what goes on, see serial_states
+    input  wire [              3:0] tap_i,          // number of the neighbor
+    input  wire [              1:0] part_i,         // half of a gradient, part of a ring's step, side of the border
+    input  wire                     walks_i,        // the next step is about the next center
+    input  wire                     slot_ends_i,    // ... about the next slot
+    input  wire                     last_lane_i,    // the score of the last lane passes
+    input  wire                     last_score_i,   // ... and the last score of the slot
+    output wire [    WORD_BITS-1:0] address_o,      // of the word, inside the slot
+    output wire                     write_o,        // write the accumulator there
+    output wire [POSITION_BITS-1:0] position_o,     // number of the center in its square
+    output wire                     last_column_o,  // it is the last of its row
+    output wire                     last_center_o,  // ... of its square
+    output wire                     counts_o        // it is a pixel of the region
+);
+
+    localparam INNER = (DENOISED_SIDE - SIDE) / 2;  // the first center that is scored
+    localparam SCORED_SIDE = MEDIAN != 0 ? DENOISED_SIDE : RAW_SIDE;
+    localparam LEAVING_SIDE = RAW_PAYLOAD != 0 ? RAW_SIDE : SCORED_SIDE;
+    localparam SIDE_BITS = $clog2(DENOISED_SIDE);
+    localparam BORDERS = MEDIAN != 0 && INNER != 0;
+
+    // Numbers that fit where they are put.
+    /* verilator lint_off WIDTH */
+    // First centers of the passes.
+    localparam [WORD_BITS-1:0] WINDOW_START = (RAW_SIDE - DENOISED_SIDE) / 2 * (RAW_SIDE + 1);
+    localparam [WORD_BITS-1:0] SCORED_START = MEDIAN != 0 ? DENOISED_BASE + INNER * (DENOISED_SIDE + 1)
+        : (RAW_SIDE - SIDE) / 2 * (RAW_SIDE + 1);
+    localparam [WORD_BITS-1:0] RAW_START = (RAW_SIDE - SIDE) / 2 * (RAW_SIDE + 1);
+    localparam [WORD_BITS-1:0] LEAVING_START = RAW_PAYLOAD != 0 ? RAW_START : SCORED_START;
+    localparam [WORD_BITS-1:0] FIRST_START = MEDIAN != 0 ? WINDOW_START : SCORED_START;
+    localparam [WORD_BITS-1:0] LEFT_START = DENOISED_BASE + 1;
+    localparam [WORD_BITS-1:0] RIGHT_START = DENOISED_BASE + DENOISED_SIDE - 2;
+    localparam [WORD_BITS-1:0] TOP_START = DENOISED_BASE + DENOISED_SIDE;
+    localparam [WORD_BITS-1:0] BOTTOM_START = DENOISED_BASE + (DENOISED_SIDE - 2) * DENOISED_SIDE;
+    // From the last center of a row to the first of the next.
+    localparam [WORD_BITS-1:0] WINDOW_SKIP = RAW_SIDE - DENOISED_SIDE + 1;
+    localparam [WORD_BITS-1:0] SCORED_SKIP = SCORED_SIDE - SIDE + 1;
+    localparam [WORD_BITS-1:0] LEAVING_SKIP = LEAVING_SIDE - SIDE + 1;
+    localparam [WORD_BITS-1:0] ONE = 1;
+    localparam [WORD_BITS-1:0] WINDOW_STRIDE = RAW_SIDE;
+    localparam [WORD_BITS-1:0] SCORED_STRIDE = SCORED_SIDE;
+    // Linear squares.
+    localparam [WORD_BITS-1:0] DENOISED_AT = DENOISED_BASE;
+    localparam [WORD_BITS-1:0] REFERENCE_AT = REFERENCE_BASE;
+    localparam [SIDE_BITS-1:0] LAST_WIDE = DENOISED_SIDE - 1;
+    localparam [SIDE_BITS-1:0] LAST_SIDE = SIDE - 1;
+    localparam [SIDE_BITS-1:0] LAST_COUNTED = SIDE;
+    /* verilator lint_on WIDTH */
+
+    // The step.
+    wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
+    wire starting, searching, adjusting, reading, writing, relating, testing;
+    wire gradient, gradient_test, ring, ring_test, ring_last;
+    wire [8:0] unused_sums;
+    assign {
+        loading, draining, rotating, unloading, shifting,
+        denoising, bordering, temporal, copying,
+        starting, searching, adjusting, reading, writing, relating, testing,
+        gradient, gradient_test, ring, ring_test, ring_last,
+        unused_sums
+    } = step_i;
+    wire unused_step = starting || adjusting || reading || gradient_test || ring_test || ring_last;
+
+    // The walk over the centers.
+    reg [SIDE_BITS-1:0] column_q;
+    reg [SIDE_BITS-1:0] row_q;
+    reg [WORD_BITS-1:0] center_q;
+    reg [POSITION_BITS-1:0] position_q;
+
+    wire wide_pass = BORDERS && (denoising || bordering);
+    wire [SIDE_BITS-1:0] last_place = wide_pass ? LAST_WIDE : LAST_SIDE;
+    wire last_column = column_q == last_place;
+    wire last_row = row_q == last_place;
+    wire last_center = last_column && last_row;
+    wire [WORD_BITS-1:0] skip = denoising ? WINDOW_SKIP
+        : (unloading || shifting) ? LEAVING_SKIP : SCORED_SKIP;
+
+    assign position_o = position_q;
+    assign last_column_o = last_column;
+    assign last_center_o = last_center;
+
+    always @(posedge clk_i) begin
+        if (loading || draining || slot_ends_i) begin
+            column_q   <= {SIDE_BITS{1'b0}};
+            row_q      <= {SIDE_BITS{1'b0}};
+            position_q <= {POSITION_BITS{1'b0}};
+            center_q   <= FIRST_START;
+        end else if (bordering && writing) begin
+            column_q <= last_column ? {SIDE_BITS{1'b0}} : column_q + 1'b1;
+            if (!last_column) center_q <= center_q + (part_i[1] ? ONE : SCORED_STRIDE);
+            else case (part_i)
+                2'd0: center_q <= RIGHT_START;
+                2'd1: center_q <= TOP_START;
+                2'd2: center_q <= BOTTOM_START;
+                default: center_q <= SCORED_START;
+            endcase
+        end else if (walks_i) begin
+            column_q   <= last_column ? {SIDE_BITS{1'b0}} : column_q + 1'b1;
+            if (last_column) row_q <= last_row ? {SIDE_BITS{1'b0}} : row_q + 1'b1;
+            position_q <= last_center ? {POSITION_BITS{1'b0}} : position_q + 1'b1;
+            center_q   <= center_q + (last_column ? skip : ONE);
+            if (last_center)
+                center_q <= writing ? LEAVING_START : testing && BORDERS ? LEFT_START : SCORED_START;
+        end else if (rotating && last_lane_i && last_score_i && LAST_SENT == 0) begin
+            center_q <= LEAVING_START;
+        end
+    end
+
+    // Neighbors, clockwise from above left; the last is the center itself.
+    reg [3:0] neighbor;
+    always @* begin
+        if (searching) neighbor = tap_i;
+        else if (gradient) neighbor = {1'b0, tap_i[2:0] + (part_i[0] ? 3'd1 : 3'd7)};
+        else if (ring) neighbor = {part_i[0], tap_i[2:0]};
+        else neighbor = 4'd8;
+    end
+
+    wire moved = !neighbor[3];
+    wire up = moved && neighbor[2:0] <= 3'd2;
+    wire down = moved && neighbor[2:0] >= 3'd4 && neighbor[2:0] <= 3'd6;
+    wire left = moved && (neighbor[2:0] == 3'd0 || neighbor[2:0] >= 3'd6);
+    wire right = moved && neighbor[2:0] >= 3'd2 && neighbor[2:0] <= 3'd4;
+
+    reg [3:0] way;  // up, down, left, right
+    always @* begin
+        way[3] = up && (CLAMPS == 0 || row_q != 0);
+        way[2] = down && (CLAMPS == 0 || !last_row);
+        way[1] = left && (CLAMPS == 0 || column_q != 0);
+        way[0] = right && (CLAMPS == 0 || !last_column);
+        if (bordering && writing) begin
+            way[3] = part_i == 2'd2;
+            way[2] = part_i == 2'd3;
+            way[1] = part_i == 2'd0;
+            way[0] = part_i == 2'd1;
+        end
+    end
+
+    function [WORD_BITS-1:0] distance(input [3:0] toward, input [WORD_BITS-1:0] stride);
+        case (toward)
+            4'b0001: distance = ONE;
+            4'b0010: distance = {WORD_BITS{1'b1}};
+            4'b0100: distance = stride;
+            4'b0101: distance = stride + ONE;
+            4'b0110: distance = stride - ONE;
+            4'b1000: distance = ~stride + ONE;
+            4'b1001: distance = ~stride + ONE + ONE;
+            4'b1010: distance = ~stride;
+            default: distance = {WORD_BITS{1'b0}};
+        endcase
+    endfunction
+
+    wire [WORD_BITS-1:0] near = WINDOW_STRIDE == SCORED_STRIDE || !searching
+        ? distance(way, SCORED_STRIDE) : distance(way, WINDOW_STRIDE);
+
+    // Where the linear squares are.
+    wire [WORD_BITS-1:0] position;
+    wire [WORD_BITS-1:0] reference;
+
+    generate
+        if (WORD_BITS > POSITION_BITS) begin : g_extended
+            assign position = {{(WORD_BITS - POSITION_BITS) {1'b0}}, position_q};
+        end else begin : g_position
+            assign position = position_q;
+        end
+        if (BORDERS) begin : g_inside
+            assign counts_o = column_q != 0 && column_q <= LAST_COUNTED
+                && row_q != 0 && row_q <= LAST_COUNTED;
+            if (LAST_SENT != 0) begin : g_reference
+                reg [WORD_BITS-1:0] reference_q;
+                always @(posedge clk_i) begin
+                    if (!denoising) reference_q <= REFERENCE_AT;
+                    else if (testing && counts_o) reference_q <= reference_q + 1'b1;
+                end
+                assign reference = denoising ? reference_q : REFERENCE_AT + position;
+            end else begin : g_no_reference
+                assign reference = REFERENCE_AT + position;
+            end
+        end else begin : g_all_inside
+            assign counts_o = 1'b1;
+            assign reference = REFERENCE_AT + position;
+        end
+    endgenerate
+
+    wire to_denoised = MEDIAN != 0 && writing && temporal;
+    wire to_reference = relating || (writing && (copying || (MEDIAN == 0 && temporal)));
+
+    assign address_o = to_denoised ? DENOISED_AT + position : to_reference ? reference : center_q + near;
+    assign write_o = writing && temporal;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Which step follows which in the serial array: one per clock, the same for all lanes. Some states are a step of a pixel's
+// work: the tap says which of its neighbors is read, the part which half of it is done.
+//
+// A step leaves as a word with a bit for each thing that may go on in it.
+`default_nettype none
+
+module serial_states #(
+    parameter MEDIAN = 1,     // 1: pixels are denoised
+    parameter BORDERS = 0,    // 1: sides on the frame's border are repeated
+    parameter LAST_SENT = 0,  // 1: the reference is `last-sent`, else `previous`
+    parameter RASTER = 0,     // 1: pixels leave by the chain of scores
+    parameter LATE = 0,       // clocks from an address to the accumulator, 0 to 3
+    parameter DEEP = 0,       // 1: a score is whole a clock after its last step
+    parameter EDGE = 1,       // 1: the design has the feature `edge`
+    parameter CORNER = 0,     // ... `corner`
+    parameter MAD = 0,        // ... `mad`
+    parameter VARIANCE = 0,   // ... `variance`
+    parameter FRACTION = 0    // fraction bits of the mean of `mad`
+) (
+    input  wire        clk_i,          // clock, rising edge
+    input  wire        rst_i,          // synchronous reset, active high
+    input  wire        start_i,        // a frame is complete
+    // What the step is the last of.
+    input  wire        last_column_i,  // its center is the last of a row
+    input  wire        last_center_i,  // ... of the square
+    input  wire        last_lane_i,    // the score of the last lane passes
+    input  wire        last_score_i,   // ... and the last score of the slot
+    input  wire        last_slot_i,    // the slot is the last of the frame
+    input  wire [ 1:0] next_kind_i,    // the feature that comes next: edge, corner, mad, variance
+    input  wire        squares_i,      // the feature under way is `variance`
+    // How far the constant is.
+    input  wire        spent_i,        // it is shifted out
+    input  wire        divided_i,      // the quotient has all its bits
+    input  wire        last_place_i,   // of `variance`: this is the last place of the sum
+    input  wire        corrects_i,     // ... the square of the sum has a bit there
+    input  wire        any_pairs_i,    // ... squares of words have
+    input  wire        more_pairs_i,   // ... another one than that under way
+    // The step.
+    output wire [29:0] step_o,         // what goes on
+    output wire [ 3:0] tap_o,          // number of the neighbor
+    output wire [ 1:0] part_o,         // half of a gradient, part of a ring's step, side of the border
+    output wire        walks_o,        // the next step is about the next center
+    output wire        slot_ends_o     // ... about the next slot
+);
+
+    localparam [4:0] LOAD = 5'd0;      // a frame enters
+    localparam [4:0] DRAIN = 5'd1;     // a clock for the last step
+    localparam [4:0] START = 5'd2;     // median: the first candidate
+    localparam [4:0] SEARCH = 5'd3;    // ... nine comparisons and an adjustment for each bit
+    localparam [4:0] READ = 5'd4;      // a word to be written elsewhere, or compared
+    localparam [4:0] IDLE = 5'd5;      // the accumulator is a step behind
+    localparam [4:0] WRITE = 5'd6;
+    localparam [4:0] REFERENCE = 5'd7;
+    localparam [4:0] TEST = 5'd8;      // changed?
+    localparam [4:0] ROTATE = 5'd9;
+    localparam [4:0] GRADIENT = 5'd10;
+    localparam [4:0] RING = 5'd11;
+    localparam [4:0] SUM = 5'd12;
+    localparam [4:0] DOUBLE = 5'd13;
+    localparam [4:0] HALF = 5'd14;     // half the divisor
+    localparam [4:0] DIVIDE = 5'd15;
+    localparam [4:0] CLEAR = 5'd16;
+    localparam [4:0] DEVIATE = 5'd17;
+    localparam [4:0] SQUARE = 5'd18;   // words whose bit is set
+    localparam [4:0] CORRECT = 5'd19;  // the square of the sum
+    localparam [4:0] KEEP = 5'd20;
+    localparam [4:0] UNLOAD = 5'd21;
+    localparam [4:0] SHIFT = 5'd22;
+    localparam [4:0] WAIT = 5'd23;     // ... two steps
+    localparam [4:0] LONGER = 5'd24;   // ... three steps
+    localparam [4:0] SETTLE = 5'd25;   // the score becomes whole
+    localparam [4:0] FIRST = MEDIAN != 0 ? START : READ;
+    localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
+    localparam [4:0] SCORED = DEEP != 0 ? SETTLE : ROTATE;
+
+    localparam [1:0] TEMPORAL = 2'b00;
+    localparam [1:0] BORDER = 2'b01;
+    localparam [1:0] COPY = 2'b10;
+
+    localparam SUMS = MAD || VARIANCE;
+    /* verilator lint_off WIDTH */
+    localparam [3:0] LAST_DOUBLE = FRACTION - 1;
+    /* verilator lint_on WIDTH */
+
+    reg [4:0] state_q;
+    reg [4:0] state;
+    reg [1:0] job_q;  // what pixels are walked over for
+    reg [1:0] job;
+    reg [3:0] tap_q;
+    reg [1:0] part_q;
+
+    // A frame.
+    wire loading = state_q == LOAD;
+    wire draining = state_q == DRAIN;
+    wire rotating = state_q == ROTATE;
+    wire unloading = state_q == UNLOAD;
+    wire shifting = RASTER != 0 && state_q == SHIFT;
+
+    // A pixel.
+    wire starting = state_q == START;
+    wire searching = MEDIAN != 0 && state_q == SEARCH;
+    wire adjusting = searching && tap_q[3] && tap_q[0];
+    wire reading = state_q == READ;
+    wire writing = state_q == WRITE;
+    wire relating = LAST_SENT != 0 && state_q == REFERENCE;
+    wire testing = state_q == TEST;
+    wire gradient = EDGE && state_q == GRADIENT;
+    wire gradient_test = gradient && tap_q[2:0] == 3'd7;
+    wire ring = CORNER && state_q == RING;
+    wire ring_test = ring && part_q[1];
+    wire ring_last = tap_q == 4'd11;
+
+    // ... and what for.
+    wire bordering = BORDERS && job_q[0];
+    wire copying = LAST_SENT != 0 && job_q[1];
+    wire temporal = !bordering && !copying;
+    wire denoising = MEDIAN != 0 && job_q == TEMPORAL && !loading;
+    wire border_ends = bordering && writing && last_column_i && part_q == 2'd3;
+
+    // A sum.
+    wire summing = SUMS && state_q == SUM;
+    wire doubling = SUMS && state_q == DOUBLE;
+    wire halving = MAD && state_q == HALF;
+    wire dividing = SUMS && state_q == DIVIDE;
+    wire clearing = SUMS && state_q == CLEAR;
+    wire deviating = MAD && state_q == DEVIATE;
+    wire squaring = VARIANCE && state_q == SQUARE;
+    wire correcting = VARIANCE && state_q == CORRECT;
+    wire keeping = SUMS && state_q == KEEP;
+
+    assign step_o = {
+        loading, draining, rotating, unloading, shifting,
+        denoising, bordering, temporal, copying,
+        starting, searching, adjusting, reading, writing, relating, testing,
+        gradient, gradient_test, ring, ring_test, ring_last,
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping
+    };
+    assign tap_o = tap_q;
+    assign part_o = part_q;
+
+    assign walks_o = testing || (writing && !temporal)
+        || (gradient_test && part_q[0]) || (ring_test && ring_last)
+        || summing || deviating || squaring
+        || (unloading && RASTER == 0) || (shifting && last_lane_i);
+    wire pass_ends = walks_o && last_center_i;
+    assign slot_ends_o = pass_ends && (unloading || shifting);
+
+    // The next step.
+    always @* begin
+        state = state_q;
+        job = job_q;
+        case (state_q)
+            LOAD: if (start_i) begin
+                state = FIRST;
+                job = TEMPORAL;
+            end
+            DRAIN: state = LOAD;
+            START: state = SEARCH;
+            SEARCH: if (adjusting && spent_i) state = BEHIND;
+            READ: begin
+                if (LAST_SENT != 0 && MEDIAN == 0 && temporal) state = REFERENCE;
+                else state = BEHIND;
+            end
+            LONGER: state = WAIT;
+            WAIT: state = IDLE;
+            IDLE: state = WRITE;
+            SETTLE: state = ROTATE;
+            WRITE: begin
+                if (temporal) state = LAST_SENT != 0 ? REFERENCE : TEST;
+                else if (bordering) state = border_ends ? SCORED : READ;
+                else state = last_center_i ? UNLOAD : READ;
+            end
+            REFERENCE: state = TEST;
+            TEST: begin
+                state = last_center_i ? SCORED : FIRST;
+                if (last_center_i && BORDERS) begin
+                    state = READ;
+                    job = BORDER;
+                end
+            end
+            ROTATE: if (last_lane_i) begin
+                job = COPY;
+                if (last_score_i) state = LAST_SENT != 0 ? READ : UNLOAD;
+                else if (EDGE && next_kind_i == 2'd0) state = GRADIENT;
+                else if (CORNER && next_kind_i == 2'd1) state = RING;
+                else state = SUM;
+            end
+            GRADIENT, RING: if (pass_ends) state = SCORED;
+            SUM: if (pass_ends) state = squares_i ? DIVIDE : FRACTION != 0 ? DOUBLE : HALF;
+            DOUBLE: begin
+                if (squares_i) state = any_pairs_i ? SQUARE : corrects_i ? CORRECT : DOUBLE;
+                else if (tap_q == LAST_DOUBLE) state = HALF;
+            end
+            HALF: state = DIVIDE;
+            DIVIDE: if (divided_i) state = CLEAR;
+            CLEAR: state = squares_i ? DOUBLE : DEVIATE;
+            DEVIATE: if (pass_ends) state = KEEP;
+            SQUARE: if (last_center_i && !more_pairs_i) state = corrects_i ? CORRECT : DOUBLE;
+            CORRECT: state = last_place_i ? KEEP : DOUBLE;
+            KEEP: state = SCORED;
+            UNLOAD: begin
+                if (RASTER != 0) state = SHIFT;
+                else if (last_center_i) state = last_slot_i ? DRAIN : FIRST;
+            end
+            SHIFT: if (last_lane_i) state = !last_center_i ? UNLOAD : last_slot_i ? DRAIN : FIRST;
+            default: state = LOAD;
+        endcase
+        if (slot_ends_o) job = TEMPORAL;
+    end
+
+    always @(posedge clk_i) begin
+        if (rst_i) begin
+            state_q <= LOAD;
+            job_q   <= TEMPORAL;
+        end else begin
+            state_q <= state;
+            job_q   <= job;
+        end
+    end
+
+    // Inside a pixel.
+    always @(posedge clk_i) begin
+        if (gradient) begin
+            tap_q <= tap_q == 4'd2 ? 4'd4 : tap_q + 4'd1;  // 0, 1, 2, 4, 5, 6, and 7 compares
+            if (gradient_test) begin
+                tap_q <= 4'd0;
+                part_q[0] <= !part_q[0];
+            end
+        end else if (ring) begin
+            part_q <= ring_test ? 2'd0 : part_q + 2'd1;
+            if (ring_test) tap_q <= ring_last ? 4'd0 : tap_q + 4'd1;
+        end else if (bordering) begin
+            tap_q <= 4'd0;
+            if (writing && last_column_i) part_q <= part_q + 2'd1;
+        end else begin
+            tap_q <= (searching || (doubling && !squares_i)) && !adjusting ? tap_q + 4'd1 : 4'd0;
+            part_q <= 2'd0;
+        end
+    end
+
+endmodule
+
+`default_nettype wire
