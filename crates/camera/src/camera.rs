@@ -86,6 +86,12 @@ impl Camera {
         &self.features
     }
 
+    /// Their kinds, in that order.
+    #[must_use]
+    pub fn kinds(&self) -> Vec<crate::FeatureKind> {
+        self.features.iter().map(SpatialFeature::kind).collect()
+    }
+
     /// How their votes become SRS.
     #[must_use]
     pub fn combine(&self) -> Combine {

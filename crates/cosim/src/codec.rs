@@ -18,8 +18,7 @@ impl Codec {
     /// The codec of a design.
     #[must_use]
     pub fn new(design: &Design) -> Self {
-        let kinds = design.features().iter().map(|feature| feature.kind()).collect();
-        Self { kinds, values: Vec::new() }
+        Self { kinds: design.kinds(), values: Vec::new() }
     }
 
     /// What is applied at an edge.
@@ -68,5 +67,26 @@ impl Codec {
 
     fn apply_pixels(&mut self, pixels: &[u16]) {
         self.values.extend(pixels.iter().map(|&pixel| u64::from(pixel)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foveate_design::Config;
+    use foveate_model::rcm;
+
+    fn design(organization: &str) -> Design {
+        let toml = format!("[hardware]\norganization = \"{organization}\"\n");
+        Config::from_toml(&toml).unwrap().validate().unwrap()
+    }
+
+    /// A port that the model does not know is not taken for one that shows 0.
+    #[test]
+    #[should_panic(expected = "ready_o: a value for each place")]
+    fn a_port_that_the_model_does_not_answer_is_noticed() {
+        let layout = Layout::outputs(&design("serial").rcm_ports());
+        let core = rcm(&design("pipelined"));
+        Codec::new(&design("serial")).outputs(&layout, &*core, &mut layout.record());
     }
 }

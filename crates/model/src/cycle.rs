@@ -50,12 +50,6 @@ impl<'a> CoreInput<'a> {
     pub fn valid(pixels: &'a [u16], thresholds: &'a Thresholds) -> Self {
         Self { valid: true, ..Self::idle(pixels, thresholds) }
     }
-
-    /// A reset.
-    #[must_use]
-    pub fn reset(pixels: &'a [u16], thresholds: &'a Thresholds) -> Self {
-        Self { reset: true, ..Self::idle(pixels, thresholds) }
-    }
 }
 
 /// The cycle-level model of a core.

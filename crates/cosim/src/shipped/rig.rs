@@ -4,7 +4,7 @@
 use super::surroundings::{Outside, Stalling};
 use crate::codec::Codec;
 use crate::layout::Layout;
-use crate::stimulus::FrameFeed;
+use crate::stimulus::{FrameFeed, settling_clocks};
 use foveate_design::{Design, Hardware, PipelinedTiming, Port};
 use foveate_emit::Top;
 use foveate_frame::Frame;
@@ -37,8 +37,8 @@ impl Tail {
     fn of(design: &Design) -> Self {
         let (settling_clocks, frames_behind) = match design.hardware() {
             Hardware::Pipelined(own) => {
-                let timing = PipelinedTiming::of(design.on(own));
-                (u64::from(timing.decision_latency) + 4, timing.forward_frames)
+                let design = design.on(own);
+                (settling_clocks(design), PipelinedTiming::of(design).forward_frames)
             }
             Hardware::Serial(_) => (0, 0),
             Hardware::Raster(_) => {

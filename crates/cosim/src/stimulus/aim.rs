@@ -31,7 +31,7 @@ impl Ranges {
             min_score[index] = top(feature.score_bits());
         }
         Self {
-            kinds: design.features().iter().map(|feature| feature.kind()).collect(),
+            kinds: design.kinds(),
             level,
             min_score,
             steepest: design.features().iter().map(SpatialFeature::level_max).collect(),

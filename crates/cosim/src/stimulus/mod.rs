@@ -34,6 +34,7 @@ pub(crate) use feed::FrameFeed;
 use foveate_design::Design;
 use foveate_frame::Frame;
 pub(crate) use motif::{Artist, Motif};
+pub(crate) use pace::settling_clocks;
 pub(crate) use queue::Queue;
 pub(crate) use random::Random;
 use session::Session;

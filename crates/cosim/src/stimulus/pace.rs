@@ -30,6 +30,6 @@ impl Pace {
 }
 
 /// Clocks after the last pixel of a frame in which a pipelined array settles, as far as it does without another frame.
-pub(super) fn settling_clocks(design: PipelinedDesign<'_>) -> u64 {
+pub(crate) fn settling_clocks(design: PipelinedDesign<'_>) -> u64 {
     u64::from(PipelinedTiming::of(design).decision_latency) + 4
 }

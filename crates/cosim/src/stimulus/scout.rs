@@ -22,8 +22,7 @@ impl Scout {
             Hardware::Serial(_) | Hardware::Raster(_) => return None,
         };
         let sync = if finds_frames { FrameSync::new(design) } else { FrameSync::absent() };
-        let kinds = design.features().iter().map(|feature| feature.kind()).collect();
-        Some(Self { rpu: PipelinedRpu::new(own), sync, kinds })
+        Some(Self { rpu: PipelinedRpu::new(own), sync, kinds: design.kinds() })
     }
 
     /// Whether a decision is there after this edge. It must see every edge of a sequence whose thresholds are aimed; of

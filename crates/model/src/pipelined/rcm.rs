@@ -45,7 +45,7 @@ impl PipelinedRcm {
         let rpu = PipelinedRpu::new(design);
         let lanes: Vec<_> = borders.map(|border| Lane { rpu: rpu.clone(), border }).collect();
         Self {
-            kinds: design.features().iter().map(|feature| feature.kind()).collect(),
+            kinds: design.kinds(),
             sync,
             outputs: vec![RpuOutput::default(); lanes.len()],
             lanes,

@@ -52,7 +52,7 @@ impl RasterRcm {
     pub fn new(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
         Self {
-            kinds: design.features().iter().map(|feature| feature.kind()).collect(),
+            kinds: design.kinds(),
             timing,
             columns: design.columns(),
             side: design.region_size(),
