@@ -7,7 +7,7 @@
 Where code does something for one variant, the compiler has to name the place when another variant comes. So there is a
 `match` with every variant, or a method of the type. A comparison (`==`, `matches!`), a catch-all arm (`_ =>`), and a view
 of a design (`design.serial()`) whose None stands for all other organizations compile with a new variant and take it for
-any other. This prints each of them outside of tests, and fails if there is one.
+any other. So does a question for what only one feature has (`feature.mean().is_some()`). This prints each of them outside of tests, and fails if there is one.
 
 Not looked at: folders `tests`, `benches` and `examples`, files tests.rs, what follows `#[cfg(test)]`, and comments.
 """
@@ -25,6 +25,8 @@ TESTS = re.compile(r"(^|/)(tests|benches|examples)/|(^|/)tests\.rs$")
 COMPARISON = re.compile(rf"[!=]=\s*(?:\w+::)*{NAMES}|{NAMES}(?:\([^)]*\))?\s*[!=]=[^>]|matches!\([^;]*?{NAMES}")
 # A design that must be of that organization says so: `.expect(..)`.
 VIEW = re.compile(r"\.(?:pipelined|serial|raster)\(\)(?!\s*\.\s*(?:unwrap|expect)\()")
+# What one feature has, asked in place of which feature it is.
+PART = re.compile(r"\.(?:mean|variance)\(\)\s*\.\s*is_(?:some|none)\b|\.kind\(\)\s*\.\s*name\(\)\s*[!=]=")
 # Where code is about one variant by its purpose.
 OWN_PURPOSE = {"crates/studies/src/study/histogram.rs": "the study is about mad"}
 # A constant such as FeatureKind::ALL is no variant.
@@ -93,7 +95,7 @@ def catch_alls(text):
 def open_tests(text):
     """Lines of what would take a new variant for another one."""
     text = code(text)
-    found = [*COMPARISON.finditer(text), *VIEW.finditer(text)]
+    found = [*COMPARISON.finditer(text), *VIEW.finditer(text), *PART.finditer(text)]
     places = [match.start() for match in found] + list(catch_alls(text))
     return sorted(text.count("\n", 0, place) + 1 for place in places)
 

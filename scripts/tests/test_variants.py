@@ -35,6 +35,11 @@ class Variants(unittest.TestCase):
         self.lines("match design.raster() { Some(core) => 1, None => 2 }", [1])
         self.lines('let own = design.pipelined()\n    .expect("it is");', [])
 
+    def test_what_only_one_feature_has_is_found(self):
+        self.lines("if feature.mean().is_some() {}", [1])
+        self.lines("let detects = feature.kind().name() == name;", [1])
+        self.lines('let mean = feature.mean().expect("mad has a mean");', [])
+
     def test_what_names_every_variant_is_not(self):
         self.lines("match kind {\n    None => 0,\n    Some(FeatureKind::Edge | FeatureKind::Mad) => 1,\n}", [])
         self.lines("match role {\n    PortRole::Region => 1,\n    _ => 2,\n}", [])

@@ -10,8 +10,8 @@
 
 use crate::Leaf;
 use foveate_design::{
-    Design, Feed, Filter, MemoryKind, Pipelining, RasterDesign, RasterTiming, Reference,
-    SerialDesign, Store, Written,
+    Design, FeatureKind, Feed, Filter, MemoryKind, Pipelining, RasterDesign, RasterTiming,
+    Reference, SerialDesign, Store, Written,
 };
 
 /// Whether a leaf of a serial array has `part` inside.
@@ -29,24 +29,19 @@ pub(crate) fn of_serial(design: SerialDesign<'_>, leaf: &str, part: &str) -> boo
 
 /// Whether a leaf of a raster core has `part` inside.
 pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> bool {
-    let mean = || design.features().iter().any(|feature| feature.mean().is_some());
-    let variance = || design.features().iter().any(|feature| feature.variance().is_some());
-    // A detector has the name of its feature.
-    let detects = |name| design.features().iter().any(|feature| feature.kind().name() == name);
+    let scored = || design.features().iter().any(|f| parts_of_score(f.kind()).contains(&part));
     let median = || design.filter() == Filter::Median3x3;
     let window = || design.has_feature_window();
     match (leaf, part) {
         ("raster_core", "raster_window") => median() || window(),
         ("raster_core", "median_columns") => median(),
         ("raster_core", "raster_repeat") => !median() && !window() && is_padded_below(&design),
-        ("raster_core", "raster_edge") => detects("edge"),
-        ("raster_core", "raster_corner") => detects("corner"),
+        ("raster_core", "raster_edge" | "raster_corner") => scored(),
         ("raster_core", "raster_external") => design.store() == Store::External,
         ("raster_core", "raster_store") => design.store() != Store::External,
-        ("raster_core", "raster_moments") => mean() || variance(),
-        ("raster_moments", "raster_variance") => variance(),
-        ("raster_core", "raster_deviation") => mean(),
-        ("raster_core", "raster_ring") => design.forwards() || mean(),
+        ("raster_core", "raster_moments" | "raster_deviation") => scored(),
+        ("raster_moments", "raster_variance") => scored(),
+        ("raster_core", "raster_ring") => design.forwards() || scored(),
         ("raster_core", "raster_forward") => design.forwards(),
         ("raster_core", "raster_line") => design.forwards() && design.keeps_raw() && window(),
         ("raster_decision", "raster_valid") => marks_regions(&design),
@@ -57,6 +52,16 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
             design.store() != Store::SinglePort && !is_in_banks(design)
         }
         _ => true,
+    }
+}
+
+/// Parts of a raster core that make the score of a feature, and that a core without it need not have.
+fn parts_of_score(kind: FeatureKind) -> &'static [&'static str] {
+    match kind {
+        FeatureKind::Edge => &["raster_edge"],
+        FeatureKind::Corner => &["raster_corner"],
+        FeatureKind::Mad => &["raster_moments", "raster_ring", "raster_deviation"],
+        FeatureKind::Variance => &["raster_moments", "raster_variance"],
     }
 }
 

@@ -238,28 +238,43 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
         ("KINDS", kinds(features(design).into_iter())),
         ("ENDS", format!("{{{}}}", ends.join(", "))),
     ];
-    if design.features().iter().any(|feature| !feature.kind().has_window()) {
-        list.push(("SUM_BITS", design.pixel_sum_bits()));
-    }
-    if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
-        let factor = mean.reciprocal.multiplier();
-        list.extend([
-            ("FRACTION", mean.fraction_bits),
-            ("DIVIDEND_BITS", mean.dividend_bits),
-            ("MEAN_BITS", mean.mean_bits),
-            ("FACTOR_BITS", bits_for(factor)),
-            ("SHIFT", mean.reciprocal.shift()),
-        ]);
-        wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
-    }
-    if let Some(variance) = design.features().iter().find_map(SpatialFeature::variance) {
-        list.extend([
-            ("SQUARE_SUM_BITS", variance.square_sum_bits),
-            ("PRODUCT_BITS", variance.product_bits),
-        ]);
+    for feature in features(design) {
+        let new = sums(design, feature).into_iter().filter(|new| !list.contains(new));
+        list.extend(new.collect::<Vec<_>>());
+        if let Some(mean) = feature.mean() {
+            let factor = mean.reciprocal.multiplier();
+            wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
+        }
     }
     let list = list.into_iter().map(|(name, value)| (name, value.to_string()));
     list.chain(wide).collect()
+}
+
+/// Widths of the sums that a score is made of, where it is no count.
+fn sums(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
+    let sum = ("SUM_BITS", design.pixel_sum_bits());
+    match feature.kind() {
+        FeatureKind::Edge | FeatureKind::Corner => vec![],
+        FeatureKind::Mad => {
+            let mean = feature.mean().expect("mad has a mean");
+            vec![
+                sum,
+                ("FRACTION", mean.fraction_bits),
+                ("DIVIDEND_BITS", mean.dividend_bits),
+                ("MEAN_BITS", mean.mean_bits),
+                ("FACTOR_BITS", bits_for(mean.reciprocal.multiplier())),
+                ("SHIFT", mean.reciprocal.shift()),
+            ]
+        }
+        FeatureKind::Variance => {
+            let variance = feature.variance().expect("variance has accumulators");
+            vec![
+                sum,
+                ("SQUARE_SUM_BITS", variance.square_sum_bits),
+                ("PRODUCT_BITS", variance.product_bits),
+            ]
+        }
+    }
 }
 
 /// Bits of a level of the core, of a feature that the design does not have, too; none of one without a level.

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a raster core makes the score of a feature of: which sums it keeps per region, and how long the score takes.
 
-use crate::FeatureKind;
+use foveate_camera::{FeatureKind, Mean, SpatialFeature, Variance};
 
 /// What is summed over the pixels of a region, while they come or in a pass behind them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SummedUp {
+pub(super) enum SummedUp<'a> {
     /// Pixels whose window is a hit.
     Hits,
     /// Pixels, and then their distances from the mean, in a second pass.
-    Deviations,
+    Deviations(&'a Mean),
     /// Pixels and their squares.
-    Squares,
+    Squares(&'a Variance),
 }
 
-impl SummedUp {
+impl<'a> SummedUp<'a> {
     /// That of a feature.
-    pub(super) fn of(kind: FeatureKind) -> Self {
-        match kind {
+    pub(super) fn of(feature: &'a SpatialFeature) -> Self {
+        match feature.kind() {
             FeatureKind::Edge | FeatureKind::Corner => Self::Hits,
-            FeatureKind::Mad => Self::Deviations,
-            FeatureKind::Variance => Self::Squares,
+            FeatureKind::Mad => Self::Deviations(feature.mean().expect("mad has a mean")),
+            FeatureKind::Variance => {
+                Self::Squares(feature.variance().expect("variance has accumulators"))
+            }
         }
     }
 
@@ -28,8 +30,8 @@ impl SummedUp {
     pub(super) fn score_latency(self) -> u32 {
         match self {
             // The latency of the second pass is a number of its own.
-            Self::Hits | Self::Deviations => 0,
-            Self::Squares => 3,
+            Self::Hits | Self::Deviations(_) => 0,
+            Self::Squares(_) => 3,
         }
     }
 }

@@ -70,9 +70,9 @@ impl Sizes {
     fn of(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
         let rows = u64::from(timing.buffer_rows * design.region_size());
-        let counts = |feature: &&SpatialFeature| match SummedUp::of(feature.kind()) {
+        let counts = |feature: &&SpatialFeature| match SummedUp::of(feature) {
             SummedUp::Hits => true,
-            SummedUp::Deviations | SummedUp::Squares => false,
+            SummedUp::Deviations(_) | SummedUp::Squares(_) => false,
         };
         let hits = design.features().iter().filter(counts).count();
         Self {
@@ -130,15 +130,17 @@ impl Sizes {
         let side = u64::from(design.region_size());
         let column = |holds, bits| RasterMemory { holds, words: self.columns, bits };
         let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
-        let sums = |feature: &SpatialFeature| match SummedUp::of(feature.kind()) {
-            SummedUp::Hits => false,
-            SummedUp::Deviations | SummedUp::Squares => true,
+        let sums = column("sums of pixels", design.pixel_sum_bits());
+        let of_pixels = |feature: &SpatialFeature| match SummedUp::of(feature) {
+            SummedUp::Hits => None,
+            SummedUp::Deviations(_) | SummedUp::Squares(_) => Some(sums),
         };
-        if design.features().iter().any(sums) {
-            list.push(column("sums of pixels", design.pixel_sum_bits()));
-        }
-        let variance = design.features().iter().find_map(SpatialFeature::variance);
-        list.extend(variance.map(|variance| column("sums of squares", variance.square_sum_bits)));
+        let of_squares = |feature: &SpatialFeature| match SummedUp::of(feature) {
+            SummedUp::Hits | SummedUp::Deviations(_) => None,
+            SummedUp::Squares(widths) => Some(column("sums of squares", widths.square_sum_bits)),
+        };
+        list.extend(design.features().iter().find_map(of_pixels));
+        list.extend(design.features().iter().find_map(of_squares));
         list
     }
 
@@ -165,15 +167,19 @@ impl Sizes {
                 ROW_BITS + design.region_bits() + start + self.frame_bits(design) + reference,
             ));
         }
-        if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
-            let variance = design.features().iter().find(|feature| feature.variance().is_some());
-            let variance = variance.map_or(0, SpatialFeature::score_bits);
-            let judged = variance + (self.hits + 1) * design.count_bits();
-            list.push(queue(
+        let bits = |feature: &SpatialFeature| match SummedUp::of(feature) {
+            SummedUp::Hits => design.count_bits(),
+            SummedUp::Deviations(_) => 0,
+            SummedUp::Squares(_) => feature.score_bits(),
+        };
+        let judged = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
+        list.extend(design.features().iter().filter_map(|feature| match SummedUp::of(feature) {
+            SummedUp::Hits | SummedUp::Squares(_) => None,
+            SummedUp::Deviations(mean) => Some(queue(
                 "regions that wait for the second pass",
                 mean.mean_bits + start + judged,
-            ));
-        }
+            )),
+        }));
         let bits = self.reference.bits_per_region();
         if bits > 0 {
             let mut all = |holds| list.push(RasterMemory { holds, words: self.regions, bits });

@@ -67,7 +67,7 @@ impl RasterTiming {
             Pipelining::Plain => (2 + 4 * median + feature, 4, 1, 2),
             Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2, 3),
         };
-        let latencies = design.features().iter().map(|f| SummedUp::of(f.kind()).score_latency());
+        let latencies = design.features().iter().map(|f| SummedUp::of(f).score_latency());
         let score_latency = latencies.max().unwrap_or_default();
         let (pass_after_store, pass_to_decision) = match design.pipelining() {
             Pipelining::Plain => (8, 4),
