@@ -69,7 +69,7 @@ if [ "${1:-}" != --quick ]; then
         "bare $serial --set region.size=16 --set frame.pixel_bits=10 --set hardware.fold=4 --set spatial=[$edge,$fraction] --set render.payload='raw'"
         "paper $serial $deep --set region.size=4 --set temporal.reference='last-sent' --set hardware.fold=2 --set spatial=$all"
         "bare $serial $deep --set region.size=5 --set hardware.fold=2 --set hardware.feed='raster' --set hardware.memory='block' --set spatial=[$corner,$fraction]"
-        "paper $deep --set temporal.reference='last-sent' --set spatial=$all"
+        "paper $deep --rounds 4 --set temporal.reference='last-sent' --set spatial=$all"
         "paper $raster --grid 4x3 --set region.size=4"
         "paper $raster --grid 5x6 --rounds 6 --set region.size=5 --set denoise.filter='none' --set spatial=[$fraction,{feature='variance',min_score=30}] --set temporal.reference='last-sent'"
         "paper $raster --grid 8x3 $deep --set region={size=8,neighborhood='shared'} --set frame={width=222,height=222} --set hardware.pixels_per_clock=4 --set spatial=$all --set decision.combine='all' --set temporal.reference='last-sent' --set render={payload='raw',irrelevant='hold'}"
