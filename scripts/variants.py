@@ -7,7 +7,8 @@
 Where code does something for one variant, the compiler has to name the place when another variant comes. So there is a
 `match` with every variant, or a method of the type. A comparison (`==`, `matches!`), a catch-all arm (`_ =>`), and a view
 of a design (`design.serial()`) whose None stands for all other organizations compile with a new variant and take it for
-any other. So does a question for what only one feature has (`feature.mean().is_some()`). This prints each of them outside of tests, and fails if there is one.
+any other. So does a question for what only one feature has (`feature.mean().is_some()`). This prints each of them outside
+of tests, and fails if there is one.
 
 Not looked at: folders `tests`, `benches` and `examples`, files tests.rs, what follows `#[cfg(test)]`, and comments.
 """
