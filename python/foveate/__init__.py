@@ -26,7 +26,7 @@ from foveate._tables import events
 from foveate._work import estimate, explain, fidelity, generate, infer
 
 #: Names of the values of ``Outcome.action``: what becomes of a region on the screen.
-ACTIONS = ("blank", "hold", "forward")
+ACTIONS = ("blank", "hold", "forward", "summarize")
 
 
 __all__ = [

@@ -268,6 +268,7 @@ fn code(action: Action) -> u8 {
         Action::Blank => 0,
         Action::Hold => 1,
         Action::Forward => 2,
+        Action::Summarize => 3,
     }
 }
 

@@ -108,6 +108,7 @@ impl Control {
                 }
                 PortRole::TemporalLevel => thresholds.temporal_level = word(value()),
                 PortRole::TemporalMinCount => thresholds.temporal_min_count = word(value()),
+                PortRole::SummaryLevel => thresholds.summary_level = word(value()),
                 // Pixels, outputs, and the borders of a lone RPU.
                 _ => {}
             }

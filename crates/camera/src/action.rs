@@ -10,6 +10,8 @@ pub enum Action {
     Hold,
     /// It becomes black.
     Blank,
+    /// Its summary is sent: every block of it shows its mean.
+    Summarize,
 }
 
 impl Action {
@@ -20,6 +22,7 @@ impl Action {
             Self::Forward => "forward",
             Self::Hold => "hold",
             Self::Blank => "blank",
+            Self::Summarize => "summarize",
         }
     }
 }

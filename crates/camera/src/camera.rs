@@ -2,7 +2,8 @@
 //! The validated configuration of what is computed: one immutable value from which everything else is derived.
 
 use crate::{
-    CameraConfig, Combine, Filter, Irrelevant, Neighborhood, Payload, Reference, SpatialFeature,
+    CameraConfig, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery,
+    Reference, SpatialFeature,
 };
 
 /// A camera: what is computed of which frames. A configuration that has been checked, with every number that
@@ -14,6 +15,7 @@ pub struct Camera {
     height: u32,
     features: Vec<SpatialFeature>,
     temporal: Temporal,
+    periphery: Option<Periphery>,
 }
 
 /// The temporal score with its thresholds.
@@ -34,8 +36,9 @@ impl Camera {
         (width, height): (u32, u32),
         features: Vec<SpatialFeature>,
         temporal: Temporal,
+        periphery: Option<Periphery>,
     ) -> Self {
-        Self { config, width, height, features, temporal }
+        Self { config, width, height, features, temporal, periphery }
     }
 
     /// The configuration with every key filled in.
@@ -88,7 +91,7 @@ impl Camera {
 
     /// Their kinds, in that order.
     #[must_use]
-    pub fn kinds(&self) -> Vec<crate::FeatureKind> {
+    pub fn kinds(&self) -> Vec<FeatureKind> {
         self.features.iter().map(SpatialFeature::kind).collect()
     }
 
@@ -108,6 +111,12 @@ impl Camera {
     #[must_use]
     pub fn irrelevant(&self) -> Irrelevant {
         self.config.render.irrelevant
+    }
+
+    /// What irrelevant regions send; none where they send nothing.
+    #[must_use]
+    pub fn periphery(&self) -> Option<&Periphery> {
+        self.periphery.as_ref()
     }
 
     /// Which pixels an active region forwards.

@@ -112,6 +112,8 @@ choice! {
         Zero = "zero",
         /// The previous rendered pixels.
         Hold = "hold",
+        /// The means of its blocks, as they were last sent.
+        Mean = "mean",
     }
 }
 choice! {

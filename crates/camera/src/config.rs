@@ -27,6 +27,9 @@ pub struct CameraConfig {
     pub temporal: TemporalConfig,
     /// What becomes of a region on the screen.
     pub render: RenderConfig,
+    /// What irrelevant regions send, with `render.irrelevant = "mean"`.
+    #[serde(skip_serializing_if = "PeripheryConfig::is_empty")]
+    pub periphery: PeripheryConfig,
 }
 
 impl Default for CameraConfig {
@@ -39,6 +42,7 @@ impl Default for CameraConfig {
             decision: DecisionConfig::default(),
             temporal: TemporalConfig::default(),
             render: RenderConfig::default(),
+            periphery: PeripheryConfig::default(),
         }
     }
 }
@@ -52,6 +56,7 @@ impl CameraConfig {
         let mut config = self.clone();
         config.frame.pixel_bits = bits;
         config.temporal.level = self.temporal.level.map(|value| depth::level(value, from, bits));
+        config.periphery.level = self.periphery.level.map(|value| depth::level(value, from, bits));
         config.spatial = self.spatial.iter().map(|entry| entry.at_depth(from, bits)).collect();
         config
     }
@@ -203,4 +208,36 @@ pub struct RenderConfig {
     pub irrelevant: Irrelevant,
     /// Which pixels an active region forwards.
     pub payload: Payload,
+}
+
+/// `[periphery]`: the summaries of irrelevant regions. It is there only with `render.irrelevant = "mean"`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PeripheryConfig {
+    /// Blocks per side q of a region, 1, 2 or 4, which divides N; left out it is 2 where that divides N, else 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub blocks: Option<u32>,
+    /// A summary is sent again when a mean differs by more than this many grey levels, 0..2^P-1; left out it is 4 at
+    /// 8 bits, scaled to the depth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<u32>,
+}
+
+impl PeripheryConfig {
+    /// Whether it says nothing.
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The blocks per side, their default filled in for regions of `side` pixels a side.
+    #[must_use]
+    pub fn blocks_of(&self, side: u32) -> u32 {
+        self.blocks.unwrap_or(if side.is_multiple_of(2) { 2 } else { 1 })
+    }
+
+    /// The level, its default filled in for pixels of `bits` bits.
+    #[must_use]
+    pub fn level_at(&self, bits: u32) -> u32 {
+        self.level.unwrap_or_else(|| depth::level(4, DEFAULT_BITS, bits))
+    }
 }

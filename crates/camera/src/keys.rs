@@ -51,6 +51,8 @@ pub const CAMERA_KEYS: &[Key] = &[
     ("temporal.reference", Names(Reference::one_of)),
     ("render.irrelevant", Names(Irrelevant::one_of)),
     ("render.payload", Names(Payload::one_of)),
+    ("periphery.blocks", Text("1, 2 or 4, and a divisor of region.size")),
+    ("periphery.level", Text("a whole number >= 0, in grey levels")),
 ];
 
 /// What the key at `path`, such as `spatial[0].level`, takes.

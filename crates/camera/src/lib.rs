@@ -17,9 +17,11 @@ mod error;
 mod feature;
 mod keys;
 mod kind;
+mod periphery;
 mod ranges;
 mod reciprocal;
 mod reference;
+mod sent;
 pub mod text;
 mod validate;
 mod width;
@@ -30,16 +32,18 @@ pub use choice::{
     Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference, listed,
 };
 pub use config::{
-    CameraConfig, DecisionConfig, DenoiseConfig, FrameConfig, RegionConfig, RenderConfig,
-    SpatialConfig, TemporalConfig,
+    CameraConfig, DecisionConfig, DenoiseConfig, FrameConfig, PeripheryConfig, RegionConfig,
+    RenderConfig, SpatialConfig, TemporalConfig,
 };
 pub use decimal::Decimal;
 pub use error::ConfigError;
 pub use feature::{Mean, SpatialFeature, Variance};
 pub use keys::{CAMERA_KEYS, Key, Takes};
 pub use kind::Measure;
-pub use ranges::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
+pub use periphery::Periphery;
+pub use ranges::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS};
 pub use reciprocal::Reciprocal;
 pub use reference::Written;
+pub use sent::DECISION_BITS;
 pub use validate::in_range;
 pub use width::{bits_for, index_bits, mad_score_max};

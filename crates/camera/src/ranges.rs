@@ -9,6 +9,8 @@ pub const MAX_SIDE: u32 = 16_384;
 pub const PIXEL_BITS: RangeInclusive<u32> = 1..=16;
 /// Sides of a region N in pixels.
 pub const REGION_SIZES: RangeInclusive<u32> = 2..=64;
+/// Blocks per side q of a region's summary.
+pub const SUMMARY_BLOCKS: &[u32] = &[1, 2, 4];
 /// Fraction bits of the mean of `mad`, for the largest region.
 pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;
 

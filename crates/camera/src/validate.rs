@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::{Camera, CameraConfig, ConfigError, FeatureKind, SpatialFeature, Temporal};
+use crate::{Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, Temporal};
 use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES};
 
 /// Frame size where the configuration leaves it out.
@@ -47,12 +47,15 @@ impl CameraConfig {
         let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), bits);
         let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        let periphery = Periphery::resolve(self)?;
+        config.periphery.blocks = periphery.map(|periphery| periphery.blocks);
+        config.periphery.level = periphery.map(|periphery| periphery.level);
         let temporal = Temporal {
             level,
             min_count: self.temporal.min_count,
             reference: self.temporal.reference,
         };
-        Ok(Camera::new(config, (width, height), features, temporal))
+        Ok(Camera::new(config, (width, height), features, temporal, periphery))
     }
 
     /// The camera for inputs of `width` x `height` pixels.

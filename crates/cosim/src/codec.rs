@@ -57,6 +57,7 @@ impl Codec {
             PortRole::MinScore(kind) => thresholds.min_score[place(kind)],
             PortRole::TemporalLevel => thresholds.temporal_level.into(),
             PortRole::TemporalMinCount => thresholds.temporal_min_count.into(),
+            PortRole::SummaryLevel => thresholds.summary_level.into(),
             PortRole::Pixel => return self.apply_pixels(input.pixels),
             PortRole::ReferencePixel => return self.apply_pixels(input.reference_pixels),
             // The clock, which is in no record, and outputs.

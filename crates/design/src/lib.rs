@@ -29,10 +29,11 @@ pub use choice::{Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
 pub use config::{Config, HardwareConfig};
 pub use design::Design;
 pub use foveate_camera::{
-    Action, Camera, CameraConfig, Combine, ConfigError, Decimal, DecisionConfig, DenoiseConfig,
-    FeatureKind, Filter, FrameConfig, Irrelevant, Mean, Measure, Neighborhood, Payload, Reciprocal,
-    Reference, RegionConfig, RenderConfig, SpatialConfig, SpatialFeature, Temporal, TemporalConfig,
-    Variance, Written, bits_for, index_bits, mad_score_max,
+    Action, Camera, CameraConfig, Combine, ConfigError, DECISION_BITS, Decimal, DecisionConfig,
+    DenoiseConfig, FeatureKind, Filter, FrameConfig, Irrelevant, Mean, Measure, Neighborhood,
+    Payload, Periphery, PeripheryConfig, Reciprocal, Reference, RegionConfig, RenderConfig,
+    SpatialConfig, SpatialFeature, Temporal, TemporalConfig, Variance, Written, bits_for,
+    index_bits, mad_score_max,
 };
 pub use hardware::Hardware;
 pub use interface::{BeatRegion, Interface, Stream, StreamRole};

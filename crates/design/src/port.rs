@@ -36,6 +36,8 @@ pub enum PortRole {
     TemporalLevel,
     /// Per-region threshold of the temporal score.
     TemporalMinCount,
+    /// A summary is sent again when a mean differs by more (designs with a periphery).
+    SummaryLevel,
     /// A reference is on the port below (`raster`, store outside).
     ReferenceValid,
     /// The word with which the next word is compared (`raster`, store outside).
@@ -72,6 +74,8 @@ pub enum PortRole {
     Trs,
     /// Both: the region's pixels will leave.
     Active,
+    /// The region's means will leave (designs with a periphery).
+    Summary,
     /// Score of a feature (`pipelined`, `raster`).
     Score(FeatureKind),
     /// Temporal score (`pipelined`, `raster`).
@@ -117,6 +121,7 @@ impl PortRole {
             | Self::MinScore(_)
             | Self::TemporalLevel
             | Self::TemporalMinCount
+            | Self::SummaryLevel
             | Self::ReferencePixel
             | Self::StorePixel
             | Self::ScoreIndex
@@ -149,6 +154,7 @@ impl PortRole {
             | Self::Srs
             | Self::Trs
             | Self::Active
+            | Self::Summary
             | Self::ForwardValid
             | Self::ForwardFirst
             | Self::ForwardLast
@@ -246,6 +252,10 @@ pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
     let doc = "a pixel has changed above this difference";
     add(PortRole::TemporalLevel, design.pixel_bits(), doc);
     add(PortRole::TemporalMinCount, design.count_bits(), "TRS from this count on");
+    if design.periphery().is_some() {
+        let doc = "a mean that differs by more is sent again";
+        add(PortRole::SummaryLevel, design.pixel_bits(), doc);
+    }
     list
 }
 
@@ -261,6 +271,7 @@ fn port_name(role: PortRole) -> String {
         PortRole::MinScore(kind) => format!("{kind}_min_i"),
         PortRole::TemporalLevel => "temporal_level_i".to_owned(),
         PortRole::TemporalMinCount => "temporal_min_i".to_owned(),
+        PortRole::SummaryLevel => "summary_level_i".to_owned(),
         PortRole::ReferenceValid => "reference_valid_i".to_owned(),
         PortRole::ReferencePixel => "reference_pixel_i".to_owned(),
         PortRole::ForwardReady => "forward_ready_i".to_owned(),
@@ -279,6 +290,7 @@ fn port_name(role: PortRole) -> String {
         PortRole::Srs => "srs_o".to_owned(),
         PortRole::Trs => "trs_o".to_owned(),
         PortRole::Active => "active_o".to_owned(),
+        PortRole::Summary => "summary_o".to_owned(),
         PortRole::Score(kind) => format!("{kind}_score_o"),
         PortRole::TemporalCount => "temporal_count_o".to_owned(),
         PortRole::ForwardValid => "forward_valid_o".to_owned(),

@@ -43,6 +43,11 @@ pub const PRESETS: &[Preset] = &[
         toml: "[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"hold\"\n",
     },
     Preset {
+        name: "fovea",
+        summary: "pixels where it matters and the means of 2x2 blocks elsewhere: what a network can use",
+        toml: "[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"mean\"\n",
+    },
+    Preset {
         name: "seamless",
         summary: "windows that see the neighboring regions: equal to whole-frame processing",
         toml: "[region]\nneighborhood = \"shared\"\n",

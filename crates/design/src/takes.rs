@@ -3,7 +3,7 @@
 //! one is computed by those that say so, and refused by the others.
 
 use crate::{HardwareConfig, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Reference};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference};
 
 /// What an organization says of a configuration; it is implemented by what only that organization has.
 pub(crate) trait Takes: Sized {
@@ -11,6 +11,8 @@ pub(crate) trait Takes: Sized {
     fn takes_feature(kind: FeatureKind) -> bool;
     /// Whether it keeps such a reference.
     fn takes_reference(reference: Reference) -> bool;
+    /// Whether it can show that of irrelevant regions.
+    fn takes_irrelevant(irrelevant: Irrelevant) -> bool;
     /// Whether its thresholds may come from there.
     fn takes_thresholds(thresholds: Thresholds) -> bool;
     /// Whether it can be told where frames start, and find them again: `hardware.sync`.
@@ -38,6 +40,10 @@ pub(crate) fn taken<O: Takes>(asked: &HardwareConfig, camera: &Camera) -> Result
     let reference = camera.temporal().reference;
     if !O::takes_reference(reference) {
         return refuse("temporal.reference", reference.name(), "use another reference");
+    }
+    let irrelevant = camera.irrelevant();
+    if !O::takes_irrelevant(irrelevant) {
+        return refuse("render.irrelevant", irrelevant.name(), "show something else");
     }
     if !O::takes_thresholds(asked.thresholds) {
         return refuse("hardware.thresholds", asked.thresholds.name(), "use other thresholds");
@@ -67,6 +73,10 @@ mod tests {
             reference == Reference::Previous
         }
 
+        fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
+            irrelevant == Irrelevant::Hold
+        }
+
         fn takes_thresholds(thresholds: Thresholds) -> bool {
             thresholds == Thresholds::Runtime
         }
@@ -88,14 +98,16 @@ mod tests {
 
     #[test]
     fn what_an_organization_does_not_take_is_refused_by_name() {
-        let previous = "[temporal]\nreference = \"previous\"\n";
+        let held = "[render]\nirrelevant = \"hold\"\n";
+        let previous = format!("{held}[temporal]\nreference = \"previous\"\n");
         let refusal = |more: &str| asked(&format!("{more}{previous}")).unwrap_err();
         let features = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n";
-        assert_eq!(asked(previous), Ok(Narrow));
+        assert_eq!(asked(&previous), Ok(Narrow));
         for (text, key, value) in [
             (refusal(features), "spatial[1].feature", "mad"),
             (refusal("[hardware]\nthresholds = \"constant\"\n"), "hardware.thresholds", "constant"),
             (refusal("[hardware]\nsync = true\n"), "hardware.sync", "true"),
+            (asked("").unwrap_err(), "render.irrelevant", "zero"),
             (
                 asked("[temporal]\nreference = \"last-sent\"\n").unwrap_err(),
                 "temporal.reference",

@@ -13,10 +13,10 @@ pub(crate) fn last_sent(camera: &Camera) -> u32 {
     }
 }
 
-/// `BLANKS`: an irrelevant region becomes black, and so has no reference.
+/// `BLANKS`: an irrelevant region becomes black or shows its means, and so has no reference.
 pub(crate) fn blanks(camera: &Camera) -> bool {
     match camera.irrelevant() {
-        Irrelevant::Zero => true,
+        Irrelevant::Zero | Irrelevant::Mean => true,
         Irrelevant::Hold => false,
     }
 }

@@ -45,6 +45,7 @@ fn constant_name(role: PortRole) -> String {
         PortRole::MinScore(kind) => format!("{}_MIN", upper(kind)),
         PortRole::TemporalLevel => "TEMPORAL_LEVEL".to_owned(),
         PortRole::TemporalMinCount => "TEMPORAL_MIN".to_owned(),
+        PortRole::SummaryLevel => "SUMMARY_LEVEL".to_owned(),
         _ => unreachable!("{role:?} is no threshold"),
     }
 }
@@ -67,6 +68,9 @@ pub(crate) fn constants(design: &Design) -> Vec<Constant> {
     let temporal = design.temporal();
     add(PortRole::TemporalLevel, design.pixel_bits(), temporal.level.into());
     add(PortRole::TemporalMinCount, design.count_bits(), temporal.min_count.into());
+    if let Some(periphery) = design.periphery() {
+        add(PortRole::SummaryLevel, design.pixel_bits(), periphery.level.into());
+    }
     list
 }
 
@@ -78,6 +82,7 @@ pub(crate) fn threshold_value(design: &Design, port: &Port) -> Option<u64> {
         PortRole::MinScore(kind) => Some(feature(kind)?.min_score()),
         PortRole::TemporalLevel => Some(design.temporal().level.into()),
         PortRole::TemporalMinCount => Some(design.temporal().min_count.into()),
+        PortRole::SummaryLevel => Some(design.periphery()?.level.into()),
         _ => None,
     }
 }

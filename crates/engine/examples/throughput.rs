@@ -2,7 +2,8 @@
 //! Megapixels per second of the engine on a clip in memory, one JSON object per line.
 //!
 //! `throughput CLIP.npy --side N --features edge,corner,mad [--neighborhood shared] [--threads 1]
-//! [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]`; frames are
+//! [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent] [--blocks 2]`; with `--blocks`
+//! irrelevant regions send the means of so many blocks a side. Frames are
 //! given `--batch` at a time, and with `--screens` the rendered frame of each is kept. `throughput --copy`
 //! measures what the machine copies. `mpixel_s` is over the faster half of the frames, as `cv_pipeline.py`
 //! reports it, `mpixel_s_mean` over all of the clip, each frame at its fastest.
@@ -10,7 +11,9 @@
 use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
-use foveate_camera::{CameraConfig, Decimal, FeatureKind, Neighborhood, Reference, SpatialConfig};
+use foveate_camera::{
+    CameraConfig, Decimal, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
+};
 use foveate_engine::{Engine, FrameOutcome, Level, Options, Screens};
 
 type Failure = Box<dyn std::error::Error>;
@@ -36,6 +39,10 @@ fn main() -> Result<(), Failure> {
     };
     if value("--reference") == Some("last-sent") {
         config.temporal.reference = Reference::LastSent;
+    }
+    if let Some(blocks) = value("--blocks") {
+        config.render.irrelevant = Irrelevant::Mean;
+        config.periphery.blocks = Some(blocks.parse()?);
     }
     let features = value("--features").unwrap_or("edge");
     config.spatial = features.split(',').map(feature).collect::<Result<_, _>>()?;

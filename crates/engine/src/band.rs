@@ -7,6 +7,7 @@ use foveate_camera::Reference;
 
 use crate::denoised::Denoiser;
 use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};
+use crate::periphery::PeripheryPlan;
 use crate::pixels::Pixels;
 use crate::plan::{CameraPlan, Passes};
 use crate::scratch::{Columns, Scratch, Sums};
@@ -79,7 +80,42 @@ impl<T: Lane> Band<'_, T> {
                 sums::by_region(&scratch.columns.over, side, &mut scratch.sums.over);
             }
         }
+        if let Some(periphery) = self.plan.periphery {
+            for run in &runs {
+                self.means_of_blocks(periphery, scratch, run);
+            }
+        }
         scratch.runs = runs;
+    }
+
+    /// The means of the blocks of every region that a run covers, of the pixels that leave.
+    #[inline(always)]
+    fn means_of_blocks(
+        &self,
+        periphery: PeripheryPlan<T>,
+        scratch: &mut Scratch<T>,
+        run: &Range<usize>,
+    ) {
+        let (plan, stride) = (self.plan, self.plan.stride());
+        let Scratch { columns, means, raw, .. } = scratch;
+        let covered = plan.blocks_under(periphery.side, run);
+        for (row, means) in means.chunks_exact_mut(plan.means_in_row()).enumerate() {
+            let own = &mut columns.sum.blocks_mut()[run.clone()];
+            let rows = row * periphery.side..(row + 1) * periphery.side;
+            if plan.keeps_raw {
+                own.fill([T::Sum::default(); BLOCK]);
+                for y in rows {
+                    let pixels = self.raw.row(self.number * plan.side + y);
+                    raw.values_mut()[..plan.width].copy_from_slice(pixels);
+                    raw.repeat_border(plan.width, plan.padded_width());
+                    sums::add(raw.blocks(run), own);
+                }
+            } else {
+                sums::add_rows(&self.denoised[run.start * BLOCK..], stride, rows, own);
+            }
+            let columns = &columns.sum[covered.start * periphery.side..];
+            periphery.means(columns, &mut means[covered.clone()]);
+        }
     }
 
     #[inline(always)]

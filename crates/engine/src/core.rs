@@ -31,6 +31,9 @@ pub(crate) struct Core<T: Lane> {
     pub(crate) screen: Vec<T>,
     valid: Vec<bool>,
     black: Vec<bool>,
+    /// Regions whose summary the screen shows, and its means.
+    shown: Vec<bool>,
+    means: Vec<T>,
     settled: Vec<bool>,
     /// The last frame, without padding, while the policy wants it.
     copy: Vec<T>,
@@ -69,6 +72,8 @@ impl<T: Lane> Core<T> {
             screen: vec![T::default(); plan.width * plan.height],
             valid: vec![false; plan.regions()],
             black: vec![true; plan.regions()],
+            shown: vec![false; if plan.periphery.is_some() { plan.regions() } else { 0 }],
+            means: vec![T::default(); plan.rows * plan.band_means()],
             settled: vec![false; plan.rows],
             copy: vec![T::default(); if skip { plan.width * plan.height } else { 0 }],
             changed: Vec::new(),
@@ -82,6 +87,7 @@ impl<T: Lane> Core<T> {
     pub(crate) fn reset(&mut self) {
         self.valid.fill(false);
         self.black.fill(true);
+        self.shown.fill(false);
         self.settled.fill(false);
         self.screen.fill(T::default());
         self.policy = Policy::new(self.skip);
@@ -172,6 +178,7 @@ impl<T: Lane> Core<T> {
         let changes = Changes { changed: &self.changed, frames: frames.len(), first };
         let (mut denoised, mut reference) = (&mut self.denoised[..], &mut self.reference[..]);
         let (mut valid, mut black) = (&mut self.valid[..], &mut self.black[..]);
+        let (mut shown, mut means) = (&mut self.shown[..], &mut self.means[..]);
         let (mut settled, mut screen) = (&mut self.settled[..], &mut self.screen[..]);
         let mut results = outcome.results();
         let Keep { outcomes, screens } = keep;
@@ -197,6 +204,8 @@ impl<T: Lane> Core<T> {
                 screen: split_off(&mut screen, rows * plan.width),
                 valid: split_off(&mut valid, regions),
                 black: split_off(&mut black, regions),
+                shown: split_off(&mut shown, regions),
+                means: split_off(&mut means, bands.len() * plan.band_means()),
                 settled: split_off(&mut settled, bands.len()),
                 bands,
                 results: results.split_off(regions),

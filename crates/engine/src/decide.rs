@@ -91,7 +91,7 @@ impl<T: Lane> CameraPlan<T> {
         match (self.reference, action) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => 0,
             (Reference::LastSent, Action::Hold) => count,
-            (Reference::LastSent, Action::Blank) => n,
+            (Reference::LastSent, Action::Blank | Action::Summarize) => n,
         }
     }
 
@@ -102,7 +102,8 @@ impl<T: Lane> CameraPlan<T> {
             (true, false) => Action::Hold,
             (false, _) => match self.irrelevant {
                 Irrelevant::Zero => Action::Blank,
-                Irrelevant::Hold => Action::Hold,
+                // Which summaries are sent is decided behind this, once the actions are there.
+                Irrelevant::Hold | Irrelevant::Mean => Action::Hold,
             },
         }
     }

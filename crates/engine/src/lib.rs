@@ -22,6 +22,7 @@ mod error;
 mod kernel;
 mod look;
 mod outcome;
+mod periphery;
 mod pixels;
 mod plan;
 mod policy;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A camera as the kernels need it: geometry in indices, thresholds in lanes.
 
+use std::ops::Range;
+
 use foveate_camera::{
     Camera, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
 };
 
+use crate::periphery::PeripheryPlan;
 use foveate_lanes::Aligned;
 use foveate_lanes::{BLOCK, Lane, threshold};
 
@@ -37,6 +40,9 @@ pub(crate) struct CameraPlan<T: Lane> {
     pub(crate) reference: Reference,
     pub(crate) irrelevant: Irrelevant,
     pub(crate) payload: Payload,
+    /// Whether the pixels that leave are not those that are scored.
+    pub(crate) keeps_raw: bool,
+    pub(crate) periphery: Option<PeripheryPlan<T>>,
 }
 
 /// What has to be done with the pixels of a band for the features.
@@ -97,12 +103,24 @@ impl<T: Lane> CameraPlan<T> {
             reference: camera.temporal().reference,
             irrelevant: camera.irrelevant(),
             payload: camera.payload(),
+            keeps_raw: camera.keeps_raw(),
+            periphery: PeripheryPlan::of(camera),
         }
     }
 
     /// Regions of a frame.
     pub(crate) fn regions(&self) -> usize {
         self.columns * self.rows
+    }
+
+    /// Means of the summaries of a band.
+    pub(crate) fn band_means(&self) -> usize {
+        self.periphery.map_or(0, |own| self.means_in_row() * own.blocks)
+    }
+
+    /// Those of a row of blocks.
+    pub(crate) fn means_in_row(&self) -> usize {
+        self.periphery.map_or(0, |own| self.columns * own.blocks)
     }
 
     /// Values from one padded row to the next.
@@ -131,6 +149,12 @@ impl<T: Lane> CameraPlan<T> {
     pub(crate) fn margin(&self) -> usize {
         // Without a look over seams, and with none across the end of a block, there are none.
         usize::from(self.seams.is_none() || !BLOCK.is_multiple_of(self.side))
+    }
+
+    /// The blocks of a summary, of so many pixels a side, that lie within a run as a whole.
+    pub(crate) fn blocks_under(&self, side: usize, run: &Range<usize>) -> Range<usize> {
+        let (start, end) = (run.start * BLOCK, (run.end * BLOCK).min(self.padded_width()));
+        start.div_ceil(side)..(end / side).max(start.div_ceil(side))
     }
 
     /// Pixels of a region.

@@ -18,6 +18,8 @@ pub(crate) struct Canvas<'a, T> {
     pub(crate) valid: &'a mut [bool],
     /// Regions of the screen that are black already.
     pub(crate) black: &'a mut [bool],
+    /// The means that regions have sent last.
+    pub(crate) means: &'a [T],
 }
 
 impl<T: Lane> Canvas<'_, T> {
@@ -46,6 +48,13 @@ impl<T: Lane> Canvas<'_, T> {
                     self.black[column] = false;
                 }
                 Action::Hold => {}
+                Action::Summarize => {
+                    let periphery =
+                        plan.periphery.as_ref().expect("only a periphery sends summaries");
+                    let (place, screen) = ((plan.columns, column), &mut self.screen[left..]);
+                    periphery.show(self.means, place, screen, (plan.width, width, height));
+                    self.black[column] = false;
+                }
                 Action::Blank if self.black[column] => {}
                 Action::Blank => {
                     clear(&mut self.screen[left..], plan.width, width, height);
@@ -60,7 +69,9 @@ impl<T: Lane> Canvas<'_, T> {
                     self.valid[column] = true;
                 }
                 (Reference::LastSent, Action::Hold) => {}
-                (Reference::LastSent, Action::Blank) => self.valid[column] = false,
+                (Reference::LastSent, Action::Blank | Action::Summarize) => {
+                    self.valid[column] = false
+                }
             }
         }
     }

@@ -105,6 +105,12 @@ pub(crate) struct Scratch<T: Lane> {
     pub(crate) denoised: Vec<DenoisedRow<T>>,
     pub(crate) columns: Columns<T>,
     pub(crate) sums: Sums,
+    /// A raw row with its padding, where summaries are made of raw pixels.
+    pub(crate) raw: BlockRow<T>,
+    /// The means of the band's blocks, row by row of blocks.
+    pub(crate) means: Vec<T>,
+    /// By column of blocks: not 0 where a mean differs from the one that was sent last.
+    pub(crate) differs: Vec<T>,
     /// Blocks of the band that have to be computed.
     pub(crate) runs: Vec<Range<usize>>,
     /// Regions of the band whose results may have changed.
@@ -140,6 +146,9 @@ impl<T: Lane> Scratch<T> {
                 above: regions(),
                 over: regions(),
             },
+            raw: row(),
+            means: vec![T::default(); plan.band_means()],
+            differs: vec![T::default(); plan.means_in_row()],
             runs: Vec::with_capacity(plan.blocks),
             affected: vec![true; plan.columns],
         }

@@ -10,6 +10,7 @@ use crate::band::Band;
 use crate::change;
 use crate::look::Changes;
 use crate::outcome::{Results, within};
+use crate::periphery::Summaries;
 use crate::pixels::Pixels;
 use crate::plan::CameraPlan;
 use crate::render::{Canvas, show};
@@ -54,6 +55,9 @@ pub(crate) struct Strip<'a, T: Lane> {
     pub(crate) screen: &'a mut [T],
     pub(crate) valid: &'a mut [bool],
     pub(crate) black: &'a mut [bool],
+    /// Regions whose summary the screen shows, and its means; empty where irrelevant regions send none.
+    pub(crate) shown: &'a mut [bool],
+    pub(crate) means: &'a mut [T],
     /// By band: no result, reference or pixel of the screen would change if it stood still again.
     pub(crate) settled: &'a mut [bool],
     /// Of the last frame.
@@ -119,12 +123,19 @@ impl<T: Lane> Strip<'_, T> {
         let mut results = self.results.rows(regions.clone());
         let valid = &mut self.valid[regions.clone()];
         plan.decide(&self.scratch.sums, &self.scratch.affected, valid, &mut results);
+        let means = row * plan.band_means()..(row + 1) * plan.band_means();
+        let means = &mut self.means[means];
+        if let Some(periphery) = &plan.periphery {
+            let shown = &mut self.shown[regions.clone()];
+            periphery.summarize(self.scratch, &mut Summaries { shown, means }, &mut results);
+        }
         let mut canvas = Canvas {
             screen: &mut self.screen[lines..],
             denoised: &self.denoised[rows],
             reference: &mut self.reference[reference],
             valid,
             black: &mut self.black[regions],
+            means,
         };
         canvas.act(plan, raw, number, results.actions);
     }

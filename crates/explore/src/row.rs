@@ -66,7 +66,7 @@ impl DesignRow {
             settings,
             config: design.config(),
             fingerprint: design.fingerprint(),
-            bytes_per_frame: bytes_per_frame(design, figures.active),
+            bytes_per_frame: bytes_per_frame(design, &figures),
             clocks_per_frame,
             speed: given.or(estimated),
             silicon: synthesized.map(|synthesized| synthesized.silicon),
@@ -90,10 +90,12 @@ pub(crate) fn together(measured: &[&Measured]) -> Option<ErrorTally> {
 }
 
 /// As `simulate` counts: the two bits of every region say what becomes of it, so no addresses are sent.
-pub(crate) fn bytes_per_frame(camera: &Camera, active: f64) -> f64 {
-    let pixels = f64::from(camera.width()) * f64::from(camera.height());
-    let bits = pixels * active * f64::from(camera.pixel_bits());
-    (2.0 * f64::from(camera.regions()) + bits) / 8.0
+pub(crate) fn bytes_per_frame(camera: &Camera, figures: &Figures) -> f64 {
+    let regions = f64::from(camera.regions());
+    let pixels = f64::from(camera.width()) * f64::from(camera.height()) * figures.active;
+    let means = camera.periphery().map_or(0.0, |own| f64::from(own.means()));
+    let values = pixels + regions * figures.summarized * means;
+    (2.0 * regions + values * f64::from(camera.pixel_bits())) / 8.0
 }
 
 /// A count as a number to calculate with.

@@ -12,6 +12,7 @@ const STATE_BITS: usize = 4;
 const SRS: u8 = 1;
 const TRS: u8 = 2;
 const ACTION: u8 = 12;
+const SUMMARIZED: u8 = 12;
 
 /// No area yet.
 pub(crate) const EMPTY: Table = [0; 1 << (2 * STATE_BITS)];
@@ -22,6 +23,7 @@ pub(crate) fn state(srs: bool, trs: bool, action: Action) -> u8 {
         Action::Forward => 0,
         Action::Hold => 4,
         Action::Blank => 8,
+        Action::Summarize => SUMMARIZED,
     };
     (u8::from(srs) * SRS) | (u8::from(trs) * TRS) | action
 }
@@ -46,6 +48,15 @@ pub(crate) struct Areas {
     pub(crate) candidate: u64,
     /// Active in both.
     pub(crate) both: u64,
+    /// Of regions whose summary the candidate sends.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub(crate) summarized: u64,
+}
+
+/// Tallies from before there were summaries lack the key, and so do those without one.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+fn is_none(area: &u64) -> bool {
+    *area == 0
 }
 
 impl Areas {
@@ -64,6 +75,7 @@ impl Areas {
                 ideal: when(active(ideal)),
                 candidate: when(active(candidate)),
                 both: when(active(ideal) && active(candidate)),
+                summarized: when(candidate & ACTION == SUMMARIZED),
             });
         }
     }
@@ -75,5 +87,6 @@ impl Areas {
         self.ideal += other.ideal;
         self.candidate += other.candidate;
         self.both += other.both;
+        self.summarized += other.summarized;
     }
 }

@@ -33,6 +33,9 @@ pub struct Figures {
     pub active: f64,
     /// Share of the area that is active in the ideal.
     pub ideal_active: f64,
+    /// Share of the area of regions whose summary the candidate sends; left out where it sends none.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub summarized: f64,
     /// PSNR of the candidate's screen against the ideal's in dB, `10 log10(peak^2 / mse)` with the mean
     /// squared error of all frames and peak 2^P - 1 of the ideal; `None` where they are identical.
     pub psnr_ideal: Option<f64>,
@@ -46,6 +49,11 @@ pub struct Figures {
     pub ssim_input: f64,
     /// How old the candidate's screen is.
     pub staleness: Staleness,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+fn is_none(share: &f64) -> bool {
+    *share == 0.0
 }
 
 /// Error of one score over all regions and frames: |candidate - ideal|.
@@ -102,6 +110,7 @@ impl ErrorTally {
             active_iou: ratio(areas.both, union, 1.0),
             active: share(areas.candidate),
             ideal_active: share(areas.ideal),
+            summarized: share(areas.summarized),
             psnr_ideal: self.to_ideal.psnr(*pixels, self.peak),
             psnr_input: self.to_input.psnr(*pixels, self.peak),
             ssim_ideal: self.to_ideal.ssim(*frames),

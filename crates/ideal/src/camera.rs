@@ -9,6 +9,7 @@ use crate::feature::{Scratch, changed, score};
 use crate::grid::Grid;
 use crate::median::{Columns, median};
 use crate::memory::Memory;
+use crate::periphery::Periphery;
 use crate::plane::Plane;
 use crate::rules::Rules;
 use crate::{IdealError, IdealOutcome};
@@ -23,6 +24,7 @@ pub struct IdealCamera {
     grid: Grid,
     rules: Rules,
     memory: Memory,
+    periphery: Option<Periphery>,
     raw: Plane,
     denoised: Plane,
     columns: Columns,
@@ -38,6 +40,7 @@ impl IdealCamera {
         let rules = Rules::of(camera);
         Self {
             memory: Memory::new(camera, &grid),
+            periphery: Periphery::of(camera, &grid),
             raw: Plane::black(&grid),
             denoised: Plane::black(&grid),
             columns: Columns::default(),
@@ -64,6 +67,9 @@ impl IdealCamera {
     /// Forgets every frame; the screen is black again.
     pub fn reset(&mut self) {
         self.memory.forget();
+        if let Some(periphery) = &mut self.periphery {
+            periphery.forget();
+        }
         self.outcome.rendered.fill(0.0);
     }
 
@@ -108,22 +114,27 @@ impl IdealCamera {
     }
 
     fn decide(&mut self, region: usize) {
-        let Self { rules, outcome, .. } = self;
+        let Self { camera, grid, raw, denoised, rules, periphery, outcome, .. } = self;
         let srs = rules.spatial(&outcome.scores, region);
         let trs = rules.temporal(outcome.changed[region]);
         outcome.srs[region] = srs;
         outcome.trs[region] = trs;
         outcome.active[region] = srs && trs;
-        outcome.actions[region] = rules.action(srs, trs);
+        let means = periphery.as_ref().map_or(Vec::new(), |periphery| {
+            periphery.means(payload(camera, raw, denoised), grid, region)
+        });
+        let is_due = || periphery.as_ref().is_some_and(|own| own.is_due(region, &means));
+        let action = rules.action(srs, trs, is_due);
+        outcome.actions[region] = action;
+        if let Some(periphery) = periphery {
+            periphery.follow(region, action, means);
+        }
     }
 
     /// Renders one region; the rest of the screen stays.
     fn show(&mut self, region: usize) {
-        let Self { camera, grid, raw, denoised, outcome, .. } = self;
-        let payload = match camera.payload() {
-            Payload::Denoised => denoised,
-            Payload::Raw => raw,
-        };
+        let Self { camera, grid, raw, denoised, periphery, outcome, .. } = self;
+        let payload = payload(camera, raw, denoised);
         let (columns, rows) = grid.seen(region);
         for y in rows {
             let shown = &mut outcome.rendered[y * grid.width..][columns.clone()];
@@ -131,7 +142,21 @@ impl IdealCamera {
                 Action::Forward => shown.copy_from_slice(&payload.row(y)[columns.clone()]),
                 Action::Hold => {}
                 Action::Blank => shown.fill(0.0),
+                Action::Summarize => {
+                    let periphery = periphery.as_ref().expect("only a periphery sends summaries");
+                    for (x, shown) in columns.clone().zip(shown) {
+                        *shown = periphery.value(grid, region, (x, y));
+                    }
+                }
             }
         }
+    }
+}
+
+/// The frame whose pixels leave.
+fn payload<'a>(camera: &Camera, raw: &'a Plane, denoised: &'a Plane) -> &'a Plane {
+    match camera.payload() {
+        Payload::Denoised => denoised,
+        Payload::Raw => raw,
     }
 }

@@ -14,6 +14,7 @@ mod grid;
 mod median;
 mod memory;
 mod outcome;
+mod periphery;
 mod plane;
 mod rules;
 mod view;

@@ -49,7 +49,7 @@ impl Memory {
             }
             (Reference::LastSent, Action::Hold) => {}
             // What was sent is no longer on the screen.
-            (Reference::LastSent, Action::Blank) => valid[region] = false,
+            (Reference::LastSent, Action::Blank | Action::Summarize) => valid[region] = false,
         }
     }
 }

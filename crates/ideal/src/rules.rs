@@ -57,12 +57,19 @@ impl Rules {
         changed >= self.min_count
     }
 
-    /// What becomes of a region on the screen.
-    pub(crate) fn action(&self, srs: bool, trs: bool) -> Action {
+    /// What becomes of a region on the screen; `is_summary_due` is asked only where irrelevant regions send their means.
+    pub(crate) fn action(
+        &self,
+        srs: bool,
+        trs: bool,
+        is_summary_due: impl FnOnce() -> bool,
+    ) -> Action {
         match (srs, trs, self.irrelevant) {
             (true, true, _) => Action::Forward,
             (true, false, _) | (false, _, Irrelevant::Hold) => Action::Hold,
             (false, _, Irrelevant::Zero) => Action::Blank,
+            (false, _, Irrelevant::Mean) if is_summary_due() => Action::Summarize,
+            (false, _, Irrelevant::Mean) => Action::Hold,
         }
     }
 }

@@ -41,7 +41,7 @@ pub trait Lane:
         + From<Self>
         + TryFrom<u32>;
     /// A column of pixels of one region, added up: 64 pixels at most.
-    type Sum: Copy + Debug + Default + Send + Sync + AddAssign + From<Self> + Into<u64>;
+    type Sum: Copy + Debug + Default + Send + Sync + AddAssign + From<Self> + Into<u32> + Into<u64>;
     /// The same of squares.
     type Square: Copy + Debug + Default + Send + Sync + AddAssign + Into<u64>;
 
@@ -60,6 +60,8 @@ pub trait Lane:
     fn square(self) -> Self::Square;
     /// One for true.
     fn hit(hit: bool) -> Self;
+    /// The low bits of a number, of which there are no others.
+    fn low(value: u32) -> Self;
 }
 
 macro_rules! lane {
@@ -95,6 +97,12 @@ macro_rules! lane {
             #[inline(always)]
             fn hit(hit: bool) -> Self {
                 Self::from(hit)
+            }
+
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation, reason = "there are no higher bits")]
+            fn low(value: u32) -> Self {
+                value as Self
             }
         }
     };

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::Path;
 
-use foveate_design::{Config, Design};
+use foveate_design::{Action, Config, Design};
 use foveate_engine::Engine;
 use foveate_fidelity::Likeness;
 use foveate_footage::{FootageError, InputOptions, Kind, Subject, open};
@@ -48,12 +48,12 @@ impl Watch {
         Self { engine: Engine::new(design), likeness }
     }
 
-    fn step(&mut self, frame: &[u8], width: u32) -> Result<&[bool], LinkError> {
+    fn step(&mut self, frame: &[u8], width: u32) -> Result<&[Action], LinkError> {
         self.engine.step_u8(frame, width as usize)?;
         if let Plane::Bytes(screen) = self.engine.rendered() {
             self.likeness.add(screen, frame)?;
         }
-        Ok(&self.engine.outcome().active)
+        Ok(&self.engine.outcome().actions)
     }
 }
 
@@ -100,7 +100,7 @@ pub(crate) fn watch(
         sent.push(Sent::of(&design, camera.step(frame, width)?, events));
         for (other, pixels, _) in &mut others {
             // The regions are those of the design; only thresholds differ.
-            *pixels += forwarded(&design, other.step(frame, width)?);
+            *pixels += design.values_of(other.step(frame, width)?);
         }
         times_us.push(current.time_us);
         source.give_back(current);
@@ -125,9 +125,4 @@ pub(crate) fn watch(
         footage: Footage { clip, path, width, height, frames },
         design,
     })
-}
-
-/// Pixels of active regions.
-fn forwarded(design: &Design, active: &[bool]) -> u64 {
-    Sent::of(design, active, Vec::new()).rows.iter().sum()
 }

@@ -15,11 +15,11 @@ use crate::encoder::{check_encoders, scratch};
 use crate::figures::per_second;
 use crate::report::{FORMAT_VERSION, QUANTIZER};
 use crate::search::coarsest;
-use crate::sender::DECISION_BITS;
 use crate::{
     Cameras, ClipReport, Codec, Effort, Encoded, Encoder, Figures, LinkError, LinkReport, Point,
     Quality, SenderReport, Timeline, Unit, files,
 };
+use foveate_design::DECISION_BITS;
 
 /// What is compared.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@
 //! | --- | --- | --- |
 //! | raw | a row | when it has been read |
 //! | pixel | the events of a row | when the row has been read |
-//! | region by rows | two bits and the forwarded pixels of a row of regions | when its decisions fall |
-//! | region array | two bits of the regions of a slot, or of a row of regions; their forwarded pixels | when they leave the array |
+//! | region by rows | two bits and what is sent of a row of regions | when its decisions fall |
+//! | region array | two bits of the regions of a slot, or of a row of regions; the pixels and means that are sent | when they leave the array |
 //!
 //! *By rows*, every row of regions is an array of its own that takes pixels as they are read, and its
 //! pixels are at hand when the decision falls. *Array* is the generated `rcm`. [`Departure`] says what it does. It
@@ -14,7 +14,7 @@
 //! are read, and gives those of one row of regions after the other: bits of a row when its last decision falls, pixels
 //! when its last word is out.
 
-use foveate_design::{Departure, Design, Hardware, RasterTiming};
+use foveate_design::{Action, DECISION_BITS, Departure, Design, Hardware, RasterTiming};
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
 use crate::stream::{Leaving, Streamed, own_clocks};
@@ -23,9 +23,9 @@ use crate::{LinkError, Timeline, Unit};
 /// What the region camera sends of one frame, and what a pixel camera does.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sent {
-    /// Forwarded pixels of every row of regions.
+    /// Pixels and means that are sent of every row of regions.
     pub rows: Vec<u64>,
-    /// Forwarded pixels of every slot; one slot where no regions share a unit.
+    /// The same of every slot; one slot where no regions share a unit.
     pub slots: Vec<u64>,
     /// Which regions are active.
     pub active: Vec<bool>,
@@ -34,21 +34,18 @@ pub struct Sent {
 }
 
 impl Sent {
-    /// Counts the pixels of active regions; padding is not sent.
+    /// Counts what is sent of regions with these actions.
     #[must_use]
-    pub fn of(design: &Design, active: &[bool], events: Vec<u64>) -> Self {
-        let (columns, size) = (design.columns(), design.region_size());
+    pub fn of(design: &Design, actions: &[Action], events: Vec<u64>) -> Self {
         let mut rows = vec![0; design.rows() as usize];
         let mut slots = vec![0; design.slots() as usize];
-        for (region, _) in (0..).zip(active).filter(|&(_, &active)| active) {
-            let (row, column): (u32, u32) = (region / columns, region % columns);
-            let wide = size.min(design.width() - column * size);
-            let high = size.min(design.height() - row * size);
-            let pixels = u64::from(wide) * u64::from(high);
-            rows[row as usize] += pixels;
-            slots[(region % design.slots()) as usize] += pixels;
+        for (region, &action) in (0..).zip(actions) {
+            let values = design.values_sent(region, action);
+            rows[(region / design.columns()) as usize] += values;
+            slots[(region % design.slots()) as usize] += values;
         }
-        Self { rows, slots, active: active.to_vec(), events }
+        let active = actions.iter().map(|action| *action == Action::Forward).collect();
+        Self { rows, slots, active, events }
     }
 }
 
@@ -60,9 +57,6 @@ pub struct Cameras<'a> {
     departure: Departure,
     clock_hz: Option<u64>,
 }
-
-/// Bits per region and frame that say what becomes of it: SRS and TRS.
-pub(crate) const DECISION_BITS: u64 = 2;
 
 impl<'a> Cameras<'a> {
     /// Cameras with an array at a clock of so many Hz. Without a clock the array takes no time:

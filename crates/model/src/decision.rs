@@ -11,15 +11,21 @@ pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) 
     }
 }
 
-/// What becomes of a region with these two bits.
-#[must_use]
-pub fn action(camera: &Camera, srs: bool, trs: bool) -> Action {
+/// What becomes of a region with these two bits; `is_summary_due` is asked only where irrelevant regions send their means.
+pub fn action(
+    camera: &Camera,
+    srs: bool,
+    trs: bool,
+    is_summary_due: impl FnOnce() -> bool,
+) -> Action {
     match (trs, srs) {
         (true, true) => Action::Forward,
         (false, true) => Action::Hold,
         (_, false) => match camera.irrelevant() {
             Irrelevant::Zero => Action::Blank,
             Irrelevant::Hold => Action::Hold,
+            Irrelevant::Mean if is_summary_due() => Action::Summarize,
+            Irrelevant::Mean => Action::Hold,
         },
     }
 }

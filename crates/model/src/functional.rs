@@ -8,6 +8,7 @@ use crate::decision::{action, combined};
 use crate::denoise::denoise_into;
 use crate::feature::score;
 use crate::number::index;
+use crate::periphery::{Summary, block_means, no_summaries};
 use crate::region::{Area, black, black_padded, check_kind, pad_into};
 use crate::render::Screen;
 use crate::temporal::{References, changed_pixels};
@@ -30,6 +31,9 @@ pub struct FunctionalOutcome {
     pub temporal_count: Vec<u32>,
     /// Scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
+    /// Means of the blocks of every region, region by region; empty where irrelevant regions send none. The means of those
+    /// whose action is [`Action::Summarize`] were sent.
+    pub means: Vec<Vec<u16>>,
     /// The frame, padded.
     pub padded: Frame,
     /// The padded frame, denoised: what was scored.
@@ -48,6 +52,7 @@ impl FunctionalOutcome {
             actions: vec![Action::Hold; regions],
             temporal_count: vec![0; regions],
             scores: vec![vec![0; regions]; camera.features().len()],
+            means: vec![Vec::new(); regions],
             padded: black_padded(camera),
             denoised: black_padded(camera),
             rendered: black(camera),
@@ -64,11 +69,12 @@ impl FunctionalOutcome {
     }
 }
 
-/// An RCM with its renderer. Between frames it remembers references and the screen, nothing else.
+/// An RCM with its renderer. Between frames it remembers references, summaries and the screen, nothing else.
 #[derive(Clone, Debug)]
 pub struct FunctionalCamera {
     camera: Camera,
     references: References,
+    summaries: Vec<Summary>,
     screen: Screen,
     outcome: FunctionalOutcome,
 }
@@ -79,6 +85,7 @@ impl FunctionalCamera {
     pub fn new(camera: &Camera) -> Self {
         Self {
             references: References::none(camera),
+            summaries: no_summaries(camera),
             screen: Screen::black(camera),
             outcome: FunctionalOutcome::new(camera),
             camera: camera.clone(),
@@ -94,6 +101,7 @@ impl FunctionalCamera {
     /// Forgets every frame.
     pub fn reset(&mut self) {
         self.references = References::none(&self.camera);
+        self.summaries = no_summaries(&self.camera);
         self.screen = Screen::black(&self.camera);
     }
 
@@ -107,6 +115,15 @@ impl FunctionalCamera {
         self.references.pixels(&self.camera, region)
     }
 
+    /// The means that the screen shows of a region, block by block; `None` where it shows no summary.
+    ///
+    /// # Panics
+    /// When the camera has no such region.
+    #[must_use]
+    pub fn summary(&self, region: u32) -> Option<&[u16]> {
+        self.summaries[index(region)].shown()
+    }
+
     /// Takes the next frame.
     ///
     /// # Errors
@@ -117,6 +134,7 @@ impl FunctionalCamera {
         denoise_into(&self.camera, &self.outcome.padded, &mut self.outcome.denoised);
         for region in 0..self.camera.regions() {
             self.decide(region);
+            self.summarize(region);
             self.act(region);
         }
         self.screen.crop_into(&mut self.outcome.rendered);
@@ -147,13 +165,28 @@ impl FunctionalCamera {
         outcome.temporal_count[at] = count;
     }
 
-    /// What follows from them: the screen and the next reference.
+    /// The means of one region.
+    fn summarize(&mut self, region: u32) {
+        let Self { camera, outcome, .. } = self;
+        if let Some(periphery) = camera.periphery() {
+            let pixels = Area::of(camera, region).pixels(outcome.payload(camera));
+            outcome.means[index(region)] = block_means(periphery, pixels);
+        }
+    }
+
+    /// What follows from them: the action, the screen, and what is remembered.
     fn act(&mut self, region: u32) {
-        let Self { camera, references, screen, outcome } = self;
+        let Self { camera, references, summaries, screen, outcome } = self;
         let at = index(region);
-        let action = action(camera, outcome.srs[at], outcome.trs[at]);
+        let means = &outcome.means[at];
+        let is_due = || {
+            let periphery = camera.periphery().expect("only then it is asked");
+            summaries[at].is_due(means, periphery.level)
+        };
+        let action = action(camera, outcome.srs[at], outcome.trs[at], is_due);
         outcome.actions[at] = action;
-        screen.show(Area::of(camera, region), action, outcome.payload(camera));
+        screen.show(camera, region, action, (outcome.payload(camera), means));
+        summaries[at].follow(action, means);
         references.update(camera, &outcome.denoised, region, action);
     }
 }

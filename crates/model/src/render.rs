@@ -17,12 +17,23 @@ impl Screen {
         Self(black_padded(camera))
     }
 
-    /// Renders one region of a frame whose pixels are `payload`.
-    pub(crate) fn show(&mut self, area: Area, action: Action, payload: &Frame) {
+    /// Renders one region of a frame whose pixels are `payload`; the region's means are `means`.
+    pub(crate) fn show(
+        &mut self,
+        camera: &Camera,
+        region: u32,
+        action: Action,
+        (payload, means): (&Frame, &[u16]),
+    ) {
+        let area = Area::of(camera, region);
         match action {
             Action::Forward => area.copy(payload, &mut self.0),
             Action::Hold => {}
             Action::Blank => area.blank(&mut self.0),
+            Action::Summarize => {
+                let periphery = camera.periphery().expect("who sends a summary has a periphery");
+                area.fill(periphery, means, &mut self.0);
+            }
         }
     }
 

@@ -73,7 +73,7 @@ impl References {
         let keep = match (camera.temporal().reference, action) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => false,
             (Reference::LastSent, Action::Hold) => true,
-            (Reference::LastSent, Action::Blank) => {
+            (Reference::LastSent, Action::Blank | Action::Summarize) => {
                 // What was sent is no longer on the screen.
                 self.valid[index(region)] = false;
                 true

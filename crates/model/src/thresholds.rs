@@ -16,6 +16,8 @@ pub struct Thresholds {
     pub temporal_level: u32,
     /// TRS from this count on.
     pub temporal_min_count: u32,
+    /// A summary is sent again when a mean differs by more; 0 where irrelevant regions send none.
+    pub summary_level: u32,
 }
 
 impl Thresholds {
@@ -28,6 +30,7 @@ impl Thresholds {
             min_score: [0; FeatureKind::COUNT],
             temporal_level: temporal.level,
             temporal_min_count: temporal.min_count,
+            summary_level: camera.periphery().map_or(0, |periphery| periphery.level),
         };
         let places = thresholds.level.iter_mut().zip(&mut thresholds.min_score);
         for (feature, (level, min_score)) in camera.features().iter().zip(places) {

@@ -48,8 +48,9 @@ impl Verdict {
         }
     }
 
-    /// What becomes of the region.
+    /// What becomes of the region, as far as its reference is concerned: a summary that is not sent again leaves none, as
+    /// one that is sent.
     pub(crate) fn action(&self, camera: &Camera) -> Action {
-        action(camera, self.srs, self.trs)
+        action(camera, self.srs, self.trs, || true)
     }
 }

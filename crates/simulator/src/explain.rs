@@ -12,6 +12,7 @@ use foveate_design::{Config, FeatureKind, Filter};
 use foveate_model::FunctionalCamera;
 use serde::Serialize;
 
+use self::gather::Before;
 use crate::SimulatorError;
 use foveate_footage::{Kind, Source};
 
@@ -51,7 +52,10 @@ pub struct Explanation {
     pub temporal: Change,
     /// Temporal relevance.
     pub trs: bool,
-    /// The action on the screen: `forward`, `hold` or `blank`.
+    /// The means of its blocks, where irrelevant regions send them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub summary: Option<Summary>,
+    /// The action on the screen: `forward`, `hold`, `blank` or `summarize`.
     pub action: &'static str,
     /// The row of the decision table (Table I of the paper) that applied.
     pub rule: String,
@@ -121,6 +125,17 @@ pub struct Change {
     pub min_count: u32,
 }
 
+/// The means of a region's blocks, and those that the screen shows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Summary {
+    /// The means in this frame.
+    pub means: Rows<u16>,
+    /// Those that the screen shows before it; `None` where it shows no summary.
+    pub shown: Option<Rows<u16>>,
+    /// The summary of an irrelevant region is sent when a mean differs by more than this.
+    pub level: u32,
+}
+
 /// Runs a source up to frame `frame` and explains the region at column and row `region`.
 ///
 /// # Errors
@@ -150,9 +165,11 @@ pub fn explain(
             camera.reset();
         }
         let reference = camera.reference(number);
+        let shown = camera.summary(number).map(<[u16]>::to_vec);
         let outcome = camera.step(&current.frame.to_frame()?)?;
         if frames == frame {
-            return Ok(gather::explanation(&design, frame, &current, number, reference, outcome));
+            let before = Before { reference, shown };
+            return Ok(gather::explanation(&design, frame, &current, number, before, outcome));
         }
         frames += 1;
     }

@@ -19,7 +19,6 @@ pub use foveate_engine::MAX_THREADS;
 pub use foveate_footage::{Hooks, Progress, Silent};
 pub use output::{
     Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES,
-    PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, pixels_forwarded,
-    region_bits,
+    PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic,
 };
 pub use simulation::Simulation;

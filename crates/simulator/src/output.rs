@@ -33,7 +33,7 @@ mod summary;
 mod table;
 mod video;
 
-pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic, pixels_forwarded, region_bits};
+pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
 pub use data_set::DataSet;
 pub use events::{EventTable, Moment};
 pub use options::{EventTables, Medium, PixelEvents, RunOptions};

@@ -142,7 +142,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
     format!(
         "{}: {} frames of {} x {} pixels, {} regions\n\
          active {}  SRS {}  TRS {}\n\
-         {} pixels in, {} forwarded\n\
+         {} pixels in, {} forwarded{}\n\
          {}{}",
         folder.display(),
         summary.frames,
@@ -154,9 +154,18 @@ fn text(folder: &Path, summary: &Summary) -> String {
         percent(summary.trs_share),
         summary.pixels_in,
         summary.pixels_forwarded,
+        means(summary),
         traffic(&summary.bandwidth),
         summary.data_set.as_ref().map_or(String::new(), |made| data_set(folder, made)),
     )
+}
+
+/// What irrelevant regions have sent, where they send something.
+fn means(summary: &Summary) -> String {
+    match (summary.means_sent, summary.summaries_sent) {
+        (Some(means), Some(regions)) => format!(", {means} means of {regions} irrelevant regions"),
+        _ => String::new(),
+    }
 }
 
 /// Where a data set is.

@@ -111,6 +111,7 @@ impl Aimer {
             min_score: [1; FeatureKind::COUNT],
             temporal_level: 0,
             temporal_min_count: 1,
+            summary_level: 0,
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::takes::Takes;
 use crate::{Feed, HardwareConfig, Organization, Pipelining, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Reference};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference};
 
 /// What a pipelined array has of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,6 +24,12 @@ impl Takes for Pipelined {
     fn takes_reference(reference: Reference) -> bool {
         match reference {
             Reference::Previous | Reference::LastSent => true,
+        }
+    }
+
+    fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
+        match irrelevant {
+            Irrelevant::Zero | Irrelevant::Hold | Irrelevant::Mean => true,
         }
     }
 

@@ -27,10 +27,16 @@ pub(crate) fn rpu(design: &Design) -> Interface {
         decided(design),
     );
     let doc = "that pixel; 0 unless forward_valid_o";
+    let (beat, leaves) = match design.periphery() {
+        None => ("a pixel of the region", "a pixel of an active region leaves"),
+        Some(_) => {
+            ("a pixel or a mean of the region", "a pixel of an active region leaves, or a mean")
+        }
+    };
     let forwarded = Stream::out_of_core(
         StreamRole::Forwarded,
-        "a pixel of the region",
-        single(Output, PortRole::ForwardValid, 1, "a pixel of an active region leaves"),
+        beat,
+        single(Output, PortRole::ForwardValid, 1, leaves),
         vec![single(Output, PortRole::ForwardPixel, design.pixel_bits(), doc)],
     );
     let doc = "sides on the frame's border: {bottom, top, right, left}";
@@ -46,6 +52,10 @@ fn decided(design: &Design) -> Vec<Port> {
         output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
         output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
     ];
+    if design.periphery().is_some() {
+        let doc = "the region's means will leave; 0 unless decision_valid_o";
+        list.push(output(PortRole::Summary, 1, doc));
+    }
     for feature in design.features() {
         let doc = "score; final with decision_valid_o";
         list.push(output(PortRole::Score(feature.kind()), feature.score_bits(), doc));
@@ -69,7 +79,12 @@ pub(crate) fn rcm(design: &Design) -> Interface {
                 stream.status.extend(sync_output(design));
             }
             StreamRole::Decisions => stream.beat = "the decisions of all regions with their scores",
-            StreamRole::Forwarded => stream.beat = "a pixel of every active region",
+            StreamRole::Forwarded => {
+                stream.beat = match design.periphery() {
+                    None => "a pixel of every active region",
+                    Some(_) => "a pixel of every active region, or a mean of every summary",
+                };
+            }
             StreamRole::References | StreamRole::Stored | StreamRole::Scores | StreamRole::Lost => {
             }
         }
@@ -92,6 +107,7 @@ fn differs_by_region(role: PortRole) -> bool {
             | PortRole::Srs
             | PortRole::Trs
             | PortRole::Active
+            | PortRole::Summary
             | PortRole::Score(_)
             | PortRole::TemporalCount
             | PortRole::ForwardValid

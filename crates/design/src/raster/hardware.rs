@@ -3,7 +3,7 @@
 
 use crate::takes::Takes;
 use crate::{HardwareConfig, Organization, Pipelining, Store, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Reference, in_range};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference, in_range};
 
 /// Pixels that a word may have.
 const WORDS: [u32; 3] = [1, 2, 4];
@@ -39,6 +39,13 @@ impl Takes for Raster {
     fn takes_reference(reference: Reference) -> bool {
         match reference {
             Reference::Previous | Reference::LastSent => true,
+        }
+    }
+
+    fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
+        match irrelevant {
+            Irrelevant::Zero | Irrelevant::Hold => true,
+            Irrelevant::Mean => false,
         }
     }
 

@@ -3,7 +3,7 @@
 
 use crate::takes::Takes;
 use crate::{Feed, HardwareConfig, MemoryKind, Organization, Pipelining, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Reference, in_range};
+use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference, in_range};
 
 /// Smallest side of a region.
 const MIN_SIDE: u32 = 4;
@@ -33,6 +33,13 @@ impl Takes for Serial {
     fn takes_reference(reference: Reference) -> bool {
         match reference {
             Reference::Previous | Reference::LastSent => true,
+        }
+    }
+
+    fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
+        match irrelevant {
+            Irrelevant::Zero | Irrelevant::Hold => true,
+            Irrelevant::Mean => false,
         }
     }
 

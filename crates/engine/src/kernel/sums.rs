@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Column sums of pixels and of their squares, and how columns become regions.
 
+use std::ops::Range;
+
 use foveate_lanes::{BLOCK, Block, Lane};
 
 /// Adds every pixel to its column.
@@ -10,6 +12,28 @@ pub(crate) fn add<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Sum>]) {
         for i in 0..BLOCK {
             sums[i] += T::Sum::from(pixels[i]);
         }
+    }
+}
+
+/// The sums of the columns of some rows of a plane, which begin with the first column of `sums`.
+#[inline(always)]
+pub(crate) fn add_rows<T: Lane>(
+    plane: &[T],
+    stride: usize,
+    rows: Range<usize>,
+    sums: &mut [Block<T::Sum>],
+) {
+    for (at, sums) in sums.iter_mut().enumerate() {
+        // In registers over all rows.
+        let mut own = [T::Sum::default(); BLOCK];
+        for row in rows.clone() {
+            if let Some(pixels) = plane[row * stride + at * BLOCK..].first_chunk::<BLOCK>() {
+                for i in 0..BLOCK {
+                    own[i] += T::Sum::from(pixels[i]);
+                }
+            }
+        }
+        *sums = own;
     }
 }
 

@@ -27,8 +27,10 @@ pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
         let max = (1u32 << bits) - 1;
         let temporal = (small(max - 1).prop_map(Some), small(side * side));
         let switches = proptest::array::uniform6(any::<bool>());
-        (width, height, features, temporal, switches).prop_map(
-            move |(width, height, features, temporal, on)| {
+        let blocks: Vec<u32> = [1, 2, 4].into_iter().filter(|q| side.is_multiple_of(*q)).collect();
+        let periphery = proptest::option::of((select(blocks), small(max - 1)));
+        (width, height, features, temporal, switches, periphery).prop_map(
+            move |(width, height, features, temporal, on, periphery)| {
                 let mut config = CameraConfig::default();
                 (config.frame.width, config.frame.height) = (Some(width), Some(height));
                 (config.frame.pixel_bits, config.region.size) = (bits, side);
@@ -48,6 +50,10 @@ pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
                 }
                 if on[4] {
                     config.render.irrelevant = Irrelevant::Hold;
+                }
+                if let Some((blocks, level)) = periphery {
+                    config.render.irrelevant = Irrelevant::Mean;
+                    (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));
                 }
                 if on[5] {
                     config.render.payload = Payload::Raw;

@@ -104,7 +104,7 @@ impl Constraints {
                 self.max_stale_frames.map(real),
                 real(figures.staleness.longest),
             ),
-            at_most("max-bytes", self.max_bytes, bytes_per_frame(camera, figures.active)),
+            at_most("max-bytes", self.max_bytes, bytes_per_frame(camera, figures)),
             self.min_recall.zip(recall).map(|(limit, r)| Held::at_least("min-recall", r, limit)),
         ]
         .into_iter()

@@ -115,6 +115,7 @@ fn figures(flips: f64, bits: f64, active: f64) -> Figures {
         active_iou: 1.0 - flips * 2.0,
         active,
         ideal_active: 0.172,
+        summarized: 0.0,
         psnr_ideal: (flips > 0.0).then(|| 22.0 - 6.0 * flips.log10()),
         psnr_input: Some(18.0 + 1.4 * bits),
         ssim_ideal: 1.0 - flips,

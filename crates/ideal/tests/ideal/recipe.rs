@@ -56,8 +56,10 @@ pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
         let (max, n) = ((1_u32 << bits) - 1, side * side);
         let size = (1..=3 * side + 2, 1..=2 * side + 3);
         let on = proptest::array::uniform5(any::<bool>());
-        (size, features, small(max - 1), small(n), on).prop_map(
-            move |(size, features, level, min_count, on)| {
+        let blocks: Vec<u32> = [1, 2, 4].into_iter().filter(|q| side.is_multiple_of(*q)).collect();
+        let periphery = proptest::option::of((select(blocks), small(max - 1)));
+        (size, features, small(max - 1), small(n), on, periphery).prop_map(
+            move |(size, features, level, min_count, on, periphery)| {
                 let mut config = CameraConfig::default();
                 (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
                 (config.frame.pixel_bits, config.region.size) = (bits, side);
@@ -69,6 +71,10 @@ pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
                 config.temporal.reference =
                     if on[2] { Reference::LastSent } else { Reference::Previous };
                 config.render.irrelevant = if on[3] { Irrelevant::Hold } else { Irrelevant::Zero };
+                if let Some((blocks, level)) = periphery {
+                    config.render.irrelevant = Irrelevant::Mean;
+                    (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));
+                }
                 config.render.payload = if on[4] { Payload::Raw } else { Payload::Denoised };
                 config.validate().unwrap()
             },

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! When cameras send, worked out by hand from docs/timing.md, docs/serial.md and docs/raster.md.
 
-use foveate_design::{Config, Design};
+use foveate_design::{Action, Config, Design};
 use foveate_link::{Cameras, Sent, Timeline, Unit};
 
 /// 20x12 pixels in regions of 8: 3x2 of them, the last column 4 wide and the last row 4 high.
 const SIZE: &str = "frame={width=20,height=12}";
 /// A clock of 1 us.
 const MEGAHERTZ: u64 = 1_000_000;
+
+/// Regions that are active, or not, and held.
+fn actions(active: &[bool]) -> Vec<Action> {
+    active.iter().map(|&active| if active { Action::Forward } else { Action::Hold }).collect()
+}
 
 fn design(overrides: &[&str]) -> Design {
     let all: Vec<&str> = [&[SIZE][..], overrides].concat();
@@ -22,7 +27,10 @@ fn timeline() -> Timeline {
 /// Region 0 (64 pixels) and the ragged region 5 (4x4) of the first frame.
 fn sent(design: &Design) -> [Sent; 2] {
     let active = [true, false, false, false, false, true];
-    [Sent::of(design, &active, vec![0; 12]), Sent::of(design, &[false; 6], vec![0; 12])]
+    [
+        Sent::of(design, &actions(&active), vec![0; 12]),
+        Sent::of(design, &actions(&[false; 6]), vec![0; 12]),
+    ]
 }
 
 /// Read, decided, sent in us, and bits.
@@ -121,9 +129,9 @@ fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() 
     // Regions 0 and 4 of the first row, none of the second, 11 and 12 of the third.
     let mut active = [false; 15];
     [0, 4, 11, 12].iter().for_each(|&region: &usize| active[region] = true);
-    let first = Sent::of(&design, &active, vec![0; 12]);
+    let first = Sent::of(&design, &actions(&active), vec![0; 12]);
     assert_eq!(first.rows, [32, 0, 32]);
-    let sent = [first, Sent::of(&design, &[false; 15], vec![0; 12])];
+    let sent = [first, Sent::of(&design, &actions(&[false; 15]), vec![0; 12])];
     assert!(at(None).region_by_rows(&sent).is_none(), "the array does it");
     // The last word of a row of regions comes with its row; with `variance` D is 9. The last region waits for nothing:
     // it enters the queue at 10, is held at 12, its 16 words are fetched from 13 to 28, and the last is out at 29.
@@ -154,7 +162,7 @@ fn a_raster_core_with_windows_waits_for_the_rows_below() {
     let set = ["hardware.organization=\"raster\"", "region.size=4"];
     let (design, timeline) = (design(&set), timeline());
     let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    let none = [Sent::of(&design, &[false; 15], vec![0; 12])];
+    let none = [Sent::of(&design, &actions(&[false; 15]), vec![0; 12])];
     // Median and edges: two rows and two words of 50 us, and D of 11.
     let above = |rows: u64| 1_000 * (rows + 2) + 100 + 11;
     // Two rows of 20 words and two words, one at every clock.
@@ -200,7 +208,7 @@ fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
         let design = design(&[&[core, "region.size=4"], set].concat());
         let timeline = Timeline::new("clip", &[0, 12_000], design.height()).unwrap();
         let all = vec![true; design.regions() as usize];
-        let sent = [(); 2].map(|()| Sent::of(&design, &all, vec![0; 12]));
+        let sent = [(); 2].map(|()| Sent::of(&design, &actions(&all), vec![0; 12]));
         let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
         let (needed, own) = (at(None).needed_clock_hz(), at(None).own_clocks());
         let later = |clock: u64| {

@@ -19,6 +19,7 @@ mod isolated;
 mod line;
 mod median;
 mod moments;
+mod periphery;
 mod pixel;
 mod plan;
 mod ports;

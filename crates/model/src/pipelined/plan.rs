@@ -2,7 +2,7 @@
 //! The parameters of the blocks, taken from the design once.
 
 use foveate_design::{
-    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, PipelinedDesign,
+    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery, PipelinedDesign,
     PipelinedTiming, Reference,
 };
 
@@ -39,6 +39,8 @@ pub(super) struct RpuPlan {
     pub(super) reference: Reference,
     pub(super) irrelevant: Irrelevant,
     pub(super) payload: Payload,
+    /// What irrelevant regions send.
+    pub(super) periphery: Option<Periphery>,
     /// The thresholds, where they are constants of the core.
     constants: Option<Thresholds>,
 }
@@ -68,6 +70,7 @@ impl RpuPlan {
             reference: design.temporal().reference,
             irrelevant: design.irrelevant(),
             payload: design.payload(),
+            periphery: design.periphery().copied(),
             constants: Thresholds::constants(&design),
         }
     }

@@ -32,6 +32,8 @@ pub struct RpuOutput {
     pub scores: [u64; FEATURES],
     /// `temporal_count_o`.
     pub temporal_count: u32,
+    /// `summary_o`.
+    pub summary: bool,
     /// `forward_valid_o`.
     pub forward_valid: bool,
     /// `forward_pixel_o`.

@@ -104,6 +104,7 @@ impl CycleModel for PipelinedRcm {
             PortRole::Srs => self.lanes(values, |shown| shown.srs.into()),
             PortRole::Trs => self.lanes(values, |shown| shown.trs.into()),
             PortRole::Active => self.lanes(values, |shown| shown.active.into()),
+            PortRole::Summary => self.lanes(values, |shown| shown.summary.into()),
             PortRole::Score(kind) => {
                 if let Some(place) = self.kinds.iter().position(|&own| own == kind) {
                     self.lanes(values, |shown| shown.scores[place]);

@@ -13,10 +13,11 @@
 //!
 //! With `mad` the decision after edge 8 is that of frame a, and its pixels leave with frame c.
 
-use foveate_design::Payload;
+use foveate_design::{Action, Payload};
 
 use super::decide::Decision;
-use super::pixel::Step;
+use super::periphery::TailSummary;
+use super::pixel::{Pixel, Step};
 use super::plan::RpuPlan;
 use super::ports::RpuOutput;
 use super::scores::Scores;
@@ -41,6 +42,7 @@ struct Registers {
     done: bool,
     scores: Scores,
     temporal: TemporalScore,
+    periphery: TailSummary,
     /// With a second pass: the temporal count of the frame before.
     held_count: u32,
     /// The last frame that was decided is active.
@@ -79,6 +81,7 @@ impl Tail {
         registers.temporal.finish(&self.plan, decision);
         registers.scores.finish(&self.plan);
         registers.active = decision.is_some_and(Decision::active);
+        registers.periphery.finish(&self.plan, decision, thresholds.summary_level);
         if registers.active {
             self.store.send_decided(&self.plan);
         }
@@ -93,13 +96,13 @@ impl Tail {
         let last = position + 1 == plan.pixels;
         let before = registers.temporal.has_previous.then(|| store.previous(position));
 
-        registers.forward = registers.active.then(|| {
-            let pixel = store.leaving(plan, position);
-            match plan.payload {
-                Payload::Denoised => pixel.scored,
-                Payload::Raw => pixel.raw,
-            }
-        });
+        let payload = |pixel: Pixel| match plan.payload {
+            Payload::Denoised => pixel.scored,
+            Payload::Raw => pixel.raw,
+        };
+        let leaving = registers.active.then(|| payload(store.leaving(plan, position)));
+        registers.forward = leaving.or_else(|| registers.periphery.leaving(plan, position));
+        registers.periphery.step(payload(step.pixel));
         registers.temporal.step(store, position, step.pixel.scored, thresholds.temporal_level);
         registers.scores.step(plan, step, before, last, n);
         store.write(position, step.pixel);
@@ -139,6 +142,10 @@ impl Tail {
             srs: decision.is_some_and(|decision| decision.srs),
             trs: decision.is_some_and(|decision| decision.trs),
             active: decision.is_some_and(Decision::active),
+            summary: decision.is_some_and(|decision| {
+                let level = thresholds.summary_level;
+                self.registers.periphery.action(&self.plan, decision, level) == Action::Summarize
+            }),
             scores: self.registers.scores.shown(&self.plan),
             temporal_count: self.temporal_count(),
             forward_valid: self.registers.forward.is_some(),

@@ -72,10 +72,10 @@ impl TemporalScore {
     }
 }
 
-/// Whether the region becomes black, so that what was sent is no longer on the screen.
+/// Whether the region becomes black or shows its means, so that what was sent is no longer on the screen.
 fn blanks(plan: &RpuPlan, decision: Decision) -> bool {
     match plan.irrelevant {
-        Irrelevant::Zero => !decision.srs,
+        Irrelevant::Zero | Irrelevant::Mean => !decision.srs,
         Irrelevant::Hold => false,
     }
 }

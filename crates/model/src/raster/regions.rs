@@ -84,7 +84,7 @@ impl Regions {
             (Reference::Previous, _) | (Reference::LastSent, Action::Hold) => {}
             (Reference::LastSent, Action::Forward) => *referenced = true,
             // What was sent is no longer on the screen.
-            (Reference::LastSent, Action::Blank) => *referenced = false,
+            (Reference::LastSent, Action::Blank | Action::Summarize) => *referenced = false,
         }
     }
 

@@ -87,7 +87,9 @@ impl Regions {
             }
             (Reference::LastSent, Action::Hold) => {}
             // What was sent is no longer on the screen.
-            (Reference::LastSent, Action::Blank) => self.referenced[region] = false,
+            (Reference::LastSent, Action::Blank | Action::Summarize) => {
+                self.referenced[region] = false
+            }
         }
     }
 }

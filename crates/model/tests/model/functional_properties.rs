@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functional model equals the oracle, for every kind of design.
 
+use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
 use crate::frames::{film, scripts};
 use crate::oracle::{Image, Seen, watch};
-use crate::recipe::{Recipe, recipes};
+use crate::recipe::{PeripheryRecipe, Recipe, recipes};
 
 fn image(frame: &Frame) -> Image {
     let row = |y| frame.row(y).iter().map(|&pixel| i64::from(pixel)).collect();
@@ -50,5 +51,47 @@ proptest! {
     #[test]
     fn functional_equals_the_oracle(recipe in recipes(), script in scripts(7)) {
         check(&recipe, &film(&recipe, &script));
+    }
+
+    /// The bound of the contract: what an irrelevant region shows is within the level of the means of its blocks.
+    #[test]
+    fn every_block_that_is_shown_is_near_its_mean(
+        recipe in recipes().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
+        script in scripts(7),
+    ) {
+        // Without padding all of a block is on the screen.
+        let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
+        let recipe = Recipe { width, height, ..recipe };
+        let design = recipe.design();
+        let mut camera = FunctionalCamera::new(&design);
+        for frame in film(&recipe, &script) {
+            let outcome = camera.step(&frame).unwrap();
+            for region in 0..design.regions() {
+                if !outcome.srs[region as usize] {
+                    check_shown(&recipe, outcome, &design, region);
+                }
+            }
+        }
+    }
+}
+
+fn check_shown(recipe: &Recipe, outcome: &FunctionalOutcome, design: &Design, region: u32) {
+    let PeripheryRecipe { blocks, level } = recipe.periphery.unwrap();
+    let side = (recipe.side / blocks) as u32;
+    let (left, top) = (
+        region % design.columns() * design.region_size(),
+        region / design.columns() * design.region_size(),
+    );
+    let payload = outcome.payload(design);
+    for block in 0..(blocks * blocks) as u32 {
+        let (x, y) = (left + block % blocks as u32 * side, top + block / blocks as u32 * side);
+        let places = || (y..y + side).flat_map(move |y| (x..x + side).map(move |x| (x, y)));
+        let shown: Vec<i64> = places().map(|(x, y)| outcome.rendered.get(x, y).into()).collect();
+        let sum: i64 = places().map(|(x, y)| i64::from(payload.get(x, y))).sum();
+        assert!(shown.iter().all(|&value| value == shown[0]), "a block shows one value");
+        let count = shown.len() as i64;
+        // Within the level of the exact mean, and half a grey level for its rounding.
+        let distance = (shown[0] * count - sum).abs();
+        assert!(2 * distance <= (2 * level + 1) * count, "region {region}, block {block}");
     }
 }

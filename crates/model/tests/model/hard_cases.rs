@@ -174,6 +174,7 @@ fn everything(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: b
         temporal_min: side * side / 2,
         last_sent,
         blank_irrelevant: bits.is_multiple_of(4),
+        periphery: None,
         raw_payload: side % 2 == 1,
         constant: false,
         deep: false,

@@ -25,6 +25,8 @@ pub(crate) struct SeenRegion {
     pub(crate) srs: bool,
     pub(crate) trs: bool,
     pub(crate) payload: Vec<i64>,
+    /// Means of its blocks; none where irrelevant regions send none.
+    pub(crate) means: Vec<i64>,
     pub(crate) active: bool,
     /// Whether not all of its pixels were sent though it is active: a loss of the raster organization.
     pub(crate) lost: bool,
@@ -151,11 +153,15 @@ pub(crate) fn look_at_region(
     let trs = temporal_count >= recipe.temporal_min;
     let payload = cut(recipe, payload, region);
     let active = srs && trs;
-    let blank = !srs && recipe.blank_irrelevant;
-    let action = match (active, blank) {
-        (true, _) => "forward",
-        (false, true) => "blank",
-        (false, false) => "hold",
+    let means = means(recipe, &payload);
+    let action = match recipe.periphery {
+        _ if active => "forward",
+        Some(periphery) if !srs => match shown(history, region) {
+            Some(last) if near(last, &means, periphery.level) => "hold",
+            _ => "summarize",
+        },
+        None if !srs && recipe.blank_irrelevant => "blank",
+        _ => "hold",
     };
     let lost = false;
     SeenRegion {
@@ -166,10 +172,40 @@ pub(crate) fn look_at_region(
         srs,
         trs,
         payload,
+        means,
         active,
         lost,
         action,
     }
+}
+
+/// The means of the blocks of a region, rounded to the nearest, halves up.
+fn means(recipe: &Recipe, pixels: &[i64]) -> Vec<i64> {
+    let Some(periphery) = recipe.periphery else { return Vec::new() };
+    let side = recipe.side / periphery.blocks;
+    let mean = |block: i64| {
+        let (left, top) = (block % periphery.blocks * side, block / periphery.blocks * side);
+        let inside = |place: i64| {
+            let (x, y) = (place % recipe.side, place / recipe.side);
+            (left..left + side).contains(&x) && (top..top + side).contains(&y)
+        };
+        let own: Vec<i64> =
+            (0..recipe.n()).filter(|&i| inside(i)).map(|i| pixels[i as usize]).collect();
+        let twice = 2 * own.iter().sum::<i64>() + own.len() as i64;
+        twice.div_euclid(2 * own.len() as i64)
+    };
+    (0..periphery.blocks * periphery.blocks).map(mean).collect()
+}
+
+/// The means that the screen shows of a region before a frame, if it does.
+fn shown(history: &[Seen], region: i64) -> Option<&[i64]> {
+    let regions = history.iter().rev().map(|seen| &seen.regions[region as usize]);
+    let last = regions.into_iter().find(|region| matches!(region.action, "forward" | "summarize"));
+    last.filter(|region| region.action == "summarize").map(|region| &region.means[..])
+}
+
+fn near(last: &[i64], now: &[i64], level: i64) -> bool {
+    last.iter().zip(now).all(|(last, now)| (last - now).abs() <= level)
 }
 
 fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64) -> Vec<i64> {
@@ -228,7 +264,7 @@ fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
         if region.active {
             return (!region.lost).then_some(frame);
         }
-        if recipe.blank_irrelevant && !region.srs {
+        if recipe.forgets_irrelevant() && !region.srs {
             return None;
         }
     }
@@ -244,7 +280,13 @@ fn render(recipe: &Recipe, history: &[Seen]) -> Image {
             if seen.regions[region].active {
                 return image[y as usize][x as usize];
             }
-            if recipe.blank_irrelevant && !seen.regions[region].srs {
+            if let Some(periphery) = recipe.periphery {
+                if seen.regions[region].action == "summarize" {
+                    let side = recipe.side / periphery.blocks;
+                    let (x, y) = (x % recipe.side / side, y % recipe.side / side);
+                    return seen.regions[region].means[(y * periphery.blocks + x) as usize];
+                }
+            } else if recipe.blank_irrelevant && !seen.regions[region].srs {
                 return 0;
             }
         }

@@ -2,7 +2,7 @@
 //! The cycle-level model shows, after every edge, what the schedule and the oracle say; and its
 //! decisions are those of the functional model.
 
-use foveate_design::PipelinedTiming;
+use foveate_design::{Action, PipelinedTiming};
 use foveate_frame::Frame;
 use foveate_model::{
     CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream,
@@ -107,6 +107,7 @@ fn observed(recipe: &Recipe, output: &RpuOutput) -> Expected {
         trs: output.trs,
         scores: output.scores[..recipe.features.len()].iter().map(|&s| s as i64).collect(),
         temporal_count: output.temporal_count.into(),
+        summary: output.summary,
         forward: output.forward_valid.then(|| output.forward_pixel.into()),
     }
 }
@@ -156,8 +157,15 @@ fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>
             for (feature, scores) in outcome.scores.iter().enumerate() {
                 assert_eq!(decision.scores[feature], scores[at]);
             }
-            if outcome.active[at] && index < left {
-                region_pixels(&design, outcome.payload(&design), region, &mut leaving);
+            assert_eq!(decision.summary, outcome.actions[at] == Action::Summarize);
+            if index < left {
+                match outcome.actions[at] {
+                    Action::Forward => {
+                        region_pixels(&design, outcome.payload(&design), region, &mut leaving);
+                    }
+                    Action::Summarize => leaving.extend(&outcome.means[at]),
+                    Action::Hold | Action::Blank => {}
+                }
             }
         }
         assert!(decisions.next().is_none());
@@ -190,7 +198,10 @@ fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOu
         let taken = (later + 1) * departure.take_clocks as usize - 1;
         let outputs = &shown[taken + departure.forward_clocks as usize];
         let left: Vec<bool> = outputs.iter().map(|output| output.forward_valid).collect();
-        assert_eq!(left, camera.step(frame).unwrap().active);
+        // Of a region or of a summary the last thing leaves then.
+        let sent = |action: &Action| matches!(action, Action::Forward | Action::Summarize);
+        let actions = &camera.step(frame).unwrap().actions;
+        assert_eq!(left, actions.iter().map(sent).collect::<Vec<_>>());
     }
 }
 

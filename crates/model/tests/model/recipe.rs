@@ -21,10 +21,19 @@ pub(crate) struct Recipe {
     pub(crate) temporal_min: i64,
     pub(crate) last_sent: bool,
     pub(crate) blank_irrelevant: bool,
+    /// `render.irrelevant = "mean"`, whatever the above says.
+    pub(crate) periphery: Option<PeripheryRecipe>,
     pub(crate) raw_payload: bool,
     pub(crate) constant: bool,
     /// `hardware.pipelining = "deep"`.
     pub(crate) deep: bool,
+}
+
+/// `[periphery]`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PeripheryRecipe {
+    pub(crate) blocks: i64,
+    pub(crate) level: i64,
 }
 
 #[derive(Clone, Debug)]
@@ -43,6 +52,11 @@ impl Recipe {
 
     pub(crate) fn n(&self) -> i64 {
         self.side * self.side
+    }
+
+    /// Whether what an irrelevant region has sent is no longer on the screen.
+    pub(crate) fn forgets_irrelevant(&self) -> bool {
+        self.blank_irrelevant || self.periphery.is_some()
     }
 
     pub(crate) fn has(&self, name: &str) -> bool {
@@ -81,12 +95,19 @@ impl Recipe {
             self.temporal_level,
             self.temporal_min,
             pick(self.last_sent, "last-sent", "previous"),
-            pick(self.blank_irrelevant, "zero", "hold"),
+            if self.periphery.is_some() {
+                "mean"
+            } else {
+                pick(self.blank_irrelevant, "zero", "hold")
+            },
             pick(self.raw_payload, "raw", "denoised"),
             pick(self.constant, "constant", "runtime"),
         );
         if self.deep {
             text.push_str("pipelining = \"deep\"\n");
+        }
+        if let Some(PeripheryRecipe { blocks, level }) = self.periphery {
+            write!(text, "[periphery]\nblocks = {blocks}\nlevel = {level}\n").unwrap();
         }
         for feature in &self.features {
             let (whole, rest) = (feature.min_milli / 1000, feature.min_milli % 1000);
@@ -108,7 +129,15 @@ impl Recipe {
 /// Every kind of pipelined design, with frames of about three regions.
 pub(crate) fn recipes() -> impl Strategy<Value = Recipe> {
     let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
-    (recipes_of(sides), any::<bool>()).prop_map(|(recipe, deep)| Recipe { deep, ..recipe })
+    (recipes_of(sides), any::<bool>(), select(vec![None, None, Some(1i64), Some(2), Some(4)]))
+        .prop_flat_map(|(recipe, deep, blocks)| {
+            let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
+            small(recipe.pixel_max() - 1).prop_map(move |level| Recipe {
+                deep,
+                periphery: blocks.map(|blocks| PeripheryRecipe { blocks, level }),
+                ..recipe.clone()
+            })
+        })
 }
 
 /// The same with regions of these sides, plain.
@@ -140,6 +169,7 @@ pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Val
                 blank_irrelevant: on[4],
                 raw_payload: on[5],
                 constant: on[6] && on[7],
+                periphery: None,
                 deep: false,
             },
         )

@@ -13,6 +13,7 @@ pub(crate) struct Expected {
     pub(crate) trs: bool,
     pub(crate) scores: Vec<i64>,
     pub(crate) temporal_count: i64,
+    pub(crate) summary: bool,
     pub(crate) forward: Option<i64>,
 }
 
@@ -132,6 +133,9 @@ fn expect_at(
     let leaving = running.checked_sub(1 + usize::from(mad)).map(frame);
     let forward = match (stepping, leaving) {
         (Some(position), Some(frame)) if frame.active => Some(frame.payload[position]),
+        (Some(position), Some(frame)) if frame.action == "summarize" => {
+            last_of_block(recipe, position as i64).map(|block| frame.means[block])
+        }
         _ => None,
     };
     Expected {
@@ -140,6 +144,15 @@ fn expect_at(
         trs: decided.is_some_and(|frame| frame.trs),
         scores,
         temporal_count,
+        summary: decided.is_some_and(|frame| frame.action == "summarize"),
         forward,
     }
+}
+
+/// The block whose last pixel, the lower right one, stands at a position of the region.
+fn last_of_block(recipe: &Recipe, position: i64) -> Option<usize> {
+    let blocks = recipe.periphery?.blocks;
+    let side = recipe.side / blocks;
+    let (x, y) = (position % recipe.side + 1, position / recipe.side + 1);
+    (x % side == 0 && y % side == 0).then(|| ((y / side - 1) * blocks + x / side - 1) as usize)
 }

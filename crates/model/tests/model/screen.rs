@@ -25,10 +25,12 @@ impl Screen {
     /// What a decision does.
     pub(crate) fn act(&mut self, region: u32, srs: bool, trs: bool) {
         // A pixel that the array does not send must not look like the one before.
-        let value = match foveate_model::action(&self.design, srs, trs) {
+        let value = match foveate_model::action(&self.design, srs, trs, || {
+            unreachable!("no means are sent")
+        }) {
             Action::Hold => return,
             Action::Blank => 0,
-            Action::Forward => u16::MAX,
+            Action::Forward | Action::Summarize => u16::MAX,
         };
         for position in 0..self.design.region_pixels() {
             let place = self.place(region, position);

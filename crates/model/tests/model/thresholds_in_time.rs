@@ -32,6 +32,8 @@ fn jittered(design: &Design, random: &mut Random) -> Thresholds {
     thresholds.temporal_level = pick(own, design.pixel_bits()) as u32;
     let own = thresholds.temporal_min_count.into();
     thresholds.temporal_min_count = pick(own, design.count_bits()) as u32;
+    let own = thresholds.summary_level.into();
+    thresholds.summary_level = pick(own, design.pixel_bits()) as u32;
     thresholds
 }
 
@@ -73,7 +75,7 @@ impl Frames<'_> {
         let reference = if self.recipe.last_sent {
             let decisive = |&at: &usize| {
                 let (srs, active) = registered[at];
-                active || self.recipe.blank_irrelevant && !srs
+                active || self.recipe.forgets_irrelevant() && !srs
             };
             (0..frame).rev().find(decisive).filter(|&at| registered[at].1)
         } else {
@@ -140,6 +142,7 @@ fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError
     let wait = usize::from(recipe.has("mad"));
     let mut registered = Vec::new();
     let mut leaving = Vec::new();
+    let mut shown: Option<Vec<i64>> = None;
     let decided = film.len() - wait.min(film.len());
     prop_assert_eq!(decisions.len(), decided);
     for (frame, decision) in decisions.iter().enumerate() {
@@ -151,6 +154,23 @@ fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError
         prop_assert_eq!((decision.srs, decision.trs), frames.decide(&scores, count, done));
         let (srs, trs) = frames.decide(&scores, count, done + 1);
         registered.push((srs, srs && trs));
+        let means = &frames.history[frame].regions[0].means;
+        let is_due = |srs: bool, clock: usize| {
+            let level = i64::from(frames.applied[clock].summary_level);
+            let is_near = |shown: &Vec<i64>| {
+                shown.iter().zip(means).all(|(shown, mean)| (shown - mean).abs() <= level)
+            };
+            recipe.periphery.is_some() && !srs && !shown.as_ref().is_some_and(is_near)
+        };
+        prop_assert_eq!(decision.summary, is_due(decision.srs, done));
+        if is_due(srs, done + 1) {
+            shown = Some(means.clone());
+            if frame + wait + 1 < film.len() {
+                leaving.extend(means);
+            }
+        } else if srs && trs {
+            shown = None;
+        }
         if srs && trs && frame + wait + 1 < film.len() {
             let seen = &frames.history[frame];
             let payload = if recipe.raw_payload { &seen.padded } else { &seen.denoised };

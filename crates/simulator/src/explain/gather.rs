@@ -2,25 +2,32 @@
 //! Takes an explanation from the outcome of a frame, and the hits of single pixels from the model's
 //! arithmetic.
 
-use foveate_camera::{Camera, Irrelevant, SpatialFeature};
+use foveate_camera::{Action, Camera, Irrelevant, Periphery, SpatialFeature};
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::feature::{hits, mad};
 use foveate_model::{FunctionalOutcome, region_pixels};
 
-use super::{Change, Explanation, Place, Rows, Spatial};
+use super::{Change, Explanation, Place, Rows, Spatial, Summary};
 use foveate_footage::SourceFrame;
 
 /// Changes when a key changes its meaning or goes.
 const FORMAT_VERSION: u32 = 1;
 
-/// Everything about one region of a frame; `reference` is its reference before the frame.
+/// What is remembered of a region before a frame.
+pub(super) struct Before {
+    pub(super) reference: Option<Vec<u16>>,
+    /// The means that the screen shows.
+    pub(super) shown: Option<Vec<u16>>,
+}
+
+/// Everything about one region of a frame.
 pub(super) fn explanation(
     design: &Design,
     frame: u64,
     source: &SourceFrame,
     region: u32,
-    reference: Option<Vec<u16>>,
+    before: Before,
     outcome: &FunctionalOutcome,
 ) -> Explanation {
     let (camera, at) = (design.camera(), region as usize);
@@ -41,10 +48,13 @@ pub(super) fn explanation(
             .collect(),
         combine: camera.combine().name(),
         srs: outcome.srs[at],
-        temporal: Change::of(camera, reference, outcome, region),
+        temporal: Change::of(camera, before.reference, outcome, region),
         trs: outcome.trs[at],
+        summary: camera
+            .periphery()
+            .map(|periphery| Summary::of(periphery, &outcome.means[at], before.shown)),
         action: outcome.actions[at].name(),
-        rule: rule(camera, outcome.srs[at], outcome.trs[at]),
+        rule: rule(camera, outcome.srs[at], outcome.trs[at], outcome.actions[at]),
     }
 }
 
@@ -94,6 +104,15 @@ impl Spatial {
     }
 }
 
+impl Summary {
+    fn of(periphery: &Periphery, means: &[u16], shown: Option<Vec<u16>>) -> Self {
+        let rows = |means: &[u16]| -> Rows<u16> {
+            means.chunks(periphery.blocks as usize).map(<[u16]>::to_vec).collect()
+        };
+        Self { means: rows(means), shown: shown.map(|shown| rows(&shown)), level: periphery.level }
+    }
+}
+
 impl Change {
     fn of(
         camera: &Camera,
@@ -132,7 +151,7 @@ fn rows<T: Copy>(camera: &Camera, items: &[T]) -> Rows<T> {
 }
 
 /// The row of the decision table in words.
-fn rule(camera: &Camera, srs: bool, trs: bool) -> String {
+fn rule(camera: &Camera, srs: bool, trs: bool, action: Action) -> String {
     let payload = camera.payload().name();
     match (trs, srs) {
         (true, true) => format!("TRS 1, SRS 1: active, its {payload} pixels are sent and shown"),
@@ -141,6 +160,12 @@ fn rule(camera: &Camera, srs: bool, trs: bool) -> String {
             let then = match camera.irrelevant() {
                 Irrelevant::Zero => "the region is rendered black (irrelevant = \"zero\")",
                 Irrelevant::Hold => "the previous rendered pixels stay (irrelevant = \"hold\")",
+                Irrelevant::Mean if action == Action::Summarize => {
+                    "its means are sent and shown (irrelevant = \"mean\")"
+                }
+                Irrelevant::Mean => {
+                    "its means are near those on the screen (irrelevant = \"mean\")"
+                }
             };
             format!("TRS any, SRS 0: inactive, {then}")
         }

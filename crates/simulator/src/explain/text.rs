@@ -7,7 +7,7 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{Change, Explanation, Rows, Spatial};
+use super::{Change, Explanation, Rows, Spatial, Summary};
 
 /// Columns of a terminal.
 const WIDTH: usize = 80;
@@ -56,6 +56,9 @@ impl Display for Explanation {
         let sign = compared(self.trs);
         let trs = u8::from(self.trs);
         writeln!(f, "{:<9} {count} changed {sign} {min_count}: TRS {trs}", "temporal")?;
+        if let Some(summary) = &self.summary {
+            writeln!(f, "{:<9} {}", "means", summary.line())?;
+        }
         let then = self.rule.replacen(": ", "\n          ", 1);
         writeln!(f, "{:<9} {then}", "decision")
     }
@@ -98,6 +101,25 @@ impl Change {
                 writeln!(f, "\nreference ({}): none is valid, every pixel counts", self.against)
             }
         }
+    }
+}
+
+impl Summary {
+    /// The means beside those that the screen shows, row by row of blocks.
+    fn line(&self) -> String {
+        let list = |rows: &Rows<u16>| {
+            let row = |row: &Vec<u16>| row.iter().map(u16::to_string).collect::<Vec<_>>().join(" ");
+            rows.iter().map(row).collect::<Vec<_>>().join(", ")
+        };
+        let shown = match &self.shown {
+            Some(shown) => format!("the screen shows {}", list(shown)),
+            None => "the screen shows no summary".to_owned(),
+        };
+        format!("{}; {shown}; level {}", list(&self.means), self.level).replacen(
+            "; ",
+            "\n          ",
+            1,
+        )
     }
 }
 

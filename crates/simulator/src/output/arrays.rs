@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use foveate_camera::Camera;
+use foveate_camera::{Action, Camera};
 
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
@@ -15,6 +15,8 @@ pub(super) struct Arrays {
     srs: NpyWriter,
     trs: NpyWriter,
     active: NpyWriter,
+    /// Whether the means of the region were sent, where irrelevant regions send them.
+    summary: Option<NpyWriter>,
     temporal_count: NpyWriter,
     scores: Vec<NpyWriter>,
 }
@@ -33,6 +35,7 @@ impl Arrays {
             srs: array("srs.npy", 1)?,
             trs: array("trs.npy", 1)?,
             active: array("active.npy", 1)?,
+            summary: camera.periphery().map(|_| array("summary.npy", 1)).transpose()?,
             temporal_count: array("t_count.npy", camera.region_pixels().into())?,
             scores: scores.collect::<Result<_, _>>()?,
         })
@@ -45,6 +48,10 @@ impl Sink for Arrays {
         self.srs.push(outcome.srs.iter().copied().map(u64::from));
         self.trs.push(outcome.trs.iter().copied().map(u64::from));
         self.active.push(outcome.active.iter().copied().map(u64::from));
+        if let Some(summary) = &mut self.summary {
+            let sent = |action: &Action| u64::from(*action == Action::Summarize);
+            summary.push(outcome.actions.iter().map(sent));
+        }
         self.temporal_count.push(outcome.temporal_count.iter().copied().map(u64::from));
         for (writer, scores) in self.scores.iter_mut().zip(&outcome.scores) {
             writer.push(scores.iter().copied());
@@ -53,7 +60,8 @@ impl Sink for Arrays {
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        for flags in [&mut self.srs, &mut self.trs, &mut self.active] {
+        let flags = [&mut self.srs, &mut self.trs, &mut self.active];
+        for flags in flags.into_iter().chain(&mut self.summary) {
             flags.write_out(all)?;
         }
         self.temporal_count.write_out(all)?;
@@ -64,6 +72,9 @@ impl Sink for Arrays {
         self.srs.finish()?;
         self.trs.finish()?;
         self.active.finish()?;
+        if let Some(summary) = self.summary {
+            summary.finish()?;
+        }
         self.temporal_count.finish()?;
         Ok(self.scores.into_iter().try_for_each(NpyWriter::finish)?)
     }

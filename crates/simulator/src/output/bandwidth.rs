@@ -4,7 +4,7 @@
 //! | camera | an event | bytes |
 //! | --- | --- | --- |
 //! | raw video | | W * H * P / 8 per frame |
-//! | region | an active region of a frame | 2 bits (SRS, TRS) per region and frame, and P / 8 per forwarded pixel |
+//! | region | an active region of a frame, or one whose summary is sent | 2 bits per region and frame, and P / 8 per forwarded pixel and mean |
 //! | pixel | a pixel that crossed the contrast once | 4, a 32-bit word as in EVT 2.0 |
 //!
 //! Bits are summed over the run and rounded up to bytes once. All that a receiver needs is counted:
@@ -50,8 +50,10 @@ pub struct Bandwidth {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {
     pub(super) frames: u64,
-    pub(super) active: u64,
-    pub(super) pixels_forwarded: u64,
+    /// Regions that sent pixels or means.
+    pub(super) events: u64,
+    /// Pixels and means.
+    pub(super) values: u64,
     pub(super) pixel_events: Option<u64>,
     /// Times of the first and the last frame.
     pub(super) times: Option<(u64, u64)>,
@@ -63,35 +65,16 @@ impl Bandwidth {
         let pixels = u64::from(camera.width()) * u64::from(camera.height());
         let depth = u64::from(camera.pixel_bits());
         let raw = (sums.frames * pixels * depth).div_ceil(8);
-        let region = region_bits(camera, sums.frames, sums.pixels_forwarded).div_ceil(8);
+        let region = camera.bits_sent(sums.frames, sums.values).div_ceil(8);
         Self {
             raw: Traffic::of(None, raw, duration_us),
-            region: Traffic::of(Some(sums.active), region, duration_us),
+            region: Traffic::of(Some(sums.events), region, duration_us),
             pixel: sums
                 .pixel_events
                 .map(|events| Traffic::of(Some(events), events * PIXEL_EVENT_BYTES, duration_us)),
             duration_us,
         }
     }
-}
-
-/// Bits that the region camera sends for frames of which so many pixels are forwarded.
-#[must_use]
-pub fn region_bits(camera: &Camera, frames: u64, pixels_forwarded: u64) -> u64 {
-    let map = 2 * u64::from(camera.regions()) * frames;
-    map + pixels_forwarded * u64::from(camera.pixel_bits())
-}
-
-/// Pixels of the active regions of a frame, without padding.
-#[must_use]
-pub fn pixels_forwarded(camera: &Camera, active: &[bool]) -> u64 {
-    let side = camera.region_size();
-    let inside = |position: u32, size: u32| u64::from(side.min(size - position * side));
-    let pixels = |region: u32| {
-        inside(region % camera.columns(), camera.width())
-            * inside(region / camera.columns(), camera.height())
-    };
-    (0..).zip(active).filter(|(_, active)| **active).map(|(region, _)| pixels(region)).sum()
 }
 
 impl Traffic {

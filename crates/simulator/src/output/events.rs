@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_camera::Camera;
+use foveate_camera::{Action, Camera};
 use foveate_engine::FrameOutcome;
 use foveate_files::tables::{Column, Kind, Value};
 
@@ -115,7 +115,7 @@ pub struct EventTable {
 }
 
 impl EventTable {
-    /// The table with a row per region and frame, or only with those of active regions.
+    /// The table with a row per region and frame, or only with those of regions that send something.
     #[must_use]
     pub fn new(camera: &Camera, only_active: bool) -> Self {
         let (columns, fields) = columns(camera).into_iter().unzip();
@@ -134,8 +134,12 @@ impl EventTable {
         moment: &Moment<'_>,
         mut row: impl FnMut(&mut dyn Iterator<Item = Value<'static>>),
     ) {
-        for (region, &active) in moment.outcome.active.iter().enumerate() {
-            if active || !self.only_active {
+        for (region, &action) in moment.outcome.actions.iter().enumerate() {
+            let is_event = match action {
+                Action::Forward | Action::Summarize => true,
+                Action::Hold | Action::Blank => false,
+            };
+            if is_event || !self.only_active {
                 row(&mut self.fields.iter().map(|field| field.of(moment, region)));
             }
         }

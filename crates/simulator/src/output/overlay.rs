@@ -4,10 +4,11 @@
 //!
 //! Colours are those of the palette; active regions have an outline besides.
 
+use foveate_camera::{Action, Camera};
 use foveate_frame::{Raster, convert_depth};
 use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
 
-use super::canvas::{Canvas, Layout};
+use super::canvas::{Canvas, Layout, TEXT};
 use super::font;
 use super::gallery::Painter;
 use super::picture::low_byte;
@@ -33,7 +34,7 @@ impl Painter for Overlay {
         draw_frame(&mut canvas, frame, step, layout);
         let regions = step.camera.regions();
         let active = step.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
-        draw_legend(&mut canvas, layout, active, regions);
+        draw_legend(&mut canvas, layout, active, step.camera);
         self.strip.push(active.into(), (layout.width / Strip::bar(layout)) as usize);
         self.strip.draw(&mut canvas, layout, regions.into(), ACTIVE_BRIGHT);
         canvas
@@ -67,6 +68,9 @@ fn draw_frame(canvas: &mut Canvas, frame: &Raster, step: &Step<'_>, layout: Layo
         if step.outcome.active[region] {
             canvas.frame([left, top, width, height], 1 + cell / 40, ACTIVE_BRIGHT);
         }
+        if step.outcome.actions[region] == Action::Summarize {
+            canvas.frame([left, top, width, height], 1, TEXT);
+        }
     }
 }
 
@@ -80,7 +84,8 @@ fn grid(canvas: &mut Canvas, [left, top, width, height]: [u32; 4]) {
     }
 }
 
-fn draw_legend(canvas: &mut Canvas, layout: Layout, active: u32, regions: u32) {
+fn draw_legend(canvas: &mut Canvas, layout: Layout, active: u32, camera: &Camera) {
+    let regions = camera.regions();
     let (dot, top) = (layout.dot, layout.frame_height + 2 * layout.dot);
     let height = font::SIZE.1 * dot;
     let permille = (u64::from(active) * 1000 + u64::from(regions) / 2) / u64::from(regions);
@@ -93,6 +98,10 @@ fn draw_legend(canvas: &mut Canvas, layout: Layout, active: u32, regions: u32) {
             canvas.frame([left, top, height, height], dot.div_ceil(2), ACTIVE_BRIGHT);
         }
         left = canvas.text(left + height + dot, top, dot, text) + 3 * dot;
+    }
+    if camera.periphery().is_some() {
+        canvas.frame([left, top, height, height], dot.div_ceil(2), TEXT);
+        canvas.text(left + height + dot, top, dot, "Means");
     }
 }
 

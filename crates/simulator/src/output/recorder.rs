@@ -9,13 +9,13 @@ use foveate_staging::Reserve;
 use rayon::prelude::*;
 
 use super::arrays::Arrays;
-use super::bandwidth::pixels_forwarded;
 use super::data_set::{self, DataSet};
 use super::gallery::Gallery;
 use super::heatmap::Heatmap;
 use super::overlay::Overlay;
 use super::pixel_events::PixelRecorder;
 use super::sink::{Sink, Step};
+use super::summary::Sent;
 use super::summary::Totals;
 use super::table::{FrameRow, FrameTable};
 use super::{RunOptions, Summary, events};
@@ -65,7 +65,7 @@ impl Recorder {
                 sinks.push(Box::new(Gallery::painted(folder, &name, medium, map)?));
             }
         }
-        let table = FrameTable::create(&folder.join("frames.csv"))?;
+        let table = FrameTable::create(&folder.join("frames.csv"), design)?;
         // After the others: its names are the user's, and it takes none that is taken.
         if options.data_set {
             sinks.append(&mut data_set::sinks(folder, form)?);
@@ -153,21 +153,12 @@ impl Recorder {
     fn push_row(&mut self, source: &SourceFrame, outcome: &FrameOutcome) {
         let (srs, trs) = (count(&outcome.srs), count(&outcome.trs));
         let active = count(&outcome.active);
-        let pixels_forwarded = pixels_forwarded(&self.design, &outcome.active);
+        let sent = Sent::of(&self.design, &outcome.actions);
         let (frame, time_us, name) = (self.totals.frames, source.time_us, source.name.as_str());
         let label = source.label.as_deref();
-        self.totals.add(srs, trs, active, pixels_forwarded);
+        self.totals.add(srs, trs, active, sent);
         self.totals.at(time_us);
-        self.table.push(&FrameRow {
-            frame,
-            time_us,
-            name,
-            label,
-            srs,
-            trs,
-            active,
-            pixels_forwarded,
-        });
+        self.table.push(&FrameRow { frame, time_us, name, label, srs, trs, active, sent });
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_design::{Config, Design};
+use foveate_design::{Action, Camera, Config, Design};
 use serde::Serialize;
 
 use super::bandwidth::{Bandwidth, Sums};
@@ -71,6 +71,12 @@ pub struct Summary {
     pub pixels_in: u64,
     /// Pixels of all active regions; padding of ragged frames does not count.
     pub pixels_forwarded: u64,
+    /// Regions whose summary was sent; only of a camera whose irrelevant regions send their means.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub summaries_sent: Option<u64>,
+    /// Means of these summaries.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub means_sent: Option<u64>,
     /// What the cameras send.
     pub bandwidth: Bandwidth,
     /// The data set that was made, if one was.
@@ -80,6 +86,32 @@ pub struct Summary {
     pub configuration: Config,
 }
 
+/// What is sent of a frame, or of many.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sent {
+    pub(super) pixels: u64,
+    pub(super) summaries: u64,
+    pub(super) means: u64,
+}
+
+impl Sent {
+    pub(super) fn of(camera: &Camera, actions: &[Action]) -> Self {
+        let mut sent = Self::default();
+        for (region, &action) in (0..).zip(actions) {
+            let values = camera.values_sent(region, action);
+            match action {
+                Action::Forward => sent.pixels += values,
+                Action::Summarize => {
+                    sent.summaries += 1;
+                    sent.means += values;
+                }
+                Action::Hold | Action::Blank => {}
+            }
+        }
+        sent
+    }
+}
+
 /// Sums over the frames so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Totals {
@@ -87,7 +119,7 @@ pub(super) struct Totals {
     pub(super) srs: u64,
     pub(super) trs: u64,
     pub(super) active: u64,
-    pub(super) pixels_forwarded: u64,
+    pub(super) sent: Sent,
     /// Times of the first and the last frame.
     pub(super) times: Option<(u64, u64)>,
     /// Active regions of the frame with the fewest and of the one with the most.
@@ -95,12 +127,14 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    pub(super) fn add(&mut self, srs: u64, trs: u64, active: u64, pixels_forwarded: u64) {
+    pub(super) fn add(&mut self, srs: u64, trs: u64, active: u64, sent: Sent) {
         self.frames += 1;
         self.srs += srs;
         self.trs += trs;
         self.active += active;
-        self.pixels_forwarded += pixels_forwarded;
+        self.sent.pixels += sent.pixels;
+        self.sent.summaries += sent.summaries;
+        self.sent.means += sent.means;
         let (min, max) = self.extremes.unwrap_or((active, active));
         self.extremes = Some((min.min(active), max.max(active)));
     }
@@ -119,8 +153,8 @@ impl Totals {
     ) -> Summary {
         let sums = Sums {
             frames: self.frames,
-            active: self.active,
-            pixels_forwarded: self.pixels_forwarded,
+            events: self.active + self.sent.summaries,
+            values: self.sent.pixels + self.sent.means,
             pixel_events,
             times: self.times,
         };
@@ -145,7 +179,9 @@ impl Totals {
             trs_share: share(self.trs, all),
             active_share_per_frame: Range { min: share(min, regions), max: share(max, regions) },
             pixels_in: self.frames * u64::from(design.width()) * u64::from(design.height()),
-            pixels_forwarded: self.pixels_forwarded,
+            pixels_forwarded: self.sent.pixels,
+            summaries_sent: design.periphery().map(|_| self.sent.summaries),
+            means_sent: design.periphery().map(|_| self.sent.means),
             bandwidth: Bandwidth::of(design, &sums),
             data_set: None,
             configuration: design.config(),

@@ -4,9 +4,11 @@
 
 use std::path::Path;
 
+use foveate_camera::Camera;
 use foveate_files::tables::plain;
 
 use super::csv::Csv;
+use super::summary::Sent;
 use crate::SimulatorError;
 
 /// What the table says of a frame.
@@ -18,27 +20,36 @@ pub(super) struct FrameRow<'a> {
     pub(super) srs: u64,
     pub(super) trs: u64,
     pub(super) active: u64,
-    pub(super) pixels_forwarded: u64,
+    pub(super) sent: Sent,
 }
 
 /// The file, open.
-pub(super) struct FrameTable(Csv);
+pub(super) struct FrameTable {
+    csv: Csv,
+    /// Whether irrelevant regions send summaries, which are counted then.
+    has_summaries: bool,
+}
 
 impl FrameTable {
-    pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
+    pub(super) fn create(path: &Path, camera: &Camera) -> Result<Self, SimulatorError> {
+        let has_summaries = camera.periphery().is_some();
         let heading =
             "frame,t_us,name,label,srs_regions,trs_regions,active_regions,pixels_forwarded";
-        Csv::create(path, heading).map(Self)
+        let more = if has_summaries { ",summaries_sent" } else { "" };
+        Ok(Self { csv: Csv::create(path, &format!("{heading}{more}"))?, has_summaries })
     }
 
     pub(super) fn push(&mut self, row: &FrameRow<'_>) {
-        let FrameRow { frame, time_us, name, label, srs, trs, active, pixels_forwarded } = row;
+        let FrameRow { frame, time_us, name, label, srs, trs, active, sent } = row;
         let (name, label) = (plain(name), plain(label.unwrap_or_default()));
-        let counts = format!("{srs},{trs},{active},{pixels_forwarded}");
-        self.0.line([format!("{frame},{time_us},{name},{label},{counts}")]);
+        let mut counts = format!("{srs},{trs},{active},{}", sent.pixels);
+        if self.has_summaries {
+            counts = format!("{counts},{}", sent.summaries);
+        }
+        self.csv.line([format!("{frame},{time_us},{name},{label},{counts}")]);
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.0.write_out(all)
+        self.csv.write_out(all)
     }
 }

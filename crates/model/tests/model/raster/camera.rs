@@ -124,6 +124,7 @@ pub(super) fn recipe(number: usize) -> RasterRecipe {
             temporal_min: side,
             last_sent: on(4),
             blank_irrelevant: on(3),
+            periphery: None,
             raw_payload: on(6),
             constant: on(5),
             deep: false,

@@ -31,6 +31,7 @@ fn recipe(last: FeatureRecipe) -> RasterRecipe {
             temporal_min: 6,
             last_sent: true,
             blank_irrelevant: false,
+            periphery: None,
             raw_payload: false,
             constant: true,
             deep: false,

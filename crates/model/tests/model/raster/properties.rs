@@ -62,7 +62,13 @@ fn changed(recipe: &RasterRecipe, seed: u64) -> RasterRecipe {
 fn applied(recipe: &RasterRecipe) -> Thresholds {
     if recipe.base.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
-        return Thresholds { level, min_score, temporal_level: 0, temporal_min_count: 1 };
+        return Thresholds {
+            level,
+            min_score,
+            temporal_level: 0,
+            temporal_min_count: 1,
+            summary_level: 0,
+        };
     }
     Thresholds::of(&recipe.design())
 }

@@ -27,6 +27,7 @@ fn recipe() -> SerialRecipe {
             temporal_min: 9,
             last_sent: true,
             blank_irrelevant: true,
+            periphery: None,
             raw_payload: false,
             constant: true,
             deep: false,

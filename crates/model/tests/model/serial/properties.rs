@@ -42,7 +42,13 @@ fn changed(recipe: &Recipe, seed: u64) -> Recipe {
 fn applied_thresholds(recipe: &Recipe) -> Thresholds {
     if recipe.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
-        return Thresholds { level, min_score, temporal_level: 0, temporal_min_count: 1 };
+        return Thresholds {
+            level,
+            min_score,
+            temporal_level: 0,
+            temporal_min_count: 1,
+            summary_level: 0,
+        };
     }
     Thresholds::of(&recipe.design())
 }

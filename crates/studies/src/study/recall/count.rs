@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 
 use foveate_design::Design;
 use foveate_footage::boxes::Grid;
-use foveate_simulator::{pixels_forwarded, region_bits};
 
 use super::class::CLASSES;
 use super::truth::{Object, Truth};
@@ -74,7 +73,7 @@ impl Sums {
     fn add(&mut self, objects: &[Object], design: &Design, seen: &Seen<'_>) {
         let outcome = seen.outcome;
         self.frames += 1;
-        self.bits += region_bits(design, 1, pixels_forwarded(design, &outcome.active));
+        self.bits += design.bits_sent(1, design.values_of(&outcome.actions));
         self.counts.resize(CLASSES.len(), Count::default());
         let (side, width, height) = (design.region_size(), design.width(), design.height());
         let grid = Grid { side, width, height };

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a camera sends, counted: two bits per region and frame, and values of P bits.
+//!
+//! | bits | the region | values that follow |
+//! | --- | --- | --- |
+//! | 00 | SRS = 0, no summary is sent | none |
+//! | 01 | SRS = 0, its summary is sent | q * q means |
+//! | 10 | SRS = 1, TRS = 0 | none |
+//! | 11 | active | its pixels, without padding |
+//!
+//! So the two bits say what becomes of every region, and no addresses are sent.
+
+use crate::{Action, Camera, Periphery};
+
+/// Bits per region and frame that say what becomes of it.
+pub const DECISION_BITS: u64 = 2;
+
+impl Camera {
+    /// Values of P bits that are sent of a region: its pixels inside of the frame, its means, or none.
+    #[must_use]
+    pub fn values_sent(&self, region: u32, action: Action) -> u64 {
+        match action {
+            Action::Forward => self.pixels_inside(region),
+            Action::Summarize => self.periphery().map_or(0, |own| Periphery::means(own).into()),
+            Action::Hold | Action::Blank => 0,
+        }
+    }
+
+    /// Values of P bits that are sent of a frame with these actions.
+    #[must_use]
+    pub fn values_of(&self, actions: &[Action]) -> u64 {
+        (0..).zip(actions).map(|(region, &action)| self.values_sent(region, action)).sum()
+    }
+
+    /// Pixels of a region that are not padding.
+    #[must_use]
+    pub fn pixels_inside(&self, region: u32) -> u64 {
+        let side = self.region_size();
+        let inside = |position: u32, size: u32| u64::from(side.min(size - position * side));
+        inside(region % self.columns(), self.width())
+            * inside(region / self.columns(), self.height())
+    }
+
+    /// Bits that are sent of so many frames, with so many values in all.
+    #[must_use]
+    pub fn bits_sent(&self, frames: u64, values: u64) -> u64 {
+        DECISION_BITS * u64::from(self.regions()) * frames + values * u64::from(self.pixel_bits())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Action, CameraConfig, Irrelevant};
+
+    #[test]
+    fn pixels_are_counted_without_padding_and_means_with_it() {
+        let mut config = CameraConfig::default();
+        (config.frame.width, config.frame.height) = (Some(20), Some(9));
+        (config.frame.pixel_bits, config.render.irrelevant) = (10, Irrelevant::Mean);
+        config.periphery.blocks = Some(2);
+        let camera = config.validate().unwrap();
+        let actions = [Action::Forward, Action::Hold, Action::Summarize, Action::Blank];
+        let values = |region| actions.map(|action| camera.values_sent(region, action));
+        assert_eq!(values(0), [64, 0, 4, 0]);
+        assert_eq!(values(2), [32, 0, 4, 0]);
+        assert_eq!(values(5), [4, 0, 4, 0]);
+        let sent = [Action::Forward, Action::Summarize, Action::Hold, Action::Forward];
+        assert_eq!(camera.values_of(&sent), 64 + 4 + 8);
+        assert_eq!(camera.bits_sent(3, 76), 3 * 6 * 2 + 760);
+    }
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The summaries of irrelevant regions: the means of their blocks, and when they are sent.
+
+use foveate_camera::{Action, Camera, Periphery};
+
+use crate::number::index;
+use crate::region::Area;
+use foveate_frame::Frame;
+
+/// The means of the blocks of a region whose pixels come row by row: `floor((sum + floor(b*b / 2)) / (b*b))` each, row by
+/// row.
+#[must_use]
+pub fn block_means(periphery: &Periphery, pixels: impl Iterator<Item = u16>) -> Vec<u16> {
+    let (blocks, block_side) = (index(periphery.blocks), index(periphery.block_side));
+    let side = blocks * block_side;
+    let mut sums = vec![u64::from(periphery.block_pixels() / 2); blocks * blocks];
+    for (position, pixel) in pixels.enumerate() {
+        let (x, y) = (position % side, position / side);
+        sums[y / block_side * blocks + x / block_side] += u64::from(pixel);
+    }
+    let mean = |sum| sum / u64::from(periphery.block_pixels());
+    let pixel = |sum| u16::try_from(mean(sum)).expect("a mean is within the range of pixels");
+    sums.into_iter().map(pixel).collect()
+}
+
+/// What a region has sent of itself last, while the screen shows it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Summary {
+    shown: Option<Vec<u16>>,
+}
+
+impl Summary {
+    /// Whether these means of an irrelevant region are to be sent: the screen shows something else, or a mean that differs by
+    /// more than the level.
+    pub(crate) fn is_due(&self, means: &[u16], level: u32) -> bool {
+        self.shown.as_ref().is_none_or(|shown| {
+            let mut pairs = shown.iter().zip(means);
+            pairs.any(|(shown, &mean)| u32::from(shown.abs_diff(mean)) > level)
+        })
+    }
+
+    /// The means that the screen shows, if it shows any.
+    pub(crate) fn shown(&self) -> Option<&[u16]> {
+        self.shown.as_deref()
+    }
+
+    /// What the screen shows behind an action.
+    pub(crate) fn follow(&mut self, action: Action, means: &[u16]) {
+        match action {
+            Action::Forward => self.shown = None,
+            Action::Summarize => self.shown = Some(means.to_vec()),
+            Action::Hold | Action::Blank => {}
+        }
+    }
+}
+
+/// What every region of a camera has sent of itself last.
+pub(crate) fn no_summaries(camera: &Camera) -> Vec<Summary> {
+    vec![Summary::default(); index(camera.regions())]
+}
+
+impl Area {
+    /// Shows the means of the blocks of a region.
+    pub(crate) fn fill(self, periphery: &Periphery, means: &[u16], frame: &mut Frame) {
+        let side = index(periphery.block_side);
+        for (y, row) in self.rows().zip(0..) {
+            let means = &means[row / side * index(periphery.blocks)..][..index(periphery.blocks)];
+            let line: Vec<u16> = means.iter().flat_map(|&mean| vec![mean; side]).collect();
+            frame.write(self.left, y, &line);
+        }
+    }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The summaries of a region: its means frame by frame, which of them were sent, and when they leave.
+
+use foveate_design::{Action, Irrelevant};
+
+use super::decide::Decision;
+use super::plan::RpuPlan;
+use crate::number::index;
+use crate::periphery::{Summary, block_means};
+
+/// Means and what is known of them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct TailSummary {
+    /// The payload of the frame that comes in, as far as it has.
+    current: Vec<u16>,
+    /// The means of the last frame that is whole.
+    previous: Vec<u16>,
+    /// What the receiver shows.
+    summary: Summary,
+    /// The means that leave while this frame comes in.
+    sent: Option<Vec<u16>>,
+}
+
+impl TailSummary {
+    /// A tail step.
+    pub(super) fn step(&mut self, payload: u16) {
+        self.current.push(payload);
+    }
+
+    /// What becomes of the region whose decision is made in this clock.
+    pub(super) fn action(&self, plan: &RpuPlan, decision: Decision, level: u32) -> Action {
+        let decided = self.decided(plan);
+        match (decision.srs, decision.trs, plan.irrelevant) {
+            (true, true, _) => Action::Forward,
+            (true, false, _) | (false, _, Irrelevant::Hold) => Action::Hold,
+            (false, _, Irrelevant::Zero) => Action::Blank,
+            (false, _, Irrelevant::Mean) if self.summary.is_due(&decided, level) => {
+                Action::Summarize
+            }
+            (false, _, Irrelevant::Mean) => Action::Hold,
+        }
+    }
+
+    /// The means of the frame that is decided in this clock, in which the frame that has come in is whole.
+    fn decided(&self, plan: &RpuPlan) -> Vec<u16> {
+        if plan.second_pass { self.previous.clone() } else { self.means(plan) }
+    }
+
+    fn means(&self, plan: &RpuPlan) -> Vec<u16> {
+        let pixels = self.current.iter().copied();
+        plan.periphery.map_or(Vec::new(), |periphery| block_means(&periphery, pixels))
+    }
+
+    /// The edge after done.
+    pub(super) fn finish(&mut self, plan: &RpuPlan, decision: Option<Decision>, level: u32) {
+        self.sent = None;
+        if let Some(decision) = decision {
+            let (action, means) = (self.action(plan, decision, level), self.decided(plan));
+            self.summary.follow(action, &means);
+            self.sent = (action == Action::Summarize).then_some(means);
+        }
+        self.previous = self.means(plan);
+        self.current.clear();
+    }
+
+    /// The mean that leaves at a tail step: that of the block whose last pixel steps.
+    pub(super) fn leaving(&self, plan: &RpuPlan, position: usize) -> Option<u16> {
+        let (sent, periphery) = (self.sent.as_ref()?, plan.periphery?);
+        let (x, y) = (position % plan.side, position / plan.side);
+        let (blocks, side) = (index(periphery.blocks), index(periphery.block_side));
+        let is_last = x % side == side - 1 && y % side == side - 1;
+        is_last.then(|| sent[y / side * blocks + x / side])
+    }
+}
