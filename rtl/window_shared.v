@@ -17,7 +17,7 @@ module window_shared #(
     input  wire [             3:0] border_i,   // sides outside the frame: {bottom, top, right, left}
     output wire                    advance_o,  // lines and columns move at this edge
     output wire                    step_o,     // with it a center is complete
-    output wire [ADDRESS_BITS-1:0] address_o,  // a number of its own for each center of a region
+    output wire [ADDRESS_BITS-1:0] address_o,  // number of the center in its region
     output wire                    last_o,     // the center is the last of the frame
     output wire                    top_o,      // the incoming column lacks its upper pixel
     output wire                    bottom_o,   // ... its lower pixel

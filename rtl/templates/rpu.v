@@ -364,13 +364,31 @@ module rpu (
     );
     assign srs_o = srs;
 
+    {%- if let Some(periphery) = periphery %}
+    // Summaries of irrelevant regions.
+    wire mean_leaves;
+    wire [{= p - 1 =}:0] leaving_mean;
+    region_summary #(
+        .WIDTH({= p =}), .SIDE({= n =}), .BLOCKS({= periphery.blocks =}), .ADDRESS_BITS({= address_bits =}){% if window && !shared %}, .AHEAD(1){% endif %},
+        .SUM_BITS({= periphery.sum_bits =}), .FACTOR_BITS({= periphery.factor_bits =}), .FACTOR({= periphery.factor_bits =}'d{= periphery.factor =}), .SHIFT({= periphery.shift =}){% if second_pass %}, .SECOND(1){% endif %}{% if deep %}, .DEEP(1){% endif %}
+    ) u_summary (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(tail_step), .address_i(tail_address), .pixel_i({= periphery.pixel =}),
+        .done_i(done), .decided_i(decided), .srs_i(srs), .active_i(active_o), .level_i({= periphery.level =}),
+        .summary_o(summary_o), .leaves_o(mean_leaves), .mean_o(leaving_mean)
+    );
+
+    {% endif %}
     // Forward.
     {%- if deep %}
     reg [{= p - 1 =}:0] leaving_pixel;
     always @(posedge clk_i) leaving_pixel <= {= forward_pixel =};
     {%- endif %}
     forward_gate #(.WIDTH({= p =})) u_forward (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i({= count =}_step), .forward_i(forward), .pixel_i({% if deep %}leaving_pixel{% else %}{= forward_pixel =}{% endif %}),
+        .clk_i(clk_i), .rst_i(rst_i), .step_i({= count =}_step),
+        {%- if periphery.is_some() %}
+        .forward_i(forward || mean_leaves), .pixel_i(mean_leaves ? leaving_mean : {% if deep %}leaving_pixel{% else %}{= forward_pixel =}{% endif %}),
+        {%- else %} .forward_i(forward), .pixel_i({% if deep %}leaving_pixel{% else %}{= forward_pixel =}{% endif %}),
+        {%- endif %}
         .valid_o(forward_valid_o), .pixel_o(forward_pixel_o)
     );
 {%- for name in unused %}

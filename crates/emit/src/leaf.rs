@@ -48,6 +48,9 @@ leaves! {
     "region_mean" => [],
     "deviation_sum" => [],
     "variance_score" => [],
+    "block_place" => [],
+    "block_mean" => ["block_place", "adder"],
+    "region_summary" => ["block_mean", "magnitude_above"],
     "score_hold" => [],
     "vote" => [],
     "decision" => [],
@@ -153,6 +156,7 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
         }
     }
     need(!window, &["position_counter"]);
+    need(design.periphery().is_some(), &["region_summary"]);
     for feature in design.features() {
         match feature.kind() {
             FeatureKind::Edge => need(true, &["edge_detector"]),

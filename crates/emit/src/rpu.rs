@@ -10,7 +10,7 @@ use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, FeatureKind, Filter, Mean, Neighborhood, PipelinedDesign, PipelinedTiming, Pipelining,
+    Combine, FeatureKind, Filter, Mean, Neighborhood, Periphery, PipelinedDesign, PipelinedTiming, Pipelining,
     PortRole, SpatialFeature, Variance, bits_for, index_bits,
 };
 
@@ -61,6 +61,7 @@ struct Rpu {
     scores: Vec<Score>,
     votes: Vec<String>,
     all: u32,
+    periphery: Option<Summaries>,
     decided_pixel: &'static str,
     forward_pixel: &'static str,
     unused: Vec<&'static str>,
@@ -99,6 +100,18 @@ struct VarianceWidths {
     square_sum_bits: u32,
     product_bits: u32,
     score_bits: u32,
+}
+
+/// How the means of blocks are formed, and when they are sent.
+struct Summaries {
+    blocks: u32,
+    sum_bits: u32,
+    factor: u64,
+    factor_bits: u32,
+    shift: u32,
+    level: String,
+    /// The pixels that are averaged.
+    pixel: &'static str,
 }
 
 /// A score on its way to its port and its vote.
@@ -165,6 +178,7 @@ fn view(design: PipelinedDesign<'_>) -> Rpu {
         scores: scores(design),
         votes: features.iter().map(|f| format!("{}_score", f.kind())).collect(),
         all: u32::from(design.combine() == Combine::All),
+        periphery: design.periphery().map(|periphery| summaries(design, periphery)),
         decided_pixel: if second_pass { "second_pixel" } else { "previous_pixel" },
         forward_pixel: match (second_pass, keeps_raw) {
             (false, false) => "previous_pixel",
@@ -237,6 +251,18 @@ fn variance(feature: &SpatialFeature, widths: &Variance) -> VarianceWidths {
         square_sum_bits: widths.square_sum_bits,
         product_bits: widths.product_bits,
         score_bits: feature.score_bits(),
+    }
+}
+
+fn summaries(design: PipelinedDesign<'_>, periphery: &Periphery) -> Summaries {
+    Summaries {
+        blocks: periphery.blocks,
+        sum_bits: periphery.sum_bits,
+        factor: periphery.reciprocal.multiplier(),
+        factor_bits: bits_for(periphery.reciprocal.multiplier()),
+        shift: periphery.reciprocal.shift(),
+        level: signal(&design, PortRole::SummaryLevel),
+        pixel: if design.keeps_raw() { "tail_raw" } else { "tail_pixel" },
     }
 }
 

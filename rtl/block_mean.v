@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The rounded means of the blocks of a region, each when its last pixel has come.
+//
+// The sum of one block is under way in a register; those of the other blocks beside it wait in a line, which moves
+// when the next block goes on. Half of a block's pixels are in the sum from its first one on, so that the mean is
+// floor(sum / pixels), a multiplication and a shift that are exact for every sum that can occur.
+`default_nettype none
+
+module block_mean #(
+    parameter WIDTH = 8,                     // bits of a pixel
+    parameter SIDE = 8,                      // pixels of a region's side
+    parameter BLOCKS = 2,                    // blocks of a region's side
+    parameter ADDRESS_BITS = 6,              // ceil(log2(SIDE * SIDE))
+    parameter AHEAD = 0,                     // 1: address_i is the number of the pixel that comes next
+    parameter SUM_BITS = 12,                 // bits of the sum of a block and half of its pixels
+    parameter FACTOR_BITS = 1,               // bits of FACTOR
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // sum * FACTOR >> SHIFT is sum / pixels
+    parameter SHIFT = 4,                     // bits that are dropped of the product
+    parameter DEEP = 0                       // 1: a mean is there in the clock after its last pixel, behind a register
+) (
+    input  wire                    clk_i,      // clock, rising edge
+    input  wire                    rst_i,      // synchronous reset, active high
+    input  wire                    step_i,     // a pixel comes
+    input  wire [ADDRESS_BITS-1:0] address_i,  // its number in the region, or that of the next
+    input  wire [       WIDTH-1:0] pixel_i,    // that pixel
+    output wire                    valid_o,    // a block is complete, with this pixel (DEEP: with that of the last clock)
+    output wire [       WIDTH-1:0] mean_o      // its mean
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (SUM_BITS < WIDTH) begin : g_sum_bits SUM_BITS_must_be_WIDTH_or_more u_refused (); end
+        if (SHIFT < 0 || SHIFT + WIDTH > SUM_BITS + FACTOR_BITS) begin : g_shift
+            SHIFT_and_WIDTH_must_lie_in_the_product u_refused ();
+        end
+        if (DEEP != 0 && DEEP != 1) begin : g_deep DEEP_must_be_0_or_1 u_refused (); end
+    endgenerate
+
+    localparam BLOCK = SIDE / BLOCKS;
+    localparam HALF = BLOCK * BLOCK / 2;
+    localparam PRODUCT_BITS = SUM_BITS + FACTOR_BITS;
+
+    wire start, upper, last;
+    block_place #(.SIDE(SIDE), .BLOCKS(BLOCKS), .ADDRESS_BITS(ADDRESS_BITS), .AHEAD(AHEAD)) u_place (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .address_i(address_i),
+        .start_o(start), .upper_o(upper), .last_o(last)
+    );
+
+    reg [SUM_BITS-1:0] sum_q;
+    wire [SUM_BITS-1:0] sum, waiting;
+    wire [SUM_BITS-1:0] before = !start ? sum_q : upper ? HALF[SUM_BITS-1:0] : waiting;
+
+    adder #(.WIDTH(SUM_BITS)) u_sum (
+        .plain_i({{(SUM_BITS - WIDTH) {1'b0}}, pixel_i}), .other_i(before), .sum_o(sum)
+    );
+
+    generate
+        if (BLOCKS == 1) begin : g_one
+            assign waiting = sum_q;
+        end else begin : g_line
+            reg  [SUM_BITS*(BLOCKS-1)-1:0] line_q;
+            wire [SUM_BITS*BLOCKS-1:0] moved = {line_q, sum_q};
+            always @(posedge clk_i) if (step_i && start) line_q <= moved[SUM_BITS*(BLOCKS-1)-1:0];
+            assign waiting = moved[SUM_BITS*(BLOCKS-1)+:SUM_BITS];
+        end
+    endgenerate
+
+    always @(posedge clk_i) if (step_i) sum_q <= sum;
+
+    wire [SUM_BITS-1:0] dividend;
+    // The bits below SHIFT are the remainder, those above the mean are never set.
+    /* verilator lint_off UNUSEDSIGNAL */
+    wire [PRODUCT_BITS-1:0] product = {{FACTOR_BITS{1'b0}}, dividend} * {{SUM_BITS{1'b0}}, FACTOR};
+    /* verilator lint_on UNUSEDSIGNAL */
+    assign mean_o = product[SHIFT+:WIDTH];
+
+    generate
+        if (DEEP) begin : g_deep_mean
+            reg valid_q;
+            always @(posedge clk_i) valid_q <= step_i && last && !rst_i;
+            assign valid_o  = valid_q;
+            assign dividend = sum_q;
+        end else begin : g_mean
+            assign valid_o  = step_i && last;
+            assign dividend = sum;
+        end
+    endgenerate
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What an irrelevant region sends in place of its pixels: the means of its blocks, when the screen shows none of them
+// or one has changed by more than level.
+//
+// Two chains of means move when a block is complete, so the oldest word of each is of that block. One has the means of
+// the frame decided last, the other what the screen shows or was to show before: it takes in the oldest of the first
+// if that was sent, else its own. So what enters the two, of one block, is what has to be compared.
+`default_nettype none
+
+module region_summary #(
+    parameter WIDTH = 8,                     // bits of a pixel
+    parameter SIDE = 8,                      // pixels of a region's side
+    parameter BLOCKS = 2,                    // blocks of a region's side
+    parameter ADDRESS_BITS = 6,              // ceil(log2(SIDE * SIDE))
+    parameter AHEAD = 0,                     // 1: address_i is the number of the pixel that comes next
+    parameter SUM_BITS = 12,                 // bits of the sum of a block and half of its pixels
+    parameter FACTOR_BITS = 1,               // bits of FACTOR
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // sum * FACTOR >> SHIFT is sum / pixels of a block
+    parameter SHIFT = 4,                     // bits that are dropped of the product
+    parameter SECOND = 0,                    // 1: a frame is decided when the next is complete
+    parameter DEEP = 0                       // 1: more registers; means leave in the clock after the last pixel of a block
+) (
+    input  wire                    clk_i,      // clock, rising edge
+    input  wire                    rst_i,      // synchronous reset, active high
+    input  wire                    step_i,     // a pixel comes (DEEP: a clock before it is counted)
+    input  wire [ADDRESS_BITS-1:0] address_i,  // its number in the region, or that of the next
+    input  wire [       WIDTH-1:0] pixel_i,    // that pixel
+    input  wire                    done_i,     // the counts are those of a whole frame
+    input  wire                    decided_i,  // a decision is made in this clock
+    input  wire                    srs_i,      // its SRS
+    input  wire                    active_i,   // its SRS and TRS
+    input  wire [       WIDTH-1:0] level_i,    // means that differ by more are sent again
+    output wire                    summary_o,  // the means of the frame that is decided are sent; 0 unless decided_i
+    output wire                    leaves_o,   // a mean leaves at this edge
+    output wire [       WIDTH-1:0] mean_o      // that mean
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (SECOND != 0 && SECOND != 1) begin : g_second SECOND_must_be_0_or_1 u_refused (); end
+        if (DEEP != 0 && DEEP != 1) begin : g_deep DEEP_must_be_0_or_1 u_refused (); end
+    endgenerate
+
+    localparam MEANS = BLOCKS * BLOCKS;
+    localparam OLDEST = WIDTH * (MEANS - 1);
+
+    wire complete;
+    wire [WIDTH-1:0] mean;
+    block_mean #(
+        .WIDTH(WIDTH), .SIDE(SIDE), .BLOCKS(BLOCKS), .ADDRESS_BITS(ADDRESS_BITS), .AHEAD(AHEAD),
+        .SUM_BITS(SUM_BITS), .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .DEEP(DEEP)
+    ) u_mean (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .address_i(address_i), .pixel_i(pixel_i),
+        .valid_o(complete), .mean_o(mean)
+    );
+
+    // The mean of the frame that is decided next.
+    wire [WIDTH-1:0] entering;
+    generate
+        if (SECOND) begin : g_second_pass
+            reg  [WIDTH*MEANS-1:0] first_q;
+            wire [WIDTH*(MEANS+1)-1:0] first = {first_q, mean};
+            always @(posedge clk_i) if (complete) first_q <= first[0+:WIDTH*MEANS];
+            assign entering = first_q[OLDEST+:WIDTH];
+        end else begin : g_one_pass
+            assign entering = mean;
+        end
+    endgenerate
+
+    // Where a block is one pixel, the first of the next frame may be complete in the clock of the decision.
+    reg sent_q;
+    wire sent = SIDE == BLOCKS && decided_i ? summary_o : sent_q;
+
+    reg [WIDTH*MEANS-1:0] now_q, held_q;
+    wire [WIDTH-1:0] shown = sent ? mean_o : held_q[OLDEST+:WIDTH];
+    wire [WIDTH*(MEANS+1)-1:0] now = {now_q, entering};
+    wire [WIDTH*(MEANS+1)-1:0] held = {held_q, shown};
+    always @(posedge clk_i) begin
+        if (complete) begin
+            now_q  <= now[0+:WIDTH*MEANS];
+            held_q <= held[0+:WIDTH*MEANS];
+        end
+    end
+
+    assign leaves_o = complete && sent;
+    assign mean_o   = now_q[OLDEST+:WIDTH];
+
+    // A mean of the frame that is decided differs from what the screen shows. The level is that of the clock of the
+    // decision, so of several differences the widest is kept, and not whether one was above a level.
+    wire differs;
+    generate
+        if (MEANS == 1) begin : g_one
+            wire [WIDTH:0] difference;
+            magnitude_above #(.WIDTH(WIDTH + 1)) u_above (
+                .value_i(difference), .level_i(level_i), .above_o(differs)
+            );
+            if (DEEP) begin : g_deep
+                reg [WIDTH:0] difference_q;
+                always @(posedge clk_i) if (complete) difference_q <= {1'b0, entering} - {1'b0, shown};
+                assign difference = difference_q;
+            end else begin : g_plain
+                assign difference = {1'b0, now_q} - {1'b0, held_q};
+            end
+            wire unused_done = done_i;
+        end else begin : g_some
+            wire [WIDTH:0] difference;
+            wire found, above, last_above;
+            // Ordered as the absolute value is: |difference| less 1 where it is negative, then whether it is.
+            wire negative = difference[WIDTH];
+            wire [WIDTH:0] width = {difference[WIDTH-1:0] ^ {WIDTH{negative}}, negative};
+            reg [WIDTH:0] widest_q;
+            magnitude_above #(.WIDTH(WIDTH + 1)) u_above (
+                .value_i({widest_q[0], widest_q[WIDTH:1] ^ {WIDTH{widest_q[0]}}}), .level_i(level_i), .above_o(above)
+            );
+            assign differs = above || last_above;
+            if (DEEP) begin : g_deep
+                // In the clock of the decision the last difference is on its way to the widest.
+                reg [WIDTH:0] difference_q;
+                reg found_q;
+                always @(posedge clk_i) begin
+                    found_q <= complete;
+                    if (complete) difference_q <= {1'b0, entering} - {1'b0, shown};
+                end
+                assign difference = difference_q;
+                assign found = found_q && !done_i;
+                magnitude_above #(.WIDTH(WIDTH + 1)) u_last (
+                    .value_i(difference), .level_i(level_i), .above_o(last_above)
+                );
+            end else begin : g_plain
+                assign difference = {1'b0, entering} - {1'b0, shown};
+                assign found = complete;
+                assign last_above = 1'b0;
+            end
+            always @(posedge clk_i) begin
+                if (found && (done_i || width > widest_q)) widest_q <= width;
+                else if (done_i) widest_q <= {(WIDTH + 1) {1'b0}};
+            end
+        end
+    endgenerate
+
+    reg shows_q;
+    assign summary_o = decided_i && !srs_i && (!shows_q || differs);
+
+    always @(posedge clk_i) begin
+        if (rst_i) begin
+            sent_q  <= 1'b0;
+            shows_q <= 1'b0;
+        end else begin
+            if (decided_i) sent_q <= summary_o;
+            if (active_i) shows_q <= 1'b0;
+            else if (summary_o) shows_q <= 1'b1;
+        end
+    end
+
+endmodule
+
+`default_nettype wire
