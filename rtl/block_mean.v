@@ -49,20 +49,19 @@ module block_mean #(
 
     reg [SUM_BITS-1:0] sum_q;
     wire [SUM_BITS-1:0] sum, waiting;
-    wire [SUM_BITS-1:0] before = !start ? sum_q : upper ? HALF[SUM_BITS-1:0] : waiting;
+    wire [SUM_BITS-1:0] so_far = !start ? sum_q : upper ? HALF[SUM_BITS-1:0] : waiting;
 
     adder #(.WIDTH(SUM_BITS)) u_sum (
-        .plain_i({{(SUM_BITS - WIDTH) {1'b0}}, pixel_i}), .other_i(before), .sum_o(sum)
+        .plain_i({{(SUM_BITS - WIDTH) {1'b0}}, pixel_i}), .other_i(so_far), .sum_o(sum)
     );
 
     generate
         if (BLOCKS == 1) begin : g_one
             assign waiting = sum_q;
         end else begin : g_line
-            reg  [SUM_BITS*(BLOCKS-1)-1:0] line_q;
-            wire [SUM_BITS*BLOCKS-1:0] moved = {line_q, sum_q};
-            always @(posedge clk_i) if (step_i && start) line_q <= moved[SUM_BITS*(BLOCKS-1)-1:0];
-            assign waiting = moved[SUM_BITS*(BLOCKS-1)+:SUM_BITS];
+            line_delay #(.WIDTH(SUM_BITS), .DEPTH(BLOCKS - 1)) u_line (
+                .clk_i(clk_i), .advance_i(step_i && start), .data_i(sum_q), .data_o(waiting)
+            );
         end
     endgenerate
 
@@ -78,7 +77,7 @@ module block_mean #(
     generate
         if (DEEP) begin : g_deep_mean
             reg valid_q;
-            always @(posedge clk_i) valid_q <= step_i && last && !rst_i;
+            always @(posedge clk_i) valid_q <= step_i && last;
             assign valid_o  = valid_q;
             assign dividend = sum_q;
         end else begin : g_mean

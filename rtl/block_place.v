@@ -41,7 +41,7 @@ module block_place #(
             assign last_o  = 1'b1;
         end else if (SIDE == 1 << $clog2(SIDE)) begin : g_power
             localparam ROW = ADDRESS_BITS / 2;
-            wire unused_inputs = clk_i || rst_i || step_i;
+            wire unused_inputs = |{clk_i, rst_i, step_i, address_i};
             wire [BITS-1:0] column = address_i[0+:BITS];
             wire [BITS-1:0] row = address_i[ROW+:BITS];
             assign upper_o = ~|row;

@@ -42,7 +42,6 @@ module region_summary #(
     endgenerate
 
     localparam MEANS = BLOCKS * BLOCKS;
-    localparam OLDEST = WIDTH * (MEANS - 1);
 
     wire complete;
     wire [WIDTH-1:0] mean;
@@ -58,10 +57,9 @@ module region_summary #(
     wire [WIDTH-1:0] entering;
     generate
         if (SECOND) begin : g_second_pass
-            reg  [WIDTH*MEANS-1:0] first_q;
-            wire [WIDTH*(MEANS+1)-1:0] first = {first_q, mean};
-            always @(posedge clk_i) if (complete) first_q <= first[0+:WIDTH*MEANS];
-            assign entering = first_q[OLDEST+:WIDTH];
+            line_delay #(.WIDTH(WIDTH), .DEPTH(MEANS)) u_waiting (
+                .clk_i(clk_i), .advance_i(complete), .data_i(mean), .data_o(entering)
+            );
         end else begin : g_one_pass
             assign entering = mean;
         end
@@ -71,19 +69,16 @@ module region_summary #(
     reg sent_q;
     wire sent = SIDE == BLOCKS && decided_i ? summary_o : sent_q;
 
-    reg [WIDTH*MEANS-1:0] now_q, held_q;
-    wire [WIDTH-1:0] shown = sent ? mean_o : held_q[OLDEST+:WIDTH];
-    wire [WIDTH*(MEANS+1)-1:0] now = {now_q, entering};
-    wire [WIDTH*(MEANS+1)-1:0] held = {held_q, shown};
-    always @(posedge clk_i) begin
-        if (complete) begin
-            now_q  <= now[0+:WIDTH*MEANS];
-            held_q <= held[0+:WIDTH*MEANS];
-        end
-    end
+    wire [WIDTH-1:0] held;
+    wire [WIDTH-1:0] shown = sent ? mean_o : held;
+    line_delay #(.WIDTH(WIDTH), .DEPTH(MEANS)) u_now (
+        .clk_i(clk_i), .advance_i(complete), .data_i(entering), .data_o(mean_o)
+    );
+    line_delay #(.WIDTH(WIDTH), .DEPTH(MEANS)) u_held (
+        .clk_i(clk_i), .advance_i(complete), .data_i(shown), .data_o(held)
+    );
 
     assign leaves_o = complete && sent;
-    assign mean_o   = now_q[OLDEST+:WIDTH];
 
     // A mean of the frame that is decided differs from what the screen shows. The level is that of the clock of the
     // decision, so of several differences the widest is kept, and not whether one was above a level.
@@ -99,7 +94,7 @@ module region_summary #(
                 always @(posedge clk_i) if (complete) difference_q <= {1'b0, entering} - {1'b0, shown};
                 assign difference = difference_q;
             end else begin : g_plain
-                assign difference = {1'b0, now_q} - {1'b0, held_q};
+                assign difference = {1'b0, mean_o} - {1'b0, held};
             end
             wire unused_done = done_i;
         end else begin : g_some

@@ -10,8 +10,8 @@ use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{banner, latency};
 use askama::Template;
 use foveate_design::{
-    Combine, FeatureKind, Filter, Mean, Neighborhood, Periphery, PipelinedDesign, PipelinedTiming, Pipelining,
-    PortRole, SpatialFeature, Variance, bits_for, index_bits,
+    Combine, FeatureKind, Filter, Mean, Neighborhood, Periphery, PipelinedDesign, PipelinedTiming,
+    Pipelining, PortRole, SpatialFeature, Variance, bits_for, index_bits,
 };
 
 #[derive(Template)]

@@ -102,6 +102,17 @@ impl Aimer {
         random: &mut Random,
     ) {
         self.ranges.aim_minima(scores, count, thresholds, random);
+        self.ranges.aim_at_summary(thresholds, random);
+    }
+
+    /// The summary level for a decision that is made now, if there is one at which it turns.
+    pub(super) fn summary_level(
+        &self,
+        difference: Option<u32>,
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
+        self.ranges.aim_summary_level(difference, thresholds, random);
     }
 
     /// Levels of 0 and minima of 1.

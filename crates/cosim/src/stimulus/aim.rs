@@ -18,6 +18,8 @@ pub(crate) struct Ranges {
     steepest: Vec<Option<u32>>,
     temporal_level: u32,
     temporal_min_count: u32,
+    /// Where irrelevant regions send their means.
+    summary_level: Option<u32>,
     denoise: bool,
 }
 
@@ -37,6 +39,7 @@ impl Ranges {
             steepest: design.features().iter().map(SpatialFeature::level_max).collect(),
             temporal_level: design.pixel_max(),
             temporal_min_count: top_u32(design.count_bits()),
+            summary_level: design.periphery().map(|_| design.pixel_max()),
             denoise: design.filter() == Filter::Median3x3,
         }
     }
@@ -102,6 +105,7 @@ impl Ranges {
             }
         }
         thresholds.temporal_level = self.temporal_level - less;
+        thresholds.summary_level = self.summary_level.map_or(0, |largest| largest - less);
     }
 
     /// Thresholds without any relation to the data.
@@ -115,6 +119,35 @@ impl Ranges {
             *minimum = random.up_to(max);
         }
         thresholds.temporal_min_count = random.up_to_u32(self.temporal_min_count);
+        if let Some(max) = self.summary_level {
+            let reach = if random.one_in(2) { max } else { max / 16 };
+            thresholds.summary_level = random.up_to_u32(reach);
+        }
+    }
+
+    /// Where irrelevant regions send their means, every other time minima that no score meets.
+    pub(crate) fn aim_at_summary(&self, thresholds: &mut Thresholds, random: &mut Random) {
+        if self.summary_level.is_some() && random.one_in(2) {
+            thresholds.min_score = self.min_score;
+        }
+    }
+
+    /// The summary level for means whose widest difference is this one: on it, so that they stay, or below it. Without one
+    /// the largest there is, or any: what is sent then is sent for another reason.
+    pub(crate) fn aim_summary_level(
+        &self,
+        difference: Option<u32>,
+        thresholds: &mut Thresholds,
+        random: &mut Random,
+    ) {
+        let Some(max) = self.summary_level else { return };
+        thresholds.summary_level = match (difference, random.up_to(9)) {
+            (Some(difference), 0..=3) => difference,
+            (Some(difference), 4..=7) => difference.saturating_sub(1),
+            (Some(difference), 8) => (difference + 1).min(max),
+            (None, 0..=4) => max,
+            _ => random.up_to_u32(max),
+        };
     }
 
     /// Minima for scores that are decided now.

@@ -119,13 +119,51 @@ impl Artist {
     /// above the point at which it is rounded up.
     pub(super) fn half_mean(&mut self) -> Vec<u16> {
         let low = self.random.pixel(self.max - 1);
-        let wanted = [0, 1, self.count - 1];
-        let remainder = |more: usize| (self.mean_unit * more + self.count / 2) % self.count;
-        let start = self.random.index(self.count);
-        let more = (0..self.count).map(|step| (start + step) % self.count);
+        let block = match self.block {
+            Some(block) if self.random.one_in(2) => Some(block),
+            _ => None,
+        };
+        let (count, unit) = block.map_or((self.count, self.mean_unit), |side| (side * side, 1));
+        let wanted = [0, 1, count - 1];
+        let remainder = |more: usize| (unit * more + count / 2) % count;
+        let start = self.random.index(count);
+        let more = (0..count).map(|step| (start + step) % count);
         let more =
             more.into_iter().find(|&more| wanted.contains(&remainder(more))).unwrap_or(start);
-        self.fill(|_, (x, y)| if self.rank(y * self.side + x) < more { low + 1 } else { low })
+        let rank = |x: usize, y: usize| {
+            let rank = self.rank(y * self.side + x);
+            block.map_or(rank, |side| self.in_block(rank, side).map_or(usize::MAX, |(_, at)| at))
+        };
+        self.fill(|_, (x, y)| if rank(x, y) < more { low + 1 } else { low })
+    }
+
+    /// The block of a pixel of the region and its number in there; none for halo. Blocks have so many pixels a side.
+    fn in_block(&self, rank: usize, side: usize) -> Option<(usize, usize)> {
+        let own = self.side - 2 * self.margin;
+        let (x, y) = (rank % own, rank / own);
+        let block = y / side * (own / side) + x / side;
+        (rank < self.count).then_some((block, y % side * side + x % side))
+    }
+
+    /// Mostly more than before, so that steps add up.
+    pub(super) fn mean_step(&mut self, mut pixels: Vec<u16>) -> Vec<u16> {
+        let side = self.block.unwrap_or(self.side);
+        let last = (self.count / (side * side)).saturating_sub(1);
+        let moving = match self.random.up_to(3) {
+            0 => None,
+            1 => Some(0),
+            2 => Some(last),
+            _ => Some(self.random.index(last)),
+        };
+        let amount = self.summary_level + u16::from(self.random.one_in(3));
+        let up = !self.random.one_in(4);
+        for (at, pixel) in pixels.iter_mut().enumerate() {
+            let block = self.in_block(self.rank(at), side).map(|(block, _)| block);
+            if moving.is_none() || moving == block {
+                *pixel = moved(*pixel, amount, up, self.max);
+            }
+        }
+        pixels
     }
 
     pub(super) fn two_point(&mut self) -> Vec<u16> {

@@ -390,6 +390,10 @@ impl<'a> Driver<'a> {
             if scout.decides(&input) {
                 let (scores, count) = scout.look_ahead(&*self.core, &input, lane);
                 self.aimer.minima(&scores, count, &mut self.thresholds, &mut self.random);
+                let aimed = self.thresholds;
+                let input = CoreInput { thresholds: &aimed, ..input };
+                let level = scout.decisive_summary_level(&*self.core, &input, lane);
+                self.aimer.summary_level(level, &mut self.thresholds, &mut self.random);
             }
         }
         let input = CoreInput { thresholds: &self.thresholds, ..input };

@@ -40,7 +40,8 @@ impl Gallery {
         for (region, artist) in self.artists.iter_mut().enumerate() {
             let shift = if mixed { region } else { 0 };
             let motif = motifs[(turn + shift) % motifs.len()];
-            if configured && random.one_in(2) {
+            // A step of a mean is a minimum of its own.
+            if configured && motif != Motif::MeanStep && random.one_in(2) {
                 artist.draw_near_minimum(motif);
             } else {
                 artist.draw(motif);

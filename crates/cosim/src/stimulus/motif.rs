@@ -27,7 +27,7 @@ pub(crate) enum Motif {
     Ramp,
     /// A pixel with 4 to 8 contiguous neighbors that differ by a chosen amount.
     Ring,
-    /// A mean that ends in one half, or misses it by one pixel.
+    /// A mean that ends in one half, or misses it by one pixel; of the region, or of its blocks by turns.
     HalfMean,
     /// Some pixels at one value, the others at another; half and half is the largest variance.
     TwoPoint,
@@ -45,6 +45,8 @@ pub(crate) enum Motif {
     Fade,
     /// A chosen amount more, or less, than before.
     LightStep,
+    /// So much more, or less, than before that a mean just meets the summary level, or is above it; one block or all.
+    MeanStep,
     /// As before, but for the first pixels, as many as the temporal threshold or one off.
     Bump,
     /// As before, with one pixel moved.
@@ -67,12 +69,16 @@ pub(crate) struct Artist {
     pub(super) max: u16,
     /// Pixels of the region.
     pub(super) count: usize,
+    /// Side of a block whose mean is formed, where there are some.
+    pub(super) block: Option<usize>,
     /// How much a pixel counts in the mean of the design: 2^f.
     pub(super) mean_unit: usize,
     pub(super) counts: Vec<u32>,
     pub(super) amounts: Vec<u16>,
-    /// Changes that meet the temporal level, or miss it by one.
+    /// Changes that meet the temporal or the summary level, or miss it by one.
     pub(super) changes: Vec<u16>,
+    /// The summary level, where there is one.
+    pub(super) summary_level: u16,
     /// How many quadrants have been drawn.
     pub(super) quadrants: usize,
     gauge: Gauge,
@@ -97,8 +103,10 @@ impl Artist {
             }
         }
         let level = design.temporal().level;
-        let near = [level.saturating_sub(1), level, level + 1];
-        let changes = near.map(|h| u16::try_from(h).unwrap_or(max).min(max)).to_vec();
+        let summary_level = design.periphery().map(|periphery| periphery.level);
+        let near = |level: u32| [level.saturating_sub(1), level, level + 1];
+        let changes = [level].into_iter().chain(summary_level).flat_map(near);
+        let changes = changes.map(|h| u16::try_from(h).unwrap_or(max).min(max)).collect();
         let minimum = design.temporal().min_count;
         let mut counts = vec![minimum.saturating_sub(1), minimum, minimum + 1];
         counts.extend(design.features().iter().filter_map(|f| u32::try_from(f.min_score()).ok()));
@@ -107,10 +115,12 @@ impl Artist {
             margin: side.saturating_sub(own) / 2,
             max,
             count: own * own,
+            block: design.periphery().map(|periphery| periphery.block_side as usize),
             mean_unit: 1 << mean.map_or(0, |mean| mean.fraction_bits),
             counts,
             amounts,
             changes,
+            summary_level: summary_level.map_or(0, |level| u16::try_from(level).unwrap_or(max)),
             quadrants: 0,
             gauge: Gauge::of(design, side),
             pixels: vec![0; side * side],
@@ -156,6 +166,7 @@ impl Artist {
                 let (amount, up) = (self.change(), self.random.one_in(2));
                 self.each(before, |_, max, pixel| moved(pixel, amount, up, max))
             }
+            Motif::MeanStep => self.mean_step(before),
             Motif::Bump => self.bump(before),
             Motif::MovingPixel => self.moving_pixel(before),
         };
@@ -195,7 +206,7 @@ mod tests {
     use super::*;
     use foveate_design::Config;
 
-    const ALL: [Motif; 20] = [
+    const ALL: [Motif; 21] = [
         Motif::Zero,
         Motif::Max,
         Motif::Flat,
@@ -214,6 +225,7 @@ mod tests {
         Motif::Flicker,
         Motif::Fade,
         Motif::LightStep,
+        Motif::MeanStep,
         Motif::Bump,
         Motif::MovingPixel,
     ];

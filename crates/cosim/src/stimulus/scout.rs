@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tells when a pipelined array decides, so that minima can be aimed at the scores of just that clock.
+//! Tells when a pipelined array decides, so that minima and the summary level can be aimed at just that clock.
 
 use foveate_design::{Design, FeatureKind, Hardware, PortRole};
-use foveate_model::{CoreInput, CycleModel, FrameSync, PipelinedRpu, RpuInput};
+use foveate_model::{CoreInput, CycleModel, FrameSync, PipelinedRpu, RpuInput, Thresholds};
 
 /// An RPU of its own: a decision comes at the same clock in every lane. Neither pixels nor borders nor thresholds move it
 /// in time.
@@ -11,6 +11,8 @@ pub(super) struct Scout {
     /// What stands in front of it, as in front of the lanes.
     sync: FrameSync,
     kinds: Vec<FeatureKind>,
+    /// The largest summary level, where irrelevant regions send their means.
+    summary_level: Option<u32>,
 }
 
 impl Scout {
@@ -22,7 +24,8 @@ impl Scout {
             Hardware::Serial(_) | Hardware::Raster(_) => return None,
         };
         let sync = if finds_frames { FrameSync::new(design) } else { FrameSync::absent() };
-        Some(Self { rpu: PipelinedRpu::new(own), sync, kinds: design.kinds() })
+        let summary_level = design.periphery().map(|_| design.pixel_max());
+        Some(Self { rpu: PipelinedRpu::new(own), sync, kinds: design.kinds(), summary_level })
     }
 
     /// Whether a decision is there after this edge. It must see every edge of a sequence whose thresholds are aimed; of
@@ -61,5 +64,32 @@ impl Scout {
         }
         let count = shown(PortRole::TemporalCount);
         (scores, u32::try_from(count).expect("a count has at most 32 bits"))
+    }
+
+    /// The least summary level at which the lane sends no summary after this edge: the widest difference of its means
+    /// from those on the screen. None where no level decides it.
+    pub(super) fn decisive_summary_level(
+        &self,
+        core: &dyn CycleModel,
+        input: &CoreInput<'_>,
+        lane: usize,
+    ) -> Option<u32> {
+        let is_sent = |summary_level: u32| {
+            let thresholds = Thresholds { summary_level, ..*input.thresholds };
+            let mut ahead = core.duplicate();
+            ahead.clock(&CoreInput { thresholds: &thresholds, ..*input });
+            let mut values = Vec::new();
+            ahead.show(PortRole::Summary, &mut values);
+            values[lane] == 1
+        };
+        let (mut sent, mut silent) = (0, self.summary_level?);
+        if !is_sent(sent) || is_sent(silent) {
+            return None;
+        }
+        while silent - sent > 1 {
+            let middle = sent.midpoint(silent);
+            (sent, silent) = if is_sent(middle) { (middle, silent) } else { (sent, middle) };
+        }
+        Some(silent)
     }
 }

@@ -39,6 +39,21 @@ fn pipelining(turn: usize) -> Pipelining {
     Pipelining::ALL[turn.count_ones() as usize % 2]
 }
 
+/// What irrelevant regions show, by turns; where it is their means, of how many blocks and with which level, too.
+fn show_irrelevant(camera: &mut CameraConfig, turn: usize) {
+    camera.render.irrelevant = Irrelevant::ALL[turn % Irrelevant::ALL.len()];
+    let fits = |blocks: &u32| camera.region.size.is_multiple_of(*blocks);
+    let blocks: Vec<_> = [1, 2, 4].into_iter().filter(fits).collect();
+    let turn = turn / Irrelevant::ALL.len();
+    match camera.render.irrelevant {
+        Irrelevant::Zero | Irrelevant::Hold => {}
+        Irrelevant::Mean => {
+            camera.periphery.blocks = Some(blocks[turn % blocks.len()]);
+            camera.periphery.level = [None, Some(0), Some(1)][turn / 2 % 3];
+        }
+    }
+}
+
 /// The 160 designs. Keys that are not among the five axes take turns.
 fn matrix() -> Vec<Config> {
     let mut configs = Vec::new();
@@ -57,7 +72,7 @@ fn matrix() -> Vec<Config> {
                         config.camera.region.neighborhood = neighborhood;
                         config.camera.denoise.filter = filter;
                         config.camera.temporal.reference = reference;
-                        config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
+                        show_irrelevant(&mut config.camera, turn / 2);
                         config.camera.render.payload = Payload::ALL[turn / 3 % 2];
                         config.hardware.pipelining = Some(pipelining(turn));
                         configs.push(config);
@@ -73,6 +88,52 @@ fn matrix() -> Vec<Config> {
 fn every_feature_size_filter_neighborhood_and_reference_agrees() {
     let configs = matrix();
     assert_eq!(configs.len(), 160);
+    check_all(&configs);
+}
+
+/// Summaries: blocks of one pixel and of sides that are no power of two, the most blocks, the most and fewest bits, raw
+/// pixels, a second pass and thresholds built in.
+#[test]
+fn summaries_agree() {
+    let median = "filter = \"median3x3\"";
+    let none = "filter = \"none\"";
+    let (edge, mad) = ("feature = \"edge\"", "feature = \"mad\"");
+    let mut configs = Vec::new();
+    for (turn, (size, blocks, bits, filter, feature, more)) in [
+        (2, 2, 8, none, edge, "min_score = 1\n[temporal]\nmin_count = 2\n"),
+        (4, 4, 8, median, edge, "[temporal]\nreference = \"last-sent\"\n"),
+        (2, 2, 8, none, mad, "[temporal]\nmin_count = 1\n"),
+        (4, 4, 4, none, mad, "[temporal]\nlevel = 1\nmin_count = 2\n"),
+        (3, 1, 8, none, edge, "[temporal]\nmin_count = 2\n"),
+        (6, 2, 8, median, edge, "[region]\nneighborhood = \"shared\"\n"),
+        (12, 4, 8, median, mad, "[temporal]\nreference = \"last-sent\"\n"),
+        (20, 4, 8, none, edge, ""),
+        (8, 4, 8, median, mad, "[region]\nneighborhood = \"shared\"\n"),
+        (8, 2, 1, median, edge, "level = 1\n[temporal]\nlevel = 0\n"),
+        (6, 2, 1, none, mad, "min_score = 0.1\n[temporal]\nlevel = 0\n"),
+        (8, 2, 16, none, edge, "[hardware]\nthresholds = \"constant\"\n"),
+        (12, 2, 16, median, mad, ""),
+        (8, 2, 8, median, edge, "[hardware]\nthresholds = \"constant\"\n"),
+        (6, 1, 8, none, mad, "[hardware]\nthresholds = \"constant\"\n"),
+        (64, 4, 16, none, edge, ""),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let toml = format!("[[spatial]]\n{feature}\n{more}[denoise]\n{filter}\n");
+        for &pipelining in Pipelining::ALL {
+            let mut config = Config::from_toml(&toml).unwrap();
+            config.camera.frame.pixel_bits = bits;
+            config.camera.region.size = size;
+            config.camera.render.irrelevant = Irrelevant::Mean;
+            let raw = turn.is_multiple_of(2) ^ (pipelining == Pipelining::Deep);
+            config.camera.render.payload = if raw { Payload::Raw } else { Payload::Denoised };
+            config.camera.periphery.blocks = Some(blocks);
+            config.camera.periphery.level = [None, Some(0)][turn / 2 % 2];
+            config.hardware.pipelining = Some(pipelining);
+            configs.push(config);
+        }
+    }
     check_all(&configs);
 }
 
@@ -97,6 +158,7 @@ fn what_the_matrix_leaves_out_agrees() {
             config.camera.decision.combine = combine;
             config.camera.temporal.reference = Reference::ALL[(turn + 1) % 2];
             config.camera.render.payload = Payload::ALL[turn / 2 % 2];
+            show_irrelevant(&mut config.camera, turn + 1);
             configs.push(config);
         }
     }
@@ -123,6 +185,7 @@ fn what_the_matrix_leaves_out_agrees() {
         config.camera.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
         config.camera.temporal.reference = Reference::ALL[turn % 2];
         config.camera.render.payload = Payload::ALL[turn / 2 % 2];
+        show_irrelevant(&mut config.camera, turn + turn / 3);
         configs.push(config);
     }
     for (turn, &kind) in FeatureKind::ALL.iter().cycle().take(8).enumerate() {

@@ -51,6 +51,54 @@ fn decisions_are_made_on_below_and_above_their_thresholds() {
     }
 }
 
+/// What the decisions of a sequence are, each with the one before it.
+fn pairs_of_decisions(recording: &Recording) -> BTreeSet<(&'static str, &'static str)> {
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let (mut before, mut found) = ("reset", BTreeSet::new());
+    for (input, output) in clocks(recording) {
+        if field(inputs, PortRole::Reset).get(&input, 0) == 1 {
+            before = "reset";
+        }
+        let is = |role| field(outputs, role).get(&output, 0) == 1;
+        if is(PortRole::DecisionValid) {
+            let now = match (is(PortRole::Active), is(PortRole::Srs), is(PortRole::Summary)) {
+                (true, _, _) => "active",
+                (false, true, _) => "held",
+                (false, false, true) => "sent",
+                (false, false, false) => "kept",
+            };
+            found.insert((before, now));
+            before = now;
+        }
+    }
+    found
+}
+
+/// Summaries that are sent and that are not, after decisions of every kind; where thresholds are built in, those that
+/// depend on the means.
+#[test]
+fn summaries_are_due_and_not_due() {
+    const ALL: [&str; 4] = ["active", "held", "sent", "kept"];
+    for feature in ["edge", "mad"] {
+        for (size, thresholds) in [(4, "runtime"), (8, "runtime"), (4, "constant"), (8, "constant")]
+        {
+            let toml = format!(
+                "[[spatial]]\nfeature = \"{feature}\"\n[region]\nsize = {size}\n[render]\n\
+                 irrelevant = \"mean\"\n[hardware]\nthresholds = \"{thresholds}\"\n"
+            );
+            let design = design(&config(&toml), (1, 1));
+            let found = pairs_of_decisions(&record(&design, &directed(Level::Rpu, 2)));
+            assert!(!found.contains(&("active", "kept")), "nothing is shown: {toml}");
+            let kinds = if thresholds == "runtime" { &ALL[..] } else { &ALL[2..] };
+            for &before in kinds {
+                for &now in kinds.iter().filter(|&&now| (before, now) != ("active", "kept")) {
+                    assert!(found.contains(&(before, now)), "{before}, {now}: {found:?} {toml}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn scores_reach_their_largest_values() {
     let toml = "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\

@@ -16,7 +16,7 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
     let aimed = |aim, name, motifs| Sequence { aim, ..mixed(name, motifs) };
     let cut = |end, sequence| Sequence { end, ..sequence };
     let configured = ThresholdAim::Design;
-    vec![
+    let mut list = vec![
         mixed("extremes", &[Max, Zero, Max, Max, Checkerboard, TwoPoint]),
         mixed("noise", &[Noise, Noise, Binary, Noise]),
         aimed(configured, "configured", &[Smooth, Bump, Ramp, Bump, Flat, Same, Step, LightStep]),
@@ -38,5 +38,22 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
             "largest",
             &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
         ),
-    ]
+    ];
+    if design.periphery().is_some() {
+        // Means that meet the level or miss it by one: irrelevant regions, some of them relevant in between.
+        list.extend([
+            aimed(
+                configured,
+                "means",
+                &[Flat, MeanStep, MeanStep, MeanStep, MeanStep, MeanStep, MeanStep, MeanStep],
+            ),
+            mixed(
+                "means aimed",
+                &[HalfMean, MeanStep, MeanStep, MeanStep, Noise, MeanStep, MeanStep],
+            ),
+            aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
+            mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
+        ]);
+    }
+    list
 }

@@ -22,8 +22,9 @@ pub(crate) fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConf
 /// What tells a configuration from others, but for what is of one organization alone.
 pub(crate) fn name(config: &Config) -> String {
     let kinds: Vec<_> = config.camera.spatial.iter().map(|s| s.feature.name()).collect();
+    let blocks = config.camera.periphery.blocks.map_or(String::new(), |q| format!(" q={q}"));
     format!(
-        "{} N={} P={} {} {} {} {} {} {} {}",
+        "{} N={} P={} {} {} {} {}{blocks} {} {} {}",
         kinds.join("+"),
         config.camera.region.size,
         config.camera.frame.pixel_bits,

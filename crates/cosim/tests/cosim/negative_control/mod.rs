@@ -7,6 +7,7 @@ mod faults;
 mod planted;
 mod raster_faults;
 mod serial_faults;
+mod summary_faults;
 mod sync_faults;
 
 use crate::common::{agrees, cosimulate, directed, in_parallel, simulators};
@@ -77,6 +78,11 @@ fn every_planted_fault_of_deep_pipelining_is_caught() {
 }
 
 #[test]
+fn every_planted_fault_of_summaries_is_caught() {
+    all_are_caught(summary_faults::FAULTS);
+}
+
+#[test]
 fn every_planted_fault_of_the_serial_organization_is_caught() {
     all_are_caught(serial_faults::FAULTS);
 }
@@ -96,6 +102,7 @@ fn all_faults() -> impl Iterator<Item = &'static Fault> {
     let lists = [
         faults::FAULTS,
         deep_faults::FAULTS,
+        summary_faults::FAULTS,
         serial_faults::FAULTS,
         raster_faults::FAULTS,
         sync_faults::FAULTS,

@@ -32,6 +32,16 @@ pub(crate) enum Planted {
     DeepSent,
     /// Deep: both moments, against the pixels last sent.
     DeepMoments,
+    /// Means of four blocks, of pixels behind a window.
+    Means,
+    /// Means of raw pixels in blocks of 3x3, deep.
+    MeansDeep,
+    /// One mean per region, thresholds built in.
+    MeansOne,
+    /// Means of blocks of one pixel.
+    MeansPixel,
+    /// Means of blocks of 3x3 with a second pass.
+    MeansSecond,
     /// Serial: the paper's scores in small regions.
     SerialPaper,
     /// Serial: edges alone, no filter.
@@ -114,6 +124,23 @@ impl Planted {
                 "[region]\nsize = 5\n[denoise]\nfilter = \"none\"\n[[spatial]]\n\
                  feature = \"mad\"\nmean_fraction_bits = 1\n[[spatial]]\nfeature = \"variance\"\n\
                  [temporal]\nreference = \"last-sent\"\n[hardware]\npipelining = \"deep\"\n"
+            }
+            Self::Means => "[render]\nirrelevant = \"mean\"\n",
+            Self::MeansDeep => {
+                "[region]\nsize = 6\n[render]\npayload = \"raw\"\nirrelevant = \"mean\"\n\
+                 [hardware]\npipelining = \"deep\"\n"
+            }
+            Self::MeansOne => {
+                "[region]\nsize = 4\n[render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 1\n\
+                 [hardware]\nthresholds = \"constant\"\n"
+            }
+            Self::MeansPixel => {
+                "[region]\nsize = 2\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\
+                 min_score = 1\n[temporal]\nmin_count = 1\n[render]\nirrelevant = \"mean\"\n"
+            }
+            Self::MeansSecond => {
+                "[region]\nsize = 6\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                 [render]\nirrelevant = \"mean\"\n"
             }
             Self::SerialPaper => "[region]\nsize = 4\n[hardware]\norganization = \"serial\"\n",
             Self::SerialEdge => {

@@ -32,6 +32,16 @@ pub(crate) fn matrix() -> Vec<String> {
             let pick = |bit: usize, off: &'static str, on: &'static str| {
                 if (choice >> bit) & 1 == 0 { off } else { on }
             };
+            // Every third shows means, of the most blocks where these are many.
+            let irrelevant = match choice % 3 {
+                2 => "mean",
+                _ => pick(index % 3, "zero", "hold"),
+            };
+            let blocks = [4, 2, 1].into_iter().find(|blocks| size % blocks == 0).unwrap_or(1);
+            let periphery = match choice {
+                5 => format!("[periphery]\nblocks = {blocks}\n"),
+                _ => String::new(),
+            };
             list.push(format!(
                 "spatial = {features}\n\
                  [frame]\nwidth = {width}\nheight = {size}\npixel_bits = {depth}\n\
@@ -39,13 +49,12 @@ pub(crate) fn matrix() -> Vec<String> {
                  [denoise]\nfilter = '{filter}'\n\
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
-                 [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n",
+                 [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}",
                 width = 2 * size,
                 neighborhood = pick(0, "isolated", "shared"),
                 filter = pick(1, "median3x3", "none"),
                 reference = pick(2, "previous", "last-sent"),
                 payload = pick((index + 1) % 3, "denoised", "raw"),
-                irrelevant = pick(index % 3, "zero", "hold"),
                 thresholds = pick((index + 2) % 3, "runtime", "constant"),
                 sync = choice % 3 == 1,
                 // Every pair of the other choices occurs both plain and deep.
