@@ -88,7 +88,9 @@ fn summaries_are_due_and_not_due() {
             );
             let design = design(&config(&toml), (1, 1));
             let found = pairs_of_decisions(&record(&design, &directed(Level::Rpu, 2)));
-            assert!(!found.contains(&("active", "kept")), "nothing is shown: {toml}");
+            // The screen shows nothing of an active region, unless its minima change behind the decision.
+            let is_odd = thresholds == "constant" && found.contains(&("active", "kept"));
+            assert!(!is_odd, "{toml}");
             let kinds = if thresholds == "runtime" { &ALL[..] } else { &ALL[2..] };
             for &before in kinds {
                 for &now in kinds.iter().filter(|&&now| (before, now) != ("active", "kept")) {
