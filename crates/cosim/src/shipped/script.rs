@@ -109,6 +109,19 @@ impl Script {
             shot(2, pair.blank, &|_, _| flat.clone()),
             shot(2, pair.usual, &|_, actor| actor.last.clone()),
         ]];
+        if let Some(periphery) = part.periphery() {
+            // Means that are sent, stay twice, and are sent again as soon as the level lets them.
+            let plain = |more: u32| {
+                let level = u16::try_from(more).expect("a level is a pixel").min(stage.max);
+                vec![level; flat.len()]
+            };
+            let level = periphery.level;
+            let steps = [0, 0, level, level + 1].map(plain);
+            let steps = steps.iter().map(|square| shot(2, pair.blank, &|_, _| square.clone()));
+            let first = shot(0, pair.usual, &|_, actor| actor.first.clone());
+            let last = shot(2, pair.usual, &|_, actor| actor.last.clone());
+            sequences.push([first].into_iter().chain(steps).chain([last]).collect());
+        }
         // First, so that a reset follows.
         let pictures = [|actor: &Actor| actor.first.clone(), |actor: &Actor| actor.other.clone()];
         let stalled = (0..stalled_frames(part)).map(|number| {

@@ -20,6 +20,8 @@ pub struct VectorTally {
     pub held: u64,
     /// Decisions for a region that is not relevant, and is blanked (or held, by `render.irrelevant`).
     pub blank: u64,
+    /// Of those, the decisions that send a summary.
+    pub summaries: u64,
     /// Comparisons with an earlier frame: temporal counts below that of a region without a reference.
     pub compared: u64,
     /// Regions lost to a sink that stalls, the most after one reset.
@@ -90,6 +92,7 @@ impl Counter {
                     (true, false) => self.tally.held += 1,
                     (false, _) => self.tally.blank += 1,
                 }
+                self.tally.summaries += u64::from(bit(PortRole::Summary));
                 let count = at(PortRole::TemporalCount).map(|field| field.get(expected, lane));
                 self.tally.compared += u64::from(count.is_some_and(|c| c < self.region_pixels));
             }
@@ -170,6 +173,10 @@ impl VectorTally {
         need(self.active > 0, "no region is active".to_owned());
         need(self.held > 0 || always_changed(part), "no region is held".to_owned());
         need(self.blank > 0 || always_relevant(part), "no region is blank".to_owned());
+        if part.periphery().is_some() && !always_relevant(part) {
+            need(self.summaries > 0, "no summary is sent".to_owned());
+            need(self.summaries < self.blank, "no summary stays on the screen".to_owned());
+        }
         need(self.compared > 0, "nothing is compared with an earlier frame".to_owned());
         let goes_on = self.sync_errors == 0 || self.after_error > u64::from(part.regions());
         need(goes_on, "no frame is decided behind a damaged one".to_owned());
@@ -199,6 +206,9 @@ impl VectorTally {
                 self.active, self.held, self.blank, self.compared
             ),
         ];
+        if part.periphery().is_some() {
+            lines.push(format!("A summary is sent by {} of the blank ones.", self.summaries));
+        }
         if self.lost > 0 {
             lines.push(format!("The sink stalls until {} regions are lost.", self.lost));
             let Losses { whole, waiting, stepping, single } = self.losses;

@@ -135,6 +135,36 @@ fn every_design_shows_active_held_and_blank_regions() {
     }
 }
 
+/// Summaries that are sent and that stay, whatever blocks they are of.
+#[test]
+fn every_design_with_summaries_shows_some() {
+    for (number, (size, blocks, bits)) in
+        [(2, 2, 8), (3, 1, 1), (4, 4, 16), (6, 2, 8), (8, 1, 8), (8, 2, 1), (8, 4, 8), (64, 4, 10)]
+            .into_iter()
+            .enumerate()
+    {
+        for hardware in ["pipelining = 'deep'", "thresholds = 'constant'", "sync = true"] {
+            if bits == 1 && hardware.contains("constant") {
+                continue;
+            }
+            let features = features(number, bits, size);
+            let toml = format!(
+                "{}frame.pixel_bits = {bits}\nregion.size = {size}\nrender.irrelevant = 'mean'\n\
+                 periphery.blocks = {blocks}\ndenoise.filter = 'none'\nhardware.{hardware}\n{features}",
+                frame((4, 3), size)
+            );
+            let design = design(&toml);
+            for &top in Top::all_of(&design) {
+                let ShippedBench { tally, shortcoming, files, .. } = bench(&design, top);
+                assert_eq!(shortcoming, None, "{top:?}\n{toml}");
+                assert!(0 < tally.summaries && tally.summaries < tally.blank, "{tally:?}\n{toml}");
+                let words = format!("A summary is sent by {} of the blank ones.", tally.summaries);
+                assert!(files[0].contents.contains(&words), "{toml}");
+            }
+        }
+    }
+}
+
 /// The streams of a frame store outside, and an underrun at the end; without forwarding nothing is missing.
 #[test]
 fn a_raster_core_with_an_external_store_shows_its_streams() {
@@ -436,6 +466,11 @@ fn every_tied_output_fails() {
     for toml in [
         format!("hardware.sync = true\n{}", of_organization(2, None)),
         of_organization(8, None),
+        format!("render.irrelevant = 'mean'\n{}", of_organization(8, None)),
+        format!(
+            "render.irrelevant = 'mean'\nhardware.pipelining = 'deep'\n{}",
+            of_organization(6, None)
+        ),
         format!("denoise.filter = 'none'\n{}", of_organization(20, None)),
         of_organization(8, Some((3, "raster"))),
         of_organization(4, Some((7, "parallel"))),
