@@ -53,7 +53,7 @@ sync="--set hardware.sync=true"
 names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
-    names+=(shared raw odd large serial_sent serial_all serial_none serial_shared serial_raster serial_block
+    names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
         serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute
         array_sync serial_sync raster_sync)
     settings+=(
@@ -61,6 +61,7 @@ if [ "${1:-}" != --quick ]; then
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
         "bare --set region.size=5 --set frame.pixel_bits=10 --set spatial=$all"
         "bare --set region.size=17 --set temporal.reference='last-sent'"
+        "paper $deep --rounds 4 --set region.size=6 --set render={irrelevant='mean',payload='raw'}"
         "paper $serial --set region.size=4 --set temporal.reference='last-sent' --set hardware.fold=2"
         "paper $serial --set region.size=4 --set spatial=$all"
         "bare $serial --set region.size=5 --set temporal.reference='last-sent' --set hardware.feed='raster' --set spatial=[$corner]"

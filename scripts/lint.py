@@ -56,6 +56,24 @@ def matrix():
             ]
 
 
+def summaries():
+    """Regions that send the means of their blocks: of one pixel, of a side that is no power of two, a second pass."""
+    for name, size, blocks, features, more in [
+        ("pixels", 4, 4, EDGE, "denoise.filter='median3x3'"),
+        ("deep", 12, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant'}"),
+        ("second", 6, 1, FEATURES[2], "render={irrelevant='mean',payload='raw'}"),
+    ]:
+        yield f"m_{name}_{size}x{size}", [
+            f"spatial=[{features}]",
+            f"frame={{width={2 * size},height={size}}}",
+            f"region.size={size}",
+            "temporal={level=0,min_count=1}",
+            "render.irrelevant='mean'",
+            f"periphery.blocks={blocks}",
+            more,
+        ]
+
+
 SERIAL_SIZES = [4, 5, 8, 16, 20, 63, 64]
 RASTER_SHAPES = [(8, 1), (4, 2), (3, 1), (8, 4), (16, 2), (5, 1)]  # sides of regions and pixels of a word
 FOLDS = [1, 2, 3, 6]
@@ -201,7 +219,7 @@ def main():
     began = time.monotonic()
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
-    designs = [design for some in (matrix(), serial_matrix(), raster_matrix()) for design in list(some)[:: 7 if quick else 1]]
+    designs = [design for some in (matrix(), summaries(), serial_matrix(), raster_matrix()) for design in list(some)[:: 7 if quick else 1]]
     excuses = waivers()
     used, bad = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))

@@ -363,8 +363,8 @@ module rpu (
         .srs_o(srs), .trs_o(trs_o), .active_o(active_o), .forward_o(forward)
     );
     assign srs_o = srs;
+{%- if let Some(periphery) = periphery %}
 
-    {%- if let Some(periphery) = periphery %}
     // Summaries of irrelevant regions.
     wire mean_leaves;
     wire [{= p - 1 =}:0] leaving_mean;
@@ -376,8 +376,8 @@ module rpu (
         .done_i(done), .decided_i(decided), .srs_i(srs), .active_i(active_o), .level_i({= periphery.level =}),
         .summary_o(summary_o), .leaves_o(mean_leaves), .mean_o(leaving_mean)
     );
+{%- endif %}
 
-    {% endif %}
     // Forward.
     {%- if deep %}
     reg [{= p - 1 =}:0] leaving_pixel;

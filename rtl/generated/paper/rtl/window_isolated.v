@@ -18,7 +18,7 @@ module window_isolated #(
     input  wire                    valid_i,    // a pixel comes in
     output wire                    advance_o,  // lines and columns move at this edge
     output wire                    step_o,     // with it a center is complete
-    output wire [ADDRESS_BITS-1:0] address_o,  // a number of its own for each center of a region
+    output wire [ADDRESS_BITS-1:0] address_o,  // number of the next center of a region, 0 with the last
     output wire                    last_o,     // the center is the last of the frame
     output wire                    top_o,      // the incoming column is centered on the first row
     output wire                    bottom_o,   // ... on the last row
