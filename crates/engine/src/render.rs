@@ -70,7 +70,7 @@ impl<T: Lane> Canvas<'_, T> {
                 }
                 (Reference::LastSent, Action::Hold) => {}
                 (Reference::LastSent, Action::Blank | Action::Summarize) => {
-                    self.valid[column] = false
+                    self.valid[column] = false;
                 }
             }
         }

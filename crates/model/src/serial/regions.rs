@@ -88,7 +88,7 @@ impl Regions {
             (Reference::LastSent, Action::Hold) => {}
             // What was sent is no longer on the screen.
             (Reference::LastSent, Action::Blank | Action::Summarize) => {
-                self.referenced[region] = false
+                self.referenced[region] = false;
             }
         }
     }
