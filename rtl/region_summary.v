@@ -89,7 +89,7 @@ module region_summary #(
             magnitude_above #(.WIDTH(WIDTH + 1)) u_above (
                 .value_i(difference), .level_i(level_i), .above_o(differs)
             );
-            if (DEEP) begin : g_deep
+            if (DEEP) begin : g_late
                 reg [WIDTH:0] difference_q;
                 always @(posedge clk_i) if (complete) difference_q <= {1'b0, entering} - {1'b0, shown};
                 assign difference = difference_q;
@@ -108,7 +108,7 @@ module region_summary #(
                 .value_i({widest_q[0], widest_q[WIDTH:1] ^ {WIDTH{widest_q[0]}}}), .level_i(level_i), .above_o(above)
             );
             assign differs = above || last_above;
-            if (DEEP) begin : g_deep
+            if (DEEP) begin : g_late
                 // In the clock of the decision the last difference is on its way to the widest.
                 reg [WIDTH:0] difference_q;
                 reg found_q;
