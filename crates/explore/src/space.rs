@@ -66,6 +66,11 @@ pub const BUILT_IN: &[BuiltIn] = &[
         summary: "organizations, folds, pixel bits, windows and denoising against each other",
         toml: include_str!("../spaces/designs.toml"),
     },
+    BuiltIn {
+        name: "periphery",
+        summary: "what irrelevant regions send: blocks, level and minimum score against bytes",
+        toml: include_str!("../spaces/periphery.toml"),
+    },
 ];
 
 /// The file as it is written.

@@ -37,7 +37,8 @@ pub(crate) fn matrix() -> Vec<String> {
                 2 => "mean",
                 _ => pick(index % 3, "zero", "hold"),
             };
-            let blocks = [4, 2, 1].into_iter().find(|blocks| size.is_multiple_of(*blocks)).unwrap_or(1);
+            let blocks =
+                [4, 2, 1].into_iter().find(|blocks| size.is_multiple_of(*blocks)).unwrap_or(1);
             let periphery = match choice {
                 5 => format!("[periphery]\nblocks = {blocks}\n"),
                 _ => String::new(),
