@@ -110,7 +110,7 @@ fn mistakes_are_one_line() {
 fn spaces_are_listed_and_printed() {
     let dir = tempfile::tempdir().unwrap();
     let list = succeed_in(dir.path(), &["explore", "--list"]);
-    assert_eq!(list.lines().count(), 2, "{list}");
+    assert_eq!(list.lines().count(), 3, "{list}");
     let file = succeed_in(dir.path(), &["explore", "designs", "--print"]);
     assert!(file.contains("[vary]"), "{file}");
 }
