@@ -45,6 +45,7 @@ fn arrays_agree_on_three_grids() {
         ("paper", Simulator::Iverilog),
         ("seamless", Simulator::Verilator),
         ("mad", Simulator::Verilator),
+        ("fovea", Simulator::Verilator),
     ] {
         let preset = PRESETS.iter().find(|p| p.name == preset).unwrap();
         let design = design(&preset.config().unwrap(), (4, 3));

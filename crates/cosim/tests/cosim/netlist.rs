@@ -23,6 +23,12 @@ const VARIANCE: &str =
 /// Median, edges and the pixels last sent, with the registers of `deep`.
 const DEEP: &str = "[region]\nsize = 4\n[temporal]\nreference = \"last-sent\"\n[hardware]\n\
                     pipelining = \"deep\"\n";
+/// Means that turn in shift registers.
+const MEANS: &str =
+    "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[render]\nirrelevant = \"mean\"\n";
+/// Deep: their division by 9, and a second pass.
+const MEANS_DEEP: &str = "[region]\nsize = 6\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                          [render]\nirrelevant = \"mean\"\n[hardware]\npipelining = \"deep\"\n";
 /// A raster into lanes of two regions each, one slot of which is empty.
 const FOLDED: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
                       organization = \"serial\"\nfeed = \"raster\"\nfold = 2\n";
@@ -60,6 +66,8 @@ fn netlists_agree_with_the_model() {
         (EDGES, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
         (VARIANCE, Level::Rpu, (1, 1)),
         (DEEP, Level::Rpu, (1, 1)),
+        (MEANS, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
+        (MEANS_DEEP, Level::Rpu, (1, 1)),
         (FOLDED, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
         (RASTER, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
         (RASTER_DEEP, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),

@@ -29,6 +29,7 @@ const DESIGNS: &[&[&str]] = &[
         "spatial.0.min_score=2",
     ],
     &["frame={width=10,height=5}", "region.size=5", "hardware.thresholds='constant'"],
+    &["frame={width=8,height=4}", "region.size=4", "render.irrelevant='mean'"],
     &[
         "frame={width=12,height=4}",
         "region.size=4",
