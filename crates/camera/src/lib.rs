@@ -41,9 +41,10 @@ pub use feature::{Mean, SpatialFeature, Variance};
 pub use keys::{CAMERA_KEYS, Key, Takes};
 pub use kind::Measure;
 pub use periphery::Periphery;
-pub use ranges::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS};
+pub use ranges::{
+    MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, in_range,
+};
 pub use reciprocal::Reciprocal;
 pub use reference::Written;
 pub use sent::DECISION_BITS;
-pub use validate::in_range;
 pub use width::{bits_for, index_bits, mad_score_max};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What irrelevant regions send in place of their pixels: the means of their blocks.
 
-use crate::{Camera, CameraConfig, ConfigError, Irrelevant, Reciprocal, bits_for};
+use crate::{CameraConfig, ConfigError, Irrelevant, Reciprocal, bits_for};
 use crate::{SUMMARY_BLOCKS, in_range};
 
 /// How summaries are formed and when they are sent: q x q means per region, of blocks of b x b pixels.
@@ -78,14 +78,6 @@ impl Periphery {
     }
 }
 
-impl Camera {
-    /// Bits of a summary: every mean has those of a pixel. None where irrelevant regions send nothing.
-    #[must_use]
-    pub fn summary_bits(&self) -> Option<u32> {
-        self.periphery().map(|periphery| periphery.means() * self.pixel_bits())
-    }
-}
-
 fn check_blocks(blocks: u32, side: u32) -> Result<(), ConfigError> {
     let fits = |blocks: u32| side.is_multiple_of(blocks);
     if SUMMARY_BLOCKS.contains(&blocks) && fits(blocks) {
@@ -102,6 +94,7 @@ fn check_blocks(blocks: u32, side: u32) -> Result<(), ConfigError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Camera;
 
     fn camera(toml: &str) -> Result<Camera, String> {
         let config = CameraConfig::from_toml(toml).map_err(|error| error.to_string())?;

@@ -3,6 +3,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::ConfigError;
+
 /// Largest frame side in pixels; keeps every count of regions and pixels far inside 32 bits.
 pub const MAX_SIDE: u32 = 16_384;
 /// Bits per pixel P.
@@ -13,6 +15,26 @@ pub const REGION_SIZES: RangeInclusive<u32> = 2..=64;
 pub const SUMMARY_BLOCKS: &[u32] = &[1, 2, 4];
 /// Fraction bits of the mean of `mad`, for the largest region.
 pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;
+
+/// Refuses the `value` of a `key` that is not in its range; `why` follows the range in the message.
+///
+/// # Errors
+/// [`ConfigError::Range`].
+pub fn in_range(
+    key: &str,
+    value: u32,
+    range: RangeInclusive<u32>,
+    why: &str,
+) -> Result<(), ConfigError> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    Err(ConfigError::Range {
+        key: key.to_owned(),
+        value: value.to_string(),
+        valid: format!("{}..={}{why}", range.start(), range.end()),
+    })
+}
 
 #[cfg(test)]
 mod tests {

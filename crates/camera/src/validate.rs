@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Checks every range and combination of a configuration, and makes it a camera.
 
-use std::ops::RangeInclusive;
-
 use crate::depth::{self, DEFAULT_BITS};
 use crate::{Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, Temporal};
-use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES};
+use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, in_range};
 
 /// Frame size where the configuration leaves it out.
 const DEFAULT_SIDE: u32 = 224;
@@ -140,24 +138,4 @@ impl CameraConfig {
         }
         Ok(())
     }
-}
-
-/// Refuses the `value` of a `key` that is not in its range; `why` follows the range in the message.
-///
-/// # Errors
-/// [`ConfigError::Range`].
-pub fn in_range(
-    key: &str,
-    value: u32,
-    range: RangeInclusive<u32>,
-    why: &str,
-) -> Result<(), ConfigError> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    Err(ConfigError::Range {
-        key: key.to_owned(),
-        value: value.to_string(),
-        valid: format!("{}..={}{why}", range.start(), range.end()),
-    })
 }

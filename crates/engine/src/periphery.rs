@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The summaries of irrelevant regions: from the sums of blocks to means, which of them are sent, and what the screen shows.
 
-use foveate_camera::{Action, Camera};
+use foveate_camera::Action;
 
 use crate::outcome::Results;
-use crate::plan::index;
-use crate::scratch::Scratch;
-use foveate_lanes::{Lane, threshold};
+use foveate_lanes::Lane;
 
 /// How summaries are formed: q blocks per side of b pixels.
 #[derive(Clone, Copy, Debug)]
@@ -15,11 +13,22 @@ pub(crate) struct PeripheryPlan<T> {
     pub(crate) blocks: usize,
     /// Side of a block.
     pub(crate) side: usize,
-    level: T,
+    pub(crate) level: T,
     /// Pixels of a block.
-    pixels: u32,
+    pub(crate) pixels: u32,
     /// The shift that divides by them, where they are a power of two.
-    shift: Option<u32>,
+    pub(crate) shift: Option<u32>,
+}
+
+/// The means of a band in this frame.
+#[derive(Debug)]
+pub(crate) struct Means<'a, T> {
+    /// Row by row of blocks.
+    pub(crate) means: &'a [T],
+    /// By column of blocks, to be written: not 0 where a mean differs from the one that was sent last.
+    pub(crate) differs: &'a mut [T],
+    /// Regions whose pixels may have changed; the means of others are not known.
+    pub(crate) affected: &'a [bool],
 }
 
 /// What the regions of a band have sent of themselves last.
@@ -32,16 +41,6 @@ pub(crate) struct Summaries<'a, T> {
 }
 
 impl<T: Lane> PeripheryPlan<T> {
-    pub(crate) fn of(camera: &Camera) -> Option<Self> {
-        camera.periphery().map(|own| Self {
-            blocks: index(own.blocks),
-            side: index(own.block_side),
-            level: threshold(own.level),
-            pixels: own.block_pixels(),
-            shift: own.block_pixels().is_power_of_two().then(|| own.block_pixels().ilog2()),
-        })
-    }
-
     /// The means of blocks side by side, from the sums of their columns.
     #[inline(always)]
     pub(crate) fn means(&self, columns: &[T::Sum], means: &mut [T]) {
@@ -88,11 +87,11 @@ impl<T: Lane> PeripheryPlan<T> {
     #[inline(always)]
     pub(crate) fn summarize(
         &self,
-        scratch: &mut Scratch<T>,
+        now: Means<'_, T>,
         summaries: &mut Summaries<'_, T>,
         results: &mut Results<'_>,
     ) {
-        let Scratch { means, differs, affected, .. } = scratch;
+        let Means { means, differs, affected } = now;
         differs.fill(T::default());
         let rows = means.chunks_exact(differs.len());
         for (now, sent) in rows.zip(summaries.means.chunks_exact(differs.len())) {
@@ -100,7 +99,7 @@ impl<T: Lane> PeripheryPlan<T> {
                 *differs = (*differs).max(now.distance(*sent).minus(self.level));
             }
         }
-        let regions = differs.chunks_exact(self.blocks).zip(&*affected).zip(&mut *summaries.shown);
+        let regions = differs.chunks_exact(self.blocks).zip(affected).zip(&mut *summaries.shown);
         for (column, ((differs, &affected), shown)) in regions.enumerate() {
             *shown &= !results.active[column];
             let is_near = *shown && differs.iter().all(|&differs| differs == T::default());

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use foveate_camera::{
-    Camera, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+    Camera, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery, Reference,
 };
 
 use crate::periphery::PeripheryPlan;
@@ -104,7 +104,7 @@ impl<T: Lane> CameraPlan<T> {
             irrelevant: camera.irrelevant(),
             payload: camera.payload(),
             keeps_raw: camera.keeps_raw(),
-            periphery: PeripheryPlan::of(camera),
+            periphery: camera.periphery().map(periphery),
         }
     }
 
@@ -168,6 +168,16 @@ impl<T: Lane> CameraPlan<T> {
             Some(_) => (band * self.side, (band + 1) * self.side - 1),
             None => (0, self.rows * self.side - 1),
         }
+    }
+}
+
+fn periphery<T: Lane>(own: &Periphery) -> PeripheryPlan<T> {
+    PeripheryPlan {
+        blocks: index(own.blocks),
+        side: index(own.block_side),
+        level: threshold(own.level),
+        pixels: own.block_pixels(),
+        shift: own.block_pixels().is_power_of_two().then(|| own.block_pixels().ilog2()),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::band::Band;
 use crate::change;
 use crate::look::Changes;
 use crate::outcome::{Results, within};
-use crate::periphery::Summaries;
+use crate::periphery::{Means, Summaries};
 use crate::pixels::Pixels;
 use crate::plan::CameraPlan;
 use crate::render::{Canvas, show};
@@ -127,7 +127,9 @@ impl<T: Lane> Strip<'_, T> {
         let means = &mut self.means[means];
         if let Some(periphery) = &plan.periphery {
             let shown = &mut self.shown[regions.clone()];
-            periphery.summarize(self.scratch, &mut Summaries { shown, means }, &mut results);
+            let Scratch { means: now, differs, affected, .. } = &mut *self.scratch;
+            let now = Means { means: now, differs, affected };
+            periphery.summarize(now, &mut Summaries { shown, means }, &mut results);
         }
         let mut canvas = Canvas {
             screen: &mut self.screen[lines..],
