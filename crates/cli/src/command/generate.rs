@@ -2,6 +2,7 @@
 //! `foveate generate`: the core of a design as a folder.
 
 use foveate_cosim::{ShippedBench, write_core};
+use foveate_design::Design;
 use foveate_emit::Prefix;
 use serde::Serialize;
 
@@ -31,6 +32,9 @@ struct BenchListing<'a> {
     active: u64,
     held: u64,
     blank: u64,
+    /// Of those that are blank, where irrelevant regions send summaries.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    summaries: Option<u64>,
     compared: u64,
     shortcoming: Option<&'a str>,
 }
@@ -49,7 +53,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
             folder: &shown,
             prefix: prefix.text(),
             files: core.files.iter().map(String::as_str).collect(),
-            benches: core.benches.iter().map(listing).collect(),
+            benches: core.benches.iter().map(|bench| listing(&design, bench)).collect(),
         });
     }
     if args.quiet {
@@ -68,7 +72,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     ))
 }
 
-fn listing(bench: &ShippedBench) -> BenchListing<'_> {
+fn listing<'a>(design: &Design, bench: &'a ShippedBench) -> BenchListing<'a> {
     let tally = &bench.tally;
     BenchListing {
         top: bench.top.module(),
@@ -78,6 +82,7 @@ fn listing(bench: &ShippedBench) -> BenchListing<'_> {
         active: tally.active,
         held: tally.held,
         blank: tally.blank,
+        summaries: design.periphery().map(|_| tally.summaries),
         compared: tally.compared,
         shortcoming: bench.shortcoming.as_deref(),
     }

@@ -27,6 +27,34 @@ fn check_prints_the_card_as_text_and_json() {
     assert_eq!(card["rcm_ports"].as_array().unwrap().len(), 16);
 }
 
+/// What irrelevant regions send is on the card, the organizations that cannot say so, and benches count it.
+#[test]
+fn a_periphery_is_checked_generated_and_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let fovea = ["--preset", "fovea", "--set", "frame={width=32,height=24}"];
+    let text = succeed_in(dir.path(), &[&["check"], &fovea[..]].concat());
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let line = "periphery the means of 2x2 blocks of 4x4 pixels where SRS is 0, sent again when one differs by more than 4";
+    assert!(words.contains(line), "{text}");
+    assert!(!succeed_in(dir.path(), &["check"]).contains("periphery"));
+
+    let json = [&["generate", "--json", "-o", "core"], &fovea[..]].concat();
+    let core: Value = serde_json::from_str(&succeed_in(dir.path(), &json)).unwrap();
+    for bench in core["benches"].as_array().unwrap() {
+        let count = |key: &str| bench[key].as_u64().unwrap();
+        assert!(0 < count("summaries") && count("summaries") < count("blank"), "{bench}");
+    }
+    let plain = ["generate", "--json", "-o", "plain", "--set", "frame={width=32,height=24}"];
+    let core: Value = serde_json::from_str(&succeed_in(dir.path(), &plain)).unwrap();
+    assert!(core["benches"][0].get("summaries").is_none());
+
+    for organization in ["serial", "raster"] {
+        let key = format!("hardware.organization=\"{organization}\"");
+        let asked = [&["check", "--set", &key], &fovea[..]].concat();
+        fail_in(dir.path(), 2, &asked, &["`render.irrelevant` = \"mean\"", organization]);
+    }
+}
+
 #[test]
 fn check_tells_how_fast_each_organization_is() {
     let dir = tempfile::tempdir().unwrap();

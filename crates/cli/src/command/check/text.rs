@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Design, Hardware, Neighborhood, RasterDesign, RasterMemory};
+use foveate_design::{Design, Hardware, Neighborhood, Periphery, RasterDesign, RasterMemory};
 
 use super::array::{Array, Memory};
 use super::card::{Card, Feature, PortRow};
@@ -39,6 +39,7 @@ pub(super) fn text(design: &Design, card: &Card) -> String {
     }
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
+    lines.extend(design.periphery().map(|own| ("periphery", periphery_line(own))));
     lines.push(("organization", design.config().hardware.in_words()));
     match design.hardware() {
         Hardware::Raster(own) => {
@@ -88,6 +89,15 @@ fn temporal_line(design: &Design) -> String {
         design.region_pixels(),
         design.count_bits()
     )
+}
+
+fn periphery_line(own: &Periphery) -> String {
+    let (blocks, side) = (own.blocks, own.block_side);
+    let means = match blocks {
+        1 => format!("the mean of {side}x{side} pixels"),
+        _ => format!("the means of {blocks}x{blocks} blocks of {side}x{side} pixels"),
+    };
+    format!("{means} where SRS is 0, sent again when one differs by more than {}", own.level)
 }
 
 fn stream_line(design: &Design, card: &Card) -> String {
