@@ -44,7 +44,7 @@ pub const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "fovea",
-        summary: "pixels where it matters and the means of 2x2 blocks elsewhere: what a network can use",
+        summary: "pixels where it matters and the means of 2x2 blocks elsewhere: nothing stays black",
         toml: "[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"mean\"\n",
     },
     Preset {
