@@ -63,7 +63,7 @@ pub(crate) struct Band<'a, T: Lane> {
 impl<T: Lane> Band<'_, T> {
     /// Fills `scratch.sums` for every region that the runs cover.
     #[inline(always)]
-    pub(crate) fn measure(&mut self, scratch: &mut Scratch<T>) {
+    pub(crate) fn measure<const PERIPHERY: bool>(&mut self, scratch: &mut Scratch<T>) {
         let runs = std::mem::take(&mut scratch.runs);
         for run in &runs {
             self.first_pass(scratch, run);
@@ -80,7 +80,7 @@ impl<T: Lane> Band<'_, T> {
                 sums::by_region(&scratch.columns.over, side, &mut scratch.sums.over);
             }
         }
-        if let Some(periphery) = self.plan.periphery {
+        if PERIPHERY && let Some(periphery) = self.plan.periphery {
             for run in &runs {
                 self.means_of_blocks(periphery, scratch, run);
             }

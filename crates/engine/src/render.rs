@@ -25,7 +25,7 @@ pub(crate) struct Canvas<'a, T> {
 impl<T: Lane> Canvas<'_, T> {
     /// Does what was decided for every region of band `number`.
     #[inline(always)]
-    pub(crate) fn act(
+    pub(crate) fn act<const PERIPHERY: bool>(
         &mut self,
         plan: &CameraPlan<T>,
         raw: Pixels<'_, T>,
@@ -48,6 +48,7 @@ impl<T: Lane> Canvas<'_, T> {
                     self.black[column] = false;
                 }
                 Action::Hold => {}
+                Action::Summarize if !PERIPHERY => {}
                 Action::Summarize => {
                     let periphery =
                         plan.periphery.as_ref().expect("only a periphery sends summaries");

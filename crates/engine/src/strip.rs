@@ -72,7 +72,19 @@ pub(crate) struct Strip<'a, T: Lane> {
 
 impl<T: Lane> Task for Strip<'_, T> {
     #[inline(always)]
-    fn run(mut self) {
+    fn run(self) {
+        // Twice, so that what a periphery needs costs nothing where there is none.
+        match self.plan.periphery {
+            Some(_) => self.run_as::<true>(),
+            None => self.run_as::<false>(),
+        }
+    }
+}
+
+impl<T: Lane> Strip<'_, T> {
+    /// `PERIPHERY`: whether irrelevant regions send their means.
+    #[inline(always)]
+    fn run_as<const PERIPHERY: bool>(mut self) {
         self.skipped.clear();
         for frame in 0..self.frames.len() {
             for row in &mut self.scratch.denoised {
@@ -80,7 +92,7 @@ impl<T: Lane> Task for Strip<'_, T> {
             }
             self.skipped.push(Skipped::default());
             for row in 0..self.bands.len() {
-                self.band(frame, row);
+                self.band::<PERIPHERY>(frame, row);
                 // Not the band that has only just been written: its stores are still on their way.
                 if let Some(last) = row.checked_sub(1) {
                     self.keep_screen(frame, last);
@@ -92,12 +104,10 @@ impl<T: Lane> Task for Strip<'_, T> {
             }
         }
     }
-}
 
-impl<T: Lane> Strip<'_, T> {
     /// Takes a frame through the strip's `row`th band.
     #[inline(always)]
-    fn band(&mut self, frame: usize, row: usize) {
+    fn band<const PERIPHERY: bool>(&mut self, frame: usize, row: usize) {
         let (plan, raw, number) = (self.plan, self.frames[frame], self.bands.start + row);
         let rows = row * plan.side * plan.stride()..(row + 1) * plan.side * plan.stride();
         let regions = row * plan.columns..(row + 1) * plan.columns;
@@ -118,14 +128,14 @@ impl<T: Lane> Strip<'_, T> {
                 denoised: &mut self.denoised[rows.clone()],
                 reference: &self.reference[reference.clone()],
             };
-            band.measure(self.scratch);
+            band.measure::<PERIPHERY>(self.scratch);
         }
         let mut results = self.results.rows(regions.clone());
         let valid = &mut self.valid[regions.clone()];
         plan.decide(&self.scratch.sums, &self.scratch.affected, valid, &mut results);
         let means = row * plan.band_means()..(row + 1) * plan.band_means();
         let means = &mut self.means[means];
-        if let Some(periphery) = &plan.periphery {
+        if PERIPHERY && let Some(periphery) = &plan.periphery {
             let shown = &mut self.shown[regions.clone()];
             let Scratch { means: now, differs, affected, .. } = &mut *self.scratch;
             let now = Means { means: now, differs, affected };
@@ -139,7 +149,7 @@ impl<T: Lane> Strip<'_, T> {
             black: &mut self.black[regions],
             means,
         };
-        canvas.act(plan, raw, number, results.actions);
+        canvas.act::<PERIPHERY>(plan, raw, number, results.actions);
     }
 
     /// Chooses what of band `number` has to be computed.
