@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How votes become SRS, and what SRS and TRS do to a region.
 
-use foveate_camera::{Action, Camera, Combine, Irrelevant};
+use foveate_camera::{Action, Combine, Irrelevant};
 
 /// SRS from the votes of the features.
 pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) -> bool {
@@ -13,7 +13,7 @@ pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) 
 
 /// What becomes of a region with these two bits; `is_summary_due` is asked only where irrelevant regions send their means.
 pub fn action(
-    camera: &Camera,
+    irrelevant: Irrelevant,
     srs: bool,
     trs: bool,
     is_summary_due: impl FnOnce() -> bool,
@@ -21,7 +21,7 @@ pub fn action(
     match (trs, srs) {
         (true, true) => Action::Forward,
         (false, true) => Action::Hold,
-        (_, false) => match camera.irrelevant() {
+        (_, false) => match irrelevant {
             Irrelevant::Zero => Action::Blank,
             Irrelevant::Hold => Action::Hold,
             Irrelevant::Mean if is_summary_due() => Action::Summarize,

@@ -183,7 +183,7 @@ impl FunctionalCamera {
             let periphery = camera.periphery().expect("only then it is asked");
             summaries[at].is_due(means, periphery.level)
         };
-        let action = action(camera, outcome.srs[at], outcome.trs[at], is_due);
+        let action = action(camera.irrelevant(), outcome.srs[at], outcome.trs[at], is_due);
         outcome.actions[at] = action;
         screen.show(camera, region, action, (outcome.payload(camera), means));
         summaries[at].follow(action, means);

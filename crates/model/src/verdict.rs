@@ -51,6 +51,6 @@ impl Verdict {
     /// What becomes of the region, as far as its reference is concerned: a summary that is not sent again leaves none, as
     /// one that is sent.
     pub(crate) fn action(&self, camera: &Camera) -> Action {
-        action(camera, self.srs, self.trs, || true)
+        action(camera.irrelevant(), self.srs, self.trs, || true)
     }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The summaries of a region: its means frame by frame, which of them were sent, and when they leave.
 
-use foveate_design::{Action, Irrelevant};
+use foveate_design::Action;
 
 use super::decide::Decision;
 use super::plan::RpuPlan;
+use crate::decision::action;
 use crate::number::index;
 use crate::periphery::{Summary, block_means};
 
@@ -22,23 +23,17 @@ pub(super) struct TailSummary {
 }
 
 impl TailSummary {
-    /// A tail step.
-    pub(super) fn step(&mut self, payload: u16) {
-        self.current.push(payload);
+    /// A tail step. Without a periphery nobody asks for means.
+    pub(super) fn step(&mut self, plan: &RpuPlan, payload: u16) {
+        if plan.periphery.is_some() {
+            self.current.push(payload);
+        }
     }
 
     /// What becomes of the region whose decision is made in this clock.
     pub(super) fn action(&self, plan: &RpuPlan, decision: Decision, level: u32) -> Action {
-        let decided = self.decided(plan);
-        match (decision.srs, decision.trs, plan.irrelevant) {
-            (true, true, _) => Action::Forward,
-            (true, false, _) | (false, _, Irrelevant::Hold) => Action::Hold,
-            (false, _, Irrelevant::Zero) => Action::Blank,
-            (false, _, Irrelevant::Mean) if self.summary.is_due(&decided, level) => {
-                Action::Summarize
-            }
-            (false, _, Irrelevant::Mean) => Action::Hold,
-        }
+        let is_due = || self.summary.is_due(&self.decided(plan), level);
+        action(plan.irrelevant, decision.srs, decision.trs, is_due)
     }
 
     /// The means of the frame that is decided in this clock, in which the frame that has come in is whole.

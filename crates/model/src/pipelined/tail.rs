@@ -102,7 +102,7 @@ impl Tail {
         };
         let leaving = registers.active.then(|| payload(store.leaving(plan, position)));
         registers.forward = leaving.or_else(|| registers.periphery.leaving(plan, position));
-        registers.periphery.step(payload(step.pixel));
+        registers.periphery.step(plan, payload(step.pixel));
         registers.temporal.step(store, position, step.pixel.scored, thresholds.temporal_level);
         registers.scores.step(plan, step, before, last, n);
         store.write(position, step.pixel);

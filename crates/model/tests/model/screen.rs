@@ -25,7 +25,7 @@ impl Screen {
     /// What a decision does.
     pub(crate) fn act(&mut self, region: u32, srs: bool, trs: bool) {
         // A pixel that the array does not send must not look like the one before.
-        let value = match foveate_model::action(&self.design, srs, trs, || {
+        let value = match foveate_model::action(self.design.irrelevant(), srs, trs, || {
             unreachable!("no means are sent")
         }) {
             Action::Hold => return,
