@@ -141,7 +141,10 @@ def infer(network: PathLike, inputs: Any, camera: Any = None, output: PathLike |
     **options
         ``mode`` ("dense", "exact", "compare", "truncate=T" or "fixed"; default "exact"), ``tune`` (such as "variation=10%"),
         ``reference`` (bool), ``accelerator`` (name or file), ``mean`` and ``scale`` (a number, or one for each channel),
-        ``pictures`` (bool), ``force`` (bool), and how inputs are read, see ``simulate``.
+        ``framing`` ("same", "letterbox", "letterbox=416x416", "stretch", "stretch=416x416"; default "same"),
+        ``whole_frames`` (bool: the network runs on the frames before the camera, too), ``detect`` (such as "yolox,score=0.3"),
+        ``boxes`` (path or list of paths of ground-truth boxes), ``pictures`` (bool), ``force`` (bool), and how inputs are read,
+        see ``simulate``.
 
     Returns
     -------

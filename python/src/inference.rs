@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foveate_footage::{Hooks, Progress, in_memory};
 use foveate_frame::Raster;
 use foveate_inference::{
-    Computed, Inference, InferenceError, Mapping, Options, Record, parse_goal, parse_mode,
-    read_accelerator,
+    Computed, Framing, Inference, InferenceError, Mapping, Options, Record, Whole, parse_detector,
+    parse_framing, parse_goal, parse_mode, read_accelerator,
 };
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -37,7 +37,7 @@ impl Hooks for Flag {
 
 /// What is chosen of a run, by its names on the command line: taken out of `options`, which keeps those of
 /// inputs.
-fn chosen(options: &Bound<'_, PyDict>) -> PyResult<Options> {
+fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Framing)> {
     let text = |name: &str| -> PyResult<Option<String>> {
         let value = take(options, name)?;
         Ok(value.map(|value| value.str()).transpose()?.map(|text| text.to_string()))
@@ -79,19 +79,34 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<Options> {
     if let Some(wrong) = mapping.mean.iter().find(|value| !value.is_finite()) {
         return Err(PyValueError::new_err(format!("mean = {wrong}: expected finite numbers")));
     }
-    Ok(Options {
+    let framing = text("framing")?.unwrap_or_else(|| "same".to_owned());
+    let framing = parse_framing(&framing).map_err(wrong("framing", framing))?;
+    let detect = text("detect")?;
+    let detector = detect.map(|text| parse_detector(&text).map_err(wrong("detect", text)));
+    let detector = detector.transpose()?;
+    let boxes = take(options, "boxes")?.map_or(Ok(Vec::new()), |boxes| paths(&boxes))?;
+    if !boxes.is_empty() && detector.is_none() {
+        return Err(PyTypeError::new_err(
+            "boxes are compared with detections: give detect, too, such as detect=\"yolox\"",
+        ));
+    }
+    let whole = flag("whole_frames")? || detector.is_some();
+    let sight = whole.then_some(Whole { detector, boxes });
+    let options = Options {
         computed,
         mapping,
         accelerator,
         reference: flag("reference")? || approximate,
         record: Record { arrays: true, pictures: flag("pictures")? },
         command: Vec::new(),
+        sight,
         overwrite: flag("force")?,
-    })
+    };
+    Ok((options, framing))
 }
 
 /// The options that [`chosen`] takes, and the arguments.
-const OWN: [&str; 12] = [
+const OWN: [&str; 16] = [
     "network",
     "inputs",
     "camera",
@@ -104,6 +119,10 @@ const OWN: [&str; 12] = [
     "scale",
     "pictures",
     "force",
+    "framing",
+    "whole_frames",
+    "detect",
+    "boxes",
 ];
 
 /// What a network is shown.
@@ -159,16 +178,18 @@ pub(crate) fn infer(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<String> {
     let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
-    let chosen = chosen(&options)?;
-    let input = input_options("infer", &OWN, Some(&options))?;
+    let (chosen, framing) = chosen(&options)?;
+    let mut input = input_options("infer", &OWN, Some(&options))?;
+    // Boxes go by the numbers of frames in their inputs.
+    input.numbered = chosen.sight.as_ref().is_some_and(|sight| !sight.boxes.is_empty());
     let config = config::read(camera, None)?;
     let shown = shown(inputs, config.camera.frame.pixel_bits)?;
     let summary = interruptible(py, |cancel| {
         let inference = match shown {
-            Shown::Paths(paths) => Inference::new(&config, &network, &paths, &input),
+            Shown::Paths(paths) => Inference::new(&config, &network, framing, &paths, &input),
             Shown::Frames(frames) => in_memory("array", frames, &input)
                 .map_err(InferenceError::from)
-                .and_then(|source| Inference::of_source(&config, &network, source)),
+                .and_then(|source| Inference::of_source(&config, &network, framing, source)),
         }
         .map_err(raise)?;
         inference.run(&output, &chosen, &mut Flag(cancel)).map_err(raise)

@@ -19,6 +19,7 @@ mod outputs;
 mod page;
 mod stress;
 mod threads;
+mod viewing;
 
 use std::fs;
 use std::path::PathBuf;

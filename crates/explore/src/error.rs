@@ -10,6 +10,7 @@ use foveate_fidelity::FidelityError;
 use foveate_footage::FootageError;
 use foveate_footage::boxes::BoxError;
 use foveate_ideal::IdealError;
+use foveate_inference::InferenceError;
 use foveate_pictures::page::PageError;
 use foveate_staging::StagingError;
 use thiserror::Error;
@@ -54,6 +55,9 @@ pub enum ExploreError {
         /// Its size.
         other_size: String,
     },
+    /// A network cannot be read or shown frames.
+    #[error(transparent)]
+    Inference(#[from] InferenceError),
     /// Boxes that cannot be read, or that do not fit the clips.
     #[error(transparent)]
     Boxes(#[from] BoxError),

@@ -151,6 +151,20 @@ impl<'a> Footage<'a> {
         cameras.iter().map(|camera| key(&clip, &ideal, camera.config())).collect()
     }
 
+    /// Bits of a pixel.
+    pub(crate) fn bits(&self) -> u32 {
+        self.ideal.frame.pixel_bits
+    }
+
+    /// Reports progress.
+    ///
+    /// # Errors
+    /// When the work is to stop.
+    pub(crate) fn go_on(&self, progress: Progress) -> Result<(), ExploreError> {
+        self.hooks.progress(progress);
+        if self.hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(()) }
+    }
+
     /// A clip from its beginning.
     pub(crate) fn open(&self, subject: &Subject) -> Result<Box<dyn Source>, ExploreError> {
         Ok(open(&subject.inputs, self.ideal, self.input)?)

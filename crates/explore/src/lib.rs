@@ -36,7 +36,10 @@ pub use cost::{Silicon, Synthesizer};
 pub use error::ExploreError;
 pub use exploration::{ClipRow, Exploration};
 pub use explore::explore;
-pub use fit::{Constraints, Design as FittedDesign, Fit, FitRequest, Held, Target, fit};
+pub use fit::{
+    Agreed, Cheapest, Constraints, Design as FittedDesign, Fit, FitRequest, FittedNetwork, Held,
+    NetworkGoal, Target, fit,
+};
 pub use foveate_fidelity::{Figures, ScoreError};
 pub use method::{Axis, Method};
 pub use point::{Point, Refused};
@@ -59,6 +62,11 @@ pub enum Progress {
         done: usize,
         /// The number of all.
         all: usize,
+    },
+    /// A network looks at what cameras show.
+    Asking {
+        /// Cameras that it was asked about.
+        cameras: usize,
     },
     /// Yosys synthesizes.
     Synthesizing {

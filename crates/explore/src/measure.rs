@@ -179,25 +179,34 @@ impl Candidate {
 }
 
 /// The frame in every depth that is not its own.
-fn at_depths(
+pub(crate) fn at_depths(
     frame: &Raster,
     depths: impl Iterator<Item = u32>,
 ) -> Result<BTreeMap<u32, Raster>, ExploreError> {
     let mut found = BTreeMap::new();
-    let (width, height, own) = (frame.width(), frame.height(), frame.bits());
-    for bits in depths.filter(|&bits| bits != own) {
-        if found.contains_key(&bits) {
-            continue;
+    for bits in depths {
+        if !found.contains_key(&bits)
+            && let Some(other) = at_depth(frame, bits)?
+        {
+            found.insert(bits, other);
         }
-        let words = frame.plane().to_words().into_iter();
-        let pixels = words.map(|pixel| convert_depth(pixel, own, bits));
-        let raster = if bits <= 8 {
-            let bytes = pixels.map(|pixel| u8::try_from(pixel).expect("at most 8 bits")).collect();
-            Raster::from_bytes(width, height, bits, bytes)
-        } else {
-            Raster::from_words(width, height, bits, pixels.collect())
-        };
-        found.insert(bits, raster.map_err(FootageError::from)?);
     }
     Ok(found)
+}
+
+/// The frame in another depth; nothing if that is its own.
+pub(crate) fn at_depth(frame: &Raster, bits: u32) -> Result<Option<Raster>, ExploreError> {
+    let (width, height, own) = (frame.width(), frame.height(), frame.bits());
+    if bits == own {
+        return Ok(None);
+    }
+    let words = frame.plane().to_words().into_iter();
+    let pixels = words.map(|pixel| convert_depth(pixel, own, bits));
+    let raster = if bits <= 8 {
+        let bytes = pixels.map(|pixel| u8::try_from(pixel).expect("at most 8 bits")).collect();
+        Raster::from_bytes(width, height, bits, bytes)
+    } else {
+        Raster::from_words(width, height, bits, pixels.collect())
+    };
+    Ok(Some(raster.map_err(FootageError::from)?))
 }

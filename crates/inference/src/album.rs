@@ -54,7 +54,7 @@ impl Audience for Album {
     }
 
     fn look(&mut self, seen: Seen<'_>) -> Result<(), InferenceError> {
-        self.bytes += size_of_val(seen.values);
+        self.bytes += seen.bytes();
         if self.bytes > MAX_BYTES {
             return Err(InferenceError::TooLong { frames: self.frames });
         }

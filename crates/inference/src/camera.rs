@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the network sees: the rendered frames of a design, and where each differs from the one before.
 
+use crate::framing::Lens;
 use crate::picture::Picture;
 use crate::{InferenceError, Mapping};
 use foveate_design::Design;
 use foveate_engine::Engine;
+use foveate_footage::boxes::Rect;
 use foveate_footage::{Kind, SourceFrame};
 use foveate_network::{Form, Mask};
 
@@ -14,8 +16,23 @@ pub(crate) struct Camera {
     picture: Picture,
     /// From which every image of a set begins.
     black: Option<Picture>,
+    /// The frame as it was before the camera, where the network is to see it, too.
+    original: Option<Picture>,
+    /// Ground-truth objects of it, where they are known.
+    objects: Option<Vec<Rect>>,
     /// Frames so far.
     frames: u64,
+}
+
+/// What a network is shown, and through which lens.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown<'a> {
+    pub(crate) design: &'a Design,
+    pub(crate) input: &'a Form,
+    pub(crate) mapping: &'a Mapping,
+    pub(crate) lens: Option<&'a Lens>,
+    /// Whether it is to see the frames as they were before the camera, too.
+    pub(crate) with_originals: bool,
 }
 
 /// A frame as the network sees it.
@@ -29,13 +46,39 @@ pub(crate) struct Seen<'a> {
     pub(crate) changed: &'a Mask,
     pub(crate) active_regions: u64,
     pub(crate) changed_regions: u64,
+    /// Values of P bits that the camera sends: pixels and means.
+    pub(crate) sent_values: u64,
+    /// What is on the receiver's screen.
+    pub(crate) screen: &'a [u16],
+    pub(crate) original: Option<Original<'a>>,
+}
+
+/// A frame as it was before the camera.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Original<'a> {
+    pub(crate) values: &'a [f32],
+    pub(crate) frame: &'a [u16],
+    pub(crate) objects: Option<&'a [Rect]>,
+}
+
+impl Seen<'_> {
+    /// Bytes of its pictures.
+    pub(crate) fn bytes(&self) -> usize {
+        let original = self
+            .original
+            .map_or(0, |original| size_of_val(original.values) + size_of_val(original.frame));
+        size_of_val(self.values) + size_of_val(self.screen) + original
+    }
 }
 
 impl Camera {
-    pub(crate) fn new(design: &Design, input: &Form, mapping: &Mapping, kind: Kind) -> Self {
-        let picture = Picture::new(design, input, mapping);
+    pub(crate) fn new(shown: Shown<'_>, kind: Kind) -> Self {
+        let Shown { design, input, mapping, lens, with_originals } = shown;
+        let picture = Picture::new(design, input, mapping, lens);
         let black = (kind == Kind::Set).then(|| picture.clone());
-        Self { engine: Engine::new(design), picture, black, frames: 0 }
+        let original = with_originals.then(|| picture.clone());
+        let engine = Engine::new(design);
+        Self { engine, picture, black, original, objects: None, frames: 0 }
     }
 
     /// The picture before the first frame.
@@ -43,10 +86,11 @@ impl Camera {
         self.black.as_ref().map(|picture| &picture.values[..])
     }
 
-    /// Shows the design another frame.
+    /// Shows the design another frame, in which there may be known objects.
     pub(crate) fn see<'a>(
         &'a mut self,
         frame: &'a SourceFrame,
+        objects: Option<Vec<Rect>>,
     ) -> Result<Seen<'a>, InferenceError> {
         if let Some(black) = &self.black {
             self.engine.reset();
@@ -54,6 +98,10 @@ impl Camera {
         }
         self.engine.step_raster(&frame.frame)?;
         self.picture.show(self.engine.rendered());
+        if let Some(original) = &mut self.original {
+            original.show(frame.frame.plane());
+        }
+        self.objects = objects;
         self.frames += 1;
         let active = self.engine.outcome().active.iter().filter(|&&active| active).count();
         Ok(Seen {
@@ -64,6 +112,13 @@ impl Camera {
             changed: &self.picture.changed,
             active_regions: active as u64,
             changed_regions: self.picture.changed_regions as u64,
+            sent_values: self.engine.camera().values_of(&self.engine.outcome().actions),
+            screen: self.picture.frame(),
+            original: self.original.as_ref().map(|original| Original {
+                values: &original.values,
+                frame: original.frame(),
+                objects: self.objects.as_deref(),
+            }),
         })
     }
 }
@@ -78,6 +133,17 @@ pub(crate) struct Kept {
     changed: Mask,
     active_regions: u64,
     changed_regions: u64,
+    sent_values: u64,
+    screen: Vec<u16>,
+    original: Option<KeptOriginal>,
+}
+
+/// A frame that is kept as it was before the camera.
+#[derive(Clone, Debug)]
+struct KeptOriginal {
+    values: Vec<f32>,
+    frame: Vec<u16>,
+    objects: Option<Vec<Rect>>,
 }
 
 impl Kept {
@@ -90,6 +156,13 @@ impl Kept {
             changed: seen.changed.clone(),
             active_regions: seen.active_regions,
             changed_regions: seen.changed_regions,
+            sent_values: seen.sent_values,
+            screen: seen.screen.to_vec(),
+            original: seen.original.map(|original| KeptOriginal {
+                values: original.values.to_vec(),
+                frame: original.frame.to_vec(),
+                objects: original.objects.map(<[Rect]>::to_vec),
+            }),
         }
     }
 
@@ -102,6 +175,13 @@ impl Kept {
             changed: &self.changed,
             active_regions: self.active_regions,
             changed_regions: self.changed_regions,
+            sent_values: self.sent_values,
+            screen: &self.screen,
+            original: self.original.as_ref().map(|original| Original {
+                values: &original.values,
+                frame: &original.frame,
+                objects: original.objects.as_deref(),
+            }),
         }
     }
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The clips of a run: all of one size, shown to a camera of their own one after the other.
 
-use crate::camera::{Camera, Seen};
-use crate::{InferenceError, Mapping};
-use foveate_design::{Config, Design};
+use crate::InferenceError;
+use crate::camera::{Camera, Seen, Shown};
+use foveate_design::Config;
+use foveate_footage::boxes::{Boxes, Clip, Place, Rect, View, assign};
 use foveate_footage::{
-    FootageError, Hooks, InputOptions, Progress, Source, Subject, is_read_once, open, read_ahead,
-    subjects,
+    FootageError, Hooks, InputOptions, Progress, Source, SourceFrame, Subject, is_read_once, open,
+    read_ahead, subjects,
 };
-use foveate_network::Form;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Clips and sets.
 pub(crate) struct Clips {
@@ -22,6 +23,8 @@ pub(crate) struct Clips {
     pub(crate) size: (u32, u32),
     /// Frames of all, if that is known.
     frames: Option<u64>,
+    /// Ground-truth boxes of every clip, or none.
+    boxes: Vec<Arc<Boxes>>,
 }
 
 /// Who looks at the frames of clips.
@@ -38,9 +41,7 @@ pub(crate) trait Audience {
 
 /// A camera for every clip, and how far they are.
 pub(crate) struct Showing<'a> {
-    pub(crate) design: &'a Design,
-    pub(crate) input: &'a Form,
-    pub(crate) mapping: &'a Mapping,
+    pub(crate) shown: Shown<'a>,
     pub(crate) clips: &'a mut Clips,
     /// Frames that are done.
     pub(crate) done: u64,
@@ -65,6 +66,7 @@ impl Clips {
             only: None,
             size: (0, 0),
             frames: Some(0),
+            boxes: Vec::new(),
         };
         for subject in subjects {
             if let Some(once) = subject.inputs.iter().find(|input| several && is_read_once(input)) {
@@ -102,8 +104,41 @@ impl Clips {
             input: InputOptions::default(),
             size: source.size(),
             frames: source.frames(),
+            boxes: Vec::new(),
             only: Some(source),
         }
+    }
+
+    /// Reads ground-truth boxes: one file or folder for all clips, or one for each.
+    ///
+    /// # Errors
+    /// When they cannot be read, or do not fit the clips.
+    pub(crate) fn with_boxes(&mut self, files: &[PathBuf]) -> Result<(), InferenceError> {
+        if !files.is_empty() {
+            let clips = self.subjects.iter();
+            let clips = clips.map(|clip| Clip { name: &clip.name, input: &clip.inputs[0] });
+            let clips: Vec<_> = clips.collect();
+            self.boxes = assign(files, &clips)?;
+        }
+        Ok(())
+    }
+
+    /// The objects of the frame that a source gave last; nothing where the boxes have no entry for it.
+    fn objects(
+        &self,
+        clip: usize,
+        frame: &SourceFrame,
+        source: &dyn Source,
+    ) -> Result<Option<Vec<Rect>>, InferenceError> {
+        let Some((boxes, origin)) = self.boxes.get(clip).zip(source.origin()) else {
+            return Ok(None);
+        };
+        let (name, size) = (Path::new(&frame.name), origin.size);
+        let place = Place { name, own_file: origin.own_file, number: origin.number, size };
+        let crop = self.input.crop.map(|crop| (crop.size, crop.at));
+        let view = View::of(size, crop, (frame.frame.width(), frame.frame.height()));
+        let found = boxes.at(&place)?;
+        Ok(found.map(|found| found.iter().filter_map(|one| view.see(&one.rect)).collect()))
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -142,10 +177,14 @@ impl Showing<'_> {
             }
             let mut source = self.clips.open(clip)?;
             let kind = source.kind();
-            let mut camera = Camera::new(self.design, self.input, self.mapping, kind);
+            let mut camera = Camera::new(self.shown, kind);
             audience.begin(&self.clips.subjects[clip].name, camera.black());
             let before = self.done;
-            let ended = self.watch(source.as_mut(), &mut camera, hooks, audience)?;
+            let ended = if self.clips.boxes.is_empty() {
+                self.watch(source.as_mut(), &mut camera, hooks, audience)?
+            } else {
+                self.watch_objects((clip, source.as_mut()), &mut camera, hooks, audience)?
+            };
             match (ended, self.done - before) {
                 (false, 0) if before == 0 => return Err(InferenceError::Cancelled),
                 (true, 0) => {
@@ -176,12 +215,38 @@ impl Showing<'_> {
                 if hooks.cancelled() {
                     return Ok(false);
                 }
-                audience.look(camera.see(&current)?)?;
+                audience.look(camera.see(&current, None)?)?;
                 frames.give_back(current);
                 self.done += 1;
                 hooks.progress(Progress { done: self.done, total });
             }
             Ok(true)
         })
+    }
+
+    /// The same with the objects of every frame, whose places the source knows.
+    fn watch_objects(
+        &mut self,
+        (clip, source): (usize, &mut dyn Source),
+        camera: &mut Camera,
+        hooks: &mut dyn Hooks,
+        audience: &mut dyn Audience,
+    ) -> Result<bool, InferenceError> {
+        let (total, mut is_any) = (self.clips.frames, false);
+        while let Some(current) = source.next_frame()? {
+            if hooks.cancelled() {
+                return Ok(false);
+            }
+            let objects = self.clips.objects(clip, &current, source)?;
+            is_any |= objects.is_some();
+            audience.look(camera.see(&current, objects)?)?;
+            source.give_back(current);
+            self.done += 1;
+            hooks.progress(Progress { done: self.done, total });
+        }
+        if !is_any {
+            return Err(self.clips.boxes[clip].none_fit(&self.clips.subjects[clip].name).into());
+        }
+        Ok(true)
     }
 }

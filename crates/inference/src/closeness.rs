@@ -218,7 +218,7 @@ impl std::fmt::Display for Goal {
 }
 
 /// The place of the largest value, the first of equal ones.
-fn largest(values: &[f32]) -> usize {
+pub(crate) fn largest(values: &[f32]) -> usize {
     let mut best = 0;
     for (at, value) in values.iter().enumerate() {
         if *value > values[best] {

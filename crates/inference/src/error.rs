@@ -8,6 +8,7 @@ use foveate_accelerator::AcceleratorError;
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
+use foveate_footage::boxes::BoxError;
 use foveate_network::NetworkError;
 use foveate_pictures::chart::ChartError;
 use foveate_pictures::page::PageError;
@@ -39,6 +40,9 @@ pub enum InferenceError {
     /// An input cannot be read.
     #[error(transparent)]
     Footage(#[from] FootageError),
+    /// Ground-truth boxes that cannot be read, or that do not fit the clips.
+    #[error(transparent)]
+    Boxes(#[from] BoxError),
     /// The configuration is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),

@@ -3,6 +3,7 @@
 
 use crate::Layer;
 use crate::frame::Frame;
+use crate::sight::{DetectionRow, Found};
 use crate::summary::{Clip, Tried};
 use Value::{Count, Error, Flag, Holds, Limit, Milliseconds, Psnr, Real, Shape, Share, Words};
 use foveate_files::tables::{Cell, Cells, Table};
@@ -102,6 +103,10 @@ const RELATIVE: &str = "share of the root mean square of each layer's values, if
 const AGREEMENT: &str = "frames in which every output has its largest value at the same place";
 const COSINE: &str = "cosine of the angle between all outputs and those of a whole computation";
 const LIMITS: &str = "exact: limits of 0; uniform: one relative limit; frozen: nothing after the first frame; chosen";
+const SENT: &str =
+    "bytes that the camera sends: two bits per region, pixels of active regions and means";
+const PICTURE: &str = "PSNR of what the receiver sees against the whole frame";
+const AGREES: &str = "what the network says of the whole frame that it says behind the camera, too";
 const VARIATION: &str = "RMS error of the outputs, as a share of their standard deviation over the frames of their clip";
 
 /// Of a clip, for the page.
@@ -178,6 +183,39 @@ pub(crate) const FRAMES: &[Column<Frame>] = &[
     filed("latency_seconds", |it| Real(it.masked_cost.map(|cost| cost.seconds), 0)),
     filed("whole_energy_mj", |it| Real(it.whole_cost.map(|cost| cost.energy_mj), 4)),
     filed("energy_mj", |it| Real(it.masked_cost.map(|cost| cost.energy_mj), 4)),
+    heading("sent_bytes", "sent", "bytes", SENT)
+        .number(|it| Real(it.sight.map(|sight| sight.sent_bytes), 0)),
+    heading("picture_psnr", "picture", "dB", PICTURE)
+        .number(|it| it.sight.map_or(Real(None, 1), |sight| Psnr(sight.picture_psnr))),
+    heading("agreement", "agreement", "%", AGREES)
+        .number(|it| it.sight.map_or(Real(None, 1), |sight| Share(sight.agreement))),
+    heading("whole_detections", "found", "whole", "detections in the whole frame")
+        .number(|it| found(it, |found| found.whole)),
+    heading("kept_detections", "found", "kept", "of these found in what the receiver sees, too")
+        .number(|it| found(it, |found| found.kept)),
+    heading("added_detections", "found", "added", "found in what the receiver sees alone")
+        .number(|it| found(it, |found| found.added)),
+];
+
+/// Detections of a frame, if they are read.
+fn found(frame: &Frame, of: fn(&Found) -> u64) -> Value {
+    let found = frame.sight.and_then(|sight| sight.found);
+    found.map_or(Real(None, 0), |found| Count(of(&found)))
+}
+
+/// Of a detection, for the files.
+pub(crate) const DETECTIONS: &[Column<DetectionRow>] = &[
+    filed("clip", |it| Words(it.clip.clone())),
+    filed("frame", |it| Count(it.frame)),
+    filed("name", |it| Words(it.name.clone())),
+    filed("whole", |it| Flag(it.is_whole)),
+    filed("both", |it| Flag(it.is_both)),
+    filed("class", |it| Count(it.detection.class as u64)),
+    filed("score", |it| real(it.detection.score.into())),
+    filed("x0", |it| real(it.detection.rect.x0)),
+    filed("y0", |it| real(it.detection.rect.y0)),
+    filed("x1", |it| real(it.detection.rect.x1)),
+    filed("y1", |it| real(it.detection.rect.y1)),
 ];
 
 /// What tuning tried, with what its limits are called.

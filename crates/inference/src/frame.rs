@@ -4,6 +4,7 @@
 use crate::cost::{Costs, FrameCost};
 use crate::macs::{Macs, macs};
 use crate::positions::Positions;
+use crate::sight::SightFrame;
 use crate::sums::sum;
 use crate::traffic::{FrameTraffic, Traffic};
 use foveate_accelerator::Cost;
@@ -39,6 +40,8 @@ pub(crate) struct Frame {
     /// Of it the time beside operators.
     pub(crate) overhead: f64,
     pub(crate) relative_rms: Option<f64>,
+    /// Beside the network on the whole frame, if that ran.
+    pub(crate) sight: Option<SightFrame>,
     /// What a frame costs on the accelerator, if one is named, and what this one costs where it is needed.
     pub(crate) whole_cost: Option<FrameCost>,
     pub(crate) masked_cost: Option<FrameCost>,

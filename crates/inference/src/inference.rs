@@ -2,23 +2,26 @@
 //! One run: every frame of some clips through a camera and a network, into one folder.
 
 use crate::album::Album;
+use crate::camera::Shown;
 use crate::charts::{Drawn, charts};
 use crate::clips::{Clips, Showing};
 use crate::cost::Costs;
 use crate::details::Details;
-use crate::facts::{FRAMES, LAYERS, TRIED, table};
+use crate::facts::{DETECTIONS, FRAMES, LAYERS, TRIED, table};
 use crate::frame::counted;
+use crate::framing::Lens;
 use crate::page::page;
 use crate::player::{Player, Way};
 use crate::recording::{Record, Recording};
-use crate::run::{Ended, Files, Run, Told};
+use crate::run::{Beside, Ended, Files, Run, Told};
+use crate::sight::{Detector, Judge};
 use crate::summary::{Summary, mode_name};
 use crate::tune::{Tuned, tune};
-use crate::{Goal, InferenceError, Mapping};
+use crate::{Framing, Goal, InferenceError, Mapping};
 use foveate_accelerator::Accelerator;
 use foveate_design::{Config, Design};
 use foveate_footage::{Hooks, InputOptions, Source};
-use foveate_network::{FrameSize, Mode, Network};
+use foveate_network::{Mode, Network};
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 use std::path::{Path, PathBuf};
 
@@ -33,6 +36,8 @@ pub struct Options {
     pub accelerator: Option<(String, Accelerator)>,
     /// Whether a whole computation runs beside, to be compared with.
     pub reference: bool,
+    /// Whether the network runs on the whole frames, too, and how what it says there is compared.
+    pub sight: Option<Whole>,
     /// What is written of the outputs.
     pub record: Record,
     /// The words of the command line, which the page shows; none if there was no command.
@@ -51,10 +56,21 @@ pub enum Computed {
     Tuned(Goal),
 }
 
+/// How what the network says of whole frames is compared with what it says behind the camera.
+#[derive(Clone, Debug, Default)]
+pub struct Whole {
+    /// How detections are read; without it, outputs are compared as classes or as numbers.
+    pub detector: Option<Detector>,
+    /// Files of ground-truth boxes, for average precision: one for all clips, or one for each; none without.
+    pub boxes: Vec<PathBuf>,
+}
+
 /// A camera, a network, and the clips to show them.
 pub struct Inference {
     design: Design,
     network: Network,
+    framing: Framing,
+    lens: Option<Lens>,
     path: PathBuf,
     clips: Clips,
 }
@@ -69,10 +85,11 @@ impl Inference {
     pub fn new(
         config: &Config,
         network: &Path,
+        framing: Framing,
         inputs: &[PathBuf],
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
-        Self::with(config, network, Clips::new(inputs, config, input)?)
+        Self::with(config, network, framing, Clips::new(inputs, config, input)?)
     }
 
     /// The same for one clip or set that is open already.
@@ -82,17 +99,23 @@ impl Inference {
     pub fn of_source(
         config: &Config,
         network: &Path,
+        framing: Framing,
         source: Box<dyn Source>,
     ) -> Result<Self, InferenceError> {
-        Self::with(config, network, Clips::of(source, config))
+        Self::with(config, network, framing, Clips::of(source, config))
     }
 
-    fn with(config: &Config, network: &Path, clips: Clips) -> Result<Self, InferenceError> {
+    fn with(
+        config: &Config,
+        network: &Path,
+        framing: Framing,
+        clips: Clips,
+    ) -> Result<Self, InferenceError> {
         let (width, height) = clips.size;
-        let network_for = FrameSize { width: width as usize, height: height as usize };
         let path = network.to_owned();
-        let network = Network::read(network, network_for)?;
-        Ok(Self { design: config.for_frames(width, height)?, network, path, clips })
+        let (network, lens) = framing.read(network, clips.size)?;
+        let design = config.for_frames(width, height)?;
+        Ok(Self { design, network, framing, lens, path, clips })
     }
 
     /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when everything is written; on an error nothing is left.
@@ -105,7 +128,7 @@ impl Inference {
         options: &Options,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
-        let Self { design, network, path, mut clips } = self;
+        let Self { design, network, framing, lens, path, mut clips } = self;
         let mapping = &options.mapping;
         mapping.check(network.input().shape()[1])?;
         let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
@@ -118,10 +141,24 @@ impl Inference {
             details: Details::new(&staging)?,
         };
         let (all, inputs) = (clips.count(), clips.inputs());
-        let input = network.input();
-        let mut showing = Showing { design: &design, input, mapping, clips: &mut clips, done: 0 };
-        let run =
-            |way, reference| Run::new(&design, Player::new(&network, way), reference, costs, files);
+        let judge = options.sight.as_ref().map(|sight| {
+            clips.with_boxes(&sight.boxes)?;
+            let (detector, with_truth) = (sight.detector.as_ref(), !sight.boxes.is_empty());
+            Judge::new(&network, &design, lens.as_ref(), detector, with_truth)
+        });
+        let judge = judge.transpose()?;
+        let shown = Shown {
+            design: &design,
+            input: network.input(),
+            mapping,
+            lens: lens.as_ref(),
+            with_originals: judge.is_some(),
+        };
+        let mut showing = Showing { shown, clips: &mut clips, done: 0 };
+        let run = |way, reference| {
+            let beside = Beside { reference, judge };
+            Run::new(&design, Player::new(&network, way), beside, costs, files)
+        };
         let (run, problem, mode, tuning) = match options.computed {
             Computed::Mode(mode) => {
                 let mut run = run(Way::Mode(mode), options.reference);
@@ -164,9 +201,12 @@ impl Inference {
             network: path.display().to_string(),
             inputs,
             mapping: mapping.clone(),
+            framing,
         })?;
         write(&staging, &ended)?;
-        let page = page(&ended.summary, &ended.frames, &design, &options.command)?;
+        let Ended { summary, frames, detected } = &ended;
+        let shots = detected.as_ref().map(|detected| &detected.shots);
+        let page = page(summary, frames, shots, &design, &options.command)?;
         staging.write("report.html", page.as_bytes())?;
         staging.commit()?;
         Ok(ended.summary)
@@ -195,7 +235,7 @@ impl std::fmt::Debug for Inference {
 
 /// The files of a run.
 fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
-    let Ended { summary, frames } = ended;
+    let Ended { summary, frames, detected } = ended;
     let layers = (0..).zip(&summary.layers);
     let of_frames = frames.iter().map(|frame| (frame.number, frame));
     let tried: Option<Vec<_>> = summary.tuning.as_ref().map(|tuning| tuning.tried().collect());
@@ -203,6 +243,9 @@ fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
     let mut tables = vec![("layers", table(Some("layer"), LAYERS, layers))];
     tables.push(("frames", table(Some("frame"), FRAMES, of_frames)));
     tables.extend(tried.map(|tried| ("tuning", tried)));
+    if let Some(detected) = detected {
+        tables.push(("detections", table(None, DETECTIONS, (0..).zip(&detected.rows))));
+    }
     for (name, table) in tables {
         let file = format!("{name}.parquet");
         let parquet = table.parquet(name);

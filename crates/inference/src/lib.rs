@@ -16,6 +16,7 @@ mod details;
 mod error;
 mod facts;
 mod frame;
+mod framing;
 mod inference;
 mod macs;
 mod page;
@@ -25,19 +26,27 @@ mod positions;
 mod recording;
 mod reference;
 mod run;
+mod sight;
 mod summary;
 mod sums;
 mod tally;
 mod traffic;
 mod tune;
+mod witness;
 
 pub use choices::{parse_goal, parse_mode, read_accelerator};
 pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};
 pub use error::InferenceError;
-pub use inference::{Computed, Inference, Options};
+pub use framing::{Framing, parse_framing};
+pub use inference::{Computed, Inference, Options, Whole};
 pub use macs::Macs;
 pub use picture::Mapping;
 pub use recording::{Record, Recorded};
+pub use sight::{
+    ClassKept, Detection, DetectionsKept, Detector, Found, Head, Output, Sight, Truth,
+    parse_detector,
+};
 pub use summary::{Clip, Error, Layer, Outputs, Summary, Tried, Tuning};
 pub use traffic::FrameTraffic;
+pub use witness::{Agreement, Looking, Testimony, Viewing, Witness};

@@ -6,6 +6,7 @@ mod again;
 mod figures;
 mod plots;
 mod rows;
+mod shots;
 #[cfg(test)]
 mod tests;
 mod words;
@@ -13,6 +14,7 @@ mod words;
 use crate::Summary;
 use crate::charts::charts;
 use crate::frame::{Frame, counted};
+use crate::sight::Shots;
 use askama::Template;
 use foveate_design::Design;
 use foveate_pictures::page::{Notice, Page, PageError, Plot, Table, Target};
@@ -32,12 +34,15 @@ struct About {
     tuned: bool,
     counted: bool,
     several: bool,
+    shots: bool,
 }
 
 /// The sections.
 #[derive(Template)]
 #[template(path = "main.html")]
 struct Main<'a> {
+    /// Of a network that finds objects.
+    shots: Option<shots::Pictures>,
     plots: Vec<Plot>,
     /// Of several.
     clips: Option<Table<'a>>,
@@ -53,6 +58,7 @@ struct Main<'a> {
     fingerprint: String,
     accelerated: bool,
     compared: bool,
+    sighted: bool,
 }
 
 /// At the end.
@@ -60,6 +66,7 @@ struct Main<'a> {
 #[template(path = "files.html")]
 struct Files<'a> {
     tuned: bool,
+    detected: bool,
     outputs: &'a [crate::Recorded],
 }
 
@@ -67,6 +74,7 @@ struct Files<'a> {
 pub(crate) fn page(
     summary: &Summary,
     frames: &[Frame],
+    shots: Option<&Shots>,
     design: &Design,
     command: &[String],
 ) -> Result<String, PageError> {
@@ -89,8 +97,10 @@ pub(crate) fn page(
         tuned: summary.tuning.is_some(),
         counted: is_counted,
         several: summary.clips.len() > 1,
+        shots: shots.is_some_and(|shots| !shots.kept().is_empty()),
     };
     let main = Main {
+        shots: shots.map(shots::pictures).transpose()?.flatten(),
         plots: charts.iter().map(|drawn| plots::plot(drawn, &titles, &note)).collect(),
         clips: (summary.clips.len() > 1).then(|| clips.table("number of the clip")),
         layers: layers.table("number of the layer"),
@@ -103,8 +113,13 @@ pub(crate) fn page(
         fingerprint: design.fingerprint(),
         accelerated: summary.accelerator.is_some(),
         compared: summary.error.is_some(),
+        sighted: summary.sight.is_some(),
     };
-    let files = Files { tuned: summary.tuning.is_some(), outputs: &summary.outputs };
+    let files = Files {
+        tuned: summary.tuning.is_some(),
+        detected: summary.sight.as_ref().is_some_and(|sight| sight.detections.is_some()),
+        outputs: &summary.outputs,
+    };
     let page = Page {
         kind: "Inference",
         program: &format!("foveate {}", summary.foveate_version),

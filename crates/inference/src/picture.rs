@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A rendered frame as the input of a network, and where it has changed.
+//! A frame as the input of a network, and where it has changed.
 
 use crate::InferenceError;
-use foveate_design::Design;
+use crate::framing::Lens;
+use foveate_design::Camera;
 use foveate_frame::Plane;
 use foveate_network::{Form, Mask};
 use serde::Serialize;
@@ -26,85 +27,196 @@ impl Mapping {
         }
         Ok(())
     }
+
+    /// What a share of white becomes in a channel.
+    fn value(&self, channel: usize, share: f64) -> f32 {
+        let of = |values: &[f32]| f64::from(values[if values.len() == 1 { 0 } else { channel }]);
+        #[allow(clippy::cast_possible_truncation, reason = "inputs are 32 bits wide")]
+        let value = ((share - of(&self.mean)) / of(&self.scale)) as f32;
+        value
+    }
 }
 
 /// The picture that the network sees, and the frame that it was made of.
 #[derive(Clone, Debug)]
 pub(crate) struct Picture {
+    /// Width of the frame, and side of a region.
+    width: usize,
     side: usize,
-    /// What each pixel becomes, channel by channel.
-    tables: Vec<Vec<f32>>,
+    /// Regions of a row.
+    columns: usize,
     frame: Vec<u16>,
+    /// Regions in which it differs from the one before.
+    fresh: Vec<bool>,
+    inputs: Inputs,
     pub(crate) values: Vec<f32>,
-    /// Where it differs from the one before, in whole regions.
+    /// Where the input differs from the one before, as far as whole regions say.
     pub(crate) changed: Mask,
     /// How many regions that are.
     pub(crate) changed_regions: usize,
 }
 
+/// How pixels of the frame become values.
+#[derive(Clone, Debug)]
+enum Inputs {
+    /// Each becomes one: what each grey is, channel by channel.
+    Each(Vec<Vec<f32>>),
+    /// Between pixels of another size.
+    Between { lens: Box<Lens>, mapping: Mapping, channels: usize, max: f64 },
+}
+
 impl Picture {
-    /// A black picture for a camera and the input of a network, of the same size.
-    pub(crate) fn new(design: &Design, input: &Form, mapping: &Mapping) -> Self {
-        let (channels, max) = (input.shape()[1], design.pixel_max());
-        let of =
-            |values: &[f32], channel: usize| values[if values.len() == 1 { 0 } else { channel }];
-        let table = |channel: usize| {
-            let (mean, scale) =
-                (f64::from(of(&mapping.mean, channel)), f64::from(of(&mapping.scale, channel)));
-            #[allow(clippy::cast_possible_truncation, reason = "inputs are 32 bits wide")]
-            let value = |pixel: u32| ((f64::from(pixel) / f64::from(max) - mean) / scale) as f32;
-            (0..=max).map(value).collect::<Vec<f32>>()
-        };
-        let tables: Vec<_> = (0..channels).map(table).collect();
+    /// A black picture for a camera and the input of a network.
+    pub(crate) fn new(
+        camera: &Camera,
+        input: &Form,
+        mapping: &Mapping,
+        lens: Option<&Lens>,
+    ) -> Self {
+        let (channels, max) = (input.shape()[1], f64::from(camera.pixel_max()));
         let places = input.places();
-        Self {
-            side: design.region_size() as usize,
-            values: tables.iter().flat_map(|table| vec![table[0]; places]).collect(),
-            tables,
-            frame: vec![0; places],
+        let inputs = match lens {
+            None => {
+                let table = |channel| {
+                    let value = |pixel: u32| mapping.value(channel, f64::from(pixel) / max);
+                    (0..=camera.pixel_max()).map(value).collect()
+                };
+                Inputs::Each((0..channels).map(table).collect())
+            }
+            Some(lens) => Inputs::Between {
+                lens: Box::new(lens.clone()),
+                mapping: mapping.clone(),
+                channels,
+                max,
+            },
+        };
+        // Beside a frame in a letterbox there is grey.
+        let outside = lens.map_or(0.0, |_| f64::from(Lens::padding()));
+        let (width, height) = (camera.width() as usize, camera.height() as usize);
+        let mut picture = Self {
+            width,
+            side: camera.region_size() as usize,
+            columns: camera.columns() as usize,
+            frame: vec![0; width * height],
+            fresh: vec![true; camera.regions() as usize],
+            values: (0..channels)
+                .flat_map(|channel| vec![mapping.value(channel, outside); places])
+                .collect(),
+            inputs,
             changed: Mask::empty(input.height(), input.width()),
             changed_regions: 0,
-        }
+        };
+        picture.project();
+        picture.changed = Mask::empty(input.height(), input.width());
+        picture
     }
 
-    /// Takes over what is on the screen.
-    pub(crate) fn show(&mut self, screen: Plane<'_>) {
-        match screen {
+    /// Takes over a frame.
+    pub(crate) fn show(&mut self, frame: Plane<'_>) {
+        match frame {
             Plane::Bytes(pixels) => self.update(pixels),
             Plane::Words(pixels) => self.update(pixels),
         }
+        self.changed = Mask::empty(self.changed.height(), self.changed.width());
+        self.project();
+    }
+
+    /// The frame that was shown last.
+    pub(crate) fn frame(&self) -> &[u16] {
+        &self.frame
+    }
+
+    /// The part of every row of a region.
+    fn rows(&self, region: usize) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
+        let (width, side) = (self.width, self.side);
+        let (left, top) = (region % self.columns * side, region / self.columns * side);
+        let (right, bottom) = (width.min(left + side), (self.frame.len() / width).min(top + side));
+        (top..bottom).map(move |y| y * width + left..y * width + right)
     }
 
     fn update<T: Copy + Into<u16>>(&mut self, pixels: &[T]) {
-        let (height, width, side) = (self.changed.height(), self.changed.width(), self.side);
-        self.changed = Mask::empty(height, width);
         self.changed_regions = 0;
-        let places = height * width;
-        for top in (0..height).step_by(side) {
-            for left in (0..width).step_by(side) {
-                let rows = || {
-                    (top..height.min(top + side))
-                        .map(|y| y * width + left..y * width + width.min(left + side))
-                };
-                let differs = rows().any(|row| {
-                    pixels[row.clone()]
-                        .iter()
-                        .zip(&self.frame[row])
-                        .any(|(&new, &old)| new.into() != old)
-                });
-                if !differs {
-                    continue;
-                }
+        for region in 0..self.fresh.len() {
+            let differs = |row: std::ops::Range<usize>| {
+                let mut pairs = pixels[row.clone()].iter().zip(&self.frame[row]);
+                pairs.any(|(&new, &old)| new.into() != old)
+            };
+            self.fresh[region] = self.rows(region).any(differs);
+            if self.fresh[region] {
                 self.changed_regions += 1;
-                for row in rows() {
-                    for at in row {
-                        let pixel: u16 = pixels[at].into();
-                        self.frame[at] = pixel;
-                        self.changed.insert(at % width, at / width);
-                        for (channel, table) in self.tables.iter().enumerate() {
-                            self.values[channel * places + at] = table[usize::from(pixel)];
+                for row in self.rows(region) {
+                    let pairs = self.frame[row.clone()].iter_mut().zip(&pixels[row]);
+                    pairs.for_each(|(old, &new)| *old = new.into());
+                }
+            }
+        }
+    }
+
+    /// Brings what is fresh into the input.
+    fn project(&mut self) {
+        match &self.inputs {
+            Inputs::Each(tables) => {
+                let places = self.frame.len();
+                for region in (0..self.fresh.len()).filter(|&region| self.fresh[region]) {
+                    for at in self.rows(region).flatten() {
+                        self.changed.insert(at % self.width, at / self.width);
+                        for (channel, table) in tables.iter().enumerate() {
+                            self.values[channel * places + at] = table[usize::from(self.frame[at])];
                         }
                     }
+                }
+            }
+            Inputs::Between { lens, mapping, channels, max } => {
+                let places = self.values.len() / channels;
+                let is_fresh = |column, row| self.fresh[row * self.columns + column];
+                lens.project(&self.frame, self.side, is_fresh, |(x, y), at, grey| {
+                    self.changed.insert(x, y);
+                    for channel in 0..*channels {
+                        let value = mapping.value(channel, f64::from(grey) / max);
+                        self.values[channel * places + at] = value;
+                    }
+                });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Framing;
+    use foveate_design::CameraConfig;
+
+    /// What is not marked as changed has the values from before, and all have those of a picture that never saw another frame.
+    #[test]
+    fn inputs_follow_the_frame_and_marks_cover_what_changes() {
+        let mut chance = fastrand::Rng::with_seed(7);
+        let mapping = Mapping { mean: vec![0.5, 0.0, 0.25], scale: vec![0.25] };
+        for framing in
+            [Framing::Same, Framing::Letterbox(Some((9, 20))), Framing::Stretch(Some((33, 7)))]
+        {
+            let mut config = CameraConfig::default();
+            (config.frame.width, config.frame.height) = (Some(27), Some(18));
+            let camera = config.validate().unwrap();
+            let (width, height) = framing.size((27, 18)).unwrap();
+            let input = Form::features(vec![1, 3, height as usize, width as usize]);
+            let lens = framing.lens((27, 18), (width, height));
+            let new = || Picture::new(&camera, &input, &mapping, lens.as_ref());
+            let (mut picture, mut pixels) = (new(), vec![0_u8; 27 * 18]);
+            for _ in 0..20 {
+                for _ in 0..chance.usize(0..4) {
+                    let at = chance.usize(0..pixels.len());
+                    pixels[at] = chance.u8(..);
+                }
+                let before = picture.values.clone();
+                picture.show(Plane::Bytes(&pixels));
+                let mut other = new();
+                other.show(Plane::Bytes(&pixels));
+                assert_eq!(picture.values, other.values);
+                let places = input.places();
+                for (at, (old, new)) in before.iter().zip(&picture.values).enumerate() {
+                    let (x, y) = (at % places % width as usize, at % places / width as usize);
+                    assert!(old == new || picture.changed.contains(x, y), "{framing}: {x}, {y}");
                 }
             }
         }

@@ -12,11 +12,12 @@ use crate::player::Player;
 use crate::positions::Positions;
 use crate::recording::Recording;
 use crate::reference::Reference;
+use crate::sight::{Detected, Judge};
 use crate::summary::{Summary, Tuning, error, layers, mask_bytes};
 use crate::sums::ratio;
 use crate::tally::{NotFinite, clip};
 use crate::traffic::Traffic;
-use crate::{Goal, InferenceError, Mapping};
+use crate::{Framing, Goal, InferenceError, Mapping};
 use foveate_design::Design;
 use foveate_network::Network;
 use std::time::Instant;
@@ -32,12 +33,23 @@ pub(crate) struct Told {
     pub(crate) network: String,
     pub(crate) inputs: Vec<String>,
     pub(crate) mapping: Mapping,
+    pub(crate) framing: Framing,
 }
 
 /// A run at its end.
 pub(crate) struct Ended {
     pub(crate) summary: Summary,
     pub(crate) frames: Vec<Frame>,
+    /// What was found in them, if detections were read.
+    pub(crate) detected: Option<Detected>,
+}
+
+/// What runs beside, to be compared with.
+pub(crate) struct Beside<'a> {
+    /// A whole computation of what the receiver sees.
+    pub(crate) reference: bool,
+    /// The network on whole frames.
+    pub(crate) judge: Option<Judge<'a>>,
 }
 
 /// Where the frames go that are not kept in memory.
@@ -62,6 +74,7 @@ pub(crate) struct Run<'a> {
     network: &'a Network,
     player: Player<'a>,
     reference: Option<Reference<'a>>,
+    judge: Option<Judge<'a>>,
     costs: Option<Costs<'a>>,
     files: Files<'a>,
     sums: Vec<Positions>,
@@ -102,7 +115,7 @@ impl<'a> Run<'a> {
     pub(crate) fn new(
         design: &'a Design,
         player: Player<'a>,
-        reference: bool,
+        beside: Beside<'a>,
         costs: Option<Costs<'a>>,
         files: Files<'a>,
     ) -> Self {
@@ -111,7 +124,8 @@ impl<'a> Run<'a> {
             design,
             network,
             player,
-            reference: reference.then(|| Reference::new(network)),
+            reference: beside.reference.then(|| Reference::new(network)),
+            judge: beside.judge,
             costs,
             files,
             sums: vec![Positions::default(); network.nodes().len()],
@@ -133,6 +147,8 @@ impl<'a> Run<'a> {
         let judge =
             |reference: &mut Reference<'_>| reference.judge(seen.values, executor, is_counted);
         let close = self.reference.as_mut().map(judge);
+        let look = |judge: &mut Judge<'_>| judge.look(&clip.name, seen, executor, is_counted);
+        let sight = self.judge.as_mut().and_then(look);
         let layers = LayerFrame::all(self.network, executor, &work, self.costs.as_ref());
         if is_counted {
             for (node, layer) in layers.iter().enumerate() {
@@ -156,6 +172,7 @@ impl<'a> Run<'a> {
             seconds,
             overhead: executor.overhead().as_secs_f64(),
             relative_rms: close.map(|close| close.distance.relative()),
+            sight,
             ..Frame::default()
         };
         (frame.of_layers(self.network, &layers, self.costs.as_ref()), layers)
@@ -233,6 +250,7 @@ impl<'a> Run<'a> {
             layout: self.network.layout().name(),
             mode: told.mode,
             mapping: told.mapping,
+            framing: told.framing,
             width: self.design.width(),
             height: self.design.height(),
             frames: self.frames.len() as u64,
@@ -256,12 +274,14 @@ impl<'a> Run<'a> {
                 let reference = self.reference.as_ref().expect("what is tuned is compared");
                 Tuning { holds: goal.holds(&reference.outputs), ..tuning }
             }),
+            sight: self.judge.as_ref().map(Judge::sight),
             outputs: self.files.outputs.finish()?,
             clips,
             design: self.design.fingerprint(),
             configuration: self.design.config(),
             layers,
         };
-        Ok(Ended { summary, frames: self.frames })
+        let detected = self.judge.and_then(Judge::detected);
+        Ok(Ended { summary, frames: self.frames, detected })
     }
 }

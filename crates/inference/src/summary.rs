@@ -7,7 +7,7 @@ use crate::macs::Macs;
 use crate::positions::Positions;
 use crate::reference::Reference;
 use crate::traffic::FrameTraffic;
-use crate::{Mapping, Recorded};
+use crate::{Framing, Mapping, Recorded, Sight};
 use foveate_design::Config;
 use foveate_network::{Executor, Form, Mode, Network};
 use serde::Serialize;
@@ -35,6 +35,8 @@ pub struct Summary {
     pub mode: String,
     /// How pixels became inputs.
     pub mapping: Mapping,
+    /// How frames got the size of the network's input, as on the command line.
+    pub framing: Framing,
     /// Width of the frames.
     pub width: u32,
     /// Height of the frames.
@@ -67,6 +69,8 @@ pub struct Summary {
     pub error: Option<Error>,
     /// How the limits of the layers were chosen, if they were.
     pub tuning: Option<Tuning>,
+    /// What the network loses behind the camera, if it ran on the whole frames, too.
+    pub sight: Option<Sight>,
     /// The files of the outputs, if they are written.
     pub outputs: Vec<Recorded>,
     /// Every clip or set that is reported, in the order of the frames.

@@ -51,7 +51,7 @@ pub enum NetworkError {
     Network(String),
     /// The frames have another size than the network's input.
     #[error(
-        "the network takes pictures of {wanted} pixels, but the frames have {found}; give --resize {wanted}"
+        "the network takes pictures of {wanted} pixels, but the frames have {found}; give --resize {wanted}, or --framing letterbox to scale behind the camera"
     )]
     Size {
         /// Width x height of the input.

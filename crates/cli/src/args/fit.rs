@@ -3,12 +3,14 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
-use foveate_explore::Constraints;
+use clap::{Args, ValueEnum};
+use foveate_explore::{Cheapest, Constraints, NetworkGoal};
+use foveate_inference::Viewing;
 
 use super::check::{Clock, Rate};
 use super::input::InputArgs;
 use super::threads::ThreadArgs;
+use super::viewing::ViewingArgs;
 use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that meets limits on your clips
@@ -23,7 +25,8 @@ use super::{DesignArgs, at_least_one};
 #[command(
     after_help = "Examples: foveate fit street.mp4 --min-fps 120 --max-flips 1% --max-lut 100
           foveate fit scene:street --target-active 20% -o camera.toml
-          foveate fit a.mp4 b.mp4 --resize 640x360 --min-psnr 30 --max-bytes 10000"
+          foveate fit a.mp4 b.mp4 --resize 640x360 --min-psnr 30 --max-bytes 10000
+          foveate fit street.mp4 --preset fovea --network yolox_nano.onnx --framing letterbox --scale 1/255 --detect yolox --min-agreement 95%"
 )]
 pub(crate) struct FitArgs {
     /// Clips, as for `foveate simulate`; several scenes are allowed
@@ -51,7 +54,52 @@ pub(crate) struct FitArgs {
     #[command(flatten)]
     pub(crate) constraints: ConstraintArgs,
     #[command(flatten)]
+    pub(crate) network: NetworkArgs,
+    #[command(flatten)]
     pub(crate) input: InputArgs,
+}
+
+/// A network that is not to tell what the receiver sees from whole frames.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Network")]
+pub(crate) struct NetworkArgs {
+    /// Find the cheapest camera that this network cannot tell from whole frames, an ONNX file as of `foveate infer`. The search
+    /// covers what irrelevant regions show, thresholds, features, region size, denoising, reference and pixel bits
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) network: Option<PathBuf>,
+    /// The least agreement of what the network says behind the camera with what it says of whole frames: of detections the smaller of
+    /// the share that is kept and the share that is right; of classes the share of frames, or of places, with the same one; else
+    /// what the relative RMS error of the outputs leaves of 100%
+    #[arg(long, value_name = "PERCENT", default_value = "95%", value_parser = percent, requires = "network")]
+    pub(crate) min_agreement: f64,
+    /// What the design is to be cheapest in: bytes that leave the camera, or area
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "bytes", requires = "network")]
+    pub(crate) cheapest: CheapestIn,
+    /// The network looks at this many frames of each half, spread evenly over all clips
+    #[arg(long, value_name = "FRAMES", default_value_t = 24, value_parser = at_least_one(), requires = "network")]
+    pub(crate) look_at: u32,
+    #[command(flatten)]
+    pub(crate) viewing: ViewingArgs,
+}
+
+/// What designs are compared by.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum CheapestIn {
+    Bytes,
+    Area,
+}
+
+impl NetworkArgs {
+    /// What the network has to say, if there is one.
+    pub(crate) fn goal<'a>(&'a self, viewing: &'a Viewing) -> Option<NetworkGoal<'a>> {
+        let path = self.network.as_deref()?;
+        let cheapest = match self.cheapest {
+            CheapestIn::Bytes => Cheapest::Bytes,
+            CheapestIn::Area => Cheapest::Area,
+        };
+        let (min_agreement, frames) = (self.min_agreement, self.look_at.into());
+        Some(NetworkGoal { path, viewing, min_agreement, cheapest, frames })
+    }
 }
 
 /// What a design must hold.
@@ -67,9 +115,9 @@ pub(crate) struct ConstraintArgs {
     /// First set the thresholds so that this share of the regions is active
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) target_active: Option<f64>,
-    /// Largest share of the regions whose decision may differ from that of the ideal camera
-    #[arg(long, value_name = "PERCENT", default_value = "1%", value_parser = percent)]
-    pub(crate) max_flips: f64,
+    /// Largest share of the regions whose decision may differ from that of the ideal camera; 1% unless --network is given
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    pub(crate) max_flips: Option<f64>,
     /// Largest share of what is active in the ideal camera that may be missed
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_missed: Option<f64>,
@@ -100,9 +148,11 @@ pub(crate) struct ConstraintArgs {
 }
 
 impl ConstraintArgs {
-    pub(crate) fn constraints(&self) -> Constraints {
+    /// With a network the task is no more than a start, so that nothing is said of flips unless it is asked for.
+    pub(crate) fn constraints(&self, with_network: bool) -> Constraints {
+        const FLIPS: f64 = 0.01;
         Constraints {
-            max_flips: Some(self.max_flips),
+            max_flips: self.max_flips.or((!with_network).then_some(FLIPS)),
             max_missed: self.max_missed,
             min_psnr: self.min_psnr,
             max_stale_frames: self.max_stale_frames,

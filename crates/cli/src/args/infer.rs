@@ -5,14 +5,13 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use foveate_accelerator::Accelerator;
-use foveate_inference::{
-    Computed, Goal, Mapping, Record, parse_goal, parse_mode, read_accelerator,
-};
+use foveate_inference::{Computed, Goal, Record, Whole, parse_goal, parse_mode, read_accelerator};
 use foveate_network::Mode;
 
 use super::DesignArgs;
 use super::input::InputArgs;
 use super::threads::ThreadArgs;
+use super::viewing::ViewingArgs;
 use crate::error::CliError;
 
 /// Run a network on what a camera sends, and count what its masks save, layer by layer
@@ -22,6 +21,8 @@ use crate::error::CliError;
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --accelerator eyeriss
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --outputs npy,png
           foveate infer denoiser.onnx scene:street scene:shake -o out --max-frames 8
+          foveate infer denoiser.onnx scene:street -o out --max-frames 8 --whole-frames
+          foveate infer yolox_nano.onnx street.mp4 -o out --framing letterbox --scale 1/255 --detect yolox
           foveate infer resnet50.onnx street.mp4 -o out --resize 224x224 --mean 0.485,0.456,0.406 --scale 0.229,0.224,0.225")]
 pub(crate) struct InferArgs {
     /// The network: an ONNX file whose input is [1, channels, height, width], with 1 or 3 channels, or
@@ -52,15 +53,16 @@ pub(crate) struct InferArgs {
     /// and --tune
     #[arg(long)]
     pub(crate) reference: bool,
+    /// Run the network on the whole frames, too, as they are before the camera, and print how much of what it says there it says of
+    /// what the receiver sees. Always on with --detect
+    #[arg(long)]
+    pub(crate) whole_frames: bool,
+    /// With --detect: ground-truth boxes for average precision, as of `foveate analyze recall`: one file or folder for all clips, or one for each
+    #[arg(long, value_name = "FILE", requires = "detect")]
+    pub(crate) boxes: Vec<PathBuf>,
     /// Count what the frames would cost on an accelerator: systolic-ws, systolic-os, eyeriss, or a TOML file
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) accelerator: Option<String>,
-    /// Subtract this from pixels of 0 to 1: one value, or one per channel
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = finite)]
-    pub(crate) mean: Vec<f32>,
-    /// Then divide by this: one value, or one per channel
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "1", allow_negative_numbers = true, value_parser = positive)]
-    pub(crate) scale: Vec<f32>,
     /// Write the outputs of every frame: npy, an array [frames, ...shape] of each; png, pictures of those with 1
     /// or 3 channels and the size of the input, from 0 (black) to 1 (white); separate both with a comma
     #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',')]
@@ -74,6 +76,8 @@ pub(crate) struct InferArgs {
     /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) viewing: ViewingArgs,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
     /// Last, because what follows would be listed under its heading.
@@ -95,11 +99,6 @@ impl InferArgs {
         Record { arrays: has(OutputFormat::Npy), pictures: has(OutputFormat::Png) }
     }
 
-    /// How pixels become inputs.
-    pub(crate) fn mapping(&self) -> Mapping {
-        Mapping { mean: self.mean.clone(), scale: self.scale.clone() }
-    }
-
     /// What is computed for a frame.
     pub(crate) fn computed(&self) -> Computed {
         self.tune.map_or(Computed::Mode(self.mode), Computed::Tuned)
@@ -110,22 +109,14 @@ impl InferArgs {
         Ok(self.accelerator.as_deref().map(read_accelerator).transpose()?)
     }
 
+    /// How the network on whole frames is compared, if it runs.
+    pub(crate) fn sight(&self) -> Option<Whole> {
+        let whole = || Whole { detector: self.viewing.detect.clone(), boxes: self.boxes.clone() };
+        (self.whole_frames || self.viewing.detect.is_some()).then(whole)
+    }
+
     /// Whether a whole computation runs beside.
     pub(crate) fn has_reference(&self) -> bool {
         self.reference || matches!(self.mode, Mode::Truncate(_) | Mode::Fixed)
     }
-}
-
-fn finite(text: &str) -> Result<f32, String> {
-    text.parse()
-        .ok()
-        .filter(|value: &f32| value.is_finite())
-        .ok_or_else(|| "expected a number".to_owned())
-}
-
-fn positive(text: &str) -> Result<f32, String> {
-    finite(text)
-        .ok()
-        .filter(|&value| value > 0.0)
-        .ok_or_else(|| "expected a number above 0".to_owned())
 }

@@ -122,6 +122,9 @@ impl Hooks for Terminal {
             Progress::Reading { frames } => {
                 return self.shown.frames(frames, None, "reading the clips");
             }
+            Progress::Asking { cameras } => {
+                return self.shown.work(&format!("the network looks at cameras, {cameras} so far"));
+            }
             Progress::Measuring { done, all } => ("designs over clips", done, all),
             Progress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
         };

@@ -4,7 +4,9 @@
 use std::fmt::Write as _;
 
 use foveate_estimate::ramb36;
-use foveate_explore::{ExploreError, Figures, Fit, FitRequest, FittedDesign, Held, fit};
+use foveate_explore::{
+    Agreed, ExploreError, Figures, Fit, FitRequest, FittedDesign, FittedNetwork, Held, fit,
+};
 use foveate_footage::ImagesAs;
 use foveate_staging::{check_file, write_file};
 
@@ -22,14 +24,17 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     warn_of(&args.inputs, &input);
     let terminal = Terminal::new(args.quiet)?;
     let synthesizer = terminal.synthesizer()?;
+    let viewing = args.network.viewing.viewing();
+    let network = args.network.goal(&viewing);
     let request = FitRequest {
         task: &task,
         inputs: &args.inputs,
         input: &input,
-        constraints: &args.constraints.constraints(),
+        constraints: &args.constraints.constraints(network.is_some()),
         clock_hz: args.constraints.clock.map(|clock| clock.0),
         target_active: args.constraints.target_active,
         boxes: &args.boxes,
+        network,
         synthesizer: &synthesizer,
         most: usize::try_from(args.max_syntheses).unwrap_or(usize::MAX),
     };
@@ -121,6 +126,12 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
             let _ = writeln!(text, "  {sign}{}", held.text());
         }
     }
+    if let Some(network) = &found.network {
+        text.push('\n');
+        for line in sighted(network, design) {
+            paragraph(&mut text, &line, width, "  ");
+        }
+    }
     if !found.binding.is_empty() {
         let options: Vec<String> = found.binding.iter().map(|name| format!("--{name}")).collect();
         let line = format!("Binding: without {} there would be a design.", options.join(" or "));
@@ -148,6 +159,31 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
         }
     }
     text
+}
+
+/// What a network says of the design.
+fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
+    let (fitted, held_out) = design.bytes_per_frame;
+    let halves = [("fitted", network.fitted, fitted), ("held out", network.held_out, held_out)];
+    let half = |(name, agreed, bytes): (&str, Agreed, f64)| {
+        let found = agreed.detections.map_or_else(String::new, |found| {
+            format!(
+                ": {:.1} % of {} detections kept, {:.1} % of {} right",
+                100.0 * found.kept_share(),
+                found.whole,
+                100.0 * found.precision(),
+                found.seen
+            )
+        });
+        format!(
+            "{} ({name}, {} frames): agreement {:.1} %{found}; {bytes:.0} bytes per frame, {:.1} % of a whole one",
+            network.network,
+            agreed.frames,
+            100.0 * agreed.share,
+            100.0 * bytes / network.bytes_per_whole_frame
+        )
+    };
+    halves.map(half).into()
 }
 
 /// How many RPUs or lanes there are.

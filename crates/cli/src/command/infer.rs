@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use foveate_footage::ImagesAs;
-use foveate_inference::{Clip, Inference, Options, Summary, Tuning};
+use foveate_inference::{Clip, Found, Inference, Options, Sight, Summary, Tuning};
 use indicatif::DecimalBytes;
 
 use super::simulate::Terminal;
@@ -15,14 +15,18 @@ use crate::error::CliError;
 use crate::output;
 
 pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
-    let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
+    let (config, mut input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
+    // Boxes go by the numbers of frames in their inputs.
+    input.numbered = !args.boxes.is_empty();
     warn_of(&args.inputs, &input);
-    let inference = Inference::new(&config, &args.network, &args.inputs, &input)?;
+    let inference =
+        Inference::new(&config, &args.network, args.viewing.framing, &args.inputs, &input)?;
     let options = Options {
         computed: args.computed(),
         accelerator: args.accelerator()?,
-        mapping: args.mapping(),
+        mapping: args.viewing.mapping(),
         reference: args.has_reference(),
+        sight: args.sight(),
         record: args.record(),
         command: command(words),
         overwrite: args.force,
@@ -203,5 +207,62 @@ fn text(folder: &Path, summary: &Summary) -> String {
     } else {
         text.push('\n');
     }
+    if let Some(sight) = &summary.sight {
+        text.push_str(&sighted(sight));
+    }
+    text
+}
+
+/// What the network loses behind the camera.
+fn sighted(sight: &Sight) -> String {
+    let psnr = sight.picture_psnr.map_or("infinite".to_owned(), |psnr| format!("{psnr:.1} dB"));
+    let mut text = format!(
+        "sent       {:.0} bytes per frame, {} of whole frames; PSNR of what the receiver sees {psnr}\n",
+        sight.sent_bytes,
+        percent(sight.sent_share)
+    );
+    if let Some(kept) = &sight.detections {
+        let Found { whole, kept: same, seen, added } = kept.all;
+        let sizes = [("small", kept.small), ("medium", kept.medium), ("large", kept.large)];
+        let size =
+            |(name, found): &(&str, Found)| format!("{name} {} of {}", found.kept, found.whole);
+        let sizes = sizes.iter().filter(|(_, found)| found.whole > 0).map(size);
+        let _ = writeln!(
+            text,
+            "detections {} of {whole} in whole frames are kept, {same}; {} of {seen} are right, {added} added; kept by size: {}",
+            percent(kept.kept_share),
+            percent(kept.precision),
+            sizes.collect::<Vec<_>>().join(", ")
+        );
+    }
+    if let Some(truth) = &sight.truth {
+        let _ = writeln!(
+            text,
+            "boxes      {} objects: average precision {} in whole frames, {} behind the camera; found {} and {}",
+            truth.objects,
+            percent(truth.whole_ap50),
+            percent(truth.seen_ap50),
+            percent(truth.whole_recall),
+            percent(truth.seen_recall)
+        );
+    }
+    if let Some(classes) = &sight.classes {
+        let _ = writeln!(
+            text,
+            "class      same as of whole frames in {} of frames; margin {:.3} in whole frames, {:.3} behind the camera",
+            percent(classes.same_share),
+            classes.whole_margin,
+            classes.seen_margin
+        );
+    }
+    if let Some(same) = sight.same_places {
+        let _ = writeln!(text, "classes    same as of whole frames at {} of places", percent(same));
+    }
+    let _ = writeln!(
+        text,
+        "agreement  {} with whole frames; relative RMS error of the outputs {:.2e}",
+        percent(sight.agreement),
+        sight.relative_rms
+    );
     text
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Builds looks: which arrays are possible, what each costs, and which is the cheapest.
 
+use foveate_camera::Irrelevant;
 use foveate_design::{
     CameraConfig, Config, Design, FeatureKind, Feed, Filter, HardwareConfig, MemoryKind,
     Neighborhood, Organization, Reference,
@@ -10,10 +11,11 @@ use foveate_estimate::{Device, Speed};
 use super::FitRequest;
 use super::constraints::{Held, all_hold, excess};
 use super::looks::{Look, Search};
+use super::network::Cheapest;
 use super::plan::{expected, max_clocks, slower};
 use super::rough::rough;
 use crate::cost::{Silicon, Synthesized};
-use crate::row::real;
+use crate::row::{bytes_per_frame, real};
 use crate::{ExploreError, Hooks};
 
 /// If no look meets the limits, this many of the nearest ones are built anyway.
@@ -88,7 +90,11 @@ pub(super) fn build(
     hooks: &dyn Hooks,
 ) -> Result<Built, ExploreError> {
     let holding: Vec<&Look> = search.all().filter(|look| look.holds()).collect();
-    let looks = simplest(&holding);
+    let looks = match request.network.map(|goal| goal.cheapest) {
+        None | Some(Cheapest::Area) => simplest(&holding),
+        // What leaves the camera is the same however it is built.
+        Some(Cheapest::Bytes) => fewest_bytes(&holding)?,
+    };
     let bounds =
         Bounds { max_clocks: max_clocks(request), planned: request.clock_hz.is_none(), memory };
     let (mut candidates, mut left_out) = in_batches(&looks, bounds, request.most, request, hooks)?;
@@ -150,6 +156,22 @@ fn make_slower(
     Ok(())
 }
 
+/// Those that send the fewest bytes.
+fn fewest_bytes<'a>(looks: &[&'a Look]) -> Result<Vec<&'a Look>, ExploreError> {
+    let bytes =
+        |look: &&'a Look| Ok((bytes_per_frame(&look.config.validate()?, &look.figures), *look));
+    let sent = looks.iter().map(bytes).collect::<Result<Vec<_>, ExploreError>>()?;
+    let least = sent.iter().map(|(bytes, _)| *bytes).fold(f64::INFINITY, f64::min);
+    Ok(sent.into_iter().filter(|(bytes, _)| *bytes <= least).map(|(_, look)| look).collect())
+}
+
+/// About the least share of the device that a look takes, however it is built; infinite if it cannot be.
+pub(super) fn cheapest_rough(look: &CameraConfig, asked: &HardwareConfig) -> f64 {
+    let bounds = Bounds { max_clocks: None, planned: true, memory: None };
+    let ways = ways(look, asked, bounds);
+    ways.iter().map(rough).fold(f64::INFINITY, f64::min)
+}
+
 /// The simplest looks: those for which no simpler look meets the limits too.
 fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
     let simpler = |one: &CameraConfig, other: &CameraConfig| {
@@ -173,7 +195,7 @@ fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
 }
 
 /// What cannot be compared, and what costs more the larger it is.
-type Complexity = ((u32, Neighborhood, Vec<FeatureKind>), [u32; 4]);
+type Complexity = ((u32, Neighborhood, Vec<FeatureKind>, Irrelevant, Option<u32>), [u32; 4]);
 
 fn complexity(config: &CameraConfig) -> Complexity {
     let features = config.spatial.iter().map(|entry| entry.feature).collect();
@@ -187,7 +209,8 @@ fn complexity(config: &CameraConfig) -> Complexity {
         Reference::LastSent => 1,
     };
     let ordered = [config.frame.pixel_bits, filter, reference, fraction];
-    ((config.region.size, config.region.neighborhood, features), ordered)
+    let (region, shown) = (&config.region, config.render.irrelevant);
+    ((region.size, region.neighborhood, features, shown, config.periphery.blocks), ordered)
 }
 
 /// Builds the designs of some looks, the promising ones first, until one holds or there are `most`; says

@@ -63,6 +63,11 @@ impl Held {
         Self { name, value, limit, at_least: true, holds: value >= limit, clock_mhz: None }
     }
 
+    /// The agreement of a network, 0 to 1, and the least that is wanted.
+    pub(super) fn agreement(share: f64, least: f64) -> Self {
+        Self::at_least("min-agreement", share, least)
+    }
+
     /// How far the figure is from the limit: 0 if the limit is met, 1 if the figure is twice or half of it.
     /// The value is finite and comparable between limits.
     #[must_use]

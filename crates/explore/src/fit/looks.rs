@@ -70,6 +70,11 @@ impl<'a> Search<'a> {
         self.seen.values()
     }
 
+    /// Takes over what is new of a camera that was examined.
+    pub(super) fn replace(&mut self, look: Look) {
+        self.seen.insert(look.config.to_toml(), look);
+    }
+
     /// A camera, if it was examined.
     pub(super) fn get(&self, config: &CameraConfig) -> Option<&Look> {
         self.seen.get(&config.to_toml())
@@ -179,7 +184,8 @@ impl<'a> Search<'a> {
         for ((text, camera), (figures, objects)) in new.iter().zip(figures) {
             let recall = self.recall(objects, "first")?;
             let held = self.constraints.on_figures(camera, &figures, recall);
-            let look = Look { config: camera.config().clone(), figures, held };
+            let config = camera.config().clone();
+            let look = Look { config, figures, held };
             self.seen.insert(text.clone(), look);
         }
         let looks = cameras.iter().filter_map(|camera| self.get(camera.config()).cloned());

@@ -6,6 +6,8 @@
 //! 2. The search goes through looks. A look is what a camera sees, and not how it is built. It tries
 //!    region sizes and features, each with the thresholds that agree best with the ideal. For the best
 //!    of them it tries all pixel bits, windows, filters and references ([`looks`]).
+//!    With a network that is not to tell what the receiver sees from whole frames, the search is a descent from the
+//!    task instead, and the network is asked ([`descent`], [`network`]).
 //! 3. Of the looks that meet the limits, only the simplest are built: a look is dropped if a simpler one
 //!    meets the limits too. Each is built with every feed and with the folds that are fast enough and may be the
 //!    cheapest, or pipelined if no serial array is fast enough; and as a raster core, if one is fast
@@ -16,8 +18,10 @@
 
 mod build;
 mod constraints;
+mod descent;
 mod held_out;
 mod looks;
+mod network;
 mod plan;
 mod report;
 mod rough;
@@ -33,11 +37,14 @@ use crate::cost::Synthesizer;
 use crate::footage::Footage;
 use crate::{ExploreError, Hooks};
 use build::build;
+use descent::Descent;
 use held_out::{Halves, halves};
 use looks::Search;
+use network::Jury;
 
 pub use constraints::{Constraints, Held};
-pub use report::{Design, Fit, Target};
+pub use network::{Agreed, Cheapest, NetworkGoal};
+pub use report::{Design, Fit, FittedNetwork, Target};
 
 /// What is to be fitted.
 #[derive(Clone, Debug)]
@@ -57,6 +64,8 @@ pub struct FitRequest<'a> {
     pub target_active: Option<f64>,
     /// Ground-truth boxes for [`Constraints::min_recall`]: one file or folder for all inputs, or one for each.
     pub boxes: &'a [PathBuf],
+    /// A network that is not to tell what the receiver sees from whole frames.
+    pub network: Option<NetworkGoal<'a>>,
     /// The synthesizer, for areas.
     pub synthesizer: &'a Synthesizer,
     /// The most designs that are synthesized: of those that meet all other limits, or of the nearest ones.
@@ -86,11 +95,20 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let mut footage = Footage::new(request.inputs, request.input, &task, hooks)?;
     footage.boxes = boxes;
     let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
-    search.run()?;
+    let jury = request.network.map(|goal| Jury::new(goal, &footage, &lengths, search.task()));
+    let jury = jury.transpose()?;
+    let cameras = match &jury {
+        None => {
+            search.run()?;
+            search.all().count()
+        }
+        Some(jury) => Descent::new(&mut search, jury, &request.task.hardware).run()?,
+    };
     let built = build(&search, request, memory, hooks)?;
     let chosen = built.chosen();
     let second = search.second_half(&chosen.look)?;
-    Ok(report::fit(request, &search, &built, chosen, target, second, &lengths))
+    let network = jury.map(|jury| jury.report(&chosen.look)).transpose()?;
+    Ok(report::fit(request, &search, cameras, &built, target, (second, network), &lengths))
 }
 
 /// The sums of both halves of all clips in frames.

@@ -6,12 +6,14 @@ use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
 use serde::Serialize;
 
-use super::build::{Built, Candidate};
+use super::build::Built;
 use super::constraints::{Held, all_hold};
 use super::held_out::Halves;
 use super::looks::Search;
+use super::network::{Agreed, Cheapest};
 use super::{FitRequest, frames, why};
 use crate::cost::Silicon;
+use crate::row::bytes_per_frame;
 
 /// Thresholds for a wanted share of active regions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -22,6 +24,25 @@ pub struct Target {
     pub found: f64,
     /// The task with these thresholds, as TOML.
     pub task: String,
+}
+
+/// What a network says of the design, beside what it says of whole frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct FittedNetwork {
+    /// Its file.
+    pub network: String,
+    /// How detections are read, if they are.
+    pub detector: Option<String>,
+    /// The least agreement that was wanted, 0..=1.
+    pub min_agreement: f64,
+    /// What the design was to be cheapest in.
+    pub cheapest: Cheapest,
+    /// On the first half, on which it was fitted.
+    pub fitted: Agreed,
+    /// On the second half, which influenced no choice.
+    pub held_out: Agreed,
+    /// Bytes of a whole frame.
+    pub bytes_per_whole_frame: f64,
 }
 
 /// The design that was chosen.
@@ -40,6 +61,8 @@ pub struct Design {
     pub speed: Option<Speed>,
     /// Its area.
     pub silicon: Silicon,
+    /// Bytes per frame that leave it, on the first half and on the second.
+    pub bytes_per_frame: (f64, f64),
     /// Figures on the first half, on which it was fitted.
     pub fitted: Figures,
     /// Constraints on the first half.
@@ -72,6 +95,8 @@ pub struct Fit {
     /// Binding limits: without any one of them there would be a design. Empty if there is a design, or if
     /// every design exceeds more than one limit.
     pub binding: Vec<&'static str>,
+    /// What a network says of it, if one was asked.
+    pub network: Option<FittedNetwork>,
     /// The cheapest design, or the nearest one if no design meets all limits.
     pub design: Design,
     /// Why this design was chosen.
@@ -83,33 +108,40 @@ pub struct Fit {
 pub(super) fn fit(
     request: &FitRequest<'_>,
     search: &Search<'_>,
+    cameras: usize,
     built: &Built,
-    chosen: &Candidate,
     target: Option<Target>,
-    (held_out, mut held): (Figures, Vec<Held>),
+    ((held_out, mut held), network): ((Figures, Vec<Held>), Option<FittedNetwork>),
     halves: &Halves,
 ) -> Fit {
+    let chosen = built.chosen();
     held.extend(request.constraints.on_speed(chosen.speed.as_ref()));
     held.extend(request.constraints.on_silicon(&chosen.silicon));
+    let agreement =
+        |network: &FittedNetwork| Held::agreement(network.held_out.share, network.min_agreement);
+    held.extend(network.as_ref().map(agreement));
     let config = chosen.design.config();
+    let bytes = |figures: &Figures| bytes_per_frame(&chosen.design, figures);
     Fit {
         format_version: 2,
         frames: frames(halves),
         task: Config { camera: search.task().clone(), ..Config::default() }.to_toml(),
         target,
         clock_hz: request.clock_hz,
-        considered: (search.all().count(), built.all().len(), built.left_out),
+        considered: (cameras, built.all().len(), built.left_out),
         feasible: chosen.holds(),
         borne_out: all_hold(&held),
         binding: why::binding(built),
         why: why::why(search, built, chosen, request),
         problems: halves.problems.clone(),
+        network,
         design: Design {
             toml: config.to_toml(),
             summary: why::summary(&chosen.design),
             clocks_per_frame: chosen.clocks_per_frame,
             speed: chosen.speed,
             silicon: chosen.silicon.clone(),
+            bytes_per_frame: (bytes(&chosen.look.figures), bytes(&held_out)),
             fitted: chosen.look.figures.clone(),
             fitted_held: chosen.held.clone(),
             held_out,

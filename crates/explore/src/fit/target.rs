@@ -70,11 +70,17 @@ fn nearest(
 
 /// The task with every threshold in grey levels times `2^octaves`.
 fn scaled(task: &CameraConfig, octaves: f64) -> CameraConfig {
-    let factor = octaves.exp2();
-    let level = |level: u32| rounded(f64::from(level) * factor);
+    scaled_by(task, octaves, octaves)
+}
+
+/// The same with other octaves for thresholds of features and for that of change.
+pub(super) fn scaled_by(task: &CameraConfig, spatial: f64, temporal: f64) -> CameraConfig {
+    let scale = |octaves: f64| move |level: u32| rounded(f64::from(level) * octaves.exp2());
+    let (level, changed) = (scale(spatial), scale(temporal));
+    let factor = spatial.exp2();
     let mut config = task.clone();
     let bits = task.frame.pixel_bits;
-    config.temporal.level = Some(level(config.temporal.level_at(bits)));
+    config.temporal.level = Some(changed(config.temporal.level_at(bits)));
     for entry in &mut config.spatial {
         *entry = entry.with_defaults(bits);
         let in_levels = entry.level.is_none();
@@ -129,6 +135,7 @@ mod tests {
                 clock_hz: None,
                 target_active: Some(wanted),
                 boxes: &[],
+                network: None,
                 synthesizer: &Synthesizer {
                     toolchain: Toolchain::system(),
                     cache: Cache::throw_away().unwrap(),

@@ -3,7 +3,7 @@
 
 use std::iter;
 
-use foveate_camera::{CameraConfig, Filter, Neighborhood, Reference};
+use foveate_camera::{CameraConfig, Filter, Irrelevant, Neighborhood, Reference};
 use foveate_design::{Design, Organization};
 use foveate_estimate::{Speed, ramb36};
 
@@ -17,7 +17,7 @@ pub(super) fn summary(design: &Design) -> String {
     let features: Vec<&str> =
         design.features().iter().map(|feature| feature.kind().name()).collect();
     format!(
-        "{hardware}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}",
+        "{hardware}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}{}",
         features.join(" and "),
         design.pixel_bits(),
         match design.filter() {
@@ -25,6 +25,13 @@ pub(super) fn summary(design: &Design) -> String {
             Filter::Median3x3 => "median",
         },
         design.temporal().reference,
+        match (design.irrelevant(), design.periphery()) {
+            (Irrelevant::Mean, Some(own)) => {
+                format!("; irrelevant regions send {0}x{0} means", own.blocks)
+            }
+            (Irrelevant::Hold, _) => "; irrelevant regions stay".to_owned(),
+            (Irrelevant::Zero | Irrelevant::Mean, _) => String::new(),
+        },
         hardware = design.config().hardware.in_words(),
         size = design.region_size(),
         neighborhood = design.neighborhood(),
@@ -197,7 +204,9 @@ impl Held {
     pub fn text(&self) -> String {
         let side = if self.at_least { "at least" } else { "at most" };
         let number = |value: f64| match self.name {
-            "max-flips" | "max-missed" | "min-recall" => format!("{:.2} %", value * 100.0),
+            "max-flips" | "max-missed" | "min-recall" | "min-agreement" => {
+                format!("{:.2} %", value * 100.0)
+            }
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
             "min-fps" | "max-bram" => hundredths(value),
@@ -210,6 +219,7 @@ impl Held {
             "max-stale-frames" => "stale frames",
             "max-bytes" => "bytes per frame",
             "min-recall" => "objects sent by half",
+            "min-agreement" => "agreement of the network",
             "min-fps" => "frames/s",
             "max-lut" => "LUTs of a unit",
             "max-ff" => "flip-flops of a unit",

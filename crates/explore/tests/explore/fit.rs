@@ -55,6 +55,7 @@ fn run_with(
             clock_hz,
             target_active: None,
             boxes,
+            network: None,
             synthesizer: &Synthesizer {
                 toolchain: Toolchain::system(),
                 cache: Cache::from_env().unwrap(),

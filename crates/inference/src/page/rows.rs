@@ -167,6 +167,12 @@ pub(super) fn frames(frames: &[&Frame], summary: &Summary) -> Rows {
     if compared {
         keys.push("relative_rms");
     }
+    if let Some(sight) = &summary.sight {
+        keys.extend(["sent_bytes", "picture_psnr", "agreement"]);
+        if sight.detections.is_some() {
+            keys.extend(["whole_detections", "kept_detections", "added_detections"]);
+        }
+    }
     let rows = frames.iter().map(|&frame| {
         let clip = if several { format!(" of {}", frame.clip) } else { String::new() };
         let wrong = frame.relative_rms.map_or_else(String::new, error);

@@ -3,7 +3,7 @@ use super::*;
 use crate::cost::{Accelerated, FrameCost};
 use crate::macs::Macs;
 use crate::summary::{Clip, Error, Outputs, Tried, Tuning};
-use crate::{FrameTraffic, Layer, Mapping, Recorded};
+use crate::{FrameTraffic, Framing, Layer, Mapping, Recorded};
 use foveate_design::Config;
 use foveate_pictures::page::browser::{Tip, chromium, probe};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -147,6 +147,8 @@ fn sample(frames: u32) -> Sample {
         layout: "nchw",
         mode: "tuned to psnr=40".to_owned(),
         mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
+        framing: Framing::Same,
+        sight: None,
         width: 224,
         height: 224,
         frames: u64::from(frames) + 1,
@@ -225,7 +227,7 @@ fn sample(frames: u32) -> Sample {
 fn rendered((summary, frames, design): &Sample) -> String {
     let command =
         ["foveate", "infer", "my net.onnx", "scene:street", "-o", "out"].map(str::to_owned);
-    page(summary, frames, design, &command).unwrap()
+    page(summary, frames, None, design, &command).unwrap()
 }
 
 /// The page as a tree; it is well-formed XML, so nothing can be open or escaped wrongly.
@@ -348,7 +350,7 @@ fn what_a_user_wrote_is_text() {
     summary.problem = Some(BAD.to_owned());
     summary.tuning.as_mut().unwrap().goal = BAD.to_owned();
     summary.accelerator.as_mut().unwrap().name = BAD.to_owned();
-    let page = page(&summary, &frames, &design, &[BAD.to_owned()]).unwrap();
+    let page = page(&summary, &frames, None, &design, &[BAD.to_owned()]).unwrap();
     assert!(!page.contains("<script>alert"));
     let document = tree(&page);
     let scripts = document.descendants().filter(|node| node.tag_name().name() == "script");

@@ -172,6 +172,7 @@ pub(super) fn findings(summary: &Summary) -> Vec<String> {
     ];
     found.extend(accelerated(summary));
     found.extend(compared(summary));
+    found.extend(sighted(summary));
     found.extend(summary.tuning.as_ref().map(|tuning| tuned(summary, tuning)));
     found
 }
@@ -248,6 +249,53 @@ fn compared(summary: &Summary) -> Option<String> {
         decibels(outputs.psnr),
         share(outputs.agreement)
     ))
+}
+
+/// What the network loses behind the camera.
+fn sighted(summary: &Summary) -> Vec<String> {
+    let Some(sight) = &summary.sight else { return Vec::new() };
+    let mut found = vec![format!(
+        "The camera sends {} per frame, {} of the whole frames; what the receiver sees of them has a PSNR of {}.",
+        mean_bytes(sight.sent_bytes),
+        share(sight.sent_share),
+        decibels(sight.picture_psnr)
+    )];
+    found.extend(sight.detections.as_ref().map(|kept| {
+        let all = kept.all;
+        format!(
+            "Of {} that the network finds in whole frames ({}) it finds {} behind the camera, and {} that are not there: {} are kept, {} are right.",
+            things(usize::try_from(all.whole).unwrap_or(usize::MAX), "object"),
+            kept.detector,
+            grouped(all.kept),
+            grouped(all.added),
+            share(kept.kept_share),
+            share(kept.precision)
+        )
+    }));
+    found.extend(sight.truth.map(|truth| {
+        format!(
+            "Against {} ground-truth objects the average precision is {} in whole frames and {} behind the camera.",
+            grouped(truth.objects),
+            share(truth.whole_ap50),
+            share(truth.seen_ap50)
+        )
+    }));
+    found.extend(sight.classes.map(|classes| {
+        format!(
+            "The class is that of the whole frame in {} of the frames; its margin is {:.3} in whole frames and {:.3} behind the camera.",
+            share(classes.same_share),
+            classes.whole_margin,
+            classes.seen_margin
+        )
+    }));
+    found.extend(sight.same_places.map(|same| {
+        format!("The class of a place is that of the whole frame at {} of the places.", share(same))
+    }));
+    found.push(format!(
+        "The outputs differ from those of whole frames by a relative RMS of {}.",
+        error(sight.relative_rms)
+    ));
+    found
 }
 
 fn tuned(summary: &Summary, tuning: &Tuning) -> String {

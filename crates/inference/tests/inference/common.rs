@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use foveate_design::Config;
 use foveate_footage::{Hooks, InputOptions, Silent};
 use foveate_inference::{
-    Computed, Inference, InferenceError, Mapping, Options, Record, Summary, read_accelerator,
+    Computed, Framing, Inference, InferenceError, Mapping, Options, Record, Summary, Whole,
+    read_accelerator,
 };
 use foveate_network::Mode;
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -23,6 +24,12 @@ pub(crate) struct Run<'a> {
     pub(crate) computed: Computed,
     pub(crate) accelerator: Option<&'a str>,
     pub(crate) reference: bool,
+    pub(crate) framing: Framing,
+    pub(crate) sight: Option<Whole>,
+    /// Another network than the denoiser.
+    pub(crate) network: Option<&'a Path>,
+    /// More of the camera's configuration.
+    pub(crate) camera: &'a str,
 }
 
 impl Default for Run<'_> {
@@ -33,6 +40,10 @@ impl Default for Run<'_> {
             computed: Computed::Mode(Mode::Exact),
             accelerator: None,
             reference: false,
+            framing: Framing::Same,
+            sight: None,
+            network: None,
+            camera: "",
         }
     }
 }
@@ -48,7 +59,7 @@ impl Run<'_> {
         folder: &Path,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
-        let mut config = Config::default();
+        let mut config = Config::from_toml(self.camera).unwrap();
         (config.camera.frame.width, config.camera.frame.height) = (Some(64), Some(48));
         let input = InputOptions { frames: Some(self.frames), ..InputOptions::default() };
         let inputs: Vec<PathBuf> = self.inputs.iter().map(PathBuf::from).collect();
@@ -57,15 +68,19 @@ impl Run<'_> {
             mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
             accelerator: self.accelerator.map(|name| read_accelerator(name).unwrap()),
             reference: self.reference,
+            sight: self.sight.clone(),
             record: Record { arrays: true, pictures: false },
             command: Vec::new(),
             overwrite: true,
         };
-        Inference::new(&config, Path::new(DENOISER), &inputs, &input)?.run(
-            &folder.join("out"),
-            &options,
-            hooks,
-        )
+        Inference::new(
+            &config,
+            self.network.unwrap_or(Path::new(DENOISER)),
+            self.framing,
+            &inputs,
+            &input,
+        )?
+        .run(&folder.join("out"), &options, hooks)
     }
 }
 

@@ -4,4 +4,5 @@
 
 mod clips;
 mod common;
+mod sight;
 mod tables;

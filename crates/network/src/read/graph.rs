@@ -17,11 +17,11 @@ use crate::operator::Activation;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// Reads a graph for frames of a size.
+/// Reads a graph for frames of a size, or of its own.
 pub(super) fn read(
     graph: &GraphProto,
     folder: &Folder,
-    frames: FrameSize,
+    frames: Option<FrameSize>,
     opset: i64,
 ) -> Result<Network, NetworkError> {
     let (mut known, mut odd) = (HashMap::new(), Vec::new());

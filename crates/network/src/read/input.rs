@@ -60,7 +60,7 @@ fn layout(
 pub(super) fn input_form(
     input: &ValueInfoProto,
     graph: &GraphProto,
-    frames: FrameSize,
+    frames: Option<FrameSize>,
 ) -> Result<(Form, Layout), NetworkError> {
     let wrong = |what: String| {
         NetworkError::Network(format!(
@@ -104,12 +104,24 @@ pub(super) fn input_form(
     if channels != 1 && channels != 3 {
         return Err(wrong(format!("with 1 or 3 channels, but it has {channels}")));
     }
-    let (own_height, own_width) = (height.unwrap_or(frames.height), width.unwrap_or(frames.width));
-    if (own_height, own_width) != (frames.height, frames.width) {
-        return Err(NetworkError::Size {
-            wanted: format!("{own_width}x{own_height}"),
-            found: format!("{}x{}", frames.width, frames.height),
-        });
-    }
-    Ok((Form::features(vec![1, channels, own_height, own_width]), layout))
+    let (height, width) = match frames {
+        Some(frames) => {
+            let (own_height, own_width) =
+                (height.unwrap_or(frames.height), width.unwrap_or(frames.width));
+            if (own_height, own_width) != (frames.height, frames.width) {
+                return Err(NetworkError::Size {
+                    wanted: format!("{own_width}x{own_height}"),
+                    found: format!("{}x{}", frames.width, frames.height),
+                });
+            }
+            (own_height, own_width)
+        }
+        None => height.zip(width).ok_or_else(|| {
+            let name = name_of(input);
+            NetworkError::Network(format!(
+                "its input `{name}` takes pictures of any size; say which, for example letterbox=416x416"
+            ))
+        })?,
+    };
+    Ok((Form::features(vec![1, channels, height, width]), layout))
 }

@@ -39,11 +39,11 @@ const MIN_OPSET: i64 = 7;
 const MAX_OPSET: i64 = 28;
 
 impl Network {
-    /// Reads a network for frames of a size.
+    /// Reads a network for frames of a size, or without one for frames of its own.
     ///
     /// # Errors
-    /// When the file cannot be read, is not a valid ONNX model, or has an operator that is not supported.
-    pub fn read(path: &Path, frames: FrameSize) -> Result<Self, NetworkError> {
+    /// When the file cannot be read, is not a valid ONNX model, or has an operator that is not supported; without a size when its own is open.
+    pub fn read(path: &Path, frames: impl Into<Option<FrameSize>>) -> Result<Self, NetworkError> {
         let not_onnx = |problem: &str| NetworkError::NotOnnx {
             path: path.to_owned(),
             problem: problem.to_owned(),
@@ -64,7 +64,11 @@ impl Network {
     ///
     /// # Errors
     /// As [`Network::read`].
-    pub fn parse(bytes: &[u8], path: &Path, frames: FrameSize) -> Result<Self, NetworkError> {
+    pub fn parse(
+        bytes: &[u8],
+        path: &Path,
+        frames: impl Into<Option<FrameSize>>,
+    ) -> Result<Self, NetworkError> {
         let not_onnx = |problem| NetworkError::NotOnnx { path: path.to_owned(), problem };
         let memory = memory::of_model(bytes);
         if memory > MAX_MEMORY {
@@ -83,6 +87,6 @@ impl Network {
                 "it uses version {opset} of the ONNX operators; versions {MIN_OPSET} to {MAX_OPSET} are supported"
             )));
         }
-        graph::read(graph, &Folder::of(path), frames, opset)
+        graph::read(graph, &Folder::of(path), frames.into(), opset)
     }
 }

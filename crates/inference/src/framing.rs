@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How a frame of one size becomes the input of a network of another.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::InferenceError;
+use foveate_network::{FrameSize, Network};
+
+/// Grey of the rows and columns that a letterbox adds, as a share of white: 114 of 255, as detectors are trained with.
+const PADDING: f32 = 114.0 / 255.0;
+
+/// How frames get the size of a network's input. Sizes are width and height in pixels; without one it is the network's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Framing {
+    /// They have it.
+    #[default]
+    Same,
+    /// Scaled as a whole, into the upper left corner; the rest is grey.
+    Letterbox(Option<(u32, u32)>),
+    /// Scaled to it, each side for itself.
+    Stretch(Option<(u32, u32)>),
+}
+
+/// A framing as people write it: `same`, `letterbox`, `letterbox=416x416`, `stretch` or `stretch=416x416`.
+///
+/// # Errors
+/// When the text is none; the error says what would be right.
+pub fn parse_framing(text: &str) -> Result<Framing, String> {
+    let (way, size) = text.split_once('=').map_or((text, None), |(way, size)| (way, Some(size)));
+    let side = |side: &str| side.parse().ok().filter(|side| (1..=16_384).contains(side));
+    let size = match size {
+        None => Some(None),
+        Some(size) => {
+            let sides = size.split_once('x');
+            sides.and_then(|(width, height)| Some(Some((side(width)?, side(height)?))))
+        }
+    };
+    match (way, size) {
+        ("same", Some(None)) => Ok(Framing::Same),
+        ("letterbox", Some(size)) => Ok(Framing::Letterbox(size)),
+        ("stretch", Some(size)) => Ok(Framing::Stretch(size)),
+        _ => Err("expected same, letterbox or stretch, the last two with or without a size of 1x1 to 16384x16384, \
+                  for example letterbox=416x416"
+            .to_owned()),
+    }
+}
+
+impl fmt::Display for Framing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (way, size) = match self {
+            Self::Same => ("same", None),
+            Self::Letterbox(size) => ("letterbox", *size),
+            Self::Stretch(size) => ("stretch", *size),
+        };
+        match size {
+            None => f.write_str(way),
+            Some((width, height)) => write!(f, "{way}={width}x{height}"),
+        }
+    }
+}
+
+impl serde::Serialize for Framing {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl Framing {
+    /// The size that is asked for; `None` is the network's own.
+    pub(crate) fn size(self, frame: (u32, u32)) -> Option<(u32, u32)> {
+        match self {
+            Self::Same => Some(frame),
+            Self::Letterbox(size) | Self::Stretch(size) => size,
+        }
+    }
+
+    /// The lens from frames of a size to an input of another; none where they are the same.
+    pub(crate) fn lens(self, frame: (u32, u32), input: (u32, u32)) -> Option<Lens> {
+        let shown = match self {
+            Self::Same => return None,
+            Self::Stretch(_) => input,
+            Self::Letterbox(_) => inside(frame, input),
+        };
+        Some(Lens::new(frame, shown, input))
+    }
+
+    /// Reads a network for frames of this size, with the lens to it.
+    ///
+    /// # Errors
+    /// When the network cannot be read, or its input has no size and none is asked for.
+    pub(crate) fn read(
+        self,
+        path: &Path,
+        frame: (u32, u32),
+    ) -> Result<(Network, Option<Lens>), InferenceError> {
+        let pixels = |(width, height): (u32, u32)| FrameSize {
+            width: width as usize,
+            height: height as usize,
+        };
+        let network = Network::read(path, self.size(frame).map(pixels))?;
+        let side = |side: usize| u32::try_from(side).expect("an input is smaller than 2^28 values");
+        let input = (side(network.input().width()), side(network.input().height()));
+        let lens = self.lens(frame, input);
+        Ok((network, lens))
+    }
+}
+
+/// The largest size within another that has the shape of a frame.
+fn inside((width, height): (u32, u32), (most_x, most_y): (u32, u32)) -> (u32, u32) {
+    let (x, y) = (f64::from(most_x) / f64::from(width), f64::from(most_y) / f64::from(height));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the input")]
+    let side = |side: u32, most: u32| ((f64::from(side) * x.min(y)).round() as u32).clamp(1, most);
+    (side(width, most_x), side(height, most_y))
+}
+
+/// A pixel of the input is between two pixels of the frame, in each direction.
+#[derive(Clone, Copy, Debug)]
+struct Tap {
+    first: usize,
+    second: usize,
+    /// Share of the second.
+    weight: f32,
+}
+
+/// Where each pixel of an input comes from, by bilinear interpolation between the centers of pixels.
+#[derive(Clone, Debug)]
+pub(crate) struct Lens {
+    columns: Vec<Tap>,
+    rows: Vec<Tap>,
+    /// Width of the frame and of the input.
+    width: usize,
+    input_width: usize,
+    /// Pixels of the frame per pixel of the input, in each direction.
+    scale: (f64, f64),
+}
+
+impl Lens {
+    fn new(frame: (u32, u32), shown: (u32, u32), input: (u32, u32)) -> Self {
+        let scale = |frame: u32, shown: u32| f64::from(frame) / f64::from(shown);
+        let scale = (scale(frame.0, shown.0), scale(frame.1, shown.1));
+        Self {
+            columns: taps(frame.0, shown.0, scale.0),
+            rows: taps(frame.1, shown.1, scale.1),
+            width: frame.0 as usize,
+            input_width: input.0 as usize,
+            scale,
+        }
+    }
+
+    /// Grey beside the frame, as a share of white.
+    pub(crate) fn padding() -> f32 {
+        PADDING
+    }
+
+    /// Pixels of the frame per pixel of the input: of a row, and of a column.
+    pub(crate) fn scale(&self) -> (f64, f64) {
+        self.scale
+    }
+
+    /// Gives every pixel of the input that comes from a region for which `is` holds: its number, its place, and its grey. `is` takes the column
+    /// and the row of a region with this side.
+    pub(crate) fn project(
+        &self,
+        frame: &[u16],
+        side: usize,
+        is: impl Fn(usize, usize) -> bool,
+        mut give: impl FnMut((usize, usize), usize, f32),
+    ) {
+        for (y, row) in self.rows.iter().enumerate() {
+            let [upper, lower] = [row.first, row.second].map(|y| &frame[y * self.width..]);
+            let regions = [row.first / side, row.second / side];
+            for (x, column) in self.columns.iter().enumerate() {
+                let [left, right] = [column.first / side, column.second / side];
+                let is_any = regions.iter().any(|&row| is(left, row) || is(right, row));
+                if !is_any {
+                    continue;
+                }
+                let along = |line: &[u16]| {
+                    let (first, second) =
+                        (f32::from(line[column.first]), f32::from(line[column.second]));
+                    first + (second - first) * column.weight
+                };
+                let (upper, lower) = (along(upper), along(lower));
+                give((x, y), y * self.input_width + x, upper + (lower - upper) * row.weight);
+            }
+        }
+    }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a place within the frame"
+)]
+fn taps(frame: u32, shown: u32, scale: f64) -> Vec<Tap> {
+    let last = f64::from(frame - 1);
+    let tap = |at: u32| {
+        let place = ((f64::from(at) + 0.5) * scale - 0.5).clamp(0.0, last);
+        let first = place.floor();
+        let second = (first + 1.0).min(last);
+        Tap { first: first as usize, second: second as usize, weight: (place - first) as f32 }
+    };
+    (0..shown).map(tap).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(lens: &Lens, frame: &[u16], places: usize) -> Vec<Option<f32>> {
+        let mut found = vec![None; places];
+        lens.project(frame, 4, |_, _| true, |_, at, grey| found[at] = Some(grey));
+        found
+    }
+
+    #[test]
+    fn framings_are_read_as_they_are_written() {
+        for text in ["same", "letterbox", "stretch", "letterbox=416x416", "stretch=320x240"] {
+            assert_eq!(parse_framing(text).unwrap().to_string(), text);
+        }
+        for wrong in ["", "same=4x4", "letterbox=", "letterbox=416", "stretch=0x4", "fill"] {
+            assert!(parse_framing(wrong).unwrap_err().contains("letterbox=416x416"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn pixels_lie_between_those_of_the_frame() {
+        let lens = Framing::Stretch(None).lens((4, 2), (2, 2)).unwrap();
+        let frame = [0, 2, 10, 20, 4, 6, 30, 40];
+        assert_eq!(all(&lens, &frame, 4), [1.0, 15.0, 5.0, 35.0].map(Some));
+        // Larger: the outer pixels stand still beyond the outer centers.
+        let lens = Framing::Stretch(None).lens((2, 1), (4, 1)).unwrap();
+        assert_eq!(all(&lens, &[0, 100], 4), [0.0, 25.0, 75.0, 100.0].map(Some));
+        assert_eq!(lens.scale(), (0.5, 1.0));
+    }
+
+    #[test]
+    fn a_letterbox_keeps_the_shape_and_leaves_the_rest() {
+        let lens = Framing::Letterbox(None).lens((1280, 720), (416, 416)).unwrap();
+        assert_eq!((lens.columns.len(), lens.rows.len()), (416, 234));
+        let lens = Framing::Letterbox(None).lens((8, 4), (4, 4)).unwrap();
+        let found = all(&lens, &[7; 32], 16);
+        assert!(found[..8].iter().all(|grey| *grey == Some(7.0)));
+        assert!(found[8..].iter().all(Option::is_none));
+    }
+
+    /// Every pixel that changes when a region changes is given.
+    #[test]
+    fn what_comes_from_a_region_is_given() {
+        let lens = Framing::Stretch(None).lens((12, 8), (7, 5)).unwrap();
+        let before = [50; 96];
+        for (column, row) in (0..3).flat_map(|column| [(column, 0), (column, 1)]) {
+            let mut after = before;
+            for (at, pixel) in after.iter_mut().enumerate() {
+                if (at % 12 / 4, at / 12 / 4) == (column, row) {
+                    *pixel = 90;
+                }
+            }
+            let mut given = vec![false; 35];
+            let is = |x, y| (x, y) == (column, row);
+            lens.project(&after, 4, is, |_, at, _| given[at] = true);
+            let [old, new] = [before, after].map(|frame| all(&lens, &frame, 35));
+            for at in 0..35 {
+                assert!(given[at] || old[at] == new[at], "{column}, {row}: {at}");
+            }
+            assert!(given.iter().any(|given| !given));
+        }
+    }
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Objects that a network finds, and which of two lists of them are the same.
+
+use foveate_footage::boxes::Rect;
+
+/// An object that a network finds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detection {
+    /// Number of its class, from 0.
+    pub class: usize,
+    /// How sure the network is, 0 to 1.
+    pub score: f32,
+    /// Where it is, in pixels.
+    pub rect: Rect,
+}
+
+/// Area that two rectangles share, as a share of what they cover together.
+pub(crate) fn overlap(one: &Rect, other: &Rect) -> f64 {
+    let width = one.x1.min(other.x1) - one.x0.max(other.x0);
+    let height = one.y1.min(other.y1) - one.y0.max(other.y0);
+    if width <= 0.0 || height <= 0.0 {
+        return 0.0;
+    }
+    let both = width * height;
+    both / (one.area() + other.area() - both)
+}
+
+/// Of detections of one class that overlap by more than `most` the surest, the surest first.
+pub(crate) fn suppressed(mut found: Vec<Detection>, most: f64) -> Vec<Detection> {
+    found.sort_by(|one, other| other.score.total_cmp(&one.score));
+    let mut kept: Vec<Detection> = Vec::new();
+    for one in found {
+        let is_same =
+            |other: &Detection| other.class == one.class && overlap(&other.rect, &one.rect) > most;
+        if !kept.iter().any(is_same) {
+            kept.push(one);
+        }
+    }
+    kept
+}
+
+/// For every one of `found`, the surest first, which of `right` it is: that which it overlaps most, by at least `least`, of those that are not
+/// taken. `same` says which may be the same at all.
+pub(crate) fn matched<T>(
+    found: &[Detection],
+    right: &[T],
+    least: f64,
+    rect: impl Fn(&T) -> &Rect,
+    same: impl Fn(&Detection, &T) -> bool,
+) -> Vec<Option<usize>> {
+    let mut taken = vec![false; right.len()];
+    let take = |one: &Detection| {
+        let candidates =
+            right.iter().enumerate().filter(|(at, other)| !taken[*at] && same(one, other));
+        let overlaps = candidates.map(|(at, other)| (at, overlap(&one.rect, rect(other))));
+        let best = overlaps.filter(|(_, found)| *found >= least);
+        let best = best.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(at, _)| at);
+        if let Some(at) = best {
+            taken[at] = true;
+        }
+        best
+    };
+    found.iter().map(take).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    pub(crate) fn detection(class: usize, score: f32, corners: [f64; 4]) -> Detection {
+        Detection { class, score, rect: Rect::of_corners(corners).unwrap() }
+    }
+
+    #[test]
+    fn rectangles_overlap_by_what_they_share() {
+        let rect = |corners| Rect::of_corners(corners).unwrap();
+        let one = rect([0., 0., 4., 4.]);
+        for (other, share) in [
+            ([0., 0., 4., 4.], 1.0),
+            ([2., 0., 6., 4.], 8.0 / 24.0),
+            ([4., 0., 8., 4.], 0.0),
+            ([5., 5., 6., 6.], 0.0),
+            ([1., 1., 1., 3.], 0.0),
+        ] {
+            assert!((overlap(&one, &rect(other)) - share).abs() < 1e-12, "{other:?}");
+        }
+    }
+
+    #[test]
+    fn of_the_same_object_the_surest_is_kept() {
+        let found = vec![
+            detection(0, 0.5, [0., 0., 10., 10.]),
+            detection(0, 0.9, [1., 0., 11., 10.]),
+            detection(1, 0.4, [0., 0., 10., 10.]),
+            detection(0, 0.3, [20., 0., 30., 10.]),
+        ];
+        let scores: Vec<f32> = suppressed(found, 0.5).iter().map(|one| one.score).collect();
+        assert_eq!(scores, [0.9, 0.4, 0.3]);
+    }
+
+    #[test]
+    fn an_object_is_taken_once_by_the_surest_that_fits() {
+        let right = [detection(0, 0.9, [0., 0., 10., 10.]), detection(0, 0.9, [4., 0., 14., 10.])];
+        let found = [
+            detection(0, 0.8, [1., 0., 11., 10.]),
+            detection(0, 0.7, [0., 0., 10., 10.]),
+            detection(1, 0.6, [4., 0., 14., 10.]),
+        ];
+        let same = |one: &Detection, other: &Detection| one.class == other.class;
+        assert_eq!(matched(&found, &right, 0.4, |o| &o.rect, same), [Some(0), Some(1), None]);
+        assert_eq!(matched(&found, &right, 0.5, |o| &o.rect, same), [Some(0), None, None]);
+    }
+}

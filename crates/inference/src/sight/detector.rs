@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How detections are read from a network, and which of them count.
+
+use std::fmt;
+
+use super::detection::{Detection, suppressed};
+use super::head::{Head, Output};
+
+/// Detections that are surer than this are used for average precision, whatever else counts.
+pub(crate) const LEAST_SCORE: f32 = 0.01;
+
+/// A format of detections, and which of them count.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detector {
+    /// The format.
+    pub head: Head,
+    /// Detections of at least this score count, 0 to 1.
+    pub score: f32,
+    /// Of detections of a class that overlap by more, the surest counts.
+    pub overlap: f64,
+    /// Classes that count, by their numbers from 0; empty for all.
+    pub classes: Vec<usize>,
+    /// Objects of at least this height in pixels of the frame count.
+    pub height: f64,
+}
+
+impl Detector {
+    /// With what most use: a score of 0.3, an overlap of 0.45, everything counts.
+    #[must_use]
+    pub fn new(head: Head) -> Self {
+        Self { head, score: 0.3, overlap: 0.45, classes: Vec::new(), height: 0.0 }
+    }
+
+    /// What a network finds with at least the score that average precision needs, the surest first, in pixels of the input.
+    pub(crate) fn read(&self, outputs: &[Output], input: (usize, usize)) -> Vec<Detection> {
+        let least = self.score.min(LEAST_SCORE);
+        let mut found = self.head.decode(outputs, input, least);
+        found.retain(|one| self.classes.is_empty() || self.classes.contains(&one.class));
+        suppressed(found, self.overlap)
+    }
+
+    /// Whether a detection, in pixels of the frame, counts.
+    pub(crate) fn counts(&self, one: &Detection) -> bool {
+        one.score >= self.score && one.rect.height() >= self.height
+    }
+}
+
+/// A detector as people write it: `yolox`, or `yolox,score=0.3,overlap=0.45,classes=0+2,height=80`.
+///
+/// # Errors
+/// When the text is none; the error says what would be right.
+pub fn parse_detector(text: &str) -> Result<Detector, String> {
+    let mut words = text.split(',');
+    let name = words.next().unwrap_or_default();
+    let head = Head::ALL.into_iter().find(|head| head.name() == name).ok_or_else(|| {
+        let names = Head::ALL.map(Head::name);
+        format!("`{name}` is no format of detections; expected {}", names.join(", "))
+    })?;
+    let mut detector = Detector::new(head);
+    for word in words {
+        let wrong = || {
+            format!(
+                "`{word}`: expected score=S and overlap=S from 0 to 1, classes=C+C.. with numbers from 0, or height=PIXELS"
+            )
+        };
+        let (key, value) = word.split_once('=').ok_or_else(wrong)?;
+        let real = |most: f64| value.parse().ok().filter(|value| (0.0..=most).contains(value));
+        match key {
+            #[allow(clippy::cast_possible_truncation, reason = "a share")]
+            "score" => detector.score = real(1.0).ok_or_else(wrong)? as f32,
+            "overlap" => detector.overlap = real(1.0).ok_or_else(wrong)?,
+            "height" => detector.height = real(1e6).ok_or_else(wrong)?,
+            "classes" => {
+                let classes = value.split('+').map(|class| class.parse().ok());
+                detector.classes = classes.collect::<Option<_>>().ok_or_else(wrong)?;
+            }
+            _ => return Err(wrong()),
+        }
+    }
+    Ok(detector)
+}
+
+impl fmt::Display for Detector {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},score={},overlap={}", self.head, self.score, self.overlap)?;
+        if !self.classes.is_empty() {
+            let classes: Vec<_> = self.classes.iter().map(ToString::to_string).collect();
+            write!(f, ",classes={}", classes.join("+"))?;
+        }
+        if self.height > 0.0 {
+            write!(f, ",height={}", self.height)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn detectors_are_read_as_they_are_written() {
+        for text in [
+            "yolox,score=0.3,overlap=0.45",
+            "ssd,score=0.5,overlap=0.3,classes=0+2",
+            "yolov8,score=0.25,overlap=0.7,height=80",
+        ] {
+            assert_eq!(parse_detector(text).unwrap().to_string(), text);
+        }
+        assert_eq!(parse_detector("yunet"), Ok(Detector::new(Head::Yunet)));
+        for (wrong, says) in [
+            ("yolo", "yolox, yolov5"),
+            ("yolox,score", "score=S"),
+            ("yolox,score=2", "`score=2`"),
+            ("yolox,classes=person", "numbers from 0"),
+            ("yolox,height=-1", "`height=-1`"),
+            ("yolox,width=1", "`width=1`"),
+        ] {
+            let problem = parse_detector(wrong).unwrap_err();
+            assert!(problem.contains(says), "{problem}");
+        }
+    }
+
+    #[test]
+    fn only_classes_that_are_named_are_read() {
+        let values = vec![4., 4., 2., 2., 1., 0.9, 0.1, 12., 4., 2., 2., 1., 0.2, 0.4];
+        let output = Output { name: "out".to_owned(), shape: vec![1, 2, 7], values };
+        let found = |text: &str| {
+            let detector = parse_detector(text).unwrap();
+            let found = detector.read(std::slice::from_ref(&output), (16, 16));
+            found.iter().map(|one| (one.class, detector.counts(one))).collect::<Vec<_>>()
+        };
+        assert_eq!(found("yolov5"), [(0, true), (1, true)]);
+        assert_eq!(found("yolov5,classes=1"), [(1, true)]);
+        assert_eq!(found("yolov5,score=0.5"), [(0, true), (1, false)]);
+        assert_eq!(found("yolov5,height=3"), [(0, false), (1, false)]);
+    }
+}

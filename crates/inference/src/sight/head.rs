@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The formats in which detectors say what they found, and how they are read.
+
+use std::fmt;
+
+use super::detection::Detection;
+use foveate_footage::boxes::{MAX_COORDINATE, Rect};
+
+/// Pixels between the cells of the three grids that many detectors have.
+const STRIDES: [usize; 3] = [8, 16, 32];
+
+/// A format of detections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Head {
+    /// `[1, cells, 5 + classes]`: place and logarithm of the size in cells of strides 8, 16 and 32, objectness, classes.
+    Yolox,
+    /// `[1, cells, 5 + classes]`: centre and size in pixels, objectness, classes. Of `YOLOv5` and `YOLOv7`.
+    Yolov5,
+    /// `[1, 4 + classes, cells]`: centre and size in pixels, classes. Of `YOLOv8` and `YOLO11`.
+    Yolov8,
+    /// `[1, boxes, classes]` and `[1, boxes, 4]`: probabilities, of which the first is that of the background, and corners as shares of the input.
+    Ssd,
+    /// `cls_8`, `obj_8`, `bbox_8` and the same of strides 16 and 32: place and logarithm of the size in cells. Of `YuNet`.
+    Yunet,
+    /// `[1, 5 + classes, rows, columns]`: objectness, place and size, classes. Of `FastestDet`.
+    FastestDet,
+}
+
+/// An output of a network.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// What the model calls it.
+    pub name: String,
+    /// Its shape.
+    pub shape: Vec<usize>,
+    /// Its values in the order of memory; none where only its shape is asked for.
+    pub values: Vec<f32>,
+}
+
+impl Head {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Yolox, Self::Yolov5, Self::Yolov8, Self::Ssd, Self::Yunet, Self::FastestDet];
+
+    /// As it is written.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Yolox => "yolox",
+            Self::Yolov5 => "yolov5",
+            Self::Yolov8 => "yolov8",
+            Self::Ssd => "ssd",
+            Self::Yunet => "yunet",
+            Self::FastestDet => "fastestdet",
+        }
+    }
+
+    /// The outputs that it has, in words.
+    fn expects(self) -> &'static str {
+        match self {
+            Self::Yolox => {
+                "one output [1, cells, 5 + classes], with the cells of strides 8, 16 and 32 of the input"
+            }
+            Self::Yolov5 => "an output [1, cells, 5 + classes]",
+            Self::Yolov8 => "an output [1, 4 + classes, cells]",
+            Self::Ssd => "an output [1, boxes, classes] and one [1, boxes, 4]",
+            Self::Yunet => {
+                "outputs cls_8, obj_8 and bbox_8 of [1, cells, 1] and [1, cells, 4], and the same of strides 16 and 32"
+            }
+            Self::FastestDet => "an output [1, 5 + classes, rows, columns]",
+        }
+    }
+
+    /// Refuses outputs that have another format. `input` is width and height of the network's input.
+    ///
+    /// # Errors
+    /// The text says what is expected and what there is.
+    pub fn check(self, outputs: &[Output], input: (usize, usize)) -> Result<(), String> {
+        let fits = match self {
+            Self::Yolox => {
+                let cells: usize =
+                    STRIDES.iter().map(|stride| (input.0 / stride) * (input.1 / stride)).sum();
+                matches!(outputs[0].shape[..], [1, own, values] if own == cells && values > 5)
+            }
+            Self::Yolov5 => matches!(outputs[0].shape[..], [1, _, values] if values > 5),
+            Self::Yolov8 => matches!(outputs[0].shape[..], [1, values, _] if values > 4),
+            Self::Ssd => scores_and_boxes(outputs).is_some(),
+            Self::Yunet => STRIDES.iter().all(|&stride| {
+                let cells = (input.0 / stride) * (input.1 / stride);
+                let is = |name: &str, values| {
+                    let output = grid_output(outputs, name, stride);
+                    output.is_some_and(|output| output.shape == [1, cells, values])
+                };
+                is("cls", 1) && is("obj", 1) && is("bbox", 4)
+            }),
+            Self::FastestDet => matches!(outputs[0].shape[..], [1, values, _, _] if values > 5),
+        };
+        if fits {
+            return Ok(());
+        }
+        let found: Vec<_> =
+            outputs.iter().map(|output| format!("`{}` {:?}", output.name, output.shape)).collect();
+        Err(format!(
+            "detections of {} need {}, but the network has {}",
+            self.name(),
+            self.expects(),
+            found.join(", ")
+        ))
+    }
+
+    /// What is found with a score of at least `least`: the likeliest class of every cell, in pixels of the input. The outputs have been checked.
+    #[must_use]
+    pub fn decode(self, outputs: &[Output], input: (usize, usize), least: f32) -> Vec<Detection> {
+        match self {
+            Self::Yolox => yolox(&outputs[0], input, least),
+            Self::Yolov5 => {
+                let [_, _, values] = outputs[0].shape[..] else { return Vec::new() };
+                let rows = outputs[0].values.chunks_exact(values);
+                let read = |row: &[f32]| likeliest(&row[5..], row[4], least, centred(&row[..4]));
+                rows.filter_map(read).collect()
+            }
+            Self::Yolov8 => {
+                let [_, values, cells] = outputs[0].shape[..] else { return Vec::new() };
+                let of = |cell: usize| -> Vec<f32> {
+                    (0..values).map(|value| outputs[0].values[value * cells + cell]).collect()
+                };
+                let read = |row: Vec<f32>| likeliest(&row[4..], 1.0, least, centred(&row[..4]));
+                (0..cells).map(of).filter_map(read).collect()
+            }
+            Self::Ssd => ssd(outputs, input, least),
+            Self::Yunet => STRIDES
+                .iter()
+                .flat_map(|&stride| yunet(outputs, stride, input.0 / stride, least))
+                .collect(),
+            Self::FastestDet => fastest(&outputs[0], input, least),
+        }
+    }
+}
+
+impl fmt::Display for Head {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A centre and a size as a rectangle.
+fn centred(values: &[f32]) -> [f32; 4] {
+    let [x, y, width, height] = [values[0], values[1], values[2], values[3]];
+    [x - width / 2.0, y - height / 2.0, x + width / 2.0, y + height / 2.0]
+}
+
+/// The likeliest class, if it is likely enough and the rectangle is one.
+fn likeliest(classes: &[f32], factor: f32, least: f32, corners: [f32; 4]) -> Option<Detection> {
+    let best = classes.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
+    let (class, &share) = best?;
+    found(class, share * factor, least, corners)
+}
+
+fn found(class: usize, score: f32, least: f32, corners: [f32; 4]) -> Option<Detection> {
+    let corners = corners.map(|value| f64::from(value).clamp(-MAX_COORDINATE, MAX_COORDINATE));
+    let rect = Rect::of_corners(corners).ok()?;
+    (score >= least).then_some(Detection { class, score, rect })
+}
+
+fn yolox(output: &Output, input: (usize, usize), least: f32) -> Vec<Detection> {
+    let [_, _, values] = output.shape[..] else { return Vec::new() };
+    let cells = STRIDES.iter().flat_map(|&stride| {
+        let columns = input.0 / stride;
+        (0..columns * (input.1 / stride)).map(move |cell| (stride, cell % columns, cell / columns))
+    });
+    let read = |(row, (stride, column, line)): (&[f32], (usize, usize, usize))| {
+        let place = in_cell(&row[..4], stride, column, line);
+        likeliest(&row[5..], row[4], least, place)
+    };
+    output.values.chunks_exact(values).zip(cells).filter_map(read).collect()
+}
+
+/// A place in cells and the logarithm of a size, as a rectangle.
+#[allow(clippy::cast_precision_loss, reason = "an input has fewer pixels than a float holds")]
+fn in_cell(values: &[f32], stride: usize, column: usize, row: usize) -> [f32; 4] {
+    let stride = stride as f32;
+    let (x, y) = ((values[0] + column as f32) * stride, (values[1] + row as f32) * stride);
+    centred(&[x, y, values[2].exp() * stride, values[3].exp() * stride])
+}
+
+/// The output of a kind and a stride, such as `cls_8`.
+fn grid_output<'a>(outputs: &'a [Output], kind: &str, stride: usize) -> Option<&'a Output> {
+    let name = format!("{kind}_{stride}");
+    outputs.iter().find(|output| output.name == name)
+}
+
+fn yunet(outputs: &[Output], stride: usize, columns: usize, least: f32) -> Vec<Detection> {
+    let of = |kind| grid_output(outputs, kind, stride).map_or(&[][..], |output| &output.values);
+    let (classes, objects, places) = (of("cls"), of("obj"), of("bbox"));
+    let read = |(cell, ((class, object), place)): (usize, ((&f32, &f32), &[f32]))| {
+        let score = (class.clamp(0.0, 1.0) * object.clamp(0.0, 1.0)).sqrt();
+        found(0, score, least, in_cell(place, stride, cell % columns, cell / columns))
+    };
+    classes.iter().zip(objects).zip(places.chunks_exact(4)).enumerate().filter_map(read).collect()
+}
+
+/// The output of scores and that of boxes.
+fn scores_and_boxes(outputs: &[Output]) -> Option<(&Output, &Output)> {
+    let is_boxes = |output: &&Output| matches!(output.shape[..], [1, _, 4]);
+    let called = |output: &&Output| ["box", "loc"].iter().any(|word| output.name.contains(word));
+    let mut boxes = outputs.iter().filter(is_boxes);
+    let boxes = boxes.clone().find(called).or_else(|| boxes.next())?;
+    let fits = |output: &&Output| {
+        output.name != boxes.name
+            && matches!(output.shape[..], [1, own, classes] if own == boxes.shape[1] && classes > 1)
+    };
+    Some((outputs.iter().find(fits)?, boxes))
+}
+
+#[allow(clippy::cast_precision_loss, reason = "an input has fewer pixels than a float holds")]
+fn ssd(outputs: &[Output], input: (usize, usize), least: f32) -> Vec<Detection> {
+    let Some((scores, boxes)) = scores_and_boxes(outputs) else { return Vec::new() };
+    let [_, _, classes] = scores.shape[..] else { return Vec::new() };
+    let (width, height) = (input.0 as f32, input.1 as f32);
+    let read = |(shares, corners): (&[f32], &[f32])| {
+        let corners =
+            [corners[0] * width, corners[1] * height, corners[2] * width, corners[3] * height];
+        // Classes count from the one behind the background.
+        likeliest(&shares[1..], 1.0, least, corners)
+    };
+    scores.values.chunks_exact(classes).zip(boxes.values.chunks_exact(4)).filter_map(read).collect()
+}
+
+#[allow(clippy::cast_precision_loss, reason = "an input has fewer pixels than a float holds")]
+fn fastest(output: &Output, input: (usize, usize), least: f32) -> Vec<Detection> {
+    let [_, values, rows, columns] = output.shape[..] else { return Vec::new() };
+    let (wide, high) = (input.0 as f32 / columns as f32, input.1 as f32 / rows as f32);
+    let sigmoid = |value: f32| 1.0 / (1.0 + (-value).exp());
+    let read = |cell: usize| {
+        let at = |value: usize| output.values[value * rows * columns + cell];
+        let x = (at(1).tanh() + (cell % columns) as f32) * wide;
+        let y = (at(2).tanh() + (cell / columns) as f32) * high;
+        let (width, height) = (sigmoid(at(3)) * input.0 as f32, sigmoid(at(4)) * input.1 as f32);
+        let classes: Vec<f32> = (5..values).map(|value| at(value).powf(0.4)).collect();
+        likeliest(&classes, at(0).powf(0.6), least, centred(&[x, y, width, height]))
+    };
+    (0..rows * columns).filter_map(read).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn output(name: &str, shape: &[usize], values: Vec<f32>) -> Output {
+        assert_eq!(values.len(), shape.iter().product::<usize>());
+        Output { name: name.to_owned(), shape: shape.to_vec(), values }
+    }
+
+    fn only(head: Head, outputs: &[Output], input: (usize, usize)) -> (usize, f32, [f64; 4]) {
+        head.check(outputs, input).unwrap();
+        let found = head.decode(outputs, input, 0.3);
+        let [one] = &found[..] else { panic!("{found:?}") };
+        let rect = one.rect;
+        let corners = [rect.x0, rect.y0, rect.x1, rect.y1];
+        (one.class, one.score, corners.map(|value| (value * 1000.0).round() / 1000.0))
+    }
+
+    /// Grids of 8x4, 4x2 and 2x1 cells. The object is in the second grid, cell (2, 1).
+    #[test]
+    fn yolox_counts_cells_of_three_grids() {
+        let mut values = vec![0.0; 42 * 7];
+        let cell = 32 + 6;
+        values[cell * 7..][..7].copy_from_slice(&[
+            0.5,
+            0.25,
+            2.0_f32.ln(),
+            4.0_f32.ln(),
+            0.8,
+            0.1,
+            0.9,
+        ]);
+        let outputs = [output("output", &[1, 42, 7], values)];
+        // Centre (2.5, 1.25) cells of 16 pixels, 32 x 64 pixels.
+        let found = only(Head::Yolox, &outputs, (64, 32));
+        assert_eq!((found.0, found.2), (1, [24., -12., 56., 52.]));
+        assert!((found.1 - 0.72).abs() < 1e-6);
+    }
+
+    #[test]
+    fn yolov5_and_yolov8_are_in_pixels() {
+        let row = [20.0, 10.0, 8.0, 4.0];
+        let mut values = vec![0.0; 3 * 7];
+        values[7..11].copy_from_slice(&row);
+        values[11..14].copy_from_slice(&[0.5, 0.9, 0.2]);
+        let outputs = [output("out", &[1, 3, 7], values)];
+        assert_eq!(only(Head::Yolov5, &outputs, (64, 64)), (0, 0.45, [16., 8., 24., 12.]));
+        let mut values = vec![0.0; 6 * 3];
+        for (value, number) in row.into_iter().chain([0.2, 0.6]).enumerate() {
+            values[value * 3 + 2] = number;
+        }
+        let outputs = [output("out", &[1, 6, 3], values)];
+        assert_eq!(only(Head::Yolov8, &outputs, (64, 64)), (1, 0.6, [16., 8., 24., 12.]));
+    }
+
+    #[test]
+    fn ssd_has_a_background_and_shares_of_the_input() {
+        let outputs = [
+            output("boxes", &[1, 2, 4], vec![0.0, 0.0, 1.0, 1.0, 0.25, 0.5, 0.75, 1.0]),
+            output("scores", &[1, 2, 3], vec![0.9, 0.05, 0.05, 0.1, 0.1, 0.8]),
+        ];
+        assert_eq!(only(Head::Ssd, &outputs, (320, 240)), (1, 0.8, [80., 120., 240., 240.]));
+    }
+
+    #[test]
+    fn yunet_takes_the_mean_of_two_scores() {
+        let mut outputs = Vec::new();
+        for (stride, cells) in [(8, 8), (16, 2), (32, 0)] {
+            for (kind, values) in [("cls", 1), ("obj", 1), ("bbox", 4)] {
+                let name = format!("{kind}_{stride}");
+                outputs.push(output(&name, &[1, cells, values], vec![0.0; cells * values]));
+            }
+        }
+        // Cell (1, 1) of the first grid, of 4 columns.
+        outputs[0].values[5] = 0.64;
+        outputs[1].values[5] = 1.5;
+        outputs[2].values[20..24].copy_from_slice(&[0.5, 0.5, 0.0, 0.0]);
+        assert_eq!(only(Head::Yunet, &outputs, (32, 16)), (0, 0.8, [8., 8., 16., 16.]));
+    }
+
+    #[test]
+    fn fastestdet_is_in_shares_of_cells_and_input() {
+        let mut values = vec![0.0; 7 * 6];
+        for (value, number) in [1.0, 0.0, 0.0, 0.0, 0.0, 0.5, 1.0].into_iter().enumerate() {
+            values[value * 6 + 4] = number;
+        }
+        let outputs = [output("758", &[1, 7, 2, 3], values)];
+        // Cell (1, 1) begins at (32, 32); half of the input is 48 x 32.
+        assert_eq!(only(Head::FastestDet, &outputs, (96, 64)), (1, 1.0, [8., 16., 56., 48.]));
+    }
+
+    #[test]
+    fn other_outputs_are_refused_with_their_shapes() {
+        let outputs = [output("logits", &[1, 1000], vec![0.0; 1000])];
+        for head in Head::ALL {
+            let problem = head.check(&outputs, (64, 64)).unwrap_err();
+            assert!(problem.contains("`logits` [1, 1000]"), "{problem}");
+            assert!(problem.contains(head.name()), "{problem}");
+        }
+        // Another size of the input than the cells are of.
+        let outputs = [output("output", &[1, 42, 7], vec![0.0; 42 * 7])];
+        assert!(Head::Yolox.check(&outputs, (64, 64)).is_err());
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_found() {
+        let outputs = [output("out", &[1, 1, 7], vec![f32::NAN, 0., 1., 1., 1., 1., 1.])];
+        assert!(Head::Yolov5.decode(&outputs, (8, 8), 0.1).is_empty());
+        let outputs = [output("out", &[1, 1, 7], vec![1., 1., 1., 1., f32::NAN, 1., 1.])];
+        assert!(Head::Yolov5.decode(&outputs, (8, 8), 0.1).is_empty());
+        let outputs = [output("out", &[1, 1, 7], vec![1., 1., f32::INFINITY, 1., 1., 1., 1.])];
+        assert_eq!(Head::Yolov5.decode(&outputs, (8, 8), 0.1).len(), 1);
+    }
+}

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The network on whole frames, beside the one behind the camera.
+
+use std::time::Instant;
+
+use super::agreement::{Pairs, SAME_OBJECT, Sums};
+use super::detection::Detection;
+use super::detector::Detector;
+use super::findings::{Findings, Reader};
+use super::precision::Curve;
+use super::shots::Shots;
+use super::summary::{Received, Sight, Truth, psnr};
+use crate::InferenceError;
+use crate::camera::{Original, Seen};
+use crate::framing::Lens;
+use foveate_design::Camera;
+use foveate_network::{Executor, Mask, Mode, Network};
+
+/// The network on whole frames, and how much of what it says is said behind the camera, too.
+pub(crate) struct Judge<'a> {
+    network: &'a Network,
+    whole: Executor<'a>,
+    full: Mask,
+    reader: Reader,
+    sums: Sums,
+    received: Received,
+    /// Against ground truth, of whole frames and of what the receiver sees.
+    truth: Option<[Curve; 2]>,
+    shots: Shots,
+    rows: Vec<DetectionRow>,
+    seconds: f64,
+}
+
+/// A frame in numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SightFrame {
+    pub(crate) agreement: f64,
+    pub(crate) sent_bytes: f64,
+    /// Nothing where both pictures are equal.
+    pub(crate) picture_psnr: Option<f64>,
+    pub(crate) found: Option<super::Found>,
+}
+
+/// What was found in the counted frames.
+#[derive(Debug)]
+pub(crate) struct Detected {
+    pub(crate) shots: Shots,
+    pub(crate) rows: Vec<DetectionRow>,
+}
+
+/// A detection of a table.
+#[derive(Clone, Debug)]
+pub(crate) struct DetectionRow {
+    pub(crate) clip: String,
+    pub(crate) frame: u64,
+    pub(crate) name: String,
+    /// Whether it is of the whole frame, and not of what the receiver sees.
+    pub(crate) is_whole: bool,
+    /// Whether the other one has it, too.
+    pub(crate) is_both: bool,
+    pub(crate) detection: Detection,
+}
+
+impl<'a> Judge<'a> {
+    /// `with_truth` says whether there are ground-truth objects.
+    ///
+    /// # Errors
+    /// When the outputs of the network have another format than the detector's.
+    pub(crate) fn new(
+        network: &'a Network,
+        camera: &Camera,
+        lens: Option<&Lens>,
+        detector: Option<&Detector>,
+        with_truth: bool,
+    ) -> Result<Self, InferenceError> {
+        let input = network.input();
+        let frame = (camera.width(), camera.height());
+        let reader = Reader::new(network, frame, lens, detector.cloned())
+            .map_err(|problem| InferenceError::Choice { problem })?;
+        Ok(Self {
+            network,
+            whole: Executor::new(network, Mode::Dense),
+            full: Mask::full(input.height(), input.width()),
+            reader,
+            sums: Sums::default(),
+            received: Received::new(camera),
+            truth: with_truth.then(Default::default),
+            shots: Shots::new(camera),
+            rows: Vec::new(),
+            seconds: 0.0,
+        })
+    }
+
+    /// Runs the network on a whole frame, and compares what it says with what `other` says of what the receiver sees. Only a counted frame is in the sums.
+    pub(crate) fn look(
+        &mut self,
+        clip: &str,
+        seen: Seen<'_>,
+        other: &Executor<'_>,
+        is_counted: bool,
+    ) -> Option<SightFrame> {
+        let original = seen.original?;
+        let start = Instant::now();
+        self.whole.step(original.values, &self.full);
+        let seconds = start.elapsed().as_secs_f64();
+        let whole = self.reader.read(self.network, &self.whole);
+        let found = self.reader.read(self.network, other);
+        let pairs = self.pairs(&whole, &found);
+        let sums = Sums::of(&whole, &found, pairs.as_ref());
+        let squared_error = squared_error(original.frame, seen.screen);
+        let frame = SightFrame {
+            agreement: sums.agreement(),
+            sent_bytes: self.received.bytes(1, seen.sent_values),
+            picture_psnr: psnr(squared_error, self.received.pixels, self.received.max),
+            found: sums.found(),
+        };
+        if is_counted {
+            self.sums.add(&sums);
+            self.received.add(seen.sent_values, squared_error);
+            self.seconds += seconds;
+            self.add_truth(original, &whole, &found);
+            if let Some(pairs) = pairs {
+                self.tell(clip, seen, &pairs);
+                self.shots.add(clip, seen, pairs);
+            }
+        }
+        Some(frame)
+    }
+
+    fn pairs(&self, whole: &Findings, seen: &Findings) -> Option<Pairs> {
+        let detector = self.reader.detector.as_ref()?;
+        let (whole, seen) = (whole.detections.as_ref()?, seen.detections.as_ref()?);
+        Some(Pairs::of(detector, whole, seen))
+    }
+
+    fn add_truth(&mut self, original: Original<'_>, whole: &Findings, seen: &Findings) {
+        let Some(detector) = &self.reader.detector else { return };
+        let Some((curves, objects)) = self.truth.as_mut().zip(original.objects) else { return };
+        for (curve, findings) in curves.iter_mut().zip([whole, seen]) {
+            let found = findings.detections.as_deref().unwrap_or_default();
+            curve.add(found, objects, SAME_OBJECT, detector.height);
+        }
+    }
+
+    /// Rows of the table.
+    fn tell(&mut self, clip: &str, seen: Seen<'_>, pairs: &Pairs) {
+        let both = [(true, &pairs.whole), (false, &pairs.seen)];
+        for (is_whole, (detection, is_both)) in both
+            .into_iter()
+            .flat_map(|(is_whole, found)| found.iter().map(move |one| (is_whole, one)))
+        {
+            self.rows.push(DetectionRow {
+                clip: clip.to_owned(),
+                frame: seen.number,
+                name: seen.name.to_owned(),
+                is_whole,
+                is_both: *is_both,
+                detection: detection.clone(),
+            });
+        }
+    }
+
+    /// What was found, if detections were read.
+    pub(crate) fn detected(self) -> Option<Detected> {
+        let Self { reader, shots, rows, .. } = self;
+        reader.detector.is_some().then_some(Detected { shots, rows })
+    }
+
+    /// All of it.
+    pub(crate) fn sight(&self) -> Sight {
+        let detector = self.reader.detector.as_ref();
+        let score = detector.map_or(0.0, |detector| detector.score);
+        let truth = self.truth.as_ref().map(|[whole, seen]| Truth {
+            objects: whole.objects(),
+            whole_ap50: whole.average_precision(),
+            seen_ap50: seen.average_precision(),
+            whole_recall: whole.recall(score),
+            seen_recall: seen.recall(score),
+        });
+        #[allow(clippy::cast_precision_loss, reason = "a mean")]
+        let seconds = self.seconds / self.sums.frames.max(1) as f64;
+        Sight {
+            agreement: self.sums.agreement(),
+            relative_rms: self.sums.distance.relative(),
+            classes: self.sums.classes(),
+            same_places: self.sums.places(),
+            detections: detector.and_then(|detector| self.sums.detections(detector)),
+            truth,
+            picture_psnr: self.received.psnr(),
+            sent_bytes: self.received.bytes_per_frame(),
+            sent_share: self.received.share(),
+            seconds_per_frame: seconds,
+        }
+    }
+}
+
+fn squared_error(one: &[u16], other: &[u16]) -> f64 {
+    let squares = one.iter().zip(other).map(|(&one, &other)| u64::from(one.abs_diff(other)).pow(2));
+    #[allow(clippy::cast_precision_loss, reason = "a mean is made of it")]
+    let sum = squares.sum::<u64>() as f64;
+    sum
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The frames in which most is lost or added, as the receiver sees them, with what is found in them.
+
+use std::io::Cursor;
+
+use super::agreement::{Found, Pairs};
+use crate::camera::Seen;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use foveate_design::Camera;
+use foveate_frame::convert_depth;
+use image::{ImageFormat, ImageResult, Luma};
+
+/// Frames that are kept.
+const MOST: usize = 6;
+
+/// A frame with what is found in it.
+#[derive(Clone, Debug)]
+pub(crate) struct Shot {
+    pub(crate) clip: String,
+    pub(crate) number: u64,
+    pub(crate) name: String,
+    pub(crate) pairs: Pairs,
+    screen: Vec<u16>,
+}
+
+/// Some frames of many.
+#[derive(Debug)]
+pub(crate) struct Shots {
+    width: u32,
+    height: u32,
+    bits: u32,
+    kept: Vec<Shot>,
+}
+
+impl Shot {
+    pub(crate) fn found(&self) -> Found {
+        self.pairs.found()
+    }
+
+    /// Detections that are lost or added.
+    fn differences(&self) -> u64 {
+        let found = self.found();
+        found.whole - found.kept + found.added
+    }
+}
+
+impl Shots {
+    pub(super) fn new(camera: &Camera) -> Self {
+        let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
+        Self { width, height, bits, kept: Vec::new() }
+    }
+
+    /// Takes a frame, if it differs more than one of those that are kept.
+    pub(super) fn add(&mut self, clip: &str, seen: Seen<'_>, pairs: Pairs) {
+        let shot = Shot {
+            clip: clip.to_owned(),
+            number: seen.number,
+            name: seen.name.to_owned(),
+            pairs,
+            screen: Vec::new(),
+        };
+        let least = self.kept.last().map_or(0, Shot::differences);
+        if self.kept.len() == MOST && shot.differences() <= least {
+            return;
+        }
+        let before = self.kept.iter().take_while(|one| one.differences() >= shot.differences());
+        let at = before.count();
+        self.kept.insert(at, Shot { screen: seen.screen.to_vec(), ..shot });
+        self.kept.truncate(MOST);
+    }
+
+    /// Those with the most differences first.
+    pub(crate) fn kept(&self) -> &[Shot] {
+        &self.kept
+    }
+
+    pub(crate) fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// The picture of a shot as a PNG in base64.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(crate) fn png(&self, shot: &Shot) -> ImageResult<String> {
+        let byte = |&pixel: &u16| {
+            u8::try_from(convert_depth(pixel, self.bits, 8)).expect("a pixel of 8 bits is a byte")
+        };
+        let pixels = shot.screen.iter().map(byte).collect();
+        let picture =
+            image::ImageBuffer::<Luma<u8>, Vec<u8>>::from_raw(self.width, self.height, pixels);
+        let mut bytes = Cursor::new(Vec::new());
+        picture.expect("a screen has all pixels").write_to(&mut bytes, ImageFormat::Png)?;
+        Ok(STANDARD.encode(bytes.into_inner()))
+    }
+}

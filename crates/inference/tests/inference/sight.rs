@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a network loses behind the camera, and frames that are scaled for it.
+
+use std::path::{Path, PathBuf};
+
+use crate::common::{Run, number, rows};
+use foveate_inference::{
+    Computed, Detector, Framing, InferenceError, Sight, Summary, Viewing, Whole, Witness,
+    parse_detector, parse_framing,
+};
+use foveate_network::Mode;
+use foveate_network::onnx::{
+    AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto, TensorShapeProto,
+    TensorTypeProto, TypeProto, ValueInfoProto, data_type,
+};
+use prost::Message as _;
+
+/// Channels: a score, a place, a size and two classes, as of `FastestDet`.
+const CHANNELS: usize = 7;
+
+fn value(name: &str, shape: &[i64]) -> ValueInfoProto {
+    let dim = shape.iter().map(|&length| Dimension { dim_value: Some(length) }).collect();
+    let shape = Some(TensorShapeProto { dim });
+    let tensor = TensorTypeProto { elem_type: Some(data_type::FLOAT), shape };
+    ValueInfoProto {
+        name: Some(name.to_owned()),
+        r#type: Some(TypeProto { tensor_type: Some(tensor) }),
+    }
+}
+
+fn tensor(name: &str, dims: &[i64], values: Vec<f32>) -> TensorProto {
+    TensorProto {
+        name: Some(name.to_owned()),
+        dims: dims.to_vec(),
+        data_type: Some(data_type::FLOAT),
+        float_data: values,
+        ..TensorProto::default()
+    }
+}
+
+/// Writes a network that finds an object in every bright square of 8x8 pixels: one convolution.
+fn bright_squares(folder: &Path) -> PathBuf {
+    let logit = |share: f32| (share / (1.0 - share)).ln();
+    let mut weights = vec![0.0; CHANNELS * 64];
+    weights[..64].fill(1.0 / 64.0);
+    // In the middle of the square, of its size in frames of 64x48 pixels, of class 1.
+    let bias =
+        vec![0.0, 0.5_f32.atanh(), 0.5_f32.atanh(), logit(1.0 / 8.0), logit(1.0 / 6.0), 0.0, 1.0];
+    let ints = |name: &str, ints: &[i64]| AttributeProto {
+        name: Some(name.to_owned()),
+        ints: ints.to_vec(),
+        ..AttributeProto::default()
+    };
+    let channels = CHANNELS as i64;
+    let graph = GraphProto {
+        input: vec![value("picture", &[1, 1, 48, 64])],
+        initializer: vec![
+            tensor("weights", &[channels, 1, 8, 8], weights),
+            tensor("bias", &[channels], bias),
+        ],
+        node: vec![NodeProto {
+            op_type: Some("Conv".to_owned()),
+            name: Some("squares".to_owned()),
+            input: ["picture", "weights", "bias"].map(str::to_owned).to_vec(),
+            output: vec!["found".to_owned()],
+            attribute: vec![ints("kernel_shape", &[8, 8]), ints("strides", &[8, 8])],
+            ..NodeProto::default()
+        }],
+        output: vec![value("found", &[])],
+        ..GraphProto::default()
+    };
+    let model = ModelProto { ir_version: Some(8), graph: Some(graph), ..ModelProto::default() };
+    let path = folder.join("squares.onnx");
+    std::fs::write(&path, model.encode_to_vec()).unwrap();
+    path
+}
+
+fn squares() -> Detector {
+    parse_detector("fastestdet,score=0.6").unwrap()
+}
+
+fn run(folder: &Path, camera: &str, boxes: &[PathBuf]) -> Result<Summary, InferenceError> {
+    let network = bright_squares(folder);
+    let whole = Whole { detector: Some(squares()), boxes: boxes.to_vec() };
+    Run { network: Some(&network), sight: Some(whole), camera, frames: 6, ..Run::default() }
+        .write(folder)
+}
+
+fn sight(folder: &Path, camera: &str) -> Sight {
+    run(folder, camera, &[]).unwrap().sight.unwrap()
+}
+
+/// Regions without edges are nothing to the receiver, or their means, which is all that this network looks at.
+#[test]
+fn means_keep_what_nothing_loses() {
+    let dir = tempfile::tempdir().unwrap();
+    let mean = "[render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 1\nlevel = 0\n[denoise]\nfilter = \"none\"\n[temporal]\nreference = \"last-sent\"\nlevel = 0\nmin_count = 1\n";
+    let (nothing, means) = (sight(dir.path(), ""), sight(dir.path(), mean));
+    let [lost, kept] = [&nothing, &means].map(|sight| sight.detections.clone().unwrap());
+    assert!(lost.all.whole > 20 && lost.kept_share < 0.9, "{lost:?}");
+    assert_eq!(lost.all.whole, kept.all.whole);
+    assert!(kept.kept_share > 0.95 && kept.precision > 0.95, "{kept:?}");
+    assert!((means.agreement - kept.kept_share.min(kept.precision)).abs() < 1e-12);
+    assert!(means.picture_psnr.unwrap() > nothing.picture_psnr.unwrap() + 6.0);
+    assert!(means.relative_rms < nothing.relative_rms);
+    // A mean for each of 48 regions is at most 48 bytes more, without the pixels of the first frame.
+    assert!(means.sent_bytes > 12.0 && means.sent_share < 1.0);
+    // The table has what is counted, and the sizes add up.
+    let rows = rows(dir.path(), "detections.parquet");
+    assert_eq!(rows.len() as u64, kept.all.whole + kept.all.seen);
+    assert_eq!(kept.all.whole, kept.small.whole + kept.medium.whole + kept.large.whole);
+    assert!(rows.iter().all(|row| number(row, "score") >= 0.6 && number(row, "class") == 1.0));
+    let page = std::fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    assert!(page.contains("What the network loses") && page.contains("data:image/png;base64,"));
+    assert!(page.matches("class=\"kept\"").count() > 10);
+}
+
+/// Ground truth is what the network finds in whole frames, so that its precision there is 1.
+#[test]
+fn precision_is_against_ground_truth() {
+    let dir = tempfile::tempdir().unwrap();
+    run(dir.path(), "", &[]).unwrap();
+    // As of MOT: frames and coordinates begin at 1.
+    let mut table = String::new();
+    for (track, row) in rows(dir.path(), "detections.parquet").iter().enumerate() {
+        let [x0, y0, x1, y1] = ["x0", "y0", "x1", "y1"].map(|name| number(row, name));
+        if row["whole"] == parquet::record::Field::Bool(true) {
+            let (frame, width, height) = (number(row, "frame") + 1.0, x1 - x0, y1 - y0);
+            let place = format!("{},{},{width},{height}", x0 + 1.0, y0 + 1.0);
+            table += &format!("{frame},{},{place},1,1,1\n", track + 1);
+        }
+    }
+    let boxes = dir.path().join("gt.txt");
+    std::fs::write(&boxes, table).unwrap();
+    let found = run(dir.path(), "", std::slice::from_ref(&boxes));
+    let summary = found.unwrap();
+    let truth = summary.sight.unwrap().truth.unwrap();
+    assert!(truth.objects > 20);
+    assert_eq!((truth.whole_ap50, truth.whole_recall), (1.0, 1.0));
+    assert!(truth.seen_ap50 < 0.95 && truth.seen_recall < 0.9, "{truth:?}");
+}
+
+/// Every frame is the same, so that what is shown is what a witness says.
+#[test]
+fn a_witness_says_what_a_run_says() {
+    let dir = tempfile::tempdir().unwrap();
+    let network = bright_squares(dir.path());
+    let viewing = Viewing {
+        framing: Framing::Same,
+        mapping: foveate_inference::Mapping { mean: vec![0.0], scale: vec![1.0] },
+        detector: Some(squares()),
+    };
+    let witness = Witness::read(&network, (64, 48), &viewing).unwrap();
+    let mut config = foveate_design::CameraConfig::default();
+    (config.frame.width, config.frame.height) = (Some(64), Some(48));
+    let camera = config.validate().unwrap();
+    let bright: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 16 { 250 } else { 10 }).collect();
+    let half: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 8 { 250 } else { 10 }).collect();
+    let mut looking = witness.look_at(&camera);
+    let [whole, other] =
+        [&bright, &half].map(|pixels| looking.look(foveate_frame::Plane::Bytes(pixels)));
+    let same = witness.compare(&whole, &whole);
+    assert_eq!((same.share(), same.found().unwrap().whole), (1.0, 12));
+    let mut sum = witness.compare(&whole, &other);
+    assert_eq!((sum.share(), sum.found().unwrap().kept), (0.5, 6));
+    sum.add(&same);
+    assert_eq!(sum.share(), 0.75);
+    assert!(
+        Witness::read(&network, (32, 48), &viewing).unwrap_err().to_string().contains("letterbox")
+    );
+    let viewing = Viewing { detector: Some(parse_detector("ssd").unwrap()), ..viewing };
+    assert!(
+        Witness::read(&network, (64, 48), &viewing)
+            .unwrap_err()
+            .to_string()
+            .contains("`found` [1, 7, 6, 8]")
+    );
+}
+
+/// Frames that are scaled behind the camera are computed exactly, too: what changed covers every input that did.
+#[test]
+fn scaled_frames_are_exact() {
+    let dir = tempfile::tempdir().unwrap();
+    for text in ["letterbox=48x48", "stretch=40x56", "stretch=96x72"] {
+        let framing = parse_framing(text).unwrap();
+        let computed = Computed::Mode(Mode::Exact);
+        let run = Run { framing, computed, reference: true, frames: 4, ..Run::default() };
+        let summary = run.write(dir.path()).unwrap();
+        assert_eq!(summary.error.unwrap().different_frames, 0, "{text}");
+        assert!(summary.macs.needed < summary.macs.dense, "{text}");
+        let (width, height) = (summary.layers[0].shape[3], summary.layers[0].shape[2]);
+        assert!(text.ends_with(&format!("{width}x{height}")), "{text}");
+        assert_eq!(serde_json::to_value(&summary).unwrap()["framing"], text);
+    }
+    // The denoiser takes any size, so one must be said.
+    let problem = Run { framing: Framing::Letterbox(None), ..Run::default() }.write(dir.path());
+    assert!(problem.unwrap_err().to_string().contains("letterbox=416x416"));
+}
+
+/// Without a camera that leaves something out, nothing is lost.
+#[test]
+fn whole_frames_agree_with_themselves() {
+    let dir = tempfile::tempdir().unwrap();
+    let camera = "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\nmin_score = 0\n[temporal]\nlevel = 0\nmin_count = 0\n";
+    let run = Run { sight: Some(Whole::default()), camera, ..Run::default() };
+    let sight = run.write(dir.path()).unwrap().sight.unwrap();
+    assert_eq!((sight.agreement, sight.relative_rms, sight.picture_psnr), (1.0, 0.0, None));
+    assert!((sight.sent_share - 1.0 - 12.0 / 3072.0).abs() < 1e-9, "{}", sight.sent_share);
+    assert!(sight.detections.is_none() && sight.classes.is_none() && sight.same_places.is_none());
+}
