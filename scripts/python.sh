@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 tools=$(scripts/python_tools.sh --package)
 wheels=${CARGO_TARGET_DIR:-target}/wheels
 rm -rf "$wheels"
-VIRTUAL_ENV=$(dirname "$tools") "$tools/maturin" build --profile dev --locked --quiet --out "$wheels" >&2
+VIRTUAL_ENV=$(dirname "$tools") "$tools/maturin" build --profile dev --features as-tested --locked --quiet --out "$wheels" >&2
 "$tools/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl >&2
 echo "$tools"
 [ "${1:-}" = --test ] || exit 0
