@@ -67,7 +67,7 @@ impl Optimize {
 /// A C++ compiler set up for Verilator's headers.
 pub(super) struct Compiler<'a> {
     toolchain: &'a Toolchain,
-    include: PathBuf,
+    include: &'a Path,
     flags: Vec<String>,
 }
 
@@ -83,7 +83,7 @@ struct Unit {
 impl<'a> Compiler<'a> {
     pub(super) fn new(
         toolchain: &'a Toolchain,
-        include: PathBuf,
+        include: &'a Path,
         trace: bool,
     ) -> Result<Self, ToolError> {
         toolchain.find(Tool::Cxx)?;
@@ -157,10 +157,9 @@ impl<'a> Compiler<'a> {
         if let [all] = &bundle(dir, "all", &all, Some(MAIN))?[..] {
             units.push(unit(all, flag, header));
         } else {
-            for name in bundle(dir, "fast", &makefile.fast, None)? {
+            for name in bundle(dir, "fast", &makefile.fast, Some(MAIN))? {
                 units.push(unit(&name, flag, header.clone()));
             }
-            units.push(unit(MAIN, flag, header));
             let header = header_for(SLOW_FLAG)?;
             for name in bundle(dir, "slow", &makefile.slow, None)? {
                 units.push(unit(&name, SLOW_FLAG, header.clone()));
@@ -205,7 +204,7 @@ impl<'a> Compiler<'a> {
     /// Where headers are looked for.
     fn includes(&self) -> [OsString; 5] {
         let (system, more) = (OsString::from("-isystem"), self.include.join("vltstd"));
-        ["-I.".into(), system.clone(), self.include.clone().into(), system, more.into()]
+        ["-I.".into(), system.clone(), self.include.into(), system, more.into()]
     }
 
     fn command(&self, dir: &Path) -> Result<Invocation, ToolError> {

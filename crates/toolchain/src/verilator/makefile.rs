@@ -2,7 +2,7 @@
 //! Reads from Verilator's makefiles which files it wrote, and which parts of its run time and which
 //! libraries they need. That differs between versions, so that it is asked and not assumed.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::ToolError;
 
@@ -17,6 +17,8 @@ pub(super) struct Makefile {
     pub(super) run_time: Vec<String>,
     /// Flags for the linker.
     pub(super) libraries: Vec<String>,
+    /// The folder of Verilator's headers and run time.
+    pub(super) include: PathBuf,
 }
 
 impl Makefile {
@@ -35,6 +37,7 @@ impl Makefile {
             slow: both("VM_CLASSES_SLOW", "VM_SUPPORT_SLOW"),
             run_time: both("VM_GLOBAL_FAST", "VM_GLOBAL_SLOW"),
             libraries: list(main, "VM_USER_LDLIBS"),
+            include: Path::new(rest_of_line(main, "VERILATOR_ROOT")).join("include"),
         }
     }
 }
@@ -42,11 +45,19 @@ impl Makefile {
 /// The words assigned to a variable, over continued lines.
 fn list(makefile: &str, variable: &str) -> Vec<String> {
     let joined = makefile.replace("\\\n", " ");
-    let assigned = joined.lines().filter_map(|line| {
-        let rest = line.strip_prefix(variable)?.trim_start();
-        rest.strip_prefix("+=").or_else(|| rest.strip_prefix('='))
-    });
+    let assigned = joined.lines().filter_map(|line| assigned(line, variable));
     assigned.flat_map(str::split_whitespace).map(str::to_owned).collect()
+}
+
+/// All that one line assigns to a variable, such as a path with spaces.
+fn rest_of_line<'a>(makefile: &'a str, variable: &str) -> &'a str {
+    makefile.lines().find_map(|line| assigned(line, variable)).unwrap_or_default().trim()
+}
+
+/// What a line assigns to a variable, if it does.
+fn assigned<'a>(line: &'a str, variable: &str) -> Option<&'a str> {
+    let rest = line.strip_prefix(variable)?.trim_start();
+    ["+=", "?=", "="].into_iter().find_map(|sign| rest.strip_prefix(sign))
 }
 
 #[cfg(test)]
@@ -60,10 +71,14 @@ mod tests {
                        VM_SUPPORT_FAST += \\\n\tVtop__Trace \\\n\n\
                        VM_GLOBAL_FAST += \\\n\tverilated \\\n\tverilated_threads \\\n\n\
                        VM_GLOBAL_SLOW += \\\n\n";
-        let makefile = Makefile::parse(classes, "VM_USER_LDLIBS = \\\n\t-lz \\\n\n");
+        let main = "VERILATOR_ROOT = /my tools/verilator\nVM_USER_LDLIBS = \\\n\t-lz \\\n\n";
+        let makefile = Makefile::parse(classes, main);
         assert_eq!(makefile.fast, ["Vtop", "Vtop__0", "Vtop__Trace"]);
         assert_eq!(makefile.slow, ["Vtop__Slow"]);
         assert_eq!(makefile.run_time, ["verilated", "verilated_threads"]);
         assert_eq!(makefile.libraries, ["-lz"]);
+        assert_eq!(makefile.include, Path::new("/my tools/verilator/include"));
+        let newer = Makefile::parse("", "VERILATOR_ROOT ?= /verilator\n");
+        assert_eq!(newer.include, Path::new("/verilator/include"));
     }
 }

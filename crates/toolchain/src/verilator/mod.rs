@@ -188,7 +188,7 @@ fn build_in(
     ports::check_header(&job.top, &header, &job.port_bits)?;
     files::write(dir, MAIN, job.cpp_main.as_bytes())?;
     let makefile = Makefile::read(dir, &job.prefix())?;
-    let compiler = Compiler::new(toolchain, include_dir(toolchain)?, job.trace)?;
+    let compiler = Compiler::new(toolchain, &makefile.include, job.trace)?;
     let mut objects = compiler.run_time(cache, &makefile)?;
     objects.extend(compiler.model(cache, dir, &makefile, job.optimize)?);
     compiler.link(dir, &objects, &makefile)
@@ -209,12 +209,4 @@ fn with_sources(
     }
     let names = sources.iter().map(|(name, _)| name).filter(|name| !name.ends_with(".vh"));
     Ok(invocation.args(names))
-}
-
-/// The folder of Verilator's headers and run time.
-fn include_dir(toolchain: &Toolchain) -> Result<PathBuf, ToolError> {
-    let ask = toolchain.invocation(Tool::Verilator)?.args(["--getenv", "VERILATOR_ROOT"]);
-    let output = toolchain.run_checked(&ask.timeout(LIMIT))?;
-    let root = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-    Ok(Path::new(&root).join("include"))
 }
