@@ -22,16 +22,16 @@ fn agrees(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str)
 #[test]
 fn every_preset_agrees_at_rpu_level_in_both_simulators() {
     for preset in PRESETS {
-        // Every organization takes four regions side by side.
-        let design = design(&preset.config().unwrap(), (4, 3));
         for simulator in Simulator::ALL {
             let scene = Scene::find("street").unwrap();
-            let size = SceneSize { width: 32, height: 24, bits: 8, region_size: 8, frames: 4 };
-            // Icarus is slow, and every sequence comes in each round.
-            let rounds = match simulator {
-                Simulator::Verilator => Stimulus::default().rounds,
-                Simulator::Iverilog => 1,
+            // Every organization takes four regions side by side. Icarus is slow, and every sequence comes in each round.
+            let (rows, rounds) = match simulator {
+                Simulator::Verilator => (3, Stimulus::default().rounds),
+                Simulator::Iverilog => (2, 1),
             };
+            let design = design(&preset.config().unwrap(), (4, rows));
+            let (width, height) = (32, 8 * rows);
+            let size = SceneSize { width, height, bits: 8, region_size: 8, frames: 4 };
             let frames = scene.frames(size).collect();
             let stimulus = Stimulus { frames, rounds, ..Stimulus::default() };
             agrees(&design, simulator, stimulus, preset.name);
