@@ -117,6 +117,14 @@ impl Constraints {
         .collect()
     }
 
+    /// Whether there is one of those on what a camera sees and sends.
+    pub(super) fn limits_figures(&self) -> bool {
+        let Self { max_flips, max_missed, min_psnr, max_stale_frames, max_bytes, min_recall, .. } =
+            self;
+        let shares = [max_flips, max_missed, min_psnr, max_bytes, min_recall];
+        shares.iter().any(|limit| limit.is_some()) || max_stale_frames.is_some()
+    }
+
     /// The constraint on speed, at the low end of the clock. Without a clock it is not met.
     #[must_use]
     pub fn on_speed(&self, speed: Option<&Speed>) -> Vec<Held> {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cheapest camera that a network cannot tell from whole frames: a descent from the task.
 //!
-//! Cameras that differ from the best one so far in one thing are examined, the cheapest first, until one agrees enough; that is the best one then.
-//! It ends when none is cheaper.
+//! It begins at the task, whatever its irrelevant regions show, and at a camera that sends nearly all. Cameras that differ from the best one so far in
+//! one thing are examined, the cheapest first, until one agrees enough; that is the best one then. It ends when none is cheaper.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +33,7 @@ pub(super) struct Descent<'s, 'a> {
     jury: &'s Jury<'a>,
     hardware: &'s HardwareConfig,
     /// What the network said of cameras, by their configurations.
-    asked: BTreeMap<String, (CameraConfig, Agreed)>,
+    pub(super) asked: BTreeMap<String, Agreed>,
 }
 
 impl<'s, 'a> Descent<'s, 'a> {
@@ -45,26 +45,28 @@ impl<'s, 'a> Descent<'s, 'a> {
         Self { search, jury, hardware, asked: BTreeMap::new() }
     }
 
-    /// Goes down until nothing is cheaper. The cameras that it went through stay in the search, or the one that the network tells least from whole
-    /// frames if none holds. Returns how many cameras the network looked at.
-    pub(super) fn run(&mut self) -> Result<usize, ExploreError> {
-        let start = self.search.task().clone();
-        let mut best = self.cheapest(&ways_to_show(&start), f64::INFINITY)?;
-        let mut from = start.clone();
+    /// Goes down from the task and from a camera that sends nearly all, until nothing is cheaper. The camera where it ends is in the search then, or
+    /// that which sends nearly all if none holds.
+    pub(super) fn run(&mut self) -> Result<(), ExploreError> {
+        let all = nearly_all(self.search.task());
+        let mut starts = ways_to_show(self.search.task());
+        starts.push(all.clone());
+        let mut best = self.cheapest(&starts, f64::INFINITY)?;
         loop {
-            let most = best.as_ref().map_or(f64::INFINITY, |(cost, _)| *cost);
-            if let Some((_, config)) = &best {
-                from.clone_from(config);
-            }
+            let (most, from) = match &best {
+                Some((cost, config)) => (*cost, config.clone()),
+                None => (f64::INFINITY, all.clone()),
+            };
             match self.cheapest(&neighbors(&from), most)? {
                 Some(better) => best = Some(better),
                 None => break,
             }
         }
-        if best.is_none() {
-            self.keep_nearest()?;
-        }
-        Ok(self.asked.len())
+        let (_, chosen) = best.unwrap_or((f64::INFINITY, all));
+        let camera = chosen.validate()?;
+        let agreed = self.jury.ask(&camera, Half::First, None, self.asked.len())?;
+        self.asked.insert(chosen.to_toml(), agreed);
+        self.look(&chosen, agreed).map(drop)
     }
 
     /// The cheapest that holds and costs less than `most`.
@@ -77,9 +79,11 @@ impl<'s, 'a> Descent<'s, 'a> {
         priced.retain(|(cost, _)| *cost < most);
         priced.sort_by(|one, other| one.0.total_cmp(&other.0));
         for (cost, camera) in priced {
-            let agreed = self.ask(&camera)?;
-            if agreed.share >= self.jury.goal.min_agreement && self.look(camera.config(), agreed)? {
-                return Ok(Some((cost, camera.config().clone())));
+            let (config, agreed) = (camera.config(), self.ask(&camera)?);
+            let agrees = agreed.share >= self.jury.goal.min_agreement;
+            // To know what else a camera shows takes longer than to ask.
+            if agrees && (!self.search.limits_figures() || self.look(config, agreed)?) {
+                return Ok(Some((cost, config.clone())));
             }
         }
         Ok(None)
@@ -105,12 +109,12 @@ impl<'s, 'a> Descent<'s, 'a> {
 
     fn ask(&mut self, camera: &Camera) -> Result<Agreed, ExploreError> {
         let key = camera.config().to_toml();
-        if let Some((_, agreed)) = self.asked.get(&key) {
+        if let Some(agreed) = self.asked.get(&key) {
             return Ok(*agreed);
         }
         let least = Some(self.jury.goal.min_agreement);
         let agreed = self.jury.ask(camera, Half::First, least, self.asked.len())?;
-        self.asked.insert(key, (camera.config().clone(), agreed));
+        self.asked.insert(key, agreed);
         Ok(agreed)
     }
 
@@ -124,15 +128,6 @@ impl<'s, 'a> Descent<'s, 'a> {
         }
         Ok(holds)
     }
-
-    fn keep_nearest(&mut self) -> Result<(), ExploreError> {
-        let share = |(_, agreed): &&(CameraConfig, Agreed)| agreed.share;
-        let nearest = self.asked.values().max_by(|one, other| share(one).total_cmp(&share(other)));
-        if let Some((config, agreed)) = nearest.cloned() {
-            self.look(&config, agreed)?;
-        }
-        Ok(())
-    }
 }
 
 impl Look {
@@ -141,6 +136,20 @@ impl Look {
         self.held.retain(|held| held.name != "min-agreement");
         self.held.push(Held::agreement(agreed.share, least));
     }
+}
+
+/// A camera that sends much more than the task's: if the network tells this one from whole frames, it tells all others.
+fn nearly_all(task: &CameraConfig) -> CameraConfig {
+    const OCTAVES: f64 = -2.0;
+    let mut config = scaled_by(task, OCTAVES, OCTAVES);
+    let fits = |blocks: &&u32| task.region.size.is_multiple_of(**blocks);
+    config.render.irrelevant = Irrelevant::Mean;
+    config.periphery.blocks = SUMMARY_BLOCKS.iter().filter(fits).max().copied();
+    config.periphery.level = Some(1 << task.frame.pixel_bits.saturating_sub(8));
+    config.denoise.filter = Filter::None;
+    config.temporal.reference = Reference::LastSent;
+    config.temporal.min_count = config.temporal.min_count.min(1);
+    config
 }
 
 /// All that irrelevant regions can show.
@@ -210,6 +219,34 @@ fn neighbors(config: &CameraConfig) -> Vec<CameraConfig> {
     }
     for fewer in 1..=FEWER_BITS.min(bits - 1) {
         other(&|config| *config = config.at_depth(bits - fewer));
+    }
+    found
+}
+
+/// What one change of the chosen camera would do that is cheaper or not, in the order of the keys.
+pub(super) fn steps(asked: &BTreeMap<String, Agreed>, chosen: &CameraConfig) -> Vec<String> {
+    let own = settings(&chosen.to_toml());
+    let step = |(text, agreed): (&String, &Agreed)| {
+        let other = settings(text);
+        let mut changed = other.iter().filter(|line| !own.contains(line));
+        let lost = own.iter().filter(|line| !other.contains(line)).count();
+        let line = changed.next().filter(|_| lost <= 1 && changed.next().is_none())?;
+        let bound = if agreed.at_most { "at most " } else { "" };
+        Some(format!("{line}: agreement {bound}{:.1} %", 100.0 * agreed.share))
+    };
+    asked.iter().filter_map(step).collect()
+}
+
+/// The settings of a configuration, each with the name of its table.
+fn settings(toml: &str) -> Vec<String> {
+    let mut table = String::new();
+    let mut found = Vec::new();
+    for line in toml.lines() {
+        match line.strip_prefix('[') {
+            Some(name) => table = name.trim_matches(['[', ']']).to_owned(),
+            None if line.contains('=') => found.push(format!("{table}.{line}")),
+            None => {}
+        }
     }
     found
 }

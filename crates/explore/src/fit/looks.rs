@@ -70,6 +70,11 @@ impl<'a> Search<'a> {
         self.seen.values()
     }
 
+    /// Whether a limit is one on what a camera shows or sends.
+    pub(super) fn limits_figures(&self) -> bool {
+        self.constraints.limits_figures()
+    }
+
     /// Takes over what is new of a camera that was examined.
     pub(super) fn replace(&mut self, look: Look) {
         self.seen.insert(look.config.to_toml(), look);

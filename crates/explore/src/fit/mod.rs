@@ -28,6 +28,7 @@ mod rough;
 mod target;
 mod why;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use foveate_design::{Config, HardwareConfig};
@@ -97,18 +98,20 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
     let jury = request.network.map(|goal| Jury::new(goal, &footage, &lengths, search.task()));
     let jury = jury.transpose()?;
-    let cameras = match &jury {
-        None => {
-            search.run()?;
-            search.all().count()
+    let mut asked = BTreeMap::new();
+    match &jury {
+        None => search.run()?,
+        Some(jury) => {
+            let mut descent = Descent::new(&mut search, jury, &request.task.hardware);
+            descent.run()?;
+            asked = descent.asked;
         }
-        Some(jury) => Descent::new(&mut search, jury, &request.task.hardware).run()?,
-    };
+    }
     let built = build(&search, request, memory, hooks)?;
     let chosen = built.chosen();
     let second = search.second_half(&chosen.look)?;
     let network = jury.map(|jury| jury.report(&chosen.look)).transpose()?;
-    Ok(report::fit(request, &search, cameras, &built, target, (second, network), &lengths))
+    Ok(report::fit(request, &search, &asked, &built, target, (second, network), &lengths))
 }
 
 /// The sums of both halves of all clips in frames.

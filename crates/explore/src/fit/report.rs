@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What came out of a fit, for people and programs.
 
+use std::collections::BTreeMap;
+
 use foveate_design::Config;
 use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
@@ -11,7 +13,7 @@ use super::constraints::{Held, all_hold};
 use super::held_out::Halves;
 use super::looks::Search;
 use super::network::{Agreed, Cheapest};
-use super::{FitRequest, frames, why};
+use super::{FitRequest, descent, frames, why};
 use crate::cost::Silicon;
 use crate::row::bytes_per_frame;
 
@@ -108,7 +110,7 @@ pub struct Fit {
 pub(super) fn fit(
     request: &FitRequest<'_>,
     search: &Search<'_>,
-    cameras: usize,
+    asked: &BTreeMap<String, Agreed>,
     built: &Built,
     target: Option<Target>,
     ((held_out, mut held), network): ((Figures, Vec<Held>), Option<FittedNetwork>),
@@ -128,11 +130,15 @@ pub(super) fn fit(
         task: Config { camera: search.task().clone(), ..Config::default() }.to_toml(),
         target,
         clock_hz: request.clock_hz,
-        considered: (cameras, built.all().len(), built.left_out),
+        considered: (search.all().count().max(asked.len()), built.all().len(), built.left_out),
         feasible: chosen.holds(),
         borne_out: all_hold(&held),
         binding: why::binding(built),
-        why: why::why(search, built, chosen, request),
+        why: {
+            let mut why = descent::steps(asked, &chosen.look.config);
+            why.extend(why::why(search, built, chosen, request));
+            why
+        },
         problems: halves.problems.clone(),
         network,
         design: Design {
