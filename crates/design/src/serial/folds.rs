@@ -75,7 +75,11 @@ fn lane_blocks(design: SerialDesign<'_>) -> u64 {
 
 fn least_steps((phase, steps): &(Phase, u64)) -> u64 {
     match phase {
-        Phase::RotateCount | Phase::RotateScore(_) | Phase::Unload => 0,
+        Phase::RotateCount
+        | Phase::Means
+        | Phase::RotateScore(_)
+        | Phase::Unload
+        | Phase::UnloadMeans => 0,
         Phase::DenoiseTemporal | Phase::Border | Phase::Temporal | Phase::Pass(_) | Phase::Copy => {
             *steps
         }

@@ -38,8 +38,7 @@ impl Takes for Serial {
 
     fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
         match irrelevant {
-            Irrelevant::Zero | Irrelevant::Hold => true,
-            Irrelevant::Mean => false,
+            Irrelevant::Zero | Irrelevant::Hold | Irrelevant::Mean => true,
         }
     }
 

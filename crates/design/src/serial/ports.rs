@@ -38,24 +38,26 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> Interface {
             score(PortRole::AnyScore, design.any_score_bits(), "it; only with score_valid_o"),
         ],
     );
+    let mut decided = vec![
+        output(PortRole::Srs, 1, "spatial relevance; 0 unless decision_valid_o"),
+        output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
+        output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
+    ];
+    if design.periphery().is_some() {
+        let doc = "the region's means will leave; 0 unless decision_valid_o";
+        decided.push(output(PortRole::Summary, 1, doc));
+    }
     let decisions = Stream::out_of_core(
         StreamRole::Decisions,
         "the decision of the region of the score",
         output(PortRole::DecisionValid, 1, "the decision for region_o; comes with its last score"),
-        vec![
-            output(PortRole::Srs, 1, "spatial relevance; 0 unless decision_valid_o"),
-            output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
-            output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
-        ],
+        decided,
     );
-    let doc = "a pixel of an active region leaves";
+    let (beat, leaves) = beats(design);
     let forwarded = Stream::out_of_core(
         StreamRole::Forwarded,
-        match design.feed() {
-            Feed::Parallel => "a pixel of the active regions of one slot",
-            Feed::Raster => "a pixel of an active region",
-        },
-        fed(design, output(PortRole::ForwardValid, 1, doc)),
+        beat,
+        fed(design, output(PortRole::ForwardValid, 1, leaves)),
         leaving(design),
     );
     let (scores, decisions) = (Stream { region, ..scores }, Stream { region, ..decisions });
@@ -66,6 +68,20 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> Interface {
     };
     let forwarded = Stream { region, ..forwarded };
     Interface::new(vec![pixels, scores, decisions, forwarded], threshold_ports(&design))
+}
+
+/// What a beat of what leaves is, and what the port says that marks it.
+fn beats(design: SerialDesign<'_>) -> (&'static str, &'static str) {
+    let pixel = "a pixel of an active region leaves";
+    let either = "a pixel of an active region leaves, or a mean";
+    match (design.feed(), design.periphery()) {
+        (Feed::Parallel, None) => ("a pixel of the active regions of one slot", pixel),
+        (Feed::Raster, None) => ("a pixel of an active region", pixel),
+        (Feed::Parallel, Some(_)) => {
+            ("a pixel of the active regions of one slot, or a mean of its summaries", either)
+        }
+        (Feed::Raster, Some(_)) => ("a pixel of an active region, or a mean of a summary", either),
+    }
 }
 
 /// What comes with a pixel that leaves.

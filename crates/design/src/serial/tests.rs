@@ -5,7 +5,8 @@
 use super::*;
 use crate::{Config, FeatureKind, Feed, MemoryKind, Neighborhood, Qualifier};
 use Phase::{
-    Border, Copy, DenoiseTemporal, Pass, RotateCount, RotateScore, Temporal as Compare, Unload,
+    Border, Copy, DenoiseTemporal, Means, Pass, RotateCount, RotateScore, Temporal as Compare,
+    Unload, UnloadMeans,
 };
 
 fn design(overrides: &[&str]) -> Design {
@@ -132,6 +133,33 @@ fn a_deep_array_waits_for_its_registers() {
     }
 }
 
+/// By hand from `docs/serial.md`: of 64 pixels four blocks of 16, of 25 one; 784 or 5 lanes.
+#[test]
+fn means_pass_the_ports_once_and_leave_once() {
+    let own = |more: &[&str]| {
+        let timing = timing(&design(&[&["render.irrelevant=mean"], more].concat()));
+        let phases: Vec<_> = timing.phases().iter().map(|&(phase, _)| phase).collect();
+        let edge = FeatureKind::Edge;
+        let (count, score) = (RotateCount, RotateScore(edge));
+        assert_eq!(phases, [DenoiseTemporal, count, Means, Pass(edge), score, Unload, UnloadMeans]);
+        (timing.phases()[2].1, timing.phases()[6].1, timing)
+    };
+    let (means, unload, four) = own(&[]);
+    assert_eq!((means, unload), (4 * (18 + 784), 4 * (784 + 2)));
+    assert_eq!(four.clocks_per_frame(), 7_905 + 3_208 + 3_144);
+    // Deep, in block RAM: Q = 2.
+    let (means, unload, _) = own(&["hardware.pipelining=deep", "hardware.memory=block"]);
+    assert_eq!((means, unload), (4 * (18 + 1 + 784), 4 * (784 + 4)));
+    let (means, unload, _) = own(&["hardware.feed=raster", "periphery.blocks=1"]);
+    assert_eq!((means, unload), (66 + 784, 785));
+    let small = ["region.size=5", "frame.width=49", "frame.height=5", "hardware.fold=2"];
+    let (means, unload, one) = own(&small);
+    assert_eq!((means, unload), (27 + 5, 7));
+    // The decision comes with the last score, before what leaves.
+    let departure = one.answers().departure;
+    assert_eq!(departure.forward_clocks - departure.decision_clocks, 25 + 7);
+}
+
 #[test]
 fn the_configuration_may_name_the_memory() {
     let of = |overrides: &[&str]| {
@@ -231,6 +259,14 @@ fn ports_follow_feed_and_fold() {
             _ => Qualifier::Always,
         };
         assert_eq!(port.qualifier, qualifier, "{}", port.name);
+    }
+    for (feed, forward) in [("parallel", &parallel), ("raster", &raster)] {
+        let feed = format!("hardware.feed={feed}");
+        let means = design(&["hardware.fold=4", &feed, "render.irrelevant=mean"]).rcm_ports();
+        let mut expected = outputs(forward);
+        expected.insert(9, ("summary_o", 1, 1, false));
+        assert_eq!(outputs(&means), expected);
+        assert_eq!(means.iter().filter(|port| port.name == "summary_level_i").count(), 1);
     }
     let thresholds = |ports: Vec<crate::Port>| -> Vec<_> {
         let own =

@@ -18,6 +18,8 @@ pub enum Phase {
     Temporal,
     /// The temporal counts of the lanes pass the ports.
     RotateCount,
+    /// The means of blocks are computed, and pass to where they are compared with those shown.
+    Means,
     /// The score of a feature is computed.
     Pass(FeatureKind),
     /// The scores of a feature pass the ports.
@@ -26,6 +28,8 @@ pub enum Phase {
     Copy,
     /// The pixels of active regions leave.
     Unload,
+    /// The means of regions that send their summary leave.
+    UnloadMeans,
 }
 
 impl fmt::Display for Phase {
@@ -35,10 +39,12 @@ impl fmt::Display for Phase {
             Self::Border => f.pad("border"),
             Self::Temporal => f.pad("temporal"),
             Self::RotateCount => f.pad("rotate count"),
+            Self::Means => f.pad("means"),
             Self::Pass(kind) => f.pad(kind.name()),
             Self::RotateScore(kind) => f.pad(&format!("rotate {kind}")),
             Self::Copy => f.pad("copy"),
             Self::Unload => f.pad("unload"),
+            Self::UnloadMeans => f.pad("unload means"),
         }
     }
 }
@@ -242,6 +248,10 @@ fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
         }
     }
     list.push((Phase::RotateCount, rotation));
+    if let Some(periphery) = design.periphery() {
+        let mean = u64::from(periphery.block_pixels()) + 2;
+        list.push((Phase::Means, u64::from(periphery.means()) * (mean + rotation)));
+    }
     for feature in design.features() {
         list.push((Phase::Pass(feature.kind()), feature::pass_steps(&design, feature)));
         list.push((Phase::RotateScore(feature.kind()), rotation));
@@ -255,5 +265,13 @@ fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
         Feed::Raster => n * (1 + lanes),
     };
     list.push((Phase::Unload, unload));
+    if let Some(periphery) = design.periphery() {
+        let round = match design.feed() {
+            // The means of all lanes go around; then every lane writes its own, and reads it.
+            Feed::Parallel => lanes + 2 + read,
+            Feed::Raster => 1 + lanes,
+        };
+        list.push((Phase::UnloadMeans, u64::from(periphery.means()) * round));
+    }
     list
 }

@@ -132,7 +132,9 @@ fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
             | Phase::Border
             | Phase::Temporal
             | Phase::Pass(_)
-            | Phase::Copy => None,
+            | Phase::Copy
+            | Phase::Means
+            | Phase::UnloadMeans => None,
             Phase::RotateCount | Phase::RotateScore(_) => {
                 number += 1;
                 let decides = number == design.score_count();
