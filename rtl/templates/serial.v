@@ -42,7 +42,10 @@ module {= module =} #(
     wire [{= slot_range =}:0] region;
     wire [{= center_bits - 1 =}:0] position;
     wire [{= slot_bits - 1 =}:0] slot;
-    wire unused_beside = |region || |position || |slot{% if half_level %} || edge_level_i[0]{% endif %};
+{%- if !summarizes %}
+    wire summary;
+{%- endif %}
+    wire unused_beside = |region || |position || |slot{% if !summarizes %} || summary{% endif %}{% if half_level %} || edge_level_i[0]{% endif %};
 
     serial_array #(
         .COLUMNS(COLUMNS), .ROWS(ROWS), .LANES(LANES), .FOLD({= fold =}),
@@ -56,8 +59,10 @@ module {= module =} #(
         .edge_half_i({= edge_half =}),
         .corner_level_i({= corner_level =}),
         .minima_i({ {%- for minimum in minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
+        .summary_level_i({= summary_level =}),
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),
         .decision_valid_o(decision_valid_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .summary_o({% if summarizes %}summary_o{% else %}summary{% endif %}),
         .forward_valid_o(forward_valid_o), .forward_pixel_o(forward_pixel_o),
         .forward_slot_o(slot), .forward_position_o(position)
     );

@@ -45,7 +45,7 @@ pub use raster::{
 };
 pub use rules::{Array, Unit};
 pub use serial::{
-    Area, AreaKind, LaneMemory, LaneWidths, MemoryChoice, Phase, Serial, SerialTiming,
+    Area, AreaKind, BlockSums, LaneMemory, LaneWidths, MemoryChoice, Phase, Serial, SerialTiming,
 };
 pub use timing::{Departure, Timing};
 pub use view::{DesignOn, PipelinedDesign, RasterDesign, SerialDesign};

@@ -20,6 +20,7 @@ pub(crate) fn of_serial(design: SerialDesign<'_>, leaf: &str, part: &str) -> boo
         ("serial_array", "serial_raster_feed") => design.feed() == Feed::Raster,
         ("serial_array", "serial_parallel_feed") => design.feed() == Feed::Parallel,
         ("serial_array", "serial_sides") => design.needs_border() && design.fold() > 1,
+        ("serial_array", "serial_summary") => design.periphery().is_some(),
         ("serial_raster_feed", _) => design.halo() > 0,
         ("serial_memory", "frame_store") => design.lane_memory().kind == MemoryKind::Distributed,
         ("serial_decision", "frame_store") => marks_regions(&design),

@@ -75,6 +75,8 @@ leaves! {
     "serial_shown" => [],
     "serial_sides" => [],
     "serial_decision" => ["frame_store"],
+    "serial_means" => [],
+    "serial_summary" => ["serial_means", "frame_store", "magnitude_above"],
     "raster_memory" => [],
     "word_delay" => [],
     "bit_delay" => [],
@@ -113,7 +115,7 @@ leaves! {
     ],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
-        "serial_group", "serial_sides", "serial_lane", "serial_decision"
+        "serial_group", "serial_sides", "serial_lane", "serial_decision", "serial_summary"
     ],
 }
 

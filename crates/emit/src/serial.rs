@@ -11,7 +11,7 @@ use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
     AreaKind, Combine, FeatureKind, Feed, Filter, MemoryKind, Neighborhood, Pipelining, Port,
-    PortRole, SerialDesign, SerialTiming, SpatialFeature, Thresholds, index_bits,
+    PortRole, SerialDesign, SerialTiming, SpatialFeature, Thresholds, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -48,6 +48,8 @@ struct Serial {
     corner_level: String,
     /// The last feature first.
     minima: Vec<String>,
+    summary_level: String,
+    summarizes: bool,
     sync: Option<Sync>,
     valid: &'static str,
     ready: &'static str,
@@ -155,6 +157,11 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> Serial {
             None => format!("{}'d0", design.pixel_bits()),
         },
         minima: minima(design),
+        summary_level: match design.periphery() {
+            Some(_) => signal(&design, PortRole::SummaryLevel),
+            None => format!("{}'d0", design.pixel_bits()),
+        },
+        summarizes: design.periphery().is_some(),
         sync: Sync::with_ready(&design, beats(design)),
         valid: sync::valid(&design),
         ready: sync::ready(&design),
@@ -225,6 +232,17 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
     ];
     let mut list: Vec<_> = numbers.iter().map(|(name, value)| (*name, value.to_string())).collect();
     list.push(("KINDS", kinds(design.features().iter())));
+    if let (Some(periphery), Some(sums)) = (design.periphery(), design.block_sums()) {
+        let factor_bits = bits_for(sums.factor);
+        list.extend([
+            ("BLOCKS", periphery.blocks.to_string()),
+            ("MEAN_DROPPED", sums.dropped.to_string()),
+            ("MEAN_SUM_BITS", sums.passing.to_string()),
+            ("MEAN_FACTOR_BITS", factor_bits.to_string()),
+            ("MEAN_FACTOR", format!("{factor_bits}'d{}", sums.factor)),
+            ("MEAN_SHIFT", sums.shift.to_string()),
+        ]);
+    }
     list
 }
 

@@ -6,6 +6,7 @@
 mod feature;
 mod folds;
 mod hardware;
+mod means;
 mod memory;
 mod ports;
 mod rules;
@@ -13,6 +14,7 @@ mod timing;
 mod widths;
 
 pub use hardware::Serial;
+pub use means::BlockSums;
 pub use memory::{Area, AreaKind, LaneMemory, MemoryChoice};
 pub use timing::{Phase, SerialTiming};
 pub use widths::LaneWidths;

@@ -11,7 +11,7 @@ pub struct LaneWidths {
     pub accumulator: u32,
     /// The word beside it that holds a mean or a sum; at least two.
     pub second: u32,
-    /// The word that travels around the ring of lanes: a score or, with raster feed, a pixel.
+    /// The word that travels around the ring of lanes: a score, the sum of a block, a mean or, with raster feed, a pixel.
     pub chain: u32,
     /// The constant that the sequencer shifts from step to step.
     pub scale: u32,
@@ -26,10 +26,11 @@ impl LaneWidths {
             Feed::Parallel => 0,
             Feed::Raster => pixel,
         };
-        let chain = design.any_score_bits().max(raster);
+        let sums = design.block_sums();
+        let chain = design.any_score_bits().max(raster).max(sums.map_or(0, |sums| sums.passing));
         // The difference of two pixels; the power of two that the median search starts from.
         let mut widths = Self {
-            accumulator: pixel + 1,
+            accumulator: (pixel + 1).max(sums.map_or(0, |sums| sums.sum)),
             second: 2,
             chain,
             scale: pixel,

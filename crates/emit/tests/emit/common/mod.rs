@@ -21,6 +21,11 @@ const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
 const DEPTHS: [u32; 4] = [1, 8, 10, 16];
 const PIPELINING: [&str; 2] = ["plain", "deep"];
 
+/// The most blocks of a side that such a region can have.
+fn most_blocks(size: u32) -> u32 {
+    [4, 2].into_iter().find(|blocks| size.is_multiple_of(*blocks)).unwrap_or(1)
+}
+
 /// Configurations as TOML.
 pub(crate) fn matrix() -> Vec<String> {
     let mut list = Vec::new();
@@ -37,10 +42,8 @@ pub(crate) fn matrix() -> Vec<String> {
                 2 => "mean",
                 _ => pick(index % 3, "zero", "hold"),
             };
-            let blocks =
-                [4, 2, 1].into_iter().find(|blocks| size.is_multiple_of(*blocks)).unwrap_or(1);
             let periphery = match choice {
-                5 => format!("[periphery]\nblocks = {blocks}\n"),
+                5 => format!("[periphery]\nblocks = {}\n", most_blocks(size)),
                 _ => String::new(),
             };
             list.push(format!(
@@ -83,6 +86,15 @@ pub(crate) fn serial_matrix() -> Vec<String> {
             let pick = |bit: usize, off: &'static str, on: &'static str| {
                 if (choice >> bit) & 1 == 0 { off } else { on }
             };
+            // Every third shows means: all numbers of blocks, of every feature, with each feed.
+            let irrelevant = match (index + choice) % 3 {
+                2 => "mean",
+                _ => pick(index % 4, "zero", "hold"),
+            };
+            let periphery = match (choice % 4, irrelevant) {
+                (1 | 2, "mean") => format!("[periphery]\nblocks = {}\n", most_blocks(size)),
+                _ => String::new(),
+            };
             list.push(format!(
                 "spatial = {features}\n\
                  [frame]\nwidth = {width}\nheight = {height}\npixel_bits = {depth}\n\
@@ -91,7 +103,7 @@ pub(crate) fn serial_matrix() -> Vec<String> {
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
                  [hardware]\norganization = 'serial'\nfold = {fold}\nfeed = '{feed}'\n\
-                 pipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n",
+                 pipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}",
                 width = columns * size,
                 height = rows * size,
                 neighborhood = pick(0, "isolated", "shared"),
@@ -101,7 +113,6 @@ pub(crate) fn serial_matrix() -> Vec<String> {
                 sync = choice % 3 == 1,
                 feed = pick(3, "parallel", "raster"),
                 payload = pick((index + 1) % 4, "denoised", "raw"),
-                irrelevant = pick(index % 4, "zero", "hold"),
                 thresholds = pick((index + 2) % 4, "runtime", "constant"),
             ));
         }
